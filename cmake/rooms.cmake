@@ -1,0 +1,22 @@
+# A room is one folder and one static library.  `DEPS` names the rooms above it that it uses, so that the link
+# line says the same as .ci/layers.txt; `PRIVATE` names libraries that only its .cpp files see.
+
+add_library(feedhold_options INTERFACE)
+target_compile_options(feedhold_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch-enum -Werror)
+target_include_directories(feedhold_options INTERFACE ${PROJECT_SOURCE_DIR}/analyzer ${PROJECT_SOURCE_DIR})
+if(FEEDHOLD_SANITIZE)
+  target_compile_options(feedhold_options INTERFACE -fsanitize=${FEEDHOLD_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(feedhold_options INTERFACE -fsanitize=${FEEDHOLD_SANITIZE})
+endif()
+
+function(feedhold_room name)
+  cmake_parse_arguments(ROOM "" "" "DEPS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PUBLIC feedhold_options ${ROOM_DEPS} PRIVATE ${ROOM_PRIVATE})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE feedhold_options ${ROOM_DEPS})
+  endif()
+endfunction()
