@@ -1,0 +1,85 @@
+// Rule: one claim about a program, its page, and the function that looks for it.
+//
+// A rule is one .cpp and one .md in rules/<group>/ and one line in rules/rules.def.  It names what it wants to see
+// (blocks, words of some addresses, statements, ..) and is called for each; it guards, guards, reports.
+#pragma once
+
+#include "base/diag/diagnostic.h"
+#include "base/source/source_file.h"
+#include "language/model/block_facts.h"
+#include "language/model/call_graph.h"
+#include "language/model/model.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold {
+
+enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression };
+std::string_view nameOf(Category category);
+
+struct RuleInfo {
+  std::string_view name; // kebab-case, reads well after "allow"
+  Category category;
+  Severity severity;
+  std::string_view summary; // one sentence, the first of the page
+};
+
+/// All that a rule may look at: one file, its control, and the other files of the run.
+struct FileContext {
+  FileId file;
+  const SourceFile &source;
+  const Dialect &dialect; // with the switches of the configuration
+  const SyntaxTree &tree;
+  const ProgramModel &model;
+  const CallGraph &callGraph;
+
+  std::string_view text(Span span) const { return source.text(span); }
+  /// "`#510`": program text for a message, blanks at the ends cut, a long one shortened.
+  std::string quoted(Span span) const;
+};
+
+/// Where a rule leaves what it found.
+class Reporter {
+public:
+  Reporter(const RuleInfo &rule, std::vector<struct RawFinding> &sink) : rule_(&rule), sink_(&sink) {}
+  void report(Diagnostic diagnostic) const;
+  void report(Diagnostic diagnostic, Severity severity) const;
+
+private:
+  const RuleInfo *rule_;
+  std::vector<RawFinding> *sink_;
+};
+
+/// A finding before suppressions and before it knows its fingerprint.
+struct RawFinding {
+  const RuleInfo *rule;
+  Severity severity;
+  Diagnostic diagnostic;
+};
+
+/// What a rule wants to be called for.  A null pointer: nothing.
+struct RuleHooks {
+  void (*issue)(const SyntaxIssue &, const FileContext &, const Reporter &) = nullptr;
+  std::span<const SyntaxIssueKind> issueKinds = {}; // issue is called for these
+  void (*file)(const FileContext &, const Reporter &) = nullptr;
+  void (*program)(ProgramId, const FileContext &, const Reporter &) = nullptr;
+  void (*block)(BlockId, const FileContext &, const Reporter &) = nullptr; // every block that the control reads
+  void (*word)(const Word &, BlockId, const FileContext &, const Reporter &) = nullptr;
+  std::string_view wordAddresses = {}; // word is called for these addresses only
+  void (*statement)(const Statement &, BlockId, const FileContext &, const Reporter &) = nullptr; // nested ones too
+  void (*expression)(ExpressionId, BlockId, const FileContext &, const Reporter &) = nullptr;     // every node
+  void (*jump)(const Jump &, const FileContext &, const Reporter &) = nullptr;
+  void (*call)(CallId, const FileContext &, const Reporter &) = nullptr;
+  void (*variable)(const VariableUse &, const FileContext &, const Reporter &) = nullptr;
+  void (*comment)(const Comment &, BlockId, const FileContext &, const Reporter &) = nullptr;
+};
+
+struct Rule {
+  RuleInfo info;
+  RuleHooks hooks;
+};
+
+} // namespace feedhold

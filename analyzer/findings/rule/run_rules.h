@@ -1,0 +1,14 @@
+// Running rules over one file: one walk over the tree, each rule called for what it asked to see.
+#pragma once
+
+#include "findings/rule/rule.h"
+
+#include <span>
+#include <vector>
+
+namespace feedhold {
+
+/// Findings in order of place, then of rule name.
+std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context);
+
+} // namespace feedhold

@@ -1,0 +1,237 @@
+// Dialect: what a control is, as plain data.  Every difference between controls is a row or a field here; nothing
+// outside dialects/ knows the name of a maker.  Sources of the facts: parity.md of each dialect.
+#pragma once
+
+#include "base/support/decimal.h"
+#include "language/dialect/words.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold {
+
+enum class MachineKind : std::uint8_t { Milling, Turning };
+
+/// What the number after an address is.
+enum class AddressKind : std::uint8_t {
+  None,      // the address does not exist on this control
+  Length,    // mm or inch: scaled by the least input increment when written without a decimal point
+  Angle,     // degrees: scaled likewise
+  Rate,      // F: feed; scaled by its own increment
+  Integer,   // G M S T D H L N O: no decimal point in a literal (S and G take one on some controls)
+  Flexible,  // P Q E K R and the like: integer or length, as the G code in force decides
+};
+
+struct AddressFormat {
+  AddressKind kind = AddressKind::None;
+  bool literalMayHavePoint = false;
+  std::uint8_t integerDigits = 8; // most digits before the point
+};
+
+/// How a code behaves in a block.  A code has one; the modal group says the rest.
+enum class CodeRole : std::uint8_t {
+  Plain,
+  Motion,          // G00 G01 ..: linear or rapid motion
+  Arc,             // G02 G03
+  CannedCycle,     // words of the block belong to the cycle
+  Dwell,
+  DataSetting,     // G10: the words of the block (and of those up to G11, for L50/L52) are data
+  DataSettingEnd,  // G11
+  MachinePosition, // G53
+  MacroCall,       // G65
+  ModalCall,       // G66
+  ModalCallEach,   // G66.1
+  ModalCallCancel, // G67
+  CoordinateShift, // G52 G92 ..: axis words are values, not motion
+  ReferenceReturn, // G28 G30 ..
+  Skip,            // G31
+  Contour,         // cycles that name a contour by sequence numbers P..Q.. (G70-G73 of lathes, G150 ..)
+  SubprogramCall,  // M98
+  LocalCall,       // M97 of controls that have it
+  ExternalCall,    // M198
+  Return,          // M99
+  ProgramEnd,      // M02 M30
+  ProgramStop,     // M00 M01
+};
+
+/// A G or M code.  `tenths`: ten times its number, so that G54.1 is 541.
+struct Code {
+  std::uint16_t tenths = 0;
+  std::uint8_t group = 0; // modal group of the control's own list; 0: not modal
+  CodeRole role = CodeRole::Plain;
+  std::string_view meaning; // for hover texts and messages: "linear interpolation"
+};
+
+enum class VariableKind : std::uint8_t { Vacant, Local, Common, Retentive, System };
+enum class VariableAccess : std::uint8_t { ReadWrite, ReadOnly, WriteOnly };
+/// Value when a program starts: what the control guarantees, else Unknown.
+enum class VariableStart : std::uint8_t { Vacant, Unknown };
+/// Whether every machine has the range, or only one with an option.
+enum class VariableOption : std::uint8_t { Always, Optional };
+
+struct VariableRange {
+  std::uint32_t first;
+  std::uint32_t last;
+  VariableKind kind;
+  VariableAccess access = VariableAccess::ReadWrite;
+  VariableStart start = VariableStart::Unknown;
+  VariableOption option = VariableOption::Always;
+  std::string_view name = {};    // `_ALM` where the control names it
+  std::string_view meaning = {}; // "macro alarm"
+};
+
+enum class FunctionDomain : std::uint8_t { Any, NotNegative, Positive, MinusOneToOne, NotPole, Bcd };
+/// How the arguments are written.
+enum class FunctionForm : std::uint8_t {
+  OneArgument,   // SIN[a]
+  OneOrTwo,      // ATAN[a], ATAN[a]/[b], ATAN[a,b]
+  TwoBySlash,    // only ATAN[a]/[b]
+  TwoByComma,    // POW[a,b]
+  ParameterRead, // PRM[n], PRM[n,bit], PRM[n]/[axis], PRM[n,bit]/[axis]
+};
+
+struct Function {
+  FunctionKind kind;
+  FunctionForm form = FunctionForm::OneArgument;
+  FunctionDomain domain = FunctionDomain::Any;
+};
+
+struct Operator {
+  OperatorKind kind;
+  std::uint8_t precedence; // higher binds tighter
+};
+
+enum class AlarmKind : std::uint8_t {
+#define ALARM(kind, meaning) kind,
+#include "language/dialect/alarms.def"
+};
+
+/// The control's own number for an alarm: "PS0112".
+struct AlarmNumber {
+  AlarmKind kind;
+  std::string_view number;
+};
+
+struct Limits {
+  std::uint8_t bracketDepth = 5;       // function brackets included
+  std::uint8_t lastLoopNumber = 3;     // DO 1 .. lastLoopNumber
+  std::uint8_t loopDepth = 3;
+  std::uint8_t macroCallDepth = 5;     // G65, G66, macro codes
+  std::uint8_t subprogramDepth = 10;   // M98
+  std::uint8_t totalCallDepth = 15;
+  std::uint32_t lastSequenceNumber = 99999;
+  std::uint32_t lastProgramNumber = 9999;
+  std::uint8_t literalDigits = 8;      // of a number in a macro statement, zeros included
+  std::uint32_t firstAlarmNumber = 0;  // of `#3000=`
+  std::uint32_t lastAlarmNumber = 200;
+  std::uint8_t alarmMessageLength = 26;
+  std::uint8_t ijkSets = 10;
+  std::uint8_t programNameLength = 32; // of `<NAME>`
+};
+
+/// A switch whose setting on the machine is not known stays Unknown: both outcomes are possible.
+enum class Switch : std::uint8_t { Off, On, Unknown };
+
+/// A code that the machine's parameters turn into a call.
+struct CodeCall {
+  char address;            // 'G', 'M' or 'T'
+  std::uint16_t tenths;    // ten times the code's number
+  std::uint32_t program;   // number of the program that it calls
+  bool isMacro;            // true: arguments are passed (as G65); false: subprogram (as M98)
+};
+
+/// The machine parameters that change the language.  Names are those of the parameter manual.
+struct Switches {
+  Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
+  Switch ad2 = Switch::Off;     // 3403#6: a repeated address is an alarm
+  Switch m3b = Switch::Unknown; // 3404#7: up to three M codes in a block
+  Switch g67 = Switch::Off;     // 6000#0: G67 without G66 is no alarm
+  Switch mgo = Switch::Off;     // 6000#1: jumps use stored sequence numbers
+  Switch v15 = Switch::Off;     // 6000#3: tool offset numbering of Series 15
+  Switch hgo = Switch::Off;     // 6000#4: as mgo, for blocks read within the last hundred
+  Switch tcs = Switch::Off;     // 6001#5: T code calls O9000
+  Switch ccv = Switch::Unknown; // 6001#6: reset keeps #100..
+  Switch clv = Switch::Unknown; // 6001#7: reset keeps #1-#33
+  Switch nat = Switch::Unknown; // 6004#0: range of ATAN and ASIN
+  Switch mfz = Switch::Unknown; // 6004#1: tiny results of SIN, COS, TAN become 0
+  Switch sqc = Switch::Off;     // 6005#0: M98 Q starts at a sequence number
+  Switch mlg = Switch::Unknown; // 6006#0: AND, OR, XOR join conditions
+  Switch cva = Switch::Unknown; // 6007#4: format in which arguments are passed
+  Switch f16 = Switch::Off;     // 6008#0: value range and precision of Series 16
+  Switch mca = Switch::Off;     // 6008#1: the number of `#3000=` is shown as it is, up to 4095
+  Switch gmp = Switch::Off;     // 6008#6: code calls work inside programs called by a code
+  Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
+  Switch amm = Switch::Off;     // 7712#4: M99 in a main program is an alarm
+  std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
+};
+
+/// What a control accepts beyond, or short of, the common grammar.
+struct Grammar {
+  bool conditionMayBeAnyValue = false;   // `IF [#1] ..`: zero is false
+  bool thenMayBeWords = false;           // `IF [..] THEN S900`
+  bool thenMayBeOmitted = false;         // `IF [..] #1=2`, `IF [..] M99`
+  bool thenMayBeGoto = false;            // `IF [..] THEN GOTO 10`
+  bool blockIf = false;                  // `IF [..] THEN` / `ELSE` / `ENDIF` on lines of their own
+  bool wordMayBeUnbracketed = false;     // `X#1+10`
+  bool conditionalReturn = false;        // `[#1 LT 10] M99 P10`
+  bool sequenceZero = false;             // N0 is a label
+  bool macroWithWords = false;           // NC words and a macro statement in one block
+  bool fractionalVariable = false;       // `#30057.21`: a bit of a setting
+  bool doNumberMayRepeatNested = false;
+};
+
+/// One text feature that speaks for a dialect; see text_signals.h.
+struct LanguageHint {
+  std::string_view signal; // name of a signal
+  int weight;
+};
+
+/// A language that is recognised and refused.
+struct ForeignLanguage {
+  std::string_view name; // "Heidenhain Klartext"
+  std::string_view way;  // what the reader can do
+  std::span<const LanguageHint> hints;
+};
+
+struct Dialect {
+  std::string_view id;       // "fanuc-30i"
+  std::string_view title;    // for people
+  std::string_view controls; // "30i, 31i, 32i, 0i-F"
+  MachineKind machine = MachineKind::Milling;
+  std::array<AddressFormat, 26> addresses{}; // A .. Z
+  std::span<const Code> gCodes;              // sorted by tenths
+  std::span<const Code> mCodes;              // sorted by tenths
+  std::span<const VariableRange> variables;  // sorted, without overlap
+  std::span<const Function> functions;
+  std::span<const Operator> operators;
+  std::span<const AlarmNumber> alarms;
+  std::array<std::uint8_t, 26> argumentVariables{}; // A .. Z -> local variable of argument assignment I; 0: not an argument
+  Limits limits;
+  Grammar grammar;
+  Switches switches;
+  std::span<const LanguageHint> hints;
+};
+
+constexpr std::uint32_t kVacantVariable = 0;
+constexpr std::uint32_t kAlarmVariable = 3000;
+constexpr std::uint32_t kMessageVariable = 3006;
+
+const AddressFormat &formatOf(const Dialect &dialect, char address);
+const Code *findGCode(const Dialect &dialect, std::uint16_t tenths);
+const Code *findMCode(const Dialect &dialect, std::uint16_t tenths);
+const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
+const Function *findFunction(const Dialect &dialect, FunctionKind kind);
+/// 0 when the dialect does not have the operator.
+int precedenceOf(const Dialect &dialect, OperatorKind op);
+/// The control's number for an alarm; absent where it is not known.
+std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind kind);
+/// "stops with PS0112 (divided by zero)", or without a number where it is not known.
+std::string stopsWith(const Dialect &dialect, AlarmKind kind);
+const CodeCall *findCodeCall(const Dialect &dialect, char address, std::uint16_t tenths);
+
+} // namespace feedhold

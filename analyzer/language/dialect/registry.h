@@ -1,0 +1,33 @@
+// The list of all dialects, handed in from outside: the engine does not know which exist.
+#pragma once
+
+#include "language/dialect/dialect.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace feedhold {
+
+/// All that dialects/ offers.  The first dialect is the one taken when nothing speaks for any.
+struct DialectRegistry {
+  std::span<const Dialect *const> dialects;
+  std::span<const ForeignLanguage> foreign;
+};
+
+const Dialect *findDialect(const DialectRegistry &registry, std::string_view id);
+
+/// What a text looks like.
+struct LanguageGuess {
+  const Dialect *dialect = nullptr;         // best dialect; null when `foreign` is set or nothing was recognised
+  const ForeignLanguage *foreign = nullptr; // a language that is refused
+  bool looksLikeProgram = false;            // false: the text is no NC program at all
+  std::vector<std::string_view> reasons;    // the signals that decided, strongest first
+};
+
+/// Scores a sample of the text (the first 256 KiB) by the hints of every dialect.  `path` gives the file name.
+LanguageGuess guessLanguage(std::string_view text, std::string_view path, const DialectRegistry &registry);
+
+} // namespace feedhold

@@ -1,0 +1,26 @@
+// What the codes of one block mean together: the roles of its G and M words, and how control leaves it.
+#pragma once
+
+#include "language/dialect/dialect.h"
+#include "language/syntax/tree.h"
+
+#include <optional>
+
+namespace feedhold {
+
+/// The first word of the block whose code has the role.
+const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &dialect, CodeRole role);
+/// The first word of an address; comma words do not count.
+const Word *findWord(const SyntaxTree &tree, BlockId block, char address);
+/// The dialect's row for a G or M word with a literal number.
+const Code *codeOf(const Word &word, const Dialect &dialect);
+
+/// How the control goes on after a block that is not skipped.
+enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
+/// Ends: M02, M30, M99, `#3000=`.  Jumps: an unconditional GOTO.
+FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
+
+/// The block only ends or separates: no word, no statement (it may hold comments).
+bool isEmpty(const SyntaxTree &tree, BlockId block);
+
+} // namespace feedhold

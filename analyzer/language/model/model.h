@@ -1,0 +1,136 @@
+// ProgramModel: what the names of one file mean: programs, sequence numbers, jumps, loops, calls, variables, codes.
+#pragma once
+
+#include "language/dialect/dialect.h"
+#include "language/syntax/tree.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace feedhold {
+
+using ProgramId = Id<struct ProgramTag>;
+using CallId = Id<struct CallTag>;
+
+/// `O1000`, or `<NAME>` where programs have names; neither for a file that starts without one.
+struct ProgramName {
+  std::optional<std::uint32_t> number;
+  std::string text; // of `<NAME>`
+  bool empty() const { return !number && text.empty(); }
+  friend bool operator==(const ProgramName &, const ProgramName &) = default;
+};
+std::string toString(const ProgramName &name);
+
+struct Program {
+  ProgramName name;
+  Span header;    // the O word, or the first block's span
+  BlockId first;  // blocks from here ..
+  BlockId last;   // .. up to, not including, this one
+  bool contains(BlockId block) const { return first <= block && block < last; }
+};
+
+/// An `N` that a jump can find: not a parameter number of a G10 block.
+struct SequenceNumber {
+  std::uint32_t number;
+  BlockId block;
+  WordId word;
+};
+
+enum class JumpKind : std::uint8_t {
+  Goto,        // GOTO n
+  ReturnTo,    // M99 P n: in the caller, or in the program itself when it is a main program
+  LocalCall,   // M97 P n
+  CallAt,      // M98 P.. Q n
+  ContourFrom, // P of a contour cycle (G70-G73)
+  ContourTo,   // Q of a contour cycle
+};
+struct Jump {
+  JumpKind kind;
+  ProgramId program;
+  BlockId block;
+  Span span;                            // the whole statement or word
+  Span targetSpan;                      // the number
+  std::optional<Decimal> number;        // absent when computed
+  std::optional<ExpressionId> computed; // the expression when it is
+  std::optional<BlockId> target;        // forward search, then from the top; absent when missing or elsewhere
+  bool conditional = false;             // under an IF or a block skip
+};
+
+/// A DO and the END that the control pairs with it: the next END of its number when the text is read on from the DO.
+struct Loop {
+  ProgramId program;
+  std::optional<std::uint32_t> number; // absent: missing or not a number
+  BlockId doBlock;
+  StatementId doStatement;
+  std::optional<BlockId> endBlock;
+  std::optional<StatementId> endStatement;
+};
+/// An END that no DO before it leads to.
+struct LoneEnd {
+  ProgramId program;
+  std::optional<std::uint32_t> number;
+  BlockId block;
+  StatementId statement;
+};
+
+enum class CallKind : std::uint8_t {
+  Macro,         // G65
+  Modal,         // G66
+  ModalEach,     // G66.1
+  ModalCancel,   // G67
+  MacroA,        // G65 H..: an operation of Macro A, no call
+  Subprogram,    // M98
+  Local,         // M97
+  External,      // M198
+  Code,          // a G, M or T code of the machine's tables
+};
+enum class ArgumentRole : std::uint8_t { Passed, Overridden, Forbidden, BeyondSets };
+struct Argument {
+  WordId word;
+  std::uint8_t variable; // local variable that it sets; 0 when none
+  ArgumentRole role;
+  bool fromSet = false; // by argument assignment II (second and later I, J, K)
+};
+struct Call {
+  CallKind kind;
+  ProgramId caller;
+  BlockId block;
+  WordId code;                             // the G65, M98 .. word
+  std::optional<WordId> programWord;       // P, or the <NAME>
+  ProgramName callee;                      // empty when computed or missing
+  std::optional<std::uint32_t> repeats;    // L, when a literal
+  std::vector<Argument> arguments;         // word by word, as written
+};
+
+struct VariableUse {
+  ExpressionId expression;
+  std::optional<std::uint32_t> number; // absent: computed or named
+  BlockId block;
+  bool write = false;
+};
+
+class ProgramModel {
+public:
+  Store<Program, ProgramId> programs;
+  std::vector<SequenceNumber> sequenceNumbers; // in order of the text
+  std::vector<Jump> jumps;
+  std::vector<Loop> loops;      // by place of the DO
+  std::vector<LoneEnd> loneEnds;
+  Store<Call, CallId> calls;
+  std::vector<VariableUse> variables;
+
+  ProgramId programOf(BlockId block) const;
+  /// All sequence numbers of one value in a program, in order of the text.
+  std::vector<SequenceNumber> find(ProgramId program, std::uint32_t number) const;
+};
+
+ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dialect &dialect);
+
+/// Where a search for `N number` from `from` ends: forward to the end of the program, then from its top.
+std::optional<BlockId> findSequence(const ProgramModel &model, ProgramId program, std::uint32_t number, BlockId from);
+
+std::string dump(const ProgramModel &model, const SyntaxTree &tree, const SourceFile &source);
+
+} // namespace feedhold
