@@ -1,8 +1,11 @@
 // Decimal: an exact decimal number as a program writes it (`12.50` is 1250 at scale 2).
 #pragma once
 
+#include "base/support/check.h"
+
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +30,11 @@ public:
   std::string toString() const;
   constexpr bool isZero() const { return mantissa_ == 0; }
   constexpr bool isNegative() const { return mantissa_ < 0; }
-  constexpr Decimal negated() const { return Decimal(-mantissa_, scale_); }
+  /// The mantissa is not INT64_MIN: no literal gives it (a literal has no sign), and its negation does not fit.
+  constexpr Decimal negated() const {
+    FEEDHOLD_CHECK(mantissa_ != std::numeric_limits<std::int64_t>::min(), "a decimal too large to be negated");
+    return Decimal(-mantissa_, scale_);
+  }
 
   friend std::strong_ordering operator<=>(const Decimal &left, const Decimal &right);
   friend bool operator==(const Decimal &left, const Decimal &right) { return (left <=> right) == 0; }

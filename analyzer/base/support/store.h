@@ -20,7 +20,9 @@ public:
   bool empty() const { return values_.empty(); }
   void reserve(std::size_t count) { values_.reserve(count); }
   /// Cuts the store back to `count` values: how a parser takes back a guess.
-  void truncate(std::size_t count) { values_.erase(values_.begin() + static_cast<std::ptrdiff_t>(count), values_.end()); }
+  void truncate(std::size_t count) {
+    values_.erase(values_.begin() + static_cast<std::ptrdiff_t>(count), values_.end());
+  }
 
   auto begin() const { return values_.begin(); }
   auto end() const { return values_.end(); }
