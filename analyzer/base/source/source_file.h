@@ -1,6 +1,7 @@
 // SourceFile: the bytes of one program file, how they are encoded, and where its lines begin.
 #pragma once
 
+#include "base/source/encoding.h"
 #include "base/source/span.h"
 #include "base/support/result.h"
 
@@ -11,9 +12,7 @@
 
 namespace feedhold {
 
-enum class Encoding { Ascii, Utf8, ShiftJis, Latin1 };
-
-/// 1-based line and 1-based column; the column counts bytes or UTF-16 units, as the function that made it says.
+/// 1-based line and 1-based column; the column counts characters or UTF-16 units, as the function that made it says.
 struct Position {
   std::uint32_t line = 1;
   std::uint32_t column = 1;
@@ -38,12 +37,14 @@ public:
   /// Any byte range of this file as UTF-8, decoded by encoding(); bytes that do not decode become U+FFFD.
   std::string utf8(Span span) const;
 
-  /// Lines end at LF, CR LF, CR CR LF or a lone CR.
+  /// Lines end at LF, CR LF, CR CR LF or a lone CR.  The last line is what follows the last end, and may be empty.
   std::uint32_t lineCount() const;
+  /// The bytes of a line end belong to the line that they end; an offset behind the text is on the last line.
   std::uint32_t lineOf(std::uint32_t offset) const;
   /// The bytes of a 1-based line, without its end.
   Span lineSpan(std::uint32_t line) const;
-  /// Column in characters (Unicode code points of the decoded line), for people and JSON.
+  /// Column in characters (Unicode code points of the decoded line, not counting a byte-order mark), for people and
+  /// JSON.
   Position position(std::uint32_t offset) const;
   /// Column in UTF-16 code units, for SARIF and editors.
   Position positionUtf16(std::uint32_t offset) const;
