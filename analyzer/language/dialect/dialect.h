@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/support/decimal.h"
+#include "language/dialect/text_signals.h"
 #include "language/dialect/words.h"
 
 #include <array>
@@ -19,12 +20,12 @@ enum class MachineKind : std::uint8_t { Milling, Turning };
 
 /// What the number after an address is.
 enum class AddressKind : std::uint8_t {
-  None,      // the address does not exist on this control
-  Length,    // mm or inch: scaled by the least input increment when written without a decimal point
-  Angle,     // degrees: scaled likewise
-  Rate,      // F: feed; scaled by its own increment
-  Integer,   // G M S T D H L N O: no decimal point in a literal (S and G take one on some controls)
-  Flexible,  // P Q E K R and the like: integer or length, as the G code in force decides
+  None,     // the address does not exist on this control
+  Length,   // mm or inch: scaled by the least input increment when written without a decimal point
+  Angle,    // degrees: scaled likewise
+  Rate,     // F: feed; scaled by its own increment
+  Integer,  // G M S T D H L N O: no decimal point in a literal (S and G take one on some controls)
+  Flexible, // P Q E K R and the like: integer or length, as the G code in force decides
 };
 
 struct AddressFormat {
@@ -36,9 +37,9 @@ struct AddressFormat {
 /// How a code behaves in a block.  A code has one; the modal group says the rest.
 enum class CodeRole : std::uint8_t {
   Plain,
-  Motion,          // G00 G01 ..: linear or rapid motion
-  Arc,             // G02 G03
-  CannedCycle,     // words of the block belong to the cycle
+  Motion,      // G00 G01 ..: linear or rapid motion
+  Arc,         // G02 G03
+  CannedCycle, // words of the block belong to the cycle
   Dwell,
   DataSetting,     // G10: the words of the block (and of those up to G11, for L50/L52) are data
   DataSettingEnd,  // G11
@@ -118,16 +119,16 @@ struct AlarmNumber {
 };
 
 struct Limits {
-  std::uint8_t bracketDepth = 5;       // function brackets included
-  std::uint8_t lastLoopNumber = 3;     // DO 1 .. lastLoopNumber
+  std::uint8_t bracketDepth = 5;   // function brackets included
+  std::uint8_t lastLoopNumber = 3; // DO 1 .. lastLoopNumber
   std::uint8_t loopDepth = 3;
-  std::uint8_t macroCallDepth = 5;     // G65, G66, macro codes
-  std::uint8_t subprogramDepth = 10;   // M98
+  std::uint8_t macroCallDepth = 5;   // G65, G66, macro codes
+  std::uint8_t subprogramDepth = 10; // M98
   std::uint8_t totalCallDepth = 15;
   std::uint32_t lastSequenceNumber = 99999;
   std::uint32_t lastProgramNumber = 9999;
-  std::uint8_t literalDigits = 8;      // of a number in a macro statement, zeros included
-  std::uint32_t firstAlarmNumber = 0;  // of `#3000=`
+  std::uint8_t literalDigits = 8;     // of a number in a macro statement, zeros included
+  std::uint32_t firstAlarmNumber = 0; // of `#3000=`
   std::uint32_t lastAlarmNumber = 200;
   std::uint8_t alarmMessageLength = 26;
   std::uint8_t ijkSets = 10;
@@ -139,10 +140,10 @@ enum class Switch : std::uint8_t { Off, On, Unknown };
 
 /// A code that the machine's parameters turn into a call.
 struct CodeCall {
-  char address;            // 'G', 'M' or 'T'
-  std::uint16_t tenths;    // ten times the code's number
-  std::uint32_t program;   // number of the program that it calls
-  bool isMacro;            // true: arguments are passed (as G65); false: subprogram (as M98)
+  char address;          // 'G', 'M' or 'T'
+  std::uint16_t tenths;  // ten times the code's number
+  std::uint32_t program; // number of the program that it calls
+  bool isMacro;          // true: arguments are passed (as G65); false: subprogram (as M98)
 };
 
 /// The machine parameters that change the language.  Names are those of the parameter manual.
@@ -172,22 +173,22 @@ struct Switches {
 
 /// What a control accepts beyond, or short of, the common grammar.
 struct Grammar {
-  bool conditionMayBeAnyValue = false;   // `IF [#1] ..`: zero is false
-  bool thenMayBeWords = false;           // `IF [..] THEN S900`
-  bool thenMayBeOmitted = false;         // `IF [..] #1=2`, `IF [..] M99`
-  bool thenMayBeGoto = false;            // `IF [..] THEN GOTO 10`
-  bool blockIf = false;                  // `IF [..] THEN` / `ELSE` / `ENDIF` on lines of their own
-  bool wordMayBeUnbracketed = false;     // `X#1+10`
-  bool conditionalReturn = false;        // `[#1 LT 10] M99 P10`
-  bool sequenceZero = false;             // N0 is a label
-  bool macroWithWords = false;           // NC words and a macro statement in one block
-  bool fractionalVariable = false;       // `#30057.21`: a bit of a setting
+  bool conditionMayBeAnyValue = false; // `IF [#1] ..`: zero is false
+  bool thenMayBeWords = false;         // `IF [..] THEN S900`
+  bool thenMayBeOmitted = false;       // `IF [..] #1=2`, `IF [..] M99`
+  bool thenMayBeGoto = false;          // `IF [..] THEN GOTO 10`
+  bool blockIf = false;                // `IF [..] THEN` / `ELSE` / `ENDIF` on lines of their own
+  bool wordMayBeUnbracketed = false;   // `X#1+10`
+  bool conditionalReturn = false;      // `[#1 LT 10] M99 P10`
+  bool sequenceZero = false;           // N0 is a label
+  bool macroWithWords = false;         // NC words and a macro statement in one block
+  bool fractionalVariable = false;     // `#30057.21`: a bit of a setting
   bool doNumberMayRepeatNested = false;
 };
 
-/// One text feature that speaks for a dialect; see text_signals.h.
+/// One text feature that speaks for a dialect, or against it.
 struct LanguageHint {
-  std::string_view signal; // name of a signal
+  TextSignal signal;
   int weight;
 };
 
@@ -210,7 +211,8 @@ struct Dialect {
   std::span<const Function> functions;
   std::span<const Operator> operators;
   std::span<const AlarmNumber> alarms;
-  std::array<std::uint8_t, 26> argumentVariables{}; // A .. Z -> local variable of argument assignment I; 0: not an argument
+  std::array<std::uint8_t, 26>
+      argumentVariables{}; // A .. Z -> local variable of argument assignment I; 0: not an argument
   Limits limits;
   Grammar grammar;
   Switches switches;

@@ -1,0 +1,781 @@
+// One line of a text whose language is not known yet: words, variables, keywords, comments.  It is not the lexer: it
+// has to make sense of twelve languages and of prose, and may be wrong about single lines.
+#include "language/dialect/line_signals.h"
+
+#include "base/support/text.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace feedhold {
+namespace {
+
+enum class KeywordKind : std::uint8_t { Plain, Signal };
+
+struct Keyword {
+  std::string_view spelling;
+  KeywordKind kind;
+  TextSignal signal;
+};
+
+constexpr Keyword kKeywords[] = {
+#define KEYWORD(spelling, signal) {spelling, KeywordKind::Signal, TextSignal::signal},
+#define PLAIN_KEYWORD(spelling) {spelling, KeywordKind::Plain, TextSignal::HashVariable},
+#include "language/dialect/text_keywords.def"
+};
+constexpr std::size_t kKeywordCount = std::size(kKeywords);
+
+/// First keyword of each letter, and the end after the last.
+constexpr auto kFirstByLetter = [] {
+  std::array<std::uint8_t, 27> first{};
+  std::size_t next = 0;
+  for (std::size_t letter = 0; letter < 26; ++letter) {
+    first[letter] = static_cast<std::uint8_t>(next);
+    while (next < kKeywordCount && kKeywords[next].spelling.front() == static_cast<char>('A' + letter))
+      ++next;
+  }
+  first[26] = static_cast<std::uint8_t>(next);
+  return first;
+}();
+static_assert(kFirstByLetter[26] == kKeywordCount, "text_keywords.def is not sorted by first letter");
+
+bool equalsUpper(std::string_view text, std::string_view upper) {
+  if (text.size() != upper.size())
+    return false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (toUpper(text[i]) != upper[i])
+      return false;
+  return true;
+}
+
+bool beginsUpper(std::string_view text, std::string_view upper) {
+  return text.size() >= upper.size() && equalsUpper(text.substr(0, upper.size()), upper);
+}
+
+template <std::size_t N> bool isOneOf(std::string_view text, const std::string_view (&upper)[N]) {
+  for (const std::string_view candidate : upper)
+    if (equalsUpper(text, candidate))
+      return true;
+  return false;
+}
+
+std::span<const Keyword> keywordsOfLetter(char letter) {
+  const auto index = static_cast<std::size_t>(toUpper(letter) - 'A');
+  return {kKeywords + kFirstByLetter[index], kKeywords + kFirstByLetter[index + 1]};
+}
+
+const Keyword *findKeyword(std::string_view run) {
+  for (const Keyword &keyword : keywordsOfLetter(run.front()))
+    if (equalsUpper(run, keyword.spelling))
+      return &keyword;
+  return nullptr;
+}
+
+/// The longest keyword that `run` begins with: controls read `THENGOTO` as two words.
+const Keyword *longestPrefix(std::string_view run) {
+  const Keyword *best = nullptr;
+  for (const Keyword &keyword : keywordsOfLetter(run.front()))
+    if (beginsUpper(run, keyword.spelling) && (best == nullptr || keyword.spelling.size() > best->spelling.size()))
+      best = &keyword;
+  return best;
+}
+
+constexpr bool isNameCharacter(char c) {
+  return isLetter(c) || c == '_';
+}
+
+struct Number {
+  std::uint32_t whole = 0; // at most nine digits
+  std::uint32_t digits = 0;
+  bool hasFraction = false;
+};
+
+class LineScanner {
+public:
+  LineScanner(std::string_view line, TextScan &scan) : line_(line), scan_(scan) {}
+
+  void run() {
+    skipBlanks();
+    if (atEnd())
+      return;
+    scanHead();
+    while (!atEnd())
+      scanToken();
+    countCombinations();
+    sortLine();
+  }
+
+private:
+  bool atEnd() const { return at_ >= line_.size(); }
+  char peek(std::size_t ahead = 0) const { return at_ + ahead < line_.size() ? line_[at_ + ahead] : '\0'; }
+  std::string_view rest() const { return line_.substr(at_); }
+  void skipBlanks() {
+    while (isBlank(peek()))
+      ++at_;
+  }
+  void stop() { at_ = line_.size(); }
+
+  void count(TextSignal signal) {
+    ++scan_.counts[static_cast<std::size_t>(signal)];
+    hasSignal_ = true;
+  }
+
+  std::string_view takeRun() {
+    const std::size_t start = at_;
+    while (isNameCharacter(peek()))
+      ++at_;
+    return line_.substr(start, at_ - start);
+  }
+
+  std::string_view peekRun() const {
+    std::size_t end = at_;
+    while (end < line_.size() && isNameCharacter(line_[end]))
+      ++end;
+    return line_.substr(at_, end - at_);
+  }
+
+  Number takeNumber() {
+    Number number;
+    for (; isDigit(peek()); ++at_) {
+      if (++number.digits <= 9)
+        number.whole = number.whole * 10 + static_cast<std::uint32_t>(peek() - '0');
+    }
+    if (peek() == '.') {
+      number.hasFraction = isDigit(peek(1));
+      ++at_;
+      while (isDigit(peek()))
+        ++at_;
+    }
+    return number;
+  }
+
+  void scanHead();
+  void scanPercent();
+  void scanDollar();
+  void scanHashHead();
+  void scanNumberHead();
+  bool scanOWord();
+  void scanToken();
+  void scanLetters();
+  void scanLongRun(std::string_view run);
+  bool scanPair(std::string_view run);
+  void scanKeyword(const Keyword &keyword);
+  void scanCondition();
+  void scanWord(char letter);
+  void scanNumberedWord(char letter, const Number &number);
+  void scanGCode(const Number &number);
+  void scanMCode(const Number &number);
+  void scanEquals(char letter);
+  void scanHash();
+  void scanVariable(const Number &number);
+  void scanComment();
+  void scanCommentWords(std::string_view comment);
+  void scanAngle();
+  void scanString();
+  void scanMark(char c);
+  void countCombinations();
+  void sortLine();
+
+  bool hasLetter(char letter) const { return (letters_ >> (letter - 'A') & 1U) != 0; }
+
+  std::string_view line_;
+  TextScan &scan_;
+  std::size_t at_ = 0;
+  std::uint32_t letters_ = 0; // addresses seen
+  bool hasWord_ = false;      // something that NC programs are made of
+  bool hasComment_ = false;
+  bool hasUnknown_ = false;
+  bool hasSignal_ = false;
+  bool hasHash_ = false;
+  bool hasIf_ = false;
+  bool endsWithThen_ = false;
+  bool hasOWord_ = false;
+  bool hasG65_ = false;
+  bool hasM98_ = false;
+  bool hasM97_ = false;
+  bool hasTurningCycle_ = false;
+  bool hasG50_ = false;
+  bool hasG96_ = false;
+};
+
+void LineScanner::scanHead() {
+  if (peek() == '/') {
+    ++at_;
+    if (isDigit(peek()))
+      ++at_;
+    skipBlanks();
+  }
+  switch (peek()) {
+  case '%': scanPercent(); return;
+  case '$': scanDollar(); return;
+  case '#': scanHashHead(); return;
+  case '@':
+    if (isLetter(peek(1))) {
+      count(TextSignal::CompilerDirective);
+      stop();
+    }
+    return;
+  case ':':
+    if (isDigit(peek(1))) {
+      count(TextSignal::ProgramNumber);
+      ++at_;
+      takeNumber();
+      hasWord_ = true;
+    }
+    return;
+  case '<': scanAngle(); return;
+  case '[':
+    if (const std::size_t end = rest().rfind(']'); end != std::string_view::npos) {
+      const std::string_view after = trimmed(rest().substr(end + 1));
+      if (beginsUpper(after, "M99") || beginsUpper(after, "M97"))
+        count(TextSignal::HaasConditionalReturn);
+    }
+    return;
+  default: break;
+  }
+  if (isDigit(peek()))
+    scanNumberHead();
+  else if (toUpper(peek()) == 'O')
+    scanOWord();
+}
+
+/// The rest of a line that begins with `%`: leader text, unless a language makes something of it.
+void LineScanner::scanPercent() {
+  ++at_;
+  hasWord_ = true;
+  const char next = peek();
+  if (beginsUpper(rest(), "_N_")) {
+    count(TextSignal::SinumerikFile);
+  } else if (beginsUpper(rest(), "@MACRO")) {
+    count(TextSignal::SyntecMarker);
+  } else if (isLetter(next) && (equalsUpper(rest(), "WAIT") || rest().find('=') != std::string_view::npos)) {
+    count(TextSignal::SenderStatement);
+  } else if (toUpper(next) == 'O' || next == ':' || isBlank(next) || next == '(') {
+    skipBlanks();
+    return;
+  }
+  stop();
+}
+
+void LineScanner::scanDollar() {
+  static constexpr std::string_view kControl[] = {"IF",  "ELSE",   "ELSEIF", "ENDIF",   "WHILE",     "ENDWHILE",
+                                                  "FOR", "ENDFOR", "GOTO",   "SWITCH",  "ENDSWITCH", "CASE",
+                                                  "DO",  "ENDDO",  "BREAK",  "DEFAULT", "CONTINUE"};
+  static constexpr std::string_view kDirective[] = {"INCLUDE", "LIST", "NOLIST", "EJECT", "MIX"};
+  ++at_;
+  const std::string_view run = takeRun();
+  if (isOneOf(run, kControl)) {
+    count(TextSignal::DollarControl);
+  } else if (isOneOf(run, kDirective)) {
+    count(TextSignal::CompilerDirective);
+  } else if (trimmed(line_).back() == '%') {
+    count(TextSignal::OkumaFile);
+  } else {
+    hasUnknown_ = true;
+  }
+  stop();
+}
+
+/// A line whose `#` is followed by no number: macro lines of Fadal, commands of ISG, a heading, a remark.
+void LineScanner::scanHashHead() {
+  static constexpr std::string_view kFadal[] = {"PRINT", "INPUT", "GOTO", "WAIT", "CLEAR", "RETURN"};
+  static constexpr std::string_view kIsg[] = {"VAR", "ENDVAR", "MSG", "COMMENT", "ERROR", "CS", "TRAFO", "SLOPE"};
+  const char next = peek(1);
+  if (next == ':') {
+    count(TextSignal::FadalLine);
+    stop();
+  } else if (isLetter(next)) {
+    ++at_;
+    const std::string_view run = takeRun();
+    const bool isNumbered = run.size() == 1 && (toUpper(run[0]) == 'V' || toUpper(run[0]) == 'R') && isDigit(peek());
+    if (isNumbered || isOneOf(run, kFadal) ||
+        (equalsUpper(run, "IF") && rest().find("THEN") != std::string_view::npos)) {
+      count(TextSignal::FadalLine);
+    } else if (isOneOf(run, kIsg)) {
+      count(TextSignal::IsgCommand);
+    } else {
+      hasUnknown_ = true;
+    }
+    stop();
+  }
+}
+
+/// Klartext numbers its blocks without an address.
+void LineScanner::scanNumberHead() {
+  static constexpr std::string_view kFirst[] = {"L",    "C",    "CC",  "CR", "CT", "RND",  "LBL", "FN",
+                                                "CYCL", "STOP", "CHF", "LP", "CP", "APPR", "DEP", "Q"};
+  takeNumber();
+  if (!isBlank(peek()))
+    return;
+  skipBlanks();
+  const std::string_view run = peekRun();
+  if (isOneOf(run, kFirst)) {
+    count(TextSignal::KlartextBlock);
+    at_ += run.size() == 1 && toUpper(run[0]) == 'Q' ? 0 : run.size();
+  }
+}
+
+/// `o100 while`, `o<name> call`; anything else after O is left to the words.
+bool LineScanner::scanOWord() {
+  static constexpr std::string_view kAfterO[] = {"SUB",    "ENDSUB",    "IF",       "ELSEIF",   "ELSE",
+                                                 "ENDIF",  "WHILE",     "ENDWHILE", "CALL",     "REPEAT",
+                                                 "RETURN", "ENDREPEAT", "BREAK",    "CONTINUE", "DO"};
+  const std::size_t start = at_++;
+  skipBlanks();
+  if (peek() == '<') {
+    const std::size_t end = line_.find('>', at_);
+    at_ = end == std::string_view::npos ? start : end + 1;
+  } else if (isDigit(peek())) {
+    takeNumber();
+  } else {
+    at_ = start;
+  }
+  if (at_ != start) {
+    skipBlanks();
+    const std::string_view run = peekRun();
+    if (isOneOf(run, kAfterO)) {
+      count(TextSignal::OWord);
+      hasOWord_ = true;
+      hasWord_ = true;
+      at_ += run.size();
+      return true;
+    }
+  }
+  at_ = start;
+  return false;
+}
+
+void LineScanner::scanToken() {
+  const char c = peek();
+  if (isLetter(c)) {
+    scanLetters();
+    return;
+  }
+  switch (c) {
+  case ' ':
+  case '\t':
+  case '[':
+  case ']':
+  case '+':
+  case '*':
+  case '-':
+  case ',':
+  case '/':
+  case '%': ++at_; return;
+  case '#': scanHash(); return;
+  case '(': scanComment(); return;
+  case ';':
+    hasComment_ = true;
+    stop();
+    return;
+  case '"': scanString(); return;
+  case '<': scanAngle(); return;
+  default: break;
+  }
+  if (isDigit(c) || c == '.')
+    takeNumber();
+  else
+    scanMark(c);
+}
+
+/// Operators that Macro B does not have, and characters that no program has outside comments.
+void LineScanner::scanMark(char c) {
+  ++at_;
+  const char next = peek();
+  if ((c == '=' || c == '!' || c == '>') && next == '=') {
+    ++at_;
+    if (hasHash_)
+      count(TextSignal::CLikeOperator);
+  } else if ((c == '&' && next == '&') || (c == '|' && next == '|')) {
+    ++at_;
+    if (hasHash_)
+      count(TextSignal::CLikeOperator);
+  } else if (c == ':' && next == '=') {
+    ++at_;
+    if (hasHash_)
+      count(TextSignal::ColonAssignment);
+  } else if (static_cast<unsigned char>(c) >= 0x20 && c != '=') {
+    hasUnknown_ = true; // blanks of other kinds and tape leader bytes are nothing
+  }
+}
+
+void LineScanner::scanLetters() {
+  const std::size_t start = at_;
+  endsWithThen_ = false;
+  const std::string_view run = takeRun();
+  if (run.size() > 1) {
+    scanLongRun(run);
+    return;
+  }
+  at_ = start + 1;
+  scanWord(toUpper(run[0]));
+}
+
+void LineScanner::scanLongRun(std::string_view run) {
+  if (const Keyword *keyword = findKeyword(run)) {
+    scanKeyword(*keyword);
+    return;
+  }
+  if (scanPair(run))
+    return;
+  if (equalsUpper(run, "DPRNT") || equalsUpper(run, "BPRNT")) {
+    hasWord_ = true;
+    stop(); // everything up to the bracket is text
+    return;
+  }
+  std::string_view left = run;
+  while (!left.empty() && left.front() != '_') {
+    const Keyword *keyword = longestPrefix(left);
+    if (keyword == nullptr)
+      break;
+    scanKeyword(*keyword);
+    left.remove_prefix(keyword->spelling.size());
+  }
+  if (left.size() == 1 && isLetter(left[0]))
+    scanWord(toUpper(left[0]));
+  else if (!left.empty())
+    hasUnknown_ = hasUnknown_ || left.find_first_not_of("XYZUVWABCxyzuvwabc") != std::string_view::npos;
+}
+
+/// Words that mean something only together with what follows.
+bool LineScanner::scanPair(std::string_view run) {
+  static constexpr std::string_view kTypes[] = {"REAL", "INT", "BOOL", "STRING", "CHAR", "AXIS", "FRAME"};
+  static constexpr std::string_view kCoordinates[] = {"AC", "IC", "DC", "ACP", "ACN"};
+  static constexpr std::string_view kFrames[] = {"BEGIN PGM", "END PGM",  "BLK FORM",
+                                                 "TOOL CALL", "TOOL DEF", "CALL PGM"};
+  const std::size_t start = static_cast<std::size_t>(run.data() - line_.data());
+  for (const std::string_view frame : kFrames) {
+    if (beginsUpper(line_.substr(start), frame)) {
+      count(TextSignal::KlartextFrame);
+      at_ = start + frame.size();
+      return true;
+    }
+  }
+  const std::size_t after = at_;
+  skipBlanks();
+  const std::string_view next = peekRun();
+  std::optional<TextSignal> signal;
+  if (equalsUpper(run, "DEF") && isOneOf(next, kTypes))
+    signal = TextSignal::SinumerikDefinition;
+  else if (equalsUpper(run, "MSG") && peek() == '(' && peek(1) == '"')
+    signal = TextSignal::SinumerikWord;
+  else if (isOneOf(run, kCoordinates) && peek() == '(')
+    signal = TextSignal::SinumerikWord;
+  else if (equalsUpper(run, "CALL") && next.size() > 1 && toUpper(next[0]) == 'O')
+    signal = TextSignal::OkumaControl;
+  else if (equalsUpper(run, "CALL") && equalsUpper(next, "LBL"))
+    signal = TextSignal::KlartextLabel;
+  else if (equalsUpper(run, "FN") && isDigit(peek()))
+    signal = TextSignal::KlartextLabel;
+  else if (equalsUpper(run, "SUB") && start == 0 && next.size() > 1)
+    signal = TextSignal::EdingStatement;
+  else if (equalsUpper(run, "VC") && isDigit(peek()))
+    signal = TextSignal::OkumaVariable;
+  else if (run.size() >= 4 && toUpper(run[0]) == 'V' && peek() == '[')
+    signal = TextSignal::OkumaVariable;
+  else if (run.size() >= 2 && toUpper(run[0]) == 'N' && start == 0 && isDigit(line_[after < line_.size() ? after : 0]))
+    signal = TextSignal::OkumaLabel;
+  else if ((equalsUpper(run, "QL") || equalsUpper(run, "QR") || equalsUpper(run, "QS")) && isDigit(peek()))
+    signal = TextSignal::KlartextParameter;
+  if (!signal) {
+    at_ = after;
+    return false;
+  }
+  count(*signal);
+  stop();
+  return true;
+}
+
+void LineScanner::scanKeyword(const Keyword &keyword) {
+  hasWord_ = true;
+  if (keyword.kind == KeywordKind::Signal)
+    count(keyword.signal);
+  if (keyword.spelling == "IF" || keyword.spelling == "WHILE") {
+    hasIf_ = hasIf_ || keyword.spelling == "IF";
+    scanCondition();
+  } else if (keyword.spelling == "THEN") {
+    endsWithThen_ = true;
+  } else if (keyword.spelling == "ENDIF" && !hasOWord_) {
+    count(TextSignal::BlockIf);
+  } else if (keyword.spelling == "DO") {
+    skipBlanks();
+    if (isDigit(peek()) && takeNumber().whole > 3)
+      count(TextSignal::HighLoopNumber);
+  }
+}
+
+void LineScanner::scanCondition() {
+  skipBlanks();
+  if (peek() == '#')
+    count(TextSignal::BareCondition);
+}
+
+void LineScanner::scanWord(char letter) {
+  if (letter == 'O' && scanOWord())
+    return;
+  if (letter == 'V' && peek() == '.' && isLetter(peek(1)) && peek(2) == '.') {
+    count(TextSignal::IsgVariable);
+    stop();
+    return;
+  }
+  const std::size_t after = at_;
+  skipBlanks();
+  while (peek() == '-' || peek() == '+' || isBlank(peek()))
+    ++at_;
+  const char next = peek();
+  letters_ |= 1U << (letter - 'A');
+  if (isDigit(next) || next == '.') {
+    hasWord_ = true;
+    scanNumberedWord(letter, takeNumber());
+  } else if (next == '#' || next == '[') {
+    hasWord_ = true;
+  } else if (next == '=') {
+    scanEquals(letter);
+  } else {
+    at_ = after;
+  }
+}
+
+/// `X=R1`: only languages with names put an equals sign after an address.
+void LineScanner::scanEquals(char letter) {
+  constexpr std::string_view kAddresses = "XYZABCUVWIJKFSTDH";
+  if (kAddresses.find(letter) == std::string_view::npos || peek(1) == '=')
+    return;
+  count(TextSignal::SinumerikWord);
+  ++at_;
+}
+
+void LineScanner::scanNumberedWord(char letter, const Number &number) {
+  const std::size_t after = at_;
+  skipBlanks();
+  if (peek() == '=' && peek(1) != '=') {
+    if (letter == 'R')
+      count(TextSignal::SinumerikVariable);
+    else if (letter == 'Q')
+      count(TextSignal::KlartextParameter);
+  }
+  at_ = after;
+  switch (letter) {
+  case 'G': scanGCode(number); return;
+  case 'M': scanMCode(number); return;
+  case 'O':
+    count(TextSignal::ProgramNumber);
+    if (number.digits == 5 && number.whole < 10000)
+      count(TextSignal::HaasProgramNumber);
+    return;
+  case 'T':
+    if (number.digits == 4)
+      count(TextSignal::TurretTool);
+    return;
+  default: return;
+  }
+}
+
+void LineScanner::scanGCode(const Number &number) {
+  if (number.hasFraction)
+    return;
+  switch (number.whole) {
+  case 43: count(TextSignal::LengthOffset); return;
+  case 50: hasG50_ = true; return;
+  case 65: hasG65_ = true; return;
+  case 70:
+  case 71:
+  case 72:
+  case 73:
+  case 76: hasTurningCycle_ = true; return;
+  case 96: hasG96_ = true; return;
+  case 103:
+  case 136:
+  case 143:
+  case 153:
+  case 154:
+  case 187: count(TextSignal::HaasCode); return;
+  default: return;
+  }
+}
+
+void LineScanner::scanMCode(const Number &number) {
+  switch (number.whole) {
+  case 6: count(TextSignal::ToolChange); return;
+  case 97: hasM97_ = true; return;
+  case 98: hasM98_ = true; return;
+  case 225:
+    skipBlanks();
+    if (peek() == '#')
+      count(TextSignal::CentroidStatement);
+    return;
+  default: return;
+  }
+}
+
+void LineScanner::scanHash() {
+  const bool isBracketed = at_ > 0 && line_[at_ - 1] == '[';
+  ++at_;
+  skipBlanks();
+  hasHash_ = true;
+  const char next = peek();
+  if (isDigit(next)) {
+    hasWord_ = true;
+    scanVariable(takeNumber());
+  } else if (next == '<') {
+    count(TextSignal::AngleName);
+    hasWord_ = true;
+    const std::size_t end = line_.find('>', at_);
+    at_ = end == std::string_view::npos ? line_.size() : end + 1;
+  } else if (next == '[' || next == '#') {
+    hasWord_ = true;
+  } else if (next == '_' && isBracketed) {
+    count(TextSignal::FanucNamedVariable);
+    hasWord_ = true;
+    takeRun();
+  } else if (isBracketed && isLetter(next)) {
+    takeRun();
+  } else {
+    hasUnknown_ = true;
+  }
+}
+
+void LineScanner::scanVariable(const Number &number) {
+  count(TextSignal::HashVariable);
+  const std::uint32_t n = number.whole;
+  if ((n >= 400 && n <= 499) || (n >= 900000 && n <= 907399))
+    count(TextSignal::MitsubishiVariable);
+  else if (n == 4014 || n == 4214)
+    count(TextSignal::FanucOffsetGroup);
+  else if (n == 4012 || n == 4212)
+    count(TextSignal::MitsubishiOffsetGroup);
+  else if (n >= 10000 && n <= 10999)
+    count(TextSignal::HaasVariable);
+  else if (n >= 3020 && n <= 3033)
+    count(TextSignal::HaasTimer);
+  else if ((n >= 20000 && n <= 20999) || (n >= 30000 && n <= 39999))
+    count(TextSignal::HaasSetting);
+  else if (n >= 98000 && n <= 199999)
+    count(TextSignal::FanucLargeVariable);
+  skipBlanks();
+  if (peek() != '=' || peek(1) == '=')
+    return;
+  if (n == 3000)
+    count(TextSignal::MacroAlarm);
+  else if (n == 1505 || n == 1503)
+    count(TextSignal::DdcsVariable);
+}
+
+void LineScanner::scanComment() {
+  hasComment_ = true;
+  const std::size_t start = at_ + 1;
+  const std::size_t close = line_.find(')', start);
+  const std::size_t end = close == std::string_view::npos ? line_.size() : close;
+  const std::string_view comment = trimmed(line_.substr(start, end - start));
+  at_ = close == std::string_view::npos ? line_.size() : close + 1;
+  static constexpr std::string_view kRsComments[] = {"DEBUG,", "MSG,", "PRINT,", "DLG", "PROBEOPEN", "ABORT,", "LOG,"};
+  for (const std::string_view begin : kRsComments)
+    if (beginsUpper(comment, begin))
+      count(TextSignal::RsComment);
+  static constexpr std::string_view kFagor[] = {"IF (", "CALL ", "PCALL ", "MCALL ", "SUB ", "RPT N", "RET", "P"};
+  for (const std::string_view begin : kFagor) {
+    if (!beginsUpper(comment, begin))
+      continue;
+    const std::string_view after = comment.substr(begin.size());
+    const bool isAssignment = begin == "P" && !after.empty() && isDigit(after[0]) && after.find('=') < 6;
+    const bool isCall = begin.back() == ' ' && !after.empty() && isDigit(after[0]);
+    if (isAssignment || isCall || begin == "IF (" || begin == "RPT N" || (begin == "RET" && after.empty()))
+      count(TextSignal::FagorStatement);
+  }
+  scanCommentWords(comment);
+}
+
+/// Makers' names at the beginning of words.
+void LineScanner::scanCommentWords(std::string_view comment) {
+  static constexpr struct {
+    std::string_view begin;
+    TextSignal signal;
+  } kNames[] = {
+      {"FANUC", TextSignal::FanucComment},           {"HAAS", TextSignal::HaasComment},
+      {"MITSUBISHI", TextSignal::MitsubishiComment}, {"MELDAS", TextSignal::MitsubishiComment},
+      {"MAZA", TextSignal::MitsubishiComment},       {"30I-", TextSignal::FanucSeries30Comment},
+      {"31I-", TextSignal::FanucSeries30Comment},    {"32I-", TextSignal::FanucSeries30Comment},
+      {"0I-F", TextSignal::FanucSeries30Comment},    {"0I-M", TextSignal::FanucSeries0Comment},
+      {"0I-T", TextSignal::FanucSeries0Comment},     {"0I-C", TextSignal::FanucSeries0Comment},
+      {"0I-D", TextSignal::FanucSeries0Comment},     {"16I-", TextSignal::FanucSeries0Comment},
+      {"18I-", TextSignal::FanucSeries0Comment},     {"21I-", TextSignal::FanucSeries0Comment},
+  };
+  bool isStart = true;
+  for (std::size_t i = 0; i < comment.size(); ++i) {
+    const char c = toUpper(comment[i]);
+    if (isStart && (c == 'F' || c == 'H' || c == 'M' || (c >= '0' && c <= '3'))) {
+      for (const auto &name : kNames)
+        if (beginsUpper(comment.substr(i), name.begin))
+          count(name.signal);
+    }
+    isStart = !isLetter(c) && !isDigit(c);
+  }
+}
+
+void LineScanner::scanAngle() {
+  const std::size_t end = line_.find('>', at_);
+  const std::string_view name = end == std::string_view::npos ? "" : line_.substr(at_ + 1, end - at_ - 1);
+  constexpr std::string_view kNameCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-_.";
+  const bool isName = !name.empty() && name.size() <= 32 && isLetter(name[0]) &&
+                      name.find_first_not_of(kNameCharacters) == std::string_view::npos;
+  if (!isName) {
+    hasUnknown_ = true;
+    ++at_;
+    return;
+  }
+  count(TextSignal::FanucProgramName);
+  hasWord_ = true;
+  at_ = end + 1;
+}
+
+void LineScanner::scanString() {
+  const std::size_t end = line_.find('"', at_ + 1);
+  if (hasG65_)
+    count(TextSignal::CentroidStatement);
+  else
+    hasUnknown_ = true;
+  at_ = end == std::string_view::npos ? line_.size() : end + 1;
+}
+
+void LineScanner::countCombinations() {
+  if (hasIf_ && endsWithThen_ && !hasOWord_)
+    count(TextSignal::BlockIf);
+  if (hasG65_ && hasLetter('P'))
+    count(TextSignal::MacroCall);
+  if (hasM98_ && hasLetter('P'))
+    count(TextSignal::SubprogramCall);
+  if (hasM97_ && hasLetter('P'))
+    count(TextSignal::HaasLocalCall);
+  if (hasG50_ && hasLetter('S'))
+    count(TextSignal::SpindleLimit);
+  if (hasG96_ && hasLetter('S'))
+    count(TextSignal::SurfaceSpeed);
+  if (hasTurningCycle_ && !hasLetter('Y') && ((hasLetter('P') && hasLetter('Q')) || hasLetter('U')))
+    count(TextSignal::TurningCycle);
+  if (hasG65_)
+    return; // its letters are arguments
+  if ((hasLetter('U') || hasLetter('W')) && !hasLetter('Y'))
+    count(TextSignal::IncrementalAxis);
+  if (hasLetter('Y'))
+    count(TextSignal::YAxis);
+}
+
+void LineScanner::sortLine() {
+  if (!hasUnknown_ && (hasWord_ || hasSignal_))
+    ++scan_.programLines;
+  else if (hasSignal_)
+    ++scan_.signalLines;
+  else if (hasUnknown_ || !hasComment_)
+    ++scan_.otherLines;
+}
+
+} // namespace
+
+void scanLine(std::string_view line, TextScan &scan) {
+  LineScanner(line, scan).run();
+}
+
+} // namespace feedhold

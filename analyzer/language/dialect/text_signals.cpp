@@ -1,0 +1,101 @@
+// The scan of a whole text: what its name and its bytes say, then line by line.
+#include "language/dialect/text_signals.h"
+
+#include "base/support/text.h"
+#include "language/dialect/line_signals.h"
+
+#include <algorithm>
+#include <string>
+
+namespace feedhold {
+namespace {
+
+struct NamedSignal {
+  std::string_view extension;
+  TextSignal signal;
+};
+
+constexpr NamedSignal kExtensions[] = {
+    {"mpf", TextSignal::SinumerikFile}, {"spf", TextSignal::SinumerikFile}, {"min", TextSignal::OkumaFile},
+    {"ssb", TextSignal::OkumaFile},     {"eia", TextSignal::EiaFile},
+};
+
+/// Files that hold programs at most as quotations.
+constexpr std::string_view kOtherExtensions[] = {
+    "md",  "markdown", "rst",   "adoc", "html",  "htm",  "xml", "json", "yaml", "yml", "toml", "csv",
+    "tsv", "cpp",      "hpp",   "cc",   "cxx",   "c",    "hh",  "cs",   "java", "js",  "mjs",  "ts",
+    "tsx", "py",       "rb",    "rs",   "go",    "sh",   "bat", "ps1",  "lua",  "pl",  "css",  "scss",
+    "sql", "ini",      "cmake", "log",  "sarif", "diff", "tex", "svg",  "vue",  "php",
+};
+
+std::string extensionOf(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string() : toLower(name.substr(dot + 1));
+}
+
+/// Control characters outside line ends, tabs and the tape's own (NUL leader, DC1 to DC4, SUB at the end).
+bool isBinaryText(std::string_view text) {
+  std::size_t controls = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool isTape = byte == 0 || (byte >= 0x11 && byte <= 0x14) || byte == 0x1A || byte == 0x7F;
+    controls += byte < 0x20 && !isTape && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' ? 1U : 0U;
+  }
+  return controls * 50 > text.size(); // more than two in a hundred
+}
+
+bool beginsAsMarkup(std::string_view text) {
+  constexpr std::string_view kBegins[] = {"<!", "<?", "<html", "<HTML", "#!", "#include", "{", "%PDF", "PK\x03\x04"};
+  const std::string_view body = trimmed(text.substr(0, 64));
+  return std::any_of(std::begin(kBegins), std::end(kBegins),
+                     [body](std::string_view begin) { return body.substr(0, begin.size()) == begin; });
+}
+
+void scanName(std::string_view path, TextScan &scan) {
+  const std::string extension = extensionOf(path);
+  for (const NamedSignal &named : kExtensions)
+    if (extension == named.extension)
+      ++scan.counts[static_cast<std::size_t>(named.signal)];
+  scan.isMarkup =
+      std::find(std::begin(kOtherExtensions), std::end(kOtherExtensions), extension) != std::end(kOtherExtensions);
+}
+
+} // namespace
+
+std::string_view descriptionOf(TextSignal signal) {
+  static constexpr std::string_view kDescriptions[] = {
+#define SIGNAL(kind, description) description,
+#include "language/dialect/text_signals.def"
+  };
+  return kDescriptions[static_cast<std::size_t>(signal)];
+}
+
+TextScan scanText(std::string_view text, std::string_view path) {
+  TextScan scan;
+  scanName(path, scan);
+  if (text.substr(0, 3) == "\xEF\xBB\xBF")
+    text.remove_prefix(3);
+  scan.isBinary = isBinaryText(text);
+  scan.isMarkup = scan.isMarkup || beginsAsMarkup(text);
+  if (scan.isBinary || scan.isMarkup)
+    return scan;
+  const char *at = text.data();
+  const char *const end = at + text.size();
+  while (at != end) {
+    const char *lineEnd = at;
+    while (lineEnd != end && *lineEnd != '\n' && *lineEnd != '\r')
+      ++lineEnd;
+    const std::string_view line(at, static_cast<std::size_t>(lineEnd - at));
+    if (line.substr(0, 3) == "```") {
+      scan.isMarkup = true;
+      return scan;
+    }
+    scanLine(line, scan);
+    at = lineEnd == end ? end : lineEnd + 1;
+  }
+  return scan;
+}
+
+} // namespace feedhold
