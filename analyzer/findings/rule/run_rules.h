@@ -8,6 +8,9 @@
 
 namespace feedhold {
 
+/// The order of findings: by place, then by rule name.
+bool comesBefore(const RawFinding &a, const RawFinding &b);
+
 /// Findings in order of place, then of rule name.
 std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context);
 

@@ -1,0 +1,159 @@
+// One walk over the tree for all rules: who wants to see what is sorted out before, so that a block that no rule asks
+// for costs a few comparisons.
+#include "findings/rule/run_rules.h"
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+constexpr std::size_t kIssueKinds = 0
+#define ISSUE(kind) +1
+#include "language/syntax/issues.def"
+    ;
+
+template <typename Hook> struct Listener {
+  Hook hook;
+  Reporter reporter;
+};
+template <typename Hook> using Listeners = std::vector<Listener<Hook>>;
+
+struct HookLists {
+  std::array<Listeners<decltype(RuleHooks::issue)>, kIssueKinds> issues;
+  std::array<Listeners<decltype(RuleHooks::word)>, 128> words; // by address
+  Listeners<decltype(RuleHooks::file)> file;
+  Listeners<decltype(RuleHooks::program)> program;
+  Listeners<decltype(RuleHooks::block)> block;
+  Listeners<decltype(RuleHooks::statement)> statement;
+  Listeners<decltype(RuleHooks::expression)> expression;
+  Listeners<decltype(RuleHooks::jump)> jump;
+  Listeners<decltype(RuleHooks::call)> call;
+  Listeners<decltype(RuleHooks::variable)> variable;
+  Listeners<decltype(RuleHooks::comment)> comment;
+};
+
+std::size_t slotOf(char address) {
+  return static_cast<std::size_t>(address & 0x7f);
+}
+
+template <typename Hook> void addIfAsked(Listeners<Hook> &list, Hook hook, const Reporter &reporter) {
+  if (hook != nullptr)
+    list.push_back({hook, reporter});
+}
+
+HookLists gather(std::span<const Rule *const> rules, std::vector<RawFinding> &sink) {
+  HookLists lists;
+  for (const Rule *rule : rules) {
+    const Reporter reporter(rule->info, sink);
+    const RuleHooks &hooks = rule->hooks;
+    for (const SyntaxIssueKind kind : hooks.issueKinds)
+      addIfAsked(lists.issues[static_cast<std::size_t>(kind)], hooks.issue, reporter);
+    for (const char address : hooks.wordAddresses)
+      addIfAsked(lists.words[slotOf(address)], hooks.word, reporter);
+    addIfAsked(lists.file, hooks.file, reporter);
+    addIfAsked(lists.program, hooks.program, reporter);
+    addIfAsked(lists.block, hooks.block, reporter);
+    addIfAsked(lists.statement, hooks.statement, reporter);
+    addIfAsked(lists.expression, hooks.expression, reporter);
+    addIfAsked(lists.jump, hooks.jump, reporter);
+    addIfAsked(lists.call, hooks.call, reporter);
+    addIfAsked(lists.variable, hooks.variable, reporter);
+    addIfAsked(lists.comment, hooks.comment, reporter);
+  }
+  return lists;
+}
+
+template <typename Hook, typename... Arguments>
+void tell(const Listeners<Hook> &listeners, const FileContext &context, const Arguments &...arguments) {
+  for (const Listener<Hook> &listener : listeners)
+    listener.hook(arguments..., context, listener.reporter);
+}
+
+/// The walk over the blocks.  Expressions carry no block of their own: they are stored in the order of the text, so a
+/// second cursor follows the blocks.
+class Walk {
+public:
+  Walk(const HookLists &lists, const FileContext &context) : lists_(lists), context_(context), tree_(context.tree) {}
+
+  void run() {
+    const std::size_t count = tree_.blockCount();
+    for (std::size_t i = 0; i < count; ++i)
+      visit(BlockId(i));
+  }
+
+private:
+  void visit(BlockId id) {
+    const Block &block = tree_.blocks[id];
+    const Block &next = tree_.blocks[id.next()];
+    if (block.firstComment != next.firstComment && !lists_.comment.empty())
+      for (const Comment &comment : tree_.comments.slice(block.firstComment, next.firstComment))
+        tell(lists_.comment, context_, comment, id);
+    const bool isRead = (block.flags & (Block::kLeader | Block::kAfterEnd)) == 0;
+    if (isRead) {
+      tell(lists_.block, context_, id);
+      visitWords(id, block, next);
+      if (block.firstStatement != next.firstStatement && !lists_.statement.empty())
+        for (const Statement &statement : tree_.statements.slice(block.firstStatement, next.firstStatement))
+          tell(lists_.statement, context_, statement, id);
+    }
+    if (!lists_.expression.empty())
+      visitExpressions(id, block, isRead);
+  }
+
+  void visitWords(BlockId id, const Block &block, const Block &next) {
+    for (const Word &word : tree_.words.slice(block.firstWord, next.firstWord))
+      tell(lists_.words[slotOf(word.address())], context_, word, id);
+  }
+
+  void visitExpressions(BlockId id, const Block &block, bool isRead) {
+    for (; expression_ < tree_.expressions.size(); ++expression_) {
+      const ExpressionId expression(expression_);
+      if (tree_.expressions[expression].span.begin > block.end)
+        return;
+      if (isRead)
+        tell(lists_.expression, context_, expression, id);
+    }
+  }
+
+  const HookLists &lists_;
+  const FileContext &context_;
+  const SyntaxTree &tree_;
+  std::size_t expression_ = 0;
+};
+
+void visitModel(const HookLists &lists, const FileContext &context) {
+  const ProgramModel &model = context.model;
+  for (std::size_t i = 0; i < model.programs.size(); ++i)
+    tell(lists.program, context, ProgramId(i));
+  for (std::size_t i = 0; i < model.calls.size(); ++i)
+    tell(lists.call, context, CallId(i));
+  for (const Jump &jump : model.jumps)
+    tell(lists.jump, context, jump);
+  if (!lists.variable.empty())
+    for (const VariableUse &use : model.variables)
+      tell(lists.variable, context, use);
+}
+
+} // namespace
+
+bool comesBefore(const RawFinding &a, const RawFinding &b) {
+  if (a.diagnostic.span != b.diagnostic.span)
+    return a.diagnostic.span < b.diagnostic.span;
+  return a.rule->name < b.rule->name;
+}
+
+std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context) {
+  std::vector<RawFinding> found;
+  const HookLists lists = gather(rules, found);
+  for (const SyntaxIssue &issue : context.tree.issues)
+    tell(lists.issues[static_cast<std::size_t>(issue.kind)], context, issue);
+  tell(lists.file, context);
+  Walk(lists, context).run();
+  visitModel(lists, context);
+  std::stable_sort(found.begin(), found.end(), comesBefore);
+  return found;
+}
+
+} // namespace feedhold
