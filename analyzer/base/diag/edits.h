@@ -11,7 +11,7 @@ namespace feedhold {
 
 struct AppliedEdits {
   std::string text;
-  std::size_t applied = 0;  // fix-its applied
+  std::size_t applied = 0;   // fix-its applied
   std::size_t conflicts = 0; // fix-its left out because they overlap an earlier one
 };
 

@@ -1,6 +1,5 @@
-// LineIndex: where the lines of a text end.  It keeps one number per kilobyte of text, not one per line: a file of
-// two million short lines costs 120 kB and is indexed at the speed of memory; a query looks at one kilobyte.
-// Internal to source/.
+// LineIndex: where the lines of a text end.  It keeps one entry per 256 bytes of text, not one per line, so that it is
+// built at nearly the speed of memory; a query looks at one stretch of 256 bytes.  Internal to source/.
 #pragma once
 
 #include "base/source/span.h"
