@@ -1,0 +1,72 @@
+// How rules look at expressions; see the header.
+#include "expressions/expression_view.h"
+
+#include "base/support/match.h"
+#include "base/support/text.h"
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+std::string significant(std::string_view text) {
+  std::string kept;
+  for (const char c : text)
+    if (!isBlank(c))
+      kept.push_back(toUpper(c));
+  return kept;
+}
+
+bool isVariable(const SyntaxTree &tree, ExpressionId id) {
+  return as<NumberedVariable>(tree, id) || as<IndirectVariable>(tree, id) || as<NamedVariable>(tree, id);
+}
+
+bool readsMachine(const SyntaxTree &tree, ExpressionId id) {
+  const auto *call = as<FunctionCall>(tree, id);
+  return call && (call->function == FunctionKind::Prm || call->function == FunctionKind::Ax ||
+                  call->function == FunctionKind::AxNumber);
+}
+
+} // namespace
+
+std::optional<ExpressionId> conditionOf(const Statement &statement) {
+  using Found = std::optional<ExpressionId>;
+  return std::visit(Overloaded{[](const If &node) -> Found { return node.condition; },
+                               [](const ElseIf &node) -> Found { return node.condition; },
+                               [](const While &node) -> Found { return node.condition; },
+                               [](const ConditionalWords &node) -> Found { return node.condition; },
+                               [](const auto &) -> Found { return std::nullopt; }},
+                    statement.node);
+}
+
+bool isVacant(const FileContext &context, ExpressionId id) {
+  const auto number = variableNumber(context.tree, unwrapped(context.tree, id));
+  if (!number)
+    return false;
+  const VariableRange *range = findVariable(context.dialect, *number);
+  return *number == kVacantVariable || (range && range->kind == VariableKind::Vacant);
+}
+
+bool isConstant(const SyntaxTree &tree, ExpressionId root) {
+  const auto nodes = subexpressions(tree, root);
+  return std::none_of(nodes.begin(), nodes.end(), [&](ExpressionId id) {
+    return isVariable(tree, id) || readsMachine(tree, id) || as<BrokenExpression>(tree, id);
+  });
+}
+
+bool readsLiveValue(const FileContext &context, ExpressionId root) {
+  const auto nodes = subexpressions(context.tree, root);
+  return std::any_of(nodes.begin(), nodes.end(), [&](ExpressionId id) {
+    if (!isVariable(context.tree, id))
+      return readsMachine(context.tree, id);
+    const auto number = variableNumber(context.tree, id);
+    const VariableRange *range = number ? findVariable(context.dialect, *number) : nullptr;
+    return !range || range->kind == VariableKind::System;
+  });
+}
+
+bool sameText(const FileContext &context, Span left, Span right) {
+  return significant(context.text(left)) == significant(context.text(right));
+}
+
+} // namespace feedhold::rules

@@ -1,0 +1,63 @@
+// function-arguments: `POW[2]`, `ATAN[#1]` where two are wanted.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+std::string_view wantedBy(FunctionForm form) {
+  switch (form) {
+  case FunctionForm::OneArgument: return "one argument";
+  case FunctionForm::OneOrTwo: return "one argument, or two as `[a]/[b]` or `[a,b]`";
+  case FunctionForm::TwoBySlash: return "two arguments as `[a]/[b]`";
+  case FunctionForm::TwoByComma: return "two arguments as `[a,b]`";
+  case FunctionForm::ParameterRead: return "`[number]`, `[number,bit]`, and `/[axis]` behind them";
+  }
+  return {};
+}
+
+bool fits(const FunctionCall &call, FunctionForm form) {
+  switch (form) {
+  case FunctionForm::OneArgument: return call.count == 1;
+  case FunctionForm::OneOrTwo: return call.count == 1 || call.count == 2;
+  case FunctionForm::TwoBySlash: return call.count == 2 && call.slash;
+  case FunctionForm::TwoByComma: return call.count == 2 && !call.slash;
+  case FunctionForm::ParameterRead: return call.count >= 1;
+  }
+  return true;
+}
+
+std::vector<std::string> notesFor(const FileContext &context) {
+  return {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::FunctionArguments))};
+}
+
+void checkCall(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  const auto *call = as<FunctionCall>(context.tree, id);
+  const Function *function = call ? findFunction(context.dialect, call->function) : nullptr;
+  if (!function || call->count == 0 || fits(*call, function->form))
+    return;
+  reporter.report({.message = fmt::format("`{}` takes {}", spellingOf(call->function), wantedBy(function->form)),
+                   .span = context.tree.expressions[id].span,
+                   .notes = notesFor(context)});
+}
+
+void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("{} are not the arguments of a function", context.quoted(issue.span)),
+                   .span = issue.span,
+                   .notes = notesFor(context)});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::FunctionArguments};
+
+} // namespace
+
+extern const Rule functionArguments;
+const Rule functionArguments{
+    .info = {"function-arguments", Category::Expression, Severity::Error,
+             "Reports a function with a number or form of arguments that the control does not take."},
+    .hooks = {.issue = checkIssue, .issueKinds = kIssues, .expression = checkCall}};
+
+} // namespace feedhold::rules

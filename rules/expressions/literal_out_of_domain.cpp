@@ -1,0 +1,53 @@
+// literal-out-of-domain: `SQRT[-1]`, `ASIN[2]`, `LN[0]`.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+const Decimal kOne = Decimal::fromInteger(1);
+
+bool isPole(const Decimal &degrees) {
+  const auto whole = degrees.asInteger();
+  return whole && *whole % 90 == 0 && *whole % 180 != 0;
+}
+
+/// What is wrong with the argument; empty when nothing is.
+std::string_view complaint(FunctionDomain domain, const Decimal &value) {
+  switch (domain) {
+  case FunctionDomain::Any: return {};
+  case FunctionDomain::NotNegative: return value.isNegative() ? "has no value below 0" : "";
+  case FunctionDomain::Bcd: return value.isNegative() ? "has no value below 0" : "";
+  case FunctionDomain::Positive: return value <= Decimal() ? "has values above 0 only" : "";
+  case FunctionDomain::MinusOneToOne:
+    return value > kOne || value.negated() > kOne ? "has values from -1 to 1 only" : "";
+  case FunctionDomain::NotPole: return isPole(value) ? "has no value at a right angle" : "";
+  }
+  return {};
+}
+
+void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  const auto *call = as<FunctionCall>(context.tree, id);
+  const Function *function =
+      call && call->count == 1 && call->first ? findFunction(context.dialect, call->function) : nullptr;
+  const auto value = function ? literalValue(context.tree, *call->first) : std::nullopt;
+  const std::string_view wrong = value ? complaint(function->domain, *value) : std::string_view();
+  if (wrong.empty())
+    return;
+  reporter.report(
+      {.message = fmt::format("`{}` {}", spellingOf(call->function), wrong),
+       .span = context.tree.expressions[id].span,
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentOutOfDomain))}});
+}
+
+} // namespace
+
+extern const Rule literalOutOfDomain;
+const Rule literalOutOfDomain{.info = {"literal-out-of-domain", Category::Expression, Severity::Error,
+                                       "Reports a function of a number for which it has no value, as `SQRT[-1]`."},
+                              .hooks = {.expression = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,68 @@
+// radians: `SIN[#1*3.14159/180]`.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+struct Factor {
+  double value;
+  double tolerance;
+};
+constexpr Factor kPi{3.14159265, 0.002};                // 3.14 and better
+constexpr Factor kRadiansInDegree{0.01745329, 0.00005}; // 0.0174 and better
+constexpr Factor kDegreesInRadian{57.2957795, 0.05};    // 57.3 and better
+
+bool isFactor(const SyntaxTree &tree, ExpressionId id, Factor factor) {
+  const auto value = literalValue(tree, id);
+  return value && std::abs(value->toDouble() - factor.value) < factor.tolerance;
+}
+
+/// Pi divides an angle when it turns radians into degrees, which is right; it multiplies when it makes radians.
+bool makesRadians(const SyntaxTree &tree, ExpressionId id) {
+  const auto *operation = as<BinaryOperation>(tree, id);
+  if (!operation)
+    return false;
+  const auto multiplies = [&](ExpressionId side) {
+    return isFactor(tree, side, kPi) || isFactor(tree, side, kRadiansInDegree);
+  };
+  if (operation->op == OperatorKind::Multiply)
+    return multiplies(operation->left) || multiplies(operation->right);
+  return operation->op == OperatorKind::Divide &&
+         (multiplies(operation->left) || isFactor(tree, operation->right, kDegreesInRadian));
+}
+
+void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  const auto *call = as<FunctionCall>(context.tree, id);
+  const bool takesAngle = call && call->first &&
+                          (call->function == FunctionKind::Sin || call->function == FunctionKind::Cos ||
+                           call->function == FunctionKind::Tan);
+  if (!takesAngle)
+    return;
+  const auto parts = subexpressions(context.tree, *call->first);
+  const auto found =
+      std::find_if(parts.begin(), parts.end(), [&](ExpressionId part) { return makesRadians(context.tree, part); });
+  if (found == parts.end())
+    return;
+  reporter.report(
+      {.message = fmt::format("`{}` takes degrees, this is an angle in radians", spellingOf(call->function)),
+       .span = context.tree.expressions[*found].span,
+       .labels = {{context.tree.expressions[id].span, ""}},
+       .notes = {"the control does not stop: it computes with an angle that is about 57 times too small"}});
+}
+
+} // namespace
+
+extern const Rule radians;
+const Rule radians{
+    .info =
+        {"radians", Category::Expression, Severity::Warning,
+         "Reports an angle that is turned into radians before `SIN`, `COS` or `TAN`: the control computes in degrees."},
+    .hooks = {.expression = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,68 @@
+// repeated-statement: the statement before, once more.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// The only statement of a block that holds nothing else (comments do not count).
+const Statement *onlyStatement(const SyntaxTree &tree, BlockId block) {
+  const auto statements = tree.statementsOf(block);
+  return statements.size() == 1 && tree.wordsOf(block).empty() ? &statements.front() : nullptr;
+}
+
+bool mentions(const FileContext &context, ExpressionId root, ExpressionId variable) {
+  const auto parts = subexpressions(context.tree, root);
+  const Span wanted = context.tree.expressions[variable].span;
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](ExpressionId part) { return sameText(context, context.tree.expressions[part].span, wanted); });
+}
+
+/// Doing it a second time has no effect: no variable is both read and set, none can change by itself.
+bool isIdempotent(const FileContext &context, const Assignment &assignment) {
+  return !readsLiveValue(context, assignment.target) && !readsLiveValue(context, assignment.value) &&
+         !mentions(context, assignment.value, assignment.target);
+}
+
+bool isIdempotent(const FileContext &context, const If &branch) {
+  if (!branch.condition || !branch.statement || readsLiveValue(context, *branch.condition))
+    return false;
+  if (branch.action == IfAction::Jump)
+    return true;
+  const auto *assignment = std::get_if<Assignment>(&context.tree.statements[*branch.statement].node);
+  return assignment && isIdempotent(context, *assignment) && !mentions(context, *branch.condition, assignment->target);
+}
+
+bool isIdempotent(const FileContext &context, const Statement &statement) {
+  if (const auto *assignment = std::get_if<Assignment>(&statement.node))
+    return isIdempotent(context, *assignment);
+  const auto *branch = std::get_if<If>(&statement.node);
+  return branch && isIdempotent(context, *branch);
+}
+
+void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (block.index() == 0 || onlyStatement(context.tree, block) != &statement)
+    return;
+  const auto before = context.tree.statementsOf(BlockId(block.index() - 1));
+  if (before.size() != 1 || !sameText(context, before.front().span, statement.span) ||
+      !isIdempotent(context, statement))
+    return;
+  reporter.report({.message = fmt::format("{} stands twice, one behind the other", context.quoted(statement.span)),
+                   .span = statement.span,
+                   .labels = {{before.front().span, "the first"}},
+                   .notes = {"the second changes nothing; another variable or value was probably meant"}});
+}
+
+} // namespace
+
+extern const Rule repeatedStatement;
+const Rule repeatedStatement{
+    .info = {"repeated-statement", Category::Expression, Severity::Info,
+             "Reports a macro statement that is the same as the one directly before it and changes nothing more."},
+    .hooks = {.statement = check}};
+
+} // namespace feedhold::rules

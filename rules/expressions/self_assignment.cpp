@@ -1,0 +1,31 @@
+// self-assignment: `#1=#1`.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
+  const auto *assignment = std::get_if<Assignment>(&statement.node);
+  if (!assignment)
+    return;
+  const Span target = context.tree.expressions[assignment->target].span;
+  const Span value = context.tree.expressions[unwrapped(context.tree, assignment->value)].span;
+  if (!sameText(context, target, value))
+    return;
+  reporter.report({.message = fmt::format("{} is set to itself", context.quoted(target)),
+                   .span = statement.span,
+                   .notes = {"nothing changes; another variable was probably meant"}});
+}
+
+} // namespace
+
+extern const Rule selfAssignment;
+const Rule selfAssignment{
+    .info = {"self-assignment", Category::Expression, Severity::Warning, "Reports a variable that is set to itself."},
+    .hooks = {.statement = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,35 @@
+// unbracketed-expression: `X#1+2` where `X[#1+2]` is wanted.
+#include "findings/rule/rule.h"
+
+#include "base/support/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const std::string_view word = context.text(issue.other);
+  const auto letter = std::find_if(word.begin(), word.end(), isLetter);
+  const auto open = issue.other.begin + static_cast<std::uint32_t>(letter - word.begin()) + 1;
+  const Span whole = cover(issue.other, issue.span);
+  reporter.report({.message = fmt::format("{} is an expression without brackets", context.quoted(whole)),
+                   .span = whole,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                   .fixes = {{FixSafety::Safe,
+                              "put the expression in brackets",
+                              {{{open, open}, "["}, {{issue.span.end, issue.span.end}, "]"}}}}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnbracketedExpression};
+
+} // namespace
+
+extern const Rule unbracketedExpression;
+const Rule unbracketedExpression{
+    .info = {"unbracketed-expression", Category::Expression, Severity::Error,
+             "Reports an expression after an address without the brackets that the control wants around it."},
+    .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules
