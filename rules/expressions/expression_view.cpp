@@ -1,5 +1,5 @@
 // How rules look at expressions; see the header.
-#include "expressions/expression_view.h"
+#include "rules/expressions/expression_view.h"
 
 #include "base/support/match.h"
 #include "base/support/text.h"

@@ -1,0 +1,34 @@
+// unexpected-text: bytes that the control does not know.
+#include "findings/rule/rule.h"
+
+#include "base/support/text.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// `X?` is how templates mark a number to be filled in.
+bool isPlaceholder(std::string_view text) {
+  return trimmed(text).find_first_not_of('?') == std::string_view::npos;
+}
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (isPlaceholder(context.text(issue.span)))
+    return;
+  reporter.report({.message = fmt::format("{} is no program text", context.quoted(issue.span)),
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                             "remarks stand in parentheses"}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnexpectedText};
+
+} // namespace
+
+extern const Rule unexpectedText;
+const Rule unexpectedText{.info = {"unexpected-text", Category::Syntax, Severity::Error,
+                                   "Reports text that belongs to no word, statement or comment."},
+                          .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,31 @@
+// write-to-read-only: `#5041=0`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+std::string contents(const VariableRange &range) {
+  return range.meaning.empty() ? std::string("it can only be read") : fmt::format("it holds: {}", range.meaning);
+}
+
+void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
+  const VariableRange *range = use.write && use.number ? findVariable(context.dialect, *use.number) : nullptr;
+  if (!range || range->access != VariableAccess::ReadOnly || range->kind == VariableKind::Vacant)
+    return;
+  const Span span = context.tree.expressions[use.expression].span;
+  reporter.report({.message = fmt::format("{} can only be read", context.quoted(span)),
+                   .span = span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),
+                             contents(*range)}});
+}
+
+} // namespace
+
+extern const Rule writeToReadOnly;
+const Rule writeToReadOnly{.info = {"write-to-read-only", Category::Variable, Severity::Error,
+                                    "Reports an assignment to a system variable that can only be read."},
+                           .hooks = {.variable = check}};
+
+} // namespace feedhold::rules

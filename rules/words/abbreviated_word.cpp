@@ -1,0 +1,35 @@
+// abbreviated-word: `WH`, `GO`, `RO`.
+#include "findings/rule/rule.h"
+
+#include "language/lex/lexer.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+std::string_view longForm(std::string_view text) {
+  const Token token = Lexer(text).next();
+  if (token.kind == TokenKind::ControlWord)
+    return spellingOf(token.controlWord());
+  return token.kind == TokenKind::Function ? spellingOf(token.function()) : spellingOf(token.op());
+}
+
+void check(const FileContext &context, const Reporter &reporter) {
+  for (const Span span : context.tree.abbreviations) {
+    const std::string_view meant = longForm(context.text(span));
+    reporter.report({.message = fmt::format("{} is short for `{}`", context.quoted(span), meant),
+                     .span = span,
+                     .notes = {"other makers' controls, and people, may not know it"},
+                     .fixes = {{FixSafety::Safe, fmt::format("write `{}`", meant), {{span, std::string(meant)}}}}});
+  }
+}
+
+} // namespace
+
+extern const Rule abbreviatedWord;
+const Rule abbreviatedWord{.info = {"abbreviated-word", Category::Word, Severity::Info,
+                                    "Reports a word of the macro language in its short form, as `WH` for `WHILE`."},
+                           .hooks = {.file = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,51 @@
+// conflicting-g-codes: `G90 G91 X1.`.
+#include "findings/rule/rule.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
+  const bool alarm = context.dialect.switches.ad2 == Switch::On;
+  reporter.report(
+      {.message =
+           fmt::format("{} and {} exclude each other", context.quoted(first.span()), context.quoted(second.span())),
+       .span = second.span(),
+       .labels = {{first.span(), "the first"}},
+       .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
+                       : std::string("both are of one modal group; the control takes the last one for the "
+                                     "whole block, whatever stands before it")}},
+      alarm ? Severity::Error : Severity::Warning);
+}
+
+bool isCode(const Word &word) {
+  return word.address() == 'G' && !word.has(Word::kAfterSkip);
+}
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const auto words = context.tree.wordsOf(block);
+  if (words.size() < 2 || std::count_if(words.begin(), words.end(), isCode) < 2)
+    return;
+  std::array<const Word *, 256> ofGroup{};
+  for (const Word &word : words) {
+    const Code *code = isCode(word) ? codeOf(word, context.dialect) : nullptr;
+    if (!code || code->group == 0)
+      continue;
+    const Word *&first = ofGroup[code->group];
+    if (first && first->tenths() != word.tenths())
+      reportPair(*first, word, context, reporter);
+    first = &word;
+  }
+}
+
+} // namespace
+
+extern const Rule conflictingGCodes;
+const Rule conflictingGCodes{.info = {"conflicting-g-codes", Category::Word, Severity::Warning,
+                                      "Reports two different G codes of one modal group in one block."},
+                             .hooks = {.block = check}};
+
+} // namespace feedhold::rules

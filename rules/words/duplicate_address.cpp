@@ -1,0 +1,52 @@
+// duplicate-address: `X1. Y2. X3.`.
+#include "findings/rule/rule.h"
+
+#include "rules/words/block_words.h"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+bool counts(const Word &word, const FileContext &context) {
+  return word.address() != 'G' && word.address() != 'M' && !word.has(Word::kComma) && !word.has(Word::kAfterThen) &&
+         !word.has(Word::kAfterSkip) && formatOf(context.dialect, word.address()).kind != AddressKind::None;
+}
+
+void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
+  const bool alarm = context.dialect.switches.ad2 == Switch::On;
+  reporter.report(
+      {.message = fmt::format("`{}` stands twice in one block", second.address()),
+       .span = second.span(),
+       .labels = {{first.span(), "the first"}},
+       .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
+                       : std::string("the control takes the last one and says nothing")}},
+      alarm ? Severity::Error : Severity::Warning);
+}
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const auto words = context.tree.wordsOf(block);
+  if (words.size() < 2 || context.tree.blocks[block].has(Block::kData))
+    return;
+  std::array<const Word *, 26> seen{};
+  for (const Word &word : words) {
+    const Word *&first = seen[static_cast<std::size_t>(word.address() - 'A')];
+    if (first && counts(word, context)) {
+      if (!meansOwnWords(context, block))
+        reportPair(*first, word, context, reporter);
+      return;
+    }
+    if (counts(word, context))
+      first = &word;
+  }
+}
+
+} // namespace
+
+extern const Rule duplicateAddress;
+const Rule duplicateAddress{.info = {"duplicate-address", Category::Word, Severity::Warning,
+                                     "Reports an address that stands twice in one block."},
+                            .hooks = {.block = check}};
+
+} // namespace feedhold::rules

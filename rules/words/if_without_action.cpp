@@ -1,0 +1,25 @@
+// if-without-action: `IF[#1EQ0]` and the end of the block.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this IF has nothing to do",
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
+                             "the next block is run whether the condition holds or not"}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutAction};
+
+} // namespace
+
+extern const Rule ifWithoutAction;
+const Rule ifWithoutAction{.info = {"if-without-action", Category::Syntax, Severity::Error,
+                                    "Reports an `IF` with a condition and nothing to do behind it."},
+                           .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules

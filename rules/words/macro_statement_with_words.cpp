@@ -1,0 +1,57 @@
+// macro-statement-with-words: `G00 X1. #1=2`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+bool mayStandBeside(const Word &word) {
+  return word.address() == 'N' || word.address() == 'O' || word.has(Word::kAfterThen);
+}
+
+/// Words under a condition belong to their statement.
+bool takesWords(const Statement &statement) {
+  return std::holds_alternative<ConditionalWords>(statement.node) ||
+         std::holds_alternative<BrokenStatement>(statement.node) ||
+         std::holds_alternative<LoneExpression>(statement.node);
+}
+
+std::vector<std::string> notesFor(const FileContext &context) {
+  return {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MixedBlock)),
+          "give the macro statement a block of its own"};
+}
+
+void checkStatement(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (statement.nested || context.dialect.grammar.macroWithWords || takesWords(statement) ||
+      &context.tree.statementsOf(block).front() != &statement)
+    return;
+  for (const Word &word : context.tree.wordsOf(block)) {
+    if (mayStandBeside(word))
+      continue;
+    reporter.report({.message = fmt::format("{} shares its block with a macro statement", context.quoted(word.span())),
+                     .span = word.span(),
+                     .labels = {{statement.span, "the statement"}},
+                     .notes = notesFor(context)});
+    return;
+  }
+}
+
+void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "two macro statements in one block",
+                   .span = issue.span,
+                   .labels = {{issue.other, "the first"}},
+                   .notes = notesFor(context)});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::TwoStatements};
+
+} // namespace
+
+extern const Rule macroStatementWithWords;
+const Rule macroStatementWithWords{
+    .info = {"macro-statement-with-words", Category::Word, Severity::Error,
+             "Reports a macro statement that shares its block with NC words or with another statement."},
+    .hooks = {.issue = checkIssue, .issueKinds = kIssues, .statement = checkStatement}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,46 @@
+// several-m-codes: `M08 M03`.
+#include "findings/rule/rule.h"
+
+#include "rules/words/block_words.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const auto words = context.tree.wordsOf(block);
+  const Word *first = nullptr;
+  const Word *last = nullptr;
+  std::size_t count = 0;
+  for (const Word &word : words) {
+    if (word.address() != 'M' || word.has(Word::kAfterThen) || word.has(Word::kAfterSkip))
+      continue;
+    first = first ? first : &word;
+    last = &word;
+    ++count;
+  }
+  constexpr std::size_t kMostEver = 3;
+  const Switch setting = context.dialect.switches.m3b;
+  if (count < 2 || (setting == Switch::On && count <= kMostEver) || passesArguments(context, block))
+    return;
+  const bool sure = setting == Switch::Off || count > kMostEver;
+  reporter.report({.message = fmt::format("{} M codes in one block", count),
+                   .span = last->span(),
+                   .labels = {{first->span(), "the first"}},
+                   .notes = {count > kMostEver ? "no setting of the control takes more than three"
+                             : sure            ? "the control takes the last one only (parameter 3404#7, M3B, is off)"
+                                    : "with parameter 3404#7 (M3B) off the control takes the last one only"}},
+                  sure ? Severity::Warning : Severity::Info);
+}
+
+} // namespace
+
+extern const Rule severalMCodes;
+const Rule severalMCodes{
+    .info =
+        {"several-m-codes", Category::Word, Severity::Info,
+         "Reports more M codes in a block than every machine takes: one, or three where parameter 3404#7 (M3B) is on."},
+    .hooks = {.block = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,25 @@
+// then-without-statement: `IF[#1EQ0]THEN` and the end of the block.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "nothing behind this THEN",
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
+                             "the action must stand in the same block"}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithoutStatement};
+
+} // namespace
+
+extern const Rule thenWithoutStatement;
+const Rule thenWithoutStatement{
+    .info = {"then-without-statement", Category::Syntax, Severity::Error, "Reports a `THEN` with nothing behind it."},
+    .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,30 @@
+// unknown-g-code: `G777`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {
+  if (!word.isNumber())
+    return;
+  const auto tenths = word.tenths();
+  if (tenths && (findGCode(context.dialect, *tenths) || findCodeCall(context.dialect, 'G', *tenths)))
+    return;
+  reporter.report({.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(word.span())),
+                   .span = word.span(),
+                   .notes = {fmt::format("the control {}, unless the machine turns the code into a call",
+                                         stopsWith(context.dialect, AlarmKind::GCodeNotUsable)),
+                             "a code that calls a program belongs into `code-calls` of feedhold.toml"}});
+}
+
+} // namespace
+
+extern const Rule unknownGCode;
+const Rule unknownGCode{
+    .info = {"unknown-g-code", Category::Word, Severity::Info,
+             "Reports a G code that the control does not have and that feedhold.toml does not name as a call."},
+    .hooks = {.word = check, .wordAddresses = "G"}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,25 @@
+// while-without-condition: `WHILE DO1`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this WHILE has no condition",
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WhileFormat)),
+                             "a loop without a condition is `DO1` .. `END1`"}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::WhileWithoutCondition};
+
+} // namespace
+
+extern const Rule whileWithoutCondition;
+const Rule whileWithoutCondition{.info = {"while-without-condition", Category::Syntax, Severity::Error,
+                                          "Reports a `WHILE` without a condition in brackets."},
+                                 .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,24 @@
+// while-without-do: `WHILE[#1LT5]` without DO.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this WHILE has no DO",
+                   .span = issue.span,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WhileFormat))}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::WhileWithoutDo};
+
+} // namespace
+
+extern const Rule whileWithoutDo;
+const Rule whileWithoutDo{.info = {"while-without-do", Category::Syntax, Severity::Error,
+                                   "Reports a `WHILE` without `DO` behind its condition."},
+                          .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules
