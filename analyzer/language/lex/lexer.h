@@ -4,30 +4,45 @@
 #include "base/source/source_file.h"
 #include "language/lex/token.h"
 
+#include <optional>
 #include <string_view>
 
 namespace feedhold {
 
+/// Blanks between tokens: space, tab, and control bytes other than line ends (tape leaders are made of NUL).
+bool isTrivia(char c);
+
 /// Hands out one token after another.  The parser pulls, so that a program of a million blocks needs no buffer.
+/// Cheap to copy: a copy is a place to come back to.
 class Lexer {
 public:
-  explicit Lexer(std::string_view text, std::uint32_t from = 0);
+  explicit Lexer(std::string_view text);
 
   Token next();
-  /// The rest of the line from `from` on as raw text (DPRNT formats, leaders); the lexer goes on after it.
-  void skipTo(std::uint32_t offset) { at_ = offset; }
+  /// Goes on reading at `offset`: behind raw text (DPRNT formats, leaders) or back at a saved place.
+  void moveTo(std::uint32_t offset) { at_ = offset; }
+  /// End of the line that holds `offset`, without its line end.
+  std::uint32_t lineEnd(std::uint32_t offset) const;
+  /// The `]` that belongs to the `[` at `open`, on the same line and with nothing read as tokens between; absent when
+  /// there is none.
+  std::optional<std::uint32_t> closingBracket(std::uint32_t open) const;
 
 private:
   Token letters(std::uint32_t begin);
   Token number(std::uint32_t begin);
   Token comment(std::uint32_t begin);
-  Token lineEnd(std::uint32_t begin);
-  Token name(std::uint32_t begin);
-  Token symbol(std::uint32_t begin);
+  Token endOfBlock(std::uint32_t begin);
+  Token angle(std::uint32_t begin);
   Token other(std::uint32_t begin);
+  Token make(TokenKind kind, std::uint32_t begin, std::uint32_t end);
+  char at(std::uint32_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
+  std::uint32_t afterBlanks(std::uint32_t offset) const;
+  std::uint32_t afterLetters(std::uint32_t offset, std::uint32_t limit) const;
+  std::uint32_t afterLineEnd(std::uint32_t offset) const;
+  std::uint32_t size() const { return static_cast<std::uint32_t>(text_.size()); }
 
   std::string_view text_;
-  std::uint32_t at_;
+  std::uint32_t at_ = 0;
 };
 
 /// All tokens of a file, the last one EndOfFile.

@@ -5,8 +5,10 @@
 #include "base/support/decimal.h"
 #include "language/dialect/words.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 
 namespace feedhold {
@@ -111,11 +113,19 @@ struct BinaryOperation {
   Span opSpan;
 };
 /// `SQRT[a]`, `ATAN[a]/[b]`, `POW[a,b]`, `PRM[n,b]/[x]`.
-struct FunctionCall {
+class FunctionCall {
+public:
+  explicit FunctionCall(FunctionKind function_) : function(function_) {}
+  void add(ExpressionId argument) { arguments_[count_++] = argument; }
+  std::span<const ExpressionId> arguments() const { return std::span(arguments_).first(count_); }
+  bool takesMore() const { return count_ < arguments_.size(); }
+
   FunctionKind function;
   bool slash = false; // the last argument was written after `/`
-  std::uint8_t count = 0;
-  std::optional<ExpressionId> first, second, third;
+
+private:
+  std::uint8_t count_ = 0;
+  std::array<ExpressionId, 3> arguments_{ExpressionId(0), ExpressionId(0), ExpressionId(0)};
 };
 /// What did not parse: anything may happen.
 struct BrokenExpression {};

@@ -34,6 +34,7 @@ public:
   Store<Expression, ExpressionId> expressions;
   std::vector<SyntaxIssue> issues; // in order of the text
   std::vector<Span> abbreviations; // control words, functions and operators in their short form
+  std::vector<Span> skips;         // `/` and `/n`, at the head of a block or inside it
   std::vector<Span> lowerCase;     // runs of program text in lower case, at most one for each block
 
   /// Blocks without the end mark.
@@ -50,6 +51,8 @@ public:
   std::size_t bytes() const;
 };
 
+/// The operands of an expression, left to right.
+std::vector<ExpressionId> childrenOf(const SyntaxTree &tree, ExpressionId id);
 /// Every expression below `root`, itself first, left to right.
 std::vector<ExpressionId> subexpressions(const SyntaxTree &tree, ExpressionId root);
 /// `root` without brackets and written `+` signs around it.

@@ -1,0 +1,240 @@
+// One switch over the class of the first byte; the common case, a letter before a digit, is decided first.
+#include "language/lex/lexer.h"
+
+#include "base/support/check.h"
+#include "base/support/text.h"
+#include "language/lex/keywords.h"
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+enum class ByteClass : std::uint8_t { Other, Trivia, Letter, Digit, LineEnd, Symbol, Parenthesis, Angle };
+
+constexpr std::array<ByteClass, 256> buildClasses() {
+  std::array<ByteClass, 256> classes{};
+  for (int c = 0; c < 0x21; ++c)
+    classes[c] = ByteClass::Trivia;
+  classes[0x7f] = ByteClass::Trivia;
+  for (int c = 'A'; c <= 'Z'; ++c)
+    classes[c] = classes[c - 'A' + 'a'] = ByteClass::Letter;
+  for (int c = '0'; c <= '9'; ++c)
+    classes[c] = ByteClass::Digit;
+  classes['.'] = ByteClass::Digit;
+  classes['\n'] = classes['\r'] = classes[';'] = ByteClass::LineEnd;
+  for (const char c : {'#', '[', ']', '+', '-', '*', '/', '=', ',', ':', '%', ')', '>'})
+    classes[static_cast<unsigned char>(c)] = ByteClass::Symbol;
+  classes['('] = ByteClass::Parenthesis;
+  classes['<'] = ByteClass::Angle;
+  return classes;
+}
+constexpr std::array<ByteClass, 256> kClasses = buildClasses();
+
+ByteClass classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+
+constexpr std::array<TokenKind, 256> buildSymbols() {
+  std::array<TokenKind, 256> kinds{};
+  kinds['#'] = TokenKind::Hash;
+  kinds['['] = TokenKind::OpenBracket;
+  kinds[']'] = TokenKind::CloseBracket;
+  kinds['+'] = TokenKind::Plus;
+  kinds['-'] = TokenKind::Minus;
+  kinds['*'] = TokenKind::Star;
+  kinds['/'] = TokenKind::Slash;
+  kinds['='] = TokenKind::Equals;
+  kinds[','] = TokenKind::Comma;
+  kinds[':'] = TokenKind::Colon;
+  kinds['%'] = TokenKind::Percent;
+  kinds[')'] = TokenKind::CloseParenthesis;
+  kinds['>'] = TokenKind::Greater;
+  return kinds;
+}
+constexpr std::array<TokenKind, 256> kSymbols = buildSymbols();
+
+/// What directly follows the letter of a word with a value.
+bool startsValue(char c) { return classOf(c) == ByteClass::Digit || c == '#' || c == '[' || c == '-' || c == '+'; }
+
+/// No keyword is longer; a longer run need not be read to its end to find one.
+constexpr std::uint32_t kLongestKeywordRun = 24;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+} // namespace
+
+std::string_view nameOf(TokenKind kind) {
+  switch (kind) {
+#define TOKEN(name, text)                                                                                              \
+  case TokenKind::name: return text;
+#include "language/lex/tokens.def"
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind");
+}
+
+bool isTrivia(char c) { return classOf(c) == ByteClass::Trivia; }
+
+Lexer::Lexer(std::string_view text) : text_(text) {
+  if (text_.starts_with(kByteOrderMark))
+    at_ = static_cast<std::uint32_t>(kByteOrderMark.size());
+}
+
+Token Lexer::next() {
+  const std::uint32_t begin = at_ = afterBlanks(at_);
+  if (begin == size())
+    return make(TokenKind::EndOfFile, begin, begin);
+  switch (classOf(text_[begin])) {
+  case ByteClass::Letter: return letters(begin);
+  case ByteClass::Digit: return number(begin);
+  case ByteClass::LineEnd: return endOfBlock(begin);
+  case ByteClass::Symbol: return make(kSymbols[static_cast<unsigned char>(text_[begin])], begin, begin + 1);
+  case ByteClass::Parenthesis: return comment(begin);
+  case ByteClass::Angle: return angle(begin);
+  case ByteClass::Trivia:
+  case ByteClass::Other: return other(begin);
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every class");
+}
+
+std::uint32_t Lexer::lineEnd(std::uint32_t offset) const {
+  while (offset < size() && text_[offset] != '\n' && text_[offset] != '\r')
+    ++offset;
+  return offset;
+}
+
+std::optional<std::uint32_t> Lexer::closingBracket(std::uint32_t open) const {
+  int depth = 0;
+  for (std::uint32_t i = open; i < size() && text_[i] != '\n' && text_[i] != '\r'; ++i) {
+    depth += text_[i] == '[' ? 1 : text_[i] == ']' ? -1 : 0;
+    if (depth == 0)
+      return i;
+  }
+  return std::nullopt;
+}
+
+/// An address, a keyword, or a word of prose.  `X` before a value is an address; in a longer run the keyword at its
+/// start is taken (`GOTO10`, `ANDABS[`), or the address before a function (`XSIN[30.]`); other runs of three letters
+/// and more are no program text.
+Token Lexer::letters(std::uint32_t begin) {
+  const auto address = [&] {
+    Token token = make(TokenKind::Address, begin, begin + 1);
+    token.detail = static_cast<std::uint8_t>(toUpper(text_[begin]));
+    return token;
+  };
+  const char second = at(begin + 1);
+  if (startsValue(second) || !isLetter(second))
+    return address();
+  const std::uint32_t end = afterLetters(begin, begin + kLongestKeywordRun);
+  const std::uint32_t behind = afterBlanks(end);
+  const std::string_view run = text_.substr(begin, end - begin);
+  KeywordMatch match = matchKeyword(run, at(behind));
+  // `GO TO 10`: the only keyword that people write in two.
+  if (run.size() == 2 && toUpper(run) == "GO" && toUpper(text_.substr(behind, 2)) == "TO" && !isLetter(at(behind + 2)))
+    match = {TokenKind::ControlWord, static_cast<std::uint8_t>(ControlWord::Goto),
+             static_cast<std::uint8_t>(behind + 2 - begin), false};
+  if (match.kind != TokenKind::Other) {
+    Token token = make(match.kind, begin, begin + match.length);
+    token.detail = match.detail;
+    token.abbreviated = match.abbreviated;
+    return token;
+  }
+  const KeywordMatch inside = matchKeyword(run.substr(1), at(behind));
+  const bool valueIsFunction = inside.kind == TokenKind::Function && inside.length + 1u == run.size();
+  return run.size() < 3 || valueIsFunction ? address() : make(TokenKind::Other, begin, afterLetters(end, size()));
+}
+
+/// Digits and points; blanks inside belong to the number, because two numbers never stand side by side.
+Token Lexer::number(std::uint32_t begin) {
+  std::uint32_t end = begin + 1;
+  for (std::uint32_t i = end; i < size(); ++i) {
+    const ByteClass byte = classOf(text_[i]);
+    if (byte == ByteClass::Digit)
+      end = i + 1;
+    else if (byte != ByteClass::Trivia)
+      break;
+  }
+  return make(TokenKind::Number, begin, end);
+}
+
+/// Up to the first `)`: comments do not nest.  One that is not closed on its line ends there, unless the next line is
+/// plainly the rest of it: prose up to a `)`, without a digit or a sign of program text.
+Token Lexer::comment(std::uint32_t begin) {
+  std::uint32_t end = begin;
+  while (end < size() && text_[end] != ')' && text_[end] != '\n' && text_[end] != '\r')
+    ++end;
+  if (at(end) == ')')
+    return make(TokenKind::Comment, begin, end + 1);
+  for (std::uint32_t i = afterLineEnd(end); i < size(); ++i) {
+    const char c = text_[i];
+    if (c == ')')
+      return make(TokenKind::Comment, begin, i + 1);
+    if (c == '\n' || c == '\r' || c == '(' || c == '#' || c == '%' || c == ';' || c == '[' || isDigit(c))
+      break;
+  }
+  return make(TokenKind::Comment, begin, end);
+}
+
+/// A line end, or `;` with the line end behind it.
+Token Lexer::endOfBlock(std::uint32_t begin) {
+  if (text_[begin] != ';')
+    return make(TokenKind::EndOfBlock, begin, afterLineEnd(begin));
+  const std::uint32_t behind = afterBlanks(begin + 1);
+  const bool lineEnds = at(behind) == '\n' || at(behind) == '\r';
+  return make(TokenKind::EndOfBlock, begin, lineEnds ? afterLineEnd(behind) : begin + 1);
+}
+
+/// `<NAME>`, or the sign alone.
+Token Lexer::angle(std::uint32_t begin) {
+  std::uint32_t end = begin + 1;
+  const auto inName = [](char c) { return isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '_' || c == '.'; };
+  while (end < size() && inName(text_[end]))
+    ++end;
+  if (at(end) == '>' && end > begin + 1)
+    return make(TokenKind::Name, begin, end + 1);
+  return make(TokenKind::Less, begin, begin + 1);
+}
+
+Token Lexer::other(std::uint32_t begin) {
+  std::uint32_t end = begin + 1;
+  while (end < size() && classOf(text_[end]) == ByteClass::Other)
+    ++end;
+  return make(TokenKind::Other, begin, end);
+}
+
+Token Lexer::make(TokenKind kind, std::uint32_t begin, std::uint32_t end) {
+  at_ = end;
+  return {begin, end, kind, 0, false};
+}
+
+std::uint32_t Lexer::afterBlanks(std::uint32_t offset) const {
+  while (offset < size() && classOf(text_[offset]) == ByteClass::Trivia)
+    ++offset;
+  return offset;
+}
+
+std::uint32_t Lexer::afterLetters(std::uint32_t offset, std::uint32_t limit) const {
+  while (offset < std::min(limit, size()) && classOf(text_[offset]) == ByteClass::Letter)
+    ++offset;
+  return offset;
+}
+
+/// LF, CR LF and CR CR LF are one end each, and so is a CR with none of them behind it.
+std::uint32_t Lexer::afterLineEnd(std::uint32_t offset) const {
+  if (at(offset) != '\r')
+    return at(offset) == '\n' ? offset + 1 : offset;
+  if (at(offset + 1) == '\r' && at(offset + 2) == '\n')
+    return offset + 3;
+  return at(offset + 1) == '\n' ? offset + 2 : offset + 1;
+}
+
+TokenBuffer lex(const SourceFile &file) {
+  TokenBuffer tokens;
+  Lexer lexer(file.text());
+  do
+    tokens.push_back(lexer.next());
+  while (tokens.back().kind != TokenKind::EndOfFile);
+  return tokens;
+}
+
+} // namespace feedhold

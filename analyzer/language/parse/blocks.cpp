@@ -1,0 +1,265 @@
+// Blocks and words.
+#include "base/support/text.h"
+#include "language/parse/parser.h"
+
+namespace feedhold {
+
+namespace {
+
+/// Spreads a span over another piece of text.
+void extend(std::optional<Span> &span, Span piece) { span = span ? cover(*span, piece) : piece; }
+
+} // namespace
+
+void Parser::readBlock() {
+  openBlock(lastEnd_);
+  if (at(TokenKind::Percent))
+    readTapeMark();
+  while (!atEnd())
+    readItem();
+  closeBlock();
+  if (at(TokenKind::EndOfBlock))
+    advance();
+}
+
+void Parser::openBlock(std::uint32_t begin) {
+  block_ = Block{begin, begin, WordId(tree_.words.size()), StatementId(tree_.statements.size()),
+                 CommentId(tree_.comments.size())};
+  broken_ = false;
+  quiet_ = false;
+  wordFlags_ = 0;
+  headOfBlock_ = true;
+  operatorsInBlock_ = 0;
+  statementInBlock_.reset();
+  lowerCase_.reset();
+  if (tape_ == Tape::Closed && !at(TokenKind::Percent)) {
+    // A program head behind the closing `%` begins a further program: files are joined this way.
+    const bool head = at(TokenKind::Colon) || (at(TokenKind::Address) && token_.letter() == 'O');
+    if (head)
+      tape_ = Tape::Open;
+    else
+      block_.flags |= Block::kAfterEnd;
+    quiet_ = !head;
+  }
+}
+
+void Parser::closeBlock() {
+  block_.end = token_.begin;
+  if (lowerCase_ && !quiet_)
+    tree_.lowerCase.push_back(*lowerCase_);
+  noteBlockCodes();
+  tree_.blocks.add(block_);
+}
+
+void Parser::readItem() {
+  contentSinceMark_ = true;
+  if (broken_ && !at(TokenKind::Comment)) {
+    skipBrokenRest();
+    return;
+  }
+  switch (token_.kind) {
+  case TokenKind::Address: readWord(); return;
+  case TokenKind::Comment: readComment(); return;
+  case TokenKind::Slash: readBlockSkip(); return;
+  case TokenKind::Comma: readCommaWord(); return;
+  case TokenKind::Colon: readWord(); return;
+  case TokenKind::CloseParenthesis: readStrayCloseParenthesis(); return;
+  case TokenKind::Name:
+    tree_.words.add(Word('<', WordForm::Name, token_.span(), wordFlags_));
+    advance();
+    return;
+  case TokenKind::Hash:
+  case TokenKind::OpenBracket:
+  case TokenKind::ControlWord: readStatement(); return;
+  case TokenKind::CloseBracket:
+    takeStrayCloseBrackets();
+    return;
+  case TokenKind::Number:
+  case TokenKind::Function:
+  case TokenKind::Operator:
+  case TokenKind::Plus:
+  case TokenKind::Minus:
+  case TokenKind::Star:
+  case TokenKind::Equals:
+  case TokenKind::Percent:
+  case TokenKind::Less:
+  case TokenKind::Greater:
+  case TokenKind::Other:
+    issue(SyntaxIssueKind::UnexpectedText, token_.span(), {}, Broken::Yes);
+    skipBrokenRest();
+    return;
+  case TokenKind::EndOfFile:
+  case TokenKind::EndOfBlock: return;
+  }
+}
+
+/// `X12.5`, `:1000` (an O word), `M`.
+void Parser::readWord() {
+  const Token head = token_;
+  const char address = head.kind == TokenKind::Colon ? 'O' : head.letter();
+  if (text_[head.begin] >= 'a')
+    extend(lowerCase_, head.span());
+  headOfBlock_ = headOfBlock_ && address == 'N';
+  advance();
+  readWordValue(address, head.begin, wordFlags_);
+}
+
+void Parser::readWordValue(char address, std::uint32_t begin, std::uint8_t wordFlags) {
+  const std::uint32_t headEnd = lastEnd_;
+  const bool sign = at(TokenKind::Minus) || at(TokenKind::Plus);
+  if (sign && peek().kind == TokenKind::Number) {
+    const bool negative = at(TokenKind::Minus);
+    advance();
+    addNumberWord(address, {begin, token_.end}, wordFlags | Word::kSigned, token_, negative);
+    return;
+  }
+  if (at(TokenKind::Number)) {
+    addNumberWord(address, {begin, token_.end}, wordFlags, token_, false);
+    return;
+  }
+  if (startsOperand(token_)) {
+    const ExpressionId value = operand();
+    readUnbracketedRest(address, begin, sign ? wordFlags | Word::kSigned : wordFlags, value);
+    return;
+  }
+  issue(SyntaxIssueKind::MissingValue, {begin, headEnd}, {}, Broken::No);
+  const bool placeholder = at(TokenKind::Other) && text_[token_.begin] == '?';
+  if (placeholder)
+    advance();
+  tree_.words.add(Word(address, placeholder ? WordForm::Broken : WordForm::Missing, {begin, lastEnd_}, wordFlags));
+}
+
+void Parser::addNumberWord(char address, Span span, std::uint8_t wordFlags, const Token &number, bool negative) {
+  const std::optional<Decimal> value = decimalOf(number, Broken::No);
+  const std::string_view digits = text_.substr(number.begin, number.end - number.begin);
+  if (digits.find('.') != std::string_view::npos)
+    wordFlags |= Word::kPoint;
+  advance();
+  if (peekOperator() && !at(TokenKind::Slash) && startsOperand(peek())) {
+    const ExpressionId literal = addExpression(number.begin, NumberLiteral{value.value_or(Decimal())});
+    const ExpressionId left = negative ? addExpression(span.begin + 1, Negation{literal}) : literal;
+    readUnbracketedRest(address, span.begin, wordFlags, left);
+    return;
+  }
+  if (value)
+    tree_.words.add(Word::number(address, negative ? value->negated() : *value, span, wordFlags));
+  else
+    tree_.words.add(Word(address, WordForm::Broken, span, wordFlags));
+}
+
+/// The rest of `X#1+2`: an expression after an address that no bracket holds together.  A `/` is a block skip here.
+void Parser::readUnbracketedRest(char address, std::uint32_t begin, std::uint8_t wordFlags, ExpressionId left) {
+  ExpressionId value = left;
+  if (peekOperator() && !at(TokenKind::Slash) && startsOperand(peek())) {
+    const std::uint32_t from = token_.begin;
+    value = binaryRest(left, 1);
+    issue(SyntaxIssueKind::UnbracketedExpression, since(from), {begin, lastEnd_}, Broken::No);
+  }
+  if (address == 'O' || address == 'N')
+    issue(SyntaxIssueKind::ComputedNumberForbidden, spanOf(value), {begin, lastEnd_}, Broken::No);
+  tree_.words.add(Word::expression(address, value, {begin, lastEnd_}, wordFlags));
+}
+
+/// `,R5.` `,C2.` `,A30.`
+void Parser::readCommaWord() {
+  const std::uint32_t begin = token_.begin;
+  if (peek().kind != TokenKind::Address) {
+    issue(SyntaxIssueKind::UnexpectedText, token_.span(), {}, Broken::Yes);
+    skipBrokenRest();
+    return;
+  }
+  advance();
+  const char address = token_.letter();
+  headOfBlock_ = false;
+  advance();
+  readWordValue(address, begin, wordFlags_ | Word::kComma);
+}
+
+/// `/` or `/3` at the head of the block; elsewhere it makes the rest of the block optional.
+void Parser::readBlockSkip() {
+  const Token slash = token_;
+  advance();
+  std::uint8_t level = 1;
+  bool levelIsFine = true;
+  if (at(TokenKind::Number)) {
+    const std::optional<std::int64_t> number = decimalOf(token_, Broken::No).value_or(Decimal(0, 0)).asInteger();
+    levelIsFine = number && *number >= 1 && *number <= 9;
+    level = levelIsFine ? static_cast<std::uint8_t>(*number) : 1;
+    advance();
+  }
+  if (!levelIsFine || at(TokenKind::Slash))
+    issue(SyntaxIssueKind::BlockSkipLevel, {slash.begin, at(TokenKind::Slash) ? token_.end : lastEnd_}, {}, Broken::No);
+  if (headOfBlock_) {
+    block_.flags |= Block::kSkip;
+    block_.skipLevel = level;
+  } else {
+    issue(SyntaxIssueKind::MisplacedBlockSkip, since(slash.begin), {}, Broken::No);
+    block_.flags |= Block::kSkipInside;
+    wordFlags_ |= Word::kAfterSkip;
+  }
+  tree_.skips.push_back(since(slash.begin));
+}
+
+void Parser::readComment() {
+  const Span span = token_.span();
+  const std::string_view inner = text_.substr(span.begin + 1, span.size() - 1);
+  // A comment that was read over a line end is one that its line does not close.
+  const bool closed = inner.ends_with(')') && inner.find_first_of("\r\n") == std::string_view::npos;
+  tree_.comments.add({span, closed});
+  advance();
+  const std::size_t open = inner.find('(');
+  // `(A (B) C)`: the comment ends at the first `)`, and ` C)` would be read as program text.
+  if (open != std::string_view::npos && closed && !atEnd()) {
+    const std::string_view rest = text_.substr(span.end, kRecoveryWindow);
+    const std::size_t close = rest.find_first_of("()\r\n");
+    if (close != std::string_view::npos && rest[close] == ')') {
+      const auto inside = static_cast<std::uint32_t>(span.begin + 1 + open);
+      issue(SyntaxIssueKind::NestedComment, {inside, inside + 1}, {span.begin, span.end + static_cast<std::uint32_t>(close) + 1}, Broken::No);
+      const std::uint32_t begin = token_.begin;
+      moveTo(span.end + static_cast<std::uint32_t>(close) + 1);
+      addStatement(begin, BrokenStatement{});
+      block_.flags |= Block::kBroken;
+      return;
+    }
+  }
+  if (!closed)
+    issue(SyntaxIssueKind::UnclosedComment, span, {}, Broken::No);
+}
+
+void Parser::readStrayCloseParenthesis() {
+  const std::uint32_t begin = token_.begin;
+  issue(SyntaxIssueKind::StrayCloseParenthesis, token_.span(), {}, Broken::No);
+  block_.flags |= Block::kBroken;
+  while (at(TokenKind::CloseParenthesis))
+    advance();
+  addStatement(begin, BrokenStatement{});
+}
+
+/// Everything up to the end of the block or a comment, as one hole.
+void Parser::skipBrokenRest() {
+  const std::uint32_t begin = token_.begin;
+  while (!atEnd() && !at(TokenKind::Comment))
+    advance();
+  if (lastEnd_ > begin)
+    addStatement(begin, BrokenStatement{});
+}
+
+/// Data lines of `G10 L50` and `G10 L52` up to `G11`: there N is the number of a machine parameter.
+void Parser::noteBlockCodes() {
+  if (dataBlocks_)
+    block_.flags |= Block::kData;
+  bool dataSetting = false;
+  bool parameters = false;
+  for (std::size_t i = block_.firstWord.index(); i < tree_.words.size(); ++i) {
+    const Word &word = tree_.words[WordId(i)];
+    if (word.address() == 'O' || (word.address() == 'G' && word.tenths() == 110)) {
+      dataBlocks_ = false;
+      block_.flags &= static_cast<std::uint16_t>(~Block::kData);
+    }
+    dataSetting = dataSetting || (word.address() == 'G' && word.tenths() == 100);
+    parameters = parameters || (word.address() == 'L' && (word.integer() == 50u || word.integer() == 52u));
+  }
+  dataBlocks_ = dataBlocks_ || (dataSetting && parameters);
+}
+
+} // namespace feedhold

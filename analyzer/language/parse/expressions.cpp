@@ -1,0 +1,271 @@
+// Expressions, by precedence climbing; the precedences are the dialect's.
+#include "base/support/text.h"
+#include "language/parse/parser.h"
+
+namespace feedhold {
+
+ExpressionId Parser::expression() { return binary(1); }
+
+ExpressionId Parser::binary(int lowestPrecedence) { return binaryRest(operand(), lowestPrecedence); }
+
+ExpressionId Parser::binaryRest(ExpressionId left, int lowestPrecedence) {
+  while (const std::optional<OperatorKind> op = peekOperator()) {
+    const int precedence = precedence_[static_cast<std::size_t>(*op)];
+    // `.. /M08`: behind an expression without brackets a slash before a word is a block skip.
+    const bool skip = at(TokenKind::Slash) && !symbolicAllowed_ && !startsOperand(peek());
+    if (precedence < lowestPrecedence || skip || broken_)
+      break;
+    if (++operatorsInBlock_ > kMostOperators) {
+      expressionTooDeep();
+      break;
+    }
+    const std::uint32_t opBegin = token_.begin;
+    const OperatorKind taken = takeOperator(*op);
+    const Span opSpan = since(opBegin);
+    const ExpressionId right = binary(precedence + 1);
+    left = addExpression(spanOf(left).begin, BinaryOperation{taken, left, right, opSpan});
+  }
+  return left;
+}
+
+std::optional<OperatorKind> Parser::peekOperator() const {
+  switch (token_.kind) {
+  case TokenKind::Plus: return OperatorKind::Add;
+  case TokenKind::Minus: return OperatorKind::Subtract;
+  case TokenKind::Star: return OperatorKind::Multiply;
+  case TokenKind::Slash: return OperatorKind::Divide;
+  case TokenKind::Operator: return token_.op();
+  case TokenKind::Equals: return symbolicAllowed_ ? std::optional(OperatorKind::Equal) : std::nullopt;
+  case TokenKind::Less: return symbolicAllowed_ ? std::optional(OperatorKind::LessThan) : std::nullopt;
+  case TokenKind::Greater: return symbolicAllowed_ ? std::optional(OperatorKind::GreaterThan) : std::nullopt;
+  case TokenKind::EndOfFile:
+  case TokenKind::EndOfBlock:
+  case TokenKind::Address:
+  case TokenKind::Number:
+  case TokenKind::Function:
+  case TokenKind::ControlWord:
+  case TokenKind::Hash:
+  case TokenKind::OpenBracket:
+  case TokenKind::CloseBracket:
+  case TokenKind::Comma:
+  case TokenKind::Colon:
+  case TokenKind::Percent:
+  case TokenKind::Comment:
+  case TokenKind::CloseParenthesis:
+  case TokenKind::Name:
+  case TokenKind::Other: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Takes the operator that peekOperator saw.  `=`, `<`, `>=`, `<>` and `LT=` are read as the relation that is meant.
+OperatorKind Parser::takeOperator(OperatorKind op) {
+  if (at(TokenKind::Equals) || at(TokenKind::Less) || at(TokenKind::Greater))
+    return takeSymbolicComparison();
+  const Token taken = token_;
+  advance();
+  if (!isRelation(op) || !at(TokenKind::Equals))
+    return op;
+  advance();
+  issue(SyntaxIssueKind::SymbolicComparison, since(taken.begin), {}, Broken::No);
+  return op == OperatorKind::LessThan ? OperatorKind::LessOrEqual
+                                      : op == OperatorKind::GreaterThan ? OperatorKind::GreaterOrEqual : op;
+}
+
+OperatorKind Parser::takeSymbolicComparison() {
+  const std::uint32_t begin = token_.begin;
+  bool less = false, greater = false, equals = false;
+  for (; at(TokenKind::Equals) || at(TokenKind::Less) || at(TokenKind::Greater); advance()) {
+    less = less || at(TokenKind::Less);
+    greater = greater || at(TokenKind::Greater);
+    equals = equals || at(TokenKind::Equals);
+  }
+  issue(SyntaxIssueKind::SymbolicComparison, since(begin), {}, Broken::No);
+  if (less && greater)
+    return OperatorKind::NotEqual;
+  if (less)
+    return equals ? OperatorKind::LessOrEqual : OperatorKind::LessThan;
+  if (greater)
+    return equals ? OperatorKind::GreaterOrEqual : OperatorKind::GreaterThan;
+  return OperatorKind::Equal;
+}
+
+bool Parser::startsOperand(const Token &token) const {
+  return token.kind == TokenKind::Number || token.kind == TokenKind::Hash || token.kind == TokenKind::OpenBracket ||
+         token.kind == TokenKind::Function || token.kind == TokenKind::Minus || token.kind == TokenKind::Plus;
+}
+
+ExpressionId Parser::operand() {
+  if (++depth_ > kDeepestNesting) {
+    --depth_;
+    return expressionTooDeep();
+  }
+  const ExpressionId result = operandInside();
+  --depth_;
+  return result;
+}
+
+ExpressionId Parser::expressionTooDeep() {
+  const std::uint32_t begin = token_.begin;
+  issue(SyntaxIssueKind::NestingTooDeep, token_.span(), {}, Broken::Yes);
+  while (!atEnd() && !at(TokenKind::Comment))
+    advance();
+  return addExpression(begin, BrokenExpression{});
+}
+
+ExpressionId Parser::operandInside() {
+  const std::uint32_t begin = token_.begin;
+  switch (token_.kind) {
+  case TokenKind::Number: return number();
+  case TokenKind::Hash: return variable();
+  case TokenKind::OpenBracket: return bracketed();
+  case TokenKind::Function: return functionCall();
+  case TokenKind::Minus: {
+    advance();
+    const ExpressionId inner = operand();
+    return addExpression(begin, Negation{inner});
+  }
+  case TokenKind::Plus: {
+    advance();
+    const ExpressionId inner = operand();
+    return addExpression(begin, Identity{inner});
+  }
+  case TokenKind::EndOfFile:
+  case TokenKind::EndOfBlock:
+  case TokenKind::Address:
+  case TokenKind::Operator:
+  case TokenKind::ControlWord:
+  case TokenKind::CloseBracket:
+  case TokenKind::Star:
+  case TokenKind::Slash:
+  case TokenKind::Equals:
+  case TokenKind::Comma:
+  case TokenKind::Colon:
+  case TokenKind::Percent:
+  case TokenKind::Comment:
+  case TokenKind::CloseParenthesis:
+  case TokenKind::Name:
+  case TokenKind::Less:
+  case TokenKind::Greater:
+  case TokenKind::Other: return brokenOperand();
+  }
+  return brokenOperand();
+}
+
+ExpressionId Parser::brokenOperand() {
+  const bool nothing = atEnd() || at(TokenKind::Comment);
+  issue(SyntaxIssueKind::BrokenExpression, nothing ? Span{lastEnd_, lastEnd_} : token_.span(), {}, Broken::Yes);
+  return tree_.expressions.add(Expression{{lastEnd_, lastEnd_}, BrokenExpression{}});
+}
+
+ExpressionId Parser::number() {
+  const Token token = token_;
+  const std::optional<Decimal> value = decimalOf(token, Broken::No);
+  advance();
+  if (!value)
+    return addExpression(token.begin, BrokenExpression{});
+  return addExpression(token.begin, NumberLiteral{*value});
+}
+
+/// `#101`, `#[..]`, `##1` (reported), `#<name>` of other languages.
+ExpressionId Parser::variable() {
+  const Token hash = token_;
+  advance();
+  if (at(TokenKind::Number)) {
+    const std::optional<Decimal> number = decimalOf(token_, Broken::No);
+    advance();
+    if (!number)
+      return addExpression(hash.begin, BrokenExpression{});
+    return addExpression(hash.begin, NumberedVariable{*number});
+  }
+  if (at(TokenKind::Name)) {
+    const Span name = token_.span();
+    advance();
+    return addExpression(hash.begin, NamedVariable{name});
+  }
+  if (at(TokenKind::Hash))
+    issue(SyntaxIssueKind::DoubleHash, {hash.begin, token_.end}, {}, Broken::No);
+  else if (!at(TokenKind::OpenBracket))
+    return brokenOperand();
+  const ExpressionId index = operand();
+  return addExpression(hash.begin, IndirectVariable{index});
+}
+
+ExpressionId Parser::bracketed() {
+  const Token open = token_;
+  const bool named = open.end + 1 < text_.size() && text_[open.end] == '#' &&
+                     (isLetter(text_[open.end + 1]) || text_[open.end + 1] == '_');
+  if (named)
+    return namedVariable();
+  advance();
+  const bool outer = std::exchange(symbolicAllowed_, true);
+  const ExpressionId inner = expression();
+  symbolicAllowed_ = outer;
+  closeBracket(open);
+  return addExpression(open.begin, Bracketed{inner});
+}
+
+/// `[#_ALM]`, `[#_UI[3]]`, `[#WIDTH]`
+ExpressionId Parser::namedVariable() {
+  const Token open = token_;
+  const std::optional<std::uint32_t> close = lexer_.closingBracket(open.begin);
+  if (!close) {
+    issue(SyntaxIssueKind::MissingCloseBracket, {open.end, open.end}, open.span(), Broken::Yes);
+    return brokenOperand();
+  }
+  moveTo(*close + 1);
+  return addExpression(open.begin, NamedVariable{{open.end + 1, *close}});
+}
+
+/// `SQRT[a]`, `ATAN[a]/[b]`, `ATAN[a,b]`, `PRM[n,b]/[x]`.
+ExpressionId Parser::functionCall() {
+  const Token name = token_;
+  FunctionCall call(name.function());
+  advance();
+  if (!at(TokenKind::OpenBracket)) {
+    issue(SyntaxIssueKind::MissingOpenBracket, {lastEnd_, lastEnd_}, name.span(), Broken::No);
+    call.add(operand());
+    return addExpression(name.begin, call);
+  }
+  const Token open = token_;
+  advance();
+  const bool outer = std::exchange(symbolicAllowed_, true);
+  call.add(expression());
+  while (at(TokenKind::Comma) && !broken_ && call.takesMore()) {
+    advance();
+    call.add(expression());
+  }
+  symbolicAllowed_ = outer;
+  closeBracket(open);
+  // Behind ATAN[..] and PRM[..] a slash with a bracket is the second argument, even where a division was meant.
+  const bool takesSlash = call.function == FunctionKind::Atan || call.function == FunctionKind::Prm;
+  if (takesSlash && at(TokenKind::Slash) && peek().kind == TokenKind::OpenBracket && call.takesMore() && !broken_) {
+    advance();
+    call.add(operand());
+    call.slash = true;
+  }
+  return addExpression(name.begin, call);
+}
+
+void Parser::closeBracket(const Token &open) {
+  if (at(TokenKind::CloseBracket)) {
+    advance();
+    return;
+  }
+  // With a closing bracket further on, the text between is what is wrong; else the bracket is missing here.
+  const std::string_view rest = text_.substr(token_.begin, kRecoveryWindow);
+  const std::size_t stop = rest.find_first_of("](\r\n");
+  const bool closedLater = stop != std::string_view::npos && rest[stop] == ']' && !atEnd();
+  const bool readsOn = atEnd() || at(TokenKind::Comment) || at(TokenKind::ControlWord);
+  if (closedLater)
+    issue(SyntaxIssueKind::BrokenExpression, token_.span(), {}, Broken::Yes);
+  else
+    issue(SyntaxIssueKind::MissingCloseBracket, {lastEnd_, lastEnd_}, open.span(), readsOn ? Broken::No : Broken::Yes);
+  block_.flags |= Block::kBroken;
+}
+
+ExpressionId Parser::addExpression(std::uint32_t begin, decltype(Expression::node) node) {
+  return tree_.expressions.add(Expression{since(begin), std::move(node)});
+}
+
+} // namespace feedhold

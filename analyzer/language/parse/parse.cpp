@@ -1,0 +1,205 @@
+// The file as a whole: leader, tape marks, blocks; and the parser's handling of tokens and issues.
+#include "language/parse/parse.h"
+
+#include "base/support/text.h"
+#include "language/parse/parser.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+/// Offset of the first `%` that is the first sign on its line; npos when there is none.
+std::size_t firstTapeMark(std::string_view text, std::size_t from) {
+  for (std::size_t at = text.find('%', from); at != std::string_view::npos; at = text.find('%', at + 1)) {
+    std::size_t head = at;
+    while (head > 0 && isTrivia(text[head - 1]))
+      --head;
+    if (head == 0 || text[head - 1] == '\n' || text[head - 1] == '\r' || text[head - 1] == ';')
+      return at;
+  }
+  return std::string_view::npos;
+}
+
+/// Whether text before the first `%` reads as program: some line begins with O, N, G or `#` and a digit.
+bool readsAsProgram(std::string_view text) {
+  bool lineHead = true;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const char c = toUpper(text[i]);
+    if (lineHead && (c == 'O' || c == 'N' || c == 'G' || c == '#' || c == ':') && isDigit(text[i + 1]))
+      return true;
+    if (!isTrivia(text[i]))
+      lineHead = text[i] == '\n' || text[i] == '\r';
+  }
+  return false;
+}
+
+/// Digits of a number that 64 bits hold; no control takes as many.
+constexpr unsigned kMostDigits = 18;
+
+/// Precedence where the dialect lacks the operator, so that the tree is right even where a rule complains.
+constexpr std::uint8_t usualPrecedence(OperatorKind op) {
+  switch (op) {
+  case OperatorKind::Multiply:
+  case OperatorKind::Divide:
+  case OperatorKind::Modulo:
+  case OperatorKind::And: return 3;
+  case OperatorKind::Add:
+  case OperatorKind::Subtract:
+  case OperatorKind::Or:
+  case OperatorKind::Xor: return 2;
+  case OperatorKind::Equal:
+  case OperatorKind::NotEqual:
+  case OperatorKind::GreaterThan:
+  case OperatorKind::GreaterOrEqual:
+  case OperatorKind::LessThan:
+  case OperatorKind::LessOrEqual: return 1;
+  }
+  return 1;
+}
+
+} // namespace
+
+SyntaxTree parse(const SourceFile &source, const Dialect &dialect) { return Parser(source.text(), dialect).run(); }
+
+Parser::Parser(std::string_view text, const Dialect &dialect) : text_(text), lexer_(text) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(OperatorKind::LessOrEqual); ++i) {
+    const auto op = static_cast<OperatorKind>(i);
+    const int own = precedenceOf(dialect, op);
+    precedence_[i] = own > 0 ? static_cast<std::uint8_t>(own) : usualPrecedence(op);
+  }
+}
+
+SyntaxTree Parser::run() {
+  reserve();
+  readLeader();
+  advance();
+  while (!at(TokenKind::EndOfFile))
+    readBlock();
+  openBlock(static_cast<std::uint32_t>(text_.size())); // the end mark
+  tree_.blocks.add(block_);
+  // Leader lines of a comment that goes on over a line end may be reported late.
+  std::stable_sort(tree_.issues.begin(), tree_.issues.end(),
+                   [](const SyntaxIssue &a, const SyntaxIssue &b) { return a.span.begin < b.span.begin; });
+  return std::move(tree_);
+}
+
+/// Sizes the stores from a sample, so that those of a long plain program do not grow by copying: its letters are its
+/// words and its line ends its blocks.  Untouched reserve costs no memory.
+void Parser::reserve() {
+  constexpr std::size_t kSample = 1 << 16;
+  const std::string_view sample = text_.substr(0, kSample);
+  std::size_t letters = 0;
+  std::size_t lines = 1;
+  for (const char c : sample) {
+    letters += isLetter(c);
+    lines += c == '\n';
+  }
+  const std::size_t scale = text_.size() / kSample + 1;
+  tree_.words.reserve(letters * scale);
+  tree_.blocks.reserve((lines + 1) * scale);
+}
+
+/// Text before the first `%` is not read by the control, unless there is a program in it: then the file merely has
+/// no `%` at its head.
+void Parser::readLeader() {
+  const std::size_t mark = firstTapeMark(text_, 0);
+  if (mark == std::string_view::npos || readsAsProgram(text_.substr(0, mark)))
+    return;
+  std::uint32_t begin = lexer_.next().begin;
+  while (begin < mark) {
+    readRawLine(begin, Block::kLeader);
+    Lexer behind = lexer_;
+    begin = behind.next().begin;
+  }
+  lexer_.moveTo(begin);
+}
+
+/// A line that is not program text, as one block without issues; the lexer goes on behind its line end.
+void Parser::readRawLine(std::uint32_t begin, Block::Flag flag) {
+  openBlock(begin);
+  lexer_.moveTo(lexer_.lineEnd(begin));
+  lastEnd_ = lexer_.lineEnd(begin);
+  block_.flags |= flag;
+  if (lastEnd_ > begin)
+    addStatement(begin, BrokenStatement{});
+  block_.end = lastEnd_;
+  tree_.blocks.add(block_);
+  Lexer behind = lexer_;
+  const Token end = behind.next();
+  if (end.kind == TokenKind::EndOfBlock)
+    lexer_.moveTo(end.end);
+}
+
+/// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened.  The
+/// rest of its line is a leader that the control skips, unless it is the head of a program (`%O5000(TITLE)`).
+void Parser::readTapeMark() {
+  const bool closes = contentSinceMark_ && tape_ != Tape::Closed;
+  tape_ = closes ? Tape::Closed : Tape::Open;
+  contentSinceMark_ = false;
+  block_.flags |= Block::kPercent;
+  const Token mark = token_;
+  advance();
+  const bool head = at(TokenKind::Colon) || (at(TokenKind::Address) && token_.letter() == 'O' && peek().kind == TokenKind::Number);
+  if (head && !closes)
+    return;
+  const std::uint32_t end = lexer_.lineEnd(mark.begin);
+  moveTo(end);
+  lastEnd_ = end;
+  addStatement(mark.begin, BrokenStatement{});
+}
+
+void Parser::advance() {
+  lastEnd_ = token_.end;
+  token_ = lexer_.next();
+}
+
+Token Parser::peek() const {
+  Lexer ahead = lexer_;
+  return ahead.next();
+}
+
+void Parser::moveTo(std::uint32_t offset) {
+  lexer_.moveTo(offset);
+  token_ = lexer_.next();
+  lastEnd_ = offset;
+}
+
+void Parser::issue(SyntaxIssueKind kind, Span span, Span other, Broken broken) {
+  if (!broken_ && !quiet_)
+    tree_.issues.push_back({kind, span, other});
+  if (broken == Broken::Yes) {
+    broken_ = true;
+    block_.flags |= Block::kBroken;
+  }
+}
+
+std::optional<Decimal> Parser::decimalOf(const Token &number, Broken onError) {
+  std::int64_t mantissa = 0;
+  unsigned digits = 0; // without leading zeros
+  unsigned decimals = 0;
+  unsigned points = 0;
+  for (std::uint32_t i = number.begin; i < number.end; ++i) {
+    const char c = text_[i];
+    if (isDigit(c)) {
+      digits += mantissa != 0 || c != '0';
+      if (digits <= kMostDigits)
+        mantissa = mantissa * 10 + (c - '0');
+      decimals += points;
+    } else {
+      points += c == '.';
+    }
+  }
+  if (points > 1) {
+    issue(SyntaxIssueKind::TwoDecimalPoints, number.span(), {}, onError);
+    return std::nullopt;
+  }
+  if (digits > kMostDigits || decimals > kMostDigits) {
+    issue(SyntaxIssueKind::NumberTooLong, number.span(), {}, onError);
+    return std::nullopt;
+  }
+  return Decimal(mantissa, static_cast<std::uint8_t>(decimals));
+}
+
+} // namespace feedhold
