@@ -1,0 +1,64 @@
+"""The machine-readable outputs: JSON against its schema, JUnit as XML, GitHub's annotation lines."""
+import json
+import unittest
+import xml.etree.ElementTree
+
+import jsonschema
+
+from harness import BAD, GOOD, ROOT, Scratch
+
+
+class Formats(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.write("bad.nc", BAD)
+        self.write("good.nc", GOOD)
+        self.write("picture.nc", bytes(range(256)) * 64)
+
+    def output(self, name):
+        result = self.check("--format", name, "bad.nc", "good.nc", "picture.nc")
+        self.assertExit(result, 1)
+        return result.stdout
+
+    def test_json_follows_its_schema(self):
+        report = json.loads(self.output("json"))
+        schemas = list((ROOT / "docs" / "schemas").glob("*.json"))
+        self.assertTrue(schemas, "docs/schemas/ holds no schema")
+        schema = next(json.loads(path.read_text()) for path in schemas if "findings" in path.read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.validate(report, schema)
+        self.assertEqual(report["version"], 1)
+        finding = next(found for found in report["findings"] if found["rule"] == "missing-equals")
+        self.assertEqual((finding["path"], finding["line"]), ("bad.nc", 3))
+        self.assertEqual(len(report["skipped"]), 1)
+
+    def test_schema_refuses_what_is_no_report(self):
+        for path in (ROOT / "docs" / "schemas").glob("*.json"):
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate({"version": 1, "findings": [{"path": 5}]}, json.loads(path.read_text()))
+
+    def test_fingerprint_survives_a_move(self):
+        before = json.loads(self.output("json"))["findings"][0]["fingerprint"]
+        self.write("bad.nc", BAD.replace("#510", "(A NEW LINE ABOVE)\n#510"))
+        self.assertEqual(json.loads(self.output("json"))["findings"][0]["fingerprint"], before)
+
+    def test_junit_is_xml(self):
+        root = xml.etree.ElementTree.fromstring(self.output("junit"))
+        self.assertTrue(root.tag in ("testsuites", "testsuite"))
+        self.assertEqual(len(list(root.iter("failure"))), 1)
+
+    def test_github_names_file_and_line(self):
+        self.assertIn("::error file=bad.nc,line=3", self.output("github"))
+
+    def test_sarif_has_what_its_readers_need(self):
+        run = json.loads(self.output("sarif"))["runs"][0]
+        result = next(found for found in run["results"] if found["ruleId"] == "missing-equals")
+        self.assertEqual(result["locations"][0]["physicalLocation"]["region"]["startLine"], 3)
+        self.assertTrue(result["message"]["text"])
+        self.assertTrue(result["partialFingerprints"])
+        rule = next(rule for rule in run["tool"]["driver"]["rules"] if rule["id"] == "missing-equals")
+        self.assertTrue(rule["shortDescription"]["text"] and rule["fullDescription"]["text"] and rule["help"]["text"])
+
+
+if __name__ == "__main__":
+    unittest.main()
