@@ -1,0 +1,139 @@
+// Parses all files, joins their models to one call graph, then runs the rules file by file.
+#include "findings/session/analyse.h"
+
+#include "base/support/parallel.h"
+#include "base/support/text.h"
+#include "findings/rule/run_rules.h"
+#include "findings/rule/suppression.h"
+#include "findings/session/fingerprint.h"
+#include "language/parse/parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+namespace feedhold {
+
+namespace {
+
+/// The tree goes as soon as the rules of its file have run; the model stays, since the call graph looks at it.
+struct Read {
+  std::unique_ptr<const SyntaxTree> tree;
+  std::unique_ptr<const ProgramModel> model;
+};
+
+Read read(const WorkItem &item) {
+  const Dialect &dialect = item.profile->dialect;
+  auto tree = std::make_unique<const SyntaxTree>(parse(item.source, dialect));
+  auto model = std::make_unique<const ProgramModel>(resolve(item.source, *tree, dialect));
+  return {std::move(tree), std::move(model)};
+}
+
+CallGraph joinModels(std::span<const WorkItem> items, const std::vector<Read> &reads) {
+  std::vector<ModelledFile> files;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (reads[i].model != nullptr)
+      files.push_back({FileId(i), items[i].path.parent_path().generic_string(), items[i].path.stem().generic_string(),
+                       reads[i].model.get()});
+  return CallGraph(std::move(files));
+}
+
+CheckedFile headOf(const WorkItem &item) {
+  return {item.shown, item.source, item.profile->dialect.id, item.choice, item.reasons, item.profile->errorOn, {}};
+}
+
+Severity severityOf(const RawFinding &finding, const Profile &profile) {
+  for (const SeveritySetting &setting : profile.severities)
+    if (setting.rule == finding.rule->name)
+      return setting.severity;
+  return finding.severity;
+}
+
+Finding toFinding(RawFinding finding, const Profile &profile, bool suppressed) {
+  const Severity severity = severityOf(finding, profile);
+  return {finding.rule, severity, std::move(finding.diagnostic), {}, suppressed};
+}
+
+bool comesBefore(const Finding &a, const Finding &b) {
+  if (a.diagnostic.span != b.diagnostic.span)
+    return a.diagnostic.span < b.diagnostic.span;
+  return a.rule->name < b.rule->name;
+}
+
+std::vector<Finding> findingsOf(const FileContext &context, const Profile &profile, const RuleRegistry &rules) {
+  SuppressionResult raw = applySuppressions(runRules(profile.rules, context), context, rules, profile.rules);
+  std::vector<Finding> findings;
+  findings.reserve(raw.kept.size() + raw.suppressed.size());
+  for (RawFinding &finding : raw.kept)
+    findings.push_back(toFinding(std::move(finding), profile, false));
+  for (RawFinding &finding : raw.suppressed)
+    findings.push_back(toFinding(std::move(finding), profile, true));
+  std::stable_sort(findings.begin(), findings.end(), comesBefore);
+  Fingerprints fingerprints(context);
+  for (Finding &finding : findings)
+    finding.fingerprint = fingerprints.of(*finding.rule, finding.diagnostic.span);
+  return findings;
+}
+
+Span firstLineWithText(const SourceFile &source) {
+  for (std::uint32_t line = 1; line <= source.lineCount(); ++line)
+    if (const Span span = source.lineSpan(line); !trimmed(source.text(span)).empty())
+      return span;
+  return {};
+}
+
+/// One finding instead of a thousand: nothing else is said about a file in another language.
+std::vector<Finding> refuse(const WorkItem &item) {
+  const auto rule = std::find_if(item.profile->rules.begin(), item.profile->rules.end(),
+                                 [](const Rule *candidate) { return candidate->info.name == kForeignLanguageRule; });
+  FEEDHOLD_CHECK(rule != item.profile->rules.end(), "a foreign file came through without the rule that reports it");
+  RawFinding finding{&(*rule)->info, (*rule)->info.severity, {}};
+  finding.diagnostic.message = fmt::format("this is {}, which is not read here", item.foreign->name);
+  finding.diagnostic.span = firstLineWithText(item.source);
+  if (!item.reasons.empty())
+    finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));
+  finding.diagnostic.notes.emplace_back(item.foreign->way);
+  Finding result = toFinding(std::move(finding), *item.profile, false);
+  result.fingerprint = fingerprintOfFile(*result.rule, item.path.filename().generic_string());
+  return {std::move(result)};
+}
+
+} // namespace
+
+std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
+                                 const AnalyseOptions &options) {
+  std::vector<Read> reads(items.size());
+  parallelFor(items.size(), options.jobs, [&](std::size_t i) {
+    if (items[i].foreign == nullptr)
+      reads[i] = read(items[i]);
+  });
+  const CallGraph callGraph = joinModels(items, reads);
+
+  std::vector<std::vector<Finding>> findings(items.size());
+  std::atomic<std::size_t> done{0};
+  parallelFor(items.size(), options.jobs, [&](std::size_t i) {
+    const WorkItem &item = items[i];
+    if (item.foreign != nullptr) {
+      findings[i] = refuse(item);
+    } else {
+      const FileContext context{FileId(i),      item.source,     item.profile->dialect,
+                                *reads[i].tree, *reads[i].model, callGraph};
+      findings[i] = findingsOf(context, *item.profile, rules);
+      reads[i].tree.reset();
+    }
+    if (options.progress)
+      options.progress(++done, items.size());
+  });
+
+  std::vector<CheckedFile> files;
+  files.reserve(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    files.push_back(headOf(items[i]));
+    files.back().findings = std::move(findings[i]);
+  }
+  return files;
+}
+
+} // namespace feedhold

@@ -1,0 +1,20 @@
+// Analyse: from loaded files to findings.
+#pragma once
+
+#include "findings/session/workload.h"
+
+#include <span>
+#include <vector>
+
+namespace feedhold {
+
+struct AnalyseOptions {
+  unsigned jobs = 0;
+  std::function<void(std::size_t, std::size_t)> progress = {};
+};
+
+/// One result for each item, in their order; the index of an item is its FileId.
+std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
+                                 const AnalyseOptions &options);
+
+} // namespace feedhold

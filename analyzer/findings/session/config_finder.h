@@ -1,0 +1,42 @@
+// ConfigFinder: which `feedhold.toml` speaks for a file: the nearest one upwards from it, or the one that was named.
+#pragma once
+
+#include "findings/session/config.h"
+#include "findings/session/result.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// Where the configuration of a run comes from.
+enum class ConfigSource { Nearest, Named, None };
+
+struct ConfigWish {
+  ConfigSource source = ConfigSource::Nearest;
+  std::filesystem::path file = {}; // of Named
+};
+
+class ConfigFinder {
+public:
+  ConfigFinder(ConfigWish wish, KnownNames known) : wish_(std::move(wish)), known_(known) {}
+
+  /// Null when the nearest configuration has errors; see problems().
+  const Config *forFolder(const std::filesystem::path &folder);
+  /// Configurations that cannot be used, in the order in which they were met; the path says line and column.
+  const std::vector<PathProblem> &problems() const { return problems_; }
+
+private:
+  using Found = std::shared_ptr<const Config>;
+  Found search(const std::filesystem::path &folder);
+  Found load(const std::filesystem::path &file);
+
+  ConfigWish wish_;
+  KnownNames known_;
+  std::map<std::filesystem::path, Found> byFolder_;
+  std::vector<PathProblem> problems_;
+};
+
+} // namespace feedhold

@@ -1,0 +1,39 @@
+// Discovery: from the paths that a person names to the files to look at, in a fixed order.
+#pragma once
+
+#include "findings/session/config_finder.h"
+#include "findings/session/result.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// How a file came into the run.
+enum class FoundBy {
+  Name,      // named by the person: always taken
+  Extension, // in a folder, with an extension that only NC programs have
+  Content,   // in a folder, with an extension that other files have too: taken when it looks like a program
+};
+
+struct FoundFile {
+  std::filesystem::path path;
+  std::string shown; // the path in messages: as it was named, `/` as separator
+  FoundBy foundBy;
+  const Config *config; // of its folder
+};
+
+struct Discovery {
+  std::vector<FoundFile> files; // by shown path, each file once
+  std::vector<PathProblem> problems;
+};
+
+/// Hidden folders and files are passed over; links to folders are not followed.  A file whose configuration has errors
+/// is left out: the errors are with the finder.
+Discovery discover(const std::vector<std::string> &paths, ConfigFinder &configs);
+
+/// Whether a file of this name in a folder is looked at; absent: no.
+std::optional<FoundBy> kindOfFileName(std::string_view name);
+
+} // namespace feedhold

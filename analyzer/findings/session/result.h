@@ -1,0 +1,62 @@
+// CheckResult: what a run found, in the order in which every output shows it.
+#pragma once
+
+#include "base/source/source_file.h"
+#include "findings/rule/rule.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold {
+
+/// Why a file is read in its dialect.
+enum class DialectChoice {
+  Option,      // --dialect
+  FilePattern, // [[files]] of the configuration
+  Config,      // `dialect` of the configuration
+  Guess,       // from the text
+  Fallback,    // nothing speaks for any: the first of the list
+};
+std::string_view nameOf(DialectChoice choice);
+
+struct Finding {
+  const RuleInfo *rule;
+  Severity severity; // after the configuration had its say
+  Diagnostic diagnostic;
+  std::string fingerprint; // 16 hex digits
+  bool suppressed = false;
+};
+
+struct CheckedFile {
+  std::string path; // as named, `/` as separator; the index in CheckResult::files is the FileId of labels
+  SourceFile source;
+  std::string_view dialect; // id
+  DialectChoice choice;
+  std::vector<std::string_view> reasons; // of a guess
+  Severity errorOn;                      // findings from here on fail the run
+  std::vector<Finding> findings;         // by place, then by rule
+};
+
+struct SkippedFile {
+  std::string path;
+  std::string reason;
+};
+
+/// A path or a configuration that could not be used.
+struct PathProblem {
+  std::string path;
+  std::string message;
+};
+
+struct CheckResult {
+  std::vector<CheckedFile> files;   // by path
+  std::vector<SkippedFile> skipped; // no NC programs; by path
+  std::vector<PathProblem> errors;
+};
+
+/// Not suppressed and severe enough to fail the run.
+bool fails(const Finding &finding, const CheckedFile &file);
+bool anyFails(const CheckResult &result);
+
+} // namespace feedhold

@@ -1,0 +1,228 @@
+// Finds, opens and looks at the files in parallel, then settles what holds for each.
+#include "findings/session/workload.h"
+
+#include "base/support/parallel.h"
+#include "findings/session/content.h"
+#include "findings/session/discovery.h"
+#include "findings/session/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace feedhold {
+
+namespace {
+
+/// One file between finding it and knowing its settings.
+struct Candidate {
+  FoundFile found;
+  std::optional<SourceFile> source = std::nullopt;
+  LanguageGuess guess = {};
+  std::optional<std::string> problem = std::nullopt;
+  std::optional<std::string> skipReason = std::nullopt;
+};
+
+struct Settings {
+  std::vector<const FilePattern *> patterns; // of the configuration, those that match
+  const Dialect *dialect = nullptr;
+  DialectChoice choice = DialectChoice::Fallback;
+};
+
+void look(Candidate &candidate, const KnownNames &known) {
+  const std::string_view text = candidate.source->text();
+  if (const auto reason = whyNotText(text))
+    candidate.skipReason = std::string(*reason);
+  else
+    candidate.guess = guessLanguage(text, candidate.found.shown, known.dialects);
+}
+
+void open(Candidate &candidate, const KnownNames &known) {
+  Result<SourceFile> source = SourceFile::open(candidate.found.path);
+  if (!source) {
+    candidate.problem = source.error().message;
+    return;
+  }
+  candidate.source = source.take();
+  look(candidate, known);
+}
+
+std::vector<const FilePattern *> matchingPatterns(const FoundFile &file) {
+  std::vector<const FilePattern *> matching;
+  if (file.config->files.empty())
+    return matching;
+  const std::filesystem::path absolute = std::filesystem::absolute(file.path).lexically_normal();
+  const std::string relative = absolute.lexically_relative(file.config->folder).generic_string();
+  for (const FilePattern &pattern : file.config->files)
+    if (patternMatches(pattern.path, relative))
+      matching.push_back(&pattern);
+  return matching;
+}
+
+class Settler {
+public:
+  Settler(const CheckOptions &options, const KnownNames &known) : options_(options), known_(known) {}
+
+  Settings settle(const Candidate &candidate) const {
+    Settings settings;
+    settings.patterns = matchingPatterns(candidate.found);
+    const auto choose = [&](std::string_view id, DialectChoice choice) {
+      settings.dialect = findDialect(known_.dialects, id);
+      settings.choice = choice;
+    };
+    settings.dialect = known_.dialects.dialects.front();
+    if (candidate.guess.dialect != nullptr)
+      choose(candidate.guess.dialect->id, DialectChoice::Guess);
+    if (candidate.found.config->dialect)
+      choose(*candidate.found.config->dialect, DialectChoice::Config);
+    for (const FilePattern *pattern : settings.patterns)
+      if (pattern->dialect)
+        choose(*pattern->dialect, DialectChoice::FilePattern);
+    if (options_.dialect)
+      choose(*options_.dialect, DialectChoice::Option);
+    return settings;
+  }
+
+  /// The settings of one configuration and one set of patterns are made once: thousands of files share them.
+  std::shared_ptr<const Profile> profileFor(const Config &config, const Settings &settings) {
+    const Key key{&config, settings.dialect, settings.patterns};
+    const auto known = profiles_.find(key);
+    if (known != profiles_.end())
+      return known->second;
+    return profiles_[key] = std::make_shared<const Profile>(makeProfile(config, settings));
+  }
+
+private:
+  using Key = std::tuple<const Config *, const Dialect *, std::vector<const FilePattern *>>;
+
+  Profile makeProfile(const Config &config, const Settings &settings) const {
+    using Kind = SelectionStep::Kind;
+    std::vector<SelectionStep> steps = {{Kind::Select, config.select}, {Kind::Ignore, config.ignore}};
+    Profile profile{.dialect = *settings.dialect, .rules = {}, .severities = config.severities};
+    apply(config.switches, profile.dialect.switches);
+    for (const FilePattern *pattern : settings.patterns) {
+      steps.push_back({Kind::Select, pattern->select});
+      steps.push_back({Kind::Ignore, pattern->ignore});
+      apply(pattern->switches, profile.dialect.switches);
+    }
+    if (!config.codeCalls.empty())
+      profile.dialect.switches.codeCalls = config.codeCalls;
+    steps.push_back({Kind::Select, options_.select});
+    steps.push_back({Kind::Ignore, options_.ignore});
+    profile.rules = selectRules(known_.rules, steps);
+    profile.errorOn = options_.errorOn.value_or(config.errorOn.value_or(Severity::Warning));
+    return profile;
+  }
+
+  static void apply(const std::vector<SwitchSetting> &settings, Switches &switches) {
+    for (const SwitchSetting &setting : settings)
+      switches.*setting.which = setting.value;
+  }
+
+  const CheckOptions &options_;
+  const KnownNames &known_;
+  std::map<Key, std::shared_ptr<const Profile>> profiles_;
+};
+
+/// A person who names a file together with a dialect, or gives its pattern one, overrules the looks of the text.
+bool isInsistedOn(const Candidate &candidate, DialectChoice choice) {
+  switch (choice) {
+  case DialectChoice::Option: return candidate.found.foundBy == FoundBy::Name;
+  case DialectChoice::FilePattern: return true;
+  case DialectChoice::Config:
+  case DialectChoice::Guess:
+  case DialectChoice::Fallback: return false;
+  }
+  FEEDHOLD_UNREACHABLE("a way to choose a dialect");
+}
+
+/// Why the file is no business of ours, when it is not.
+std::optional<std::string> whySkipped(const Candidate &candidate, DialectChoice choice) {
+  if (candidate.guess.looksLikeProgram || isInsistedOn(candidate, choice))
+    return std::nullopt;
+  const bool dialectIsSet = choice == DialectChoice::Option || choice == DialectChoice::Config;
+  if (dialectIsSet && candidate.found.foundBy != FoundBy::Content)
+    return std::nullopt;
+  return "does not look like an NC program; --dialect with the file's name checks it all the same";
+}
+
+/// Turns candidates into work, one after the other, in their order.
+class Sorter {
+public:
+  Sorter(const CheckOptions &options, const KnownNames &known) : settler_(options, known) {}
+
+  void sort(Candidate &candidate) {
+    if (candidate.problem) {
+      result_.errors.push_back({candidate.found.shown, *candidate.problem});
+      return;
+    }
+    const Settings settings = candidate.skipReason ? Settings{} : settler_.settle(candidate);
+    if (!candidate.skipReason)
+      candidate.skipReason = whySkipped(candidate, settings.choice);
+    if (candidate.skipReason) {
+      result_.skipped.push_back({candidate.found.shown, *candidate.skipReason});
+      return;
+    }
+    addItem(candidate, settings);
+  }
+
+  Workload finish() { return std::move(result_); }
+
+private:
+  void addItem(const Candidate &candidate, const Settings &settings) {
+    std::shared_ptr<const Profile> profile = settler_.profileFor(*candidate.found.config, settings);
+    const ForeignLanguage *foreign = isInsistedOn(candidate, settings.choice) ? nullptr : candidate.guess.foreign;
+    if (foreign != nullptr && !runsForeignRule(*profile)) {
+      result_.skipped.push_back({candidate.found.shown, fmt::format("{}, which is not read", foreign->name)});
+      return;
+    }
+    std::vector<std::string_view> reasons;
+    if (settings.choice == DialectChoice::Guess || foreign != nullptr)
+      reasons = candidate.guess.reasons;
+    result_.items.push_back({candidate.found.shown, candidate.found.path, *candidate.source, std::move(profile),
+                             settings.choice, std::move(reasons), foreign});
+  }
+
+  static bool runsForeignRule(const Profile &profile) {
+    return std::any_of(profile.rules.begin(), profile.rules.end(),
+                       [](const Rule *rule) { return rule->info.name == kForeignLanguageRule; });
+  }
+
+  Settler settler_;
+  Workload result_;
+};
+
+Candidate pipedCandidate(const PipedText &piped, ConfigFinder &configs, const KnownNames &known) {
+  const std::filesystem::path folder = std::filesystem::path(piped.name).parent_path();
+  Candidate candidate{{{}, piped.name, FoundBy::Name, configs.forFolder(folder.empty() ? "." : folder)}};
+  candidate.source = SourceFile::fromText(piped.name, piped.text);
+  look(candidate, known);
+  return candidate;
+}
+
+} // namespace
+
+Workload loadWorkload(const CheckOptions &options, const KnownNames &known) {
+  ConfigFinder configs(options.config, known);
+  Discovery discovery = discover(options.paths, configs);
+  std::vector<Candidate> candidates;
+  candidates.reserve(discovery.files.size() + 1);
+  for (FoundFile &file : discovery.files)
+    candidates.push_back({std::move(file)});
+  parallelFor(candidates.size(), options.jobs, [&](std::size_t i) { open(candidates[i], known); });
+  if (options.piped)
+    candidates.push_back(pipedCandidate(*options.piped, configs, known));
+
+  Sorter sorter(options, known);
+  for (Candidate &candidate : candidates)
+    if (candidate.found.config != nullptr)
+      sorter.sort(candidate);
+  Workload workload = sorter.finish();
+  workload.errors.insert(workload.errors.begin(), discovery.problems.begin(), discovery.problems.end());
+  workload.errors.insert(workload.errors.begin(), configs.problems().begin(), configs.problems().end());
+  return workload;
+}
+
+} // namespace feedhold

@@ -1,0 +1,64 @@
+// Workload: the files of a run, loaded, each with the settings that hold for it.
+#pragma once
+
+#include "findings/session/config_finder.h"
+#include "findings/session/result.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// A program that comes from a pipe.
+struct PipedText {
+  std::string name; // the path that it stands for
+  std::string text;
+};
+
+struct CheckOptions {
+  std::vector<std::string> paths;
+  std::optional<PipedText> piped = std::nullopt;
+  std::optional<std::string> dialect = std::nullopt; // an id that exists
+  std::vector<std::string> select = {};              // names that exist
+  std::vector<std::string> ignore = {};
+  std::optional<Severity> errorOn = std::nullopt;
+  ConfigWish config = {};
+  unsigned jobs = 0; // 0: one per processor
+  /// Called from several threads: files analysed so far, and all.
+  std::function<void(std::size_t, std::size_t)> progress = {};
+};
+
+/// All that the settings say about a file.
+struct Profile {
+  Dialect dialect; // with the switches of the configuration
+  std::vector<const Rule *> rules;
+  std::vector<SeveritySetting> severities;
+  Severity errorOn = Severity::Warning;
+};
+
+struct WorkItem {
+  std::string shown;
+  std::filesystem::path path; // empty for a piped text
+  SourceFile source;
+  std::shared_ptr<const Profile> profile;
+  DialectChoice choice;
+  std::vector<std::string_view> reasons;
+  const ForeignLanguage *foreign; // null: a language that we read
+};
+
+/// The rule that says it of a file in another language.
+inline constexpr std::string_view kForeignLanguageRule = "foreign-language";
+
+struct Workload {
+  std::vector<WorkItem> items; // by shown path
+  std::vector<SkippedFile> skipped;
+  std::vector<PathProblem> errors;
+};
+
+Workload loadWorkload(const CheckOptions &options, const KnownNames &known);
+
+} // namespace feedhold
