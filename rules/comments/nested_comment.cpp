@@ -8,26 +8,17 @@
 namespace feedhold::rules {
 namespace {
 
-/// What stands between the end of the comment and the next `)` of the block; absent when there is none.
-std::optional<Span> leftOver(const FileContext &context, Span comment) {
-  const Block &block = context.tree.blocks[context.tree.blockAt(comment.begin)];
-  const std::size_t close = context.text({comment.end, block.end}).find_first_of("()");
-  if (close == std::string_view::npos)
-    return std::nullopt;
-  const auto end = comment.end + static_cast<std::uint32_t>(close);
-  const bool closes = context.source.text()[end] == ')' && !trimmed(context.text({comment.end, end})).empty();
-  return closes ? std::optional(Span{comment.end, end}) : std::nullopt;
-}
-
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  const auto rest = leftOver(context, issue.other);
-  if (!rest)
-    return;
-  reporter.report({.message = fmt::format("{} stands outside of the comment", context.quoted(*rest)),
-                   .span = *rest,
-                   .labels = {{issue.span, "this `(` opens nothing"},
-                              {{issue.other.end - 1, issue.other.end}, "the comment ends here"}},
-                   .notes = {"comments do not nest: the control reads what follows the first `)` as program"}});
+  const std::uint32_t end = issue.other.begin + static_cast<std::uint32_t>(context.text(issue.other).find(')')) + 1;
+  const Span rest{end, issue.other.end};
+  const bool nothingLost = trimmed(context.text({rest.begin, rest.end - 1})).empty();
+  reporter.report({.message = fmt::format("{} stands outside of the comment", context.quoted(rest)),
+                   .span = rest,
+                   .labels = {{issue.span, "this `(` opens nothing"}, {{end - 1, end}, "the comment ends here"}},
+                   .notes = {"comments do not nest: the control reads what follows the first `)` as program"},
+                   .fixes = {{nothingLost ? FixSafety::Safe : FixSafety::NeedsReview,
+                              "take out the inner parentheses",
+                              {{issue.span, ""}, {{end - 1, end}, ""}}}}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
@@ -35,9 +26,9 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
 } // namespace
 
 extern const Rule nestedComment;
-const Rule nestedComment{
-    .info = {"nested-comment", Category::Comment, Severity::Error,
-             "Reports a parenthesis inside a comment when program text is left behind the first `)`."},
-    .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule nestedComment{.info = {"nested-comment", Category::Comment, Severity::Error,
+                                  "Reports parentheses inside a comment: the comment ends at the first `)`, and what "
+                                  "follows is read as program."},
+                         .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -16,19 +16,8 @@ bool followsComment(const FileContext &context, Span parenthesis) {
   return false;
 }
 
-/// The comment before it holds a `(` and ended too early: nested-comment reports that.
-bool isLeftOfNesting(const FileContext &context, Span parenthesis) {
-  for (const Comment &comment : context.tree.commentsOf(context.tree.blockAt(parenthesis.begin)))
-    if (comment.span.end <= parenthesis.begin &&
-        context.text({comment.span.begin + 1, comment.span.end}).find('(') != std::string_view::npos)
-      return true;
-  return false;
-}
-
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   const bool direct = followsComment(context, issue.span);
-  if (!direct && isLeftOfNesting(context, issue.span))
-    return;
   reporter.report({.message = "a `)` without its `(`",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},

@@ -32,8 +32,8 @@ std::string_view complaint(FunctionDomain domain, const Decimal &value) {
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto *call = as<FunctionCall>(context.tree, id);
   const Function *function =
-      call && call->count == 1 && call->first ? findFunction(context.dialect, call->function) : nullptr;
-  const auto value = function ? literalValue(context.tree, *call->first) : std::nullopt;
+      call && call->arguments().size() == 1 ? findFunction(context.dialect, call->function) : nullptr;
+  const auto value = function ? literalValue(context.tree, call->arguments().front()) : std::nullopt;
   const std::string_view wrong = value ? complaint(function->domain, *value) : std::string_view();
   if (wrong.empty())
     return;

@@ -39,12 +39,12 @@ bool makesRadians(const SyntaxTree &tree, ExpressionId id) {
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto *call = as<FunctionCall>(context.tree, id);
-  const bool takesAngle = call && call->first &&
+  const bool takesAngle = call && !call->arguments().empty() &&
                           (call->function == FunctionKind::Sin || call->function == FunctionKind::Cos ||
                            call->function == FunctionKind::Tan);
   if (!takesAngle)
     return;
-  const auto parts = subexpressions(context.tree, *call->first);
+  const auto parts = subexpressions(context.tree, call->arguments().front());
   const auto found =
       std::find_if(parts.begin(), parts.end(), [&](ExpressionId part) { return makesRadians(context.tree, part); });
   if (found == parts.end())

@@ -10,12 +10,13 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.wordMayBeUnbracketed)
+    return;
   const std::string_view word = context.text(issue.other);
   const auto letter = std::find_if(word.begin(), word.end(), isLetter);
   const auto open = issue.other.begin + static_cast<std::uint32_t>(letter - word.begin()) + 1;
-  const Span whole = cover(issue.other, issue.span);
-  reporter.report({.message = fmt::format("{} is an expression without brackets", context.quoted(whole)),
-                   .span = whole,
+  reporter.report({.message = fmt::format("{} is an expression without brackets", context.quoted(issue.other)),
+                   .span = issue.other,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
                    .fixes = {{FixSafety::Safe,
                               "put the expression in brackets",

@@ -7,6 +7,8 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.thenMayBeOmitted)
+    return;
   reporter.report({.message = fmt::format("no `THEN` before {}", context.quoted(issue.span)),
                    .span = issue.span,
                    .labels = {{issue.other, "the IF"}},

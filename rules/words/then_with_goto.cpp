@@ -4,7 +4,9 @@
 namespace feedhold::rules {
 namespace {
 
-void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.thenMayBeGoto)
+    return;
   reporter.report({.message = "`THEN` before `GOTO`",
                    .span = issue.other,
                    .labels = {{issue.span, "the jump"}},

@@ -1,18 +1,28 @@
 // then-with-words: `IF[#1EQ0]THEN F500`.
 #include "findings/rule/rule.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
 
+/// The words behind THEN, up to the end of the block.
+Span wordsFrom(std::uint32_t begin, const FileContext &context) {
+  const auto words = context.tree.wordsOf(context.tree.blockAt(begin));
+  return {begin, words.empty() ? begin + 1 : std::max(begin + 1, words.back().span().end)};
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report(
-      {.message = fmt::format("{} is no macro statement", context.quoted(issue.span)),
-       .span = issue.span,
-       .labels = {{issue.other, "the THEN"}},
-       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
-                 "jump over a block that holds the words, or set a variable here and write the word with it"}});
+  if (context.dialect.grammar.thenMayBeWords)
+    return;
+  const Span words = wordsFrom(issue.span.begin, context);
+  reporter.report({.message = fmt::format("{} is no macro statement", context.quoted(words)),
+                   .span = words,
+                   .labels = {{issue.other, "the THEN"}},
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
+                             "jump over a block that holds the words, or set a variable here and write the word with "
+                             "it"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithWords};

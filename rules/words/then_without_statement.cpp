@@ -7,6 +7,8 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.blockIf)
+    return;
   reporter.report({.message = "nothing behind this THEN",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
