@@ -33,7 +33,9 @@ constexpr std::array<ByteClass, 256> buildClasses() {
 }
 constexpr std::array<ByteClass, 256> kClasses = buildClasses();
 
-ByteClass classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+ByteClass classOf(char c) {
+  return kClasses[static_cast<unsigned char>(c)];
+}
 
 constexpr std::array<TokenKind, 256> buildSymbols() {
   std::array<TokenKind, 256> kinds{};
@@ -55,7 +57,9 @@ constexpr std::array<TokenKind, 256> buildSymbols() {
 constexpr std::array<TokenKind, 256> kSymbols = buildSymbols();
 
 /// What directly follows the letter of a word with a value.
-bool startsValue(char c) { return classOf(c) == ByteClass::Digit || c == '#' || c == '[' || c == '-' || c == '+'; }
+bool startsValue(char c) {
+  return classOf(c) == ByteClass::Digit || c == '#' || c == '[' || c == '-' || c == '+';
+}
 
 /// No keyword is longer; a longer run need not be read to its end to find one.
 constexpr std::uint32_t kLongestKeywordRun = 24;
@@ -67,13 +71,15 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 std::string_view nameOf(TokenKind kind) {
   switch (kind) {
 #define TOKEN(name, text)                                                                                              \
-  case TokenKind::name: return text;
-#include "language/lex/tokens.def"
+  case TokenKind::name: return text;                                                                                   \
+      #include "language/lex/tokens.def"
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
 
-bool isTrivia(char c) { return classOf(c) == ByteClass::Trivia; }
+bool isTrivia(char c) {
+  return classOf(c) == ByteClass::Trivia;
+}
 
 Lexer::Lexer(std::string_view text) : text_(text) {
   if (text_.starts_with(kByteOrderMark))

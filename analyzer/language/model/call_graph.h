@@ -20,8 +20,8 @@ struct ProgramRef {
 /// One file as the graph sees it.
 struct ModelledFile {
   FileId file;
-  std::string folder;             // a call is looked up in the caller's file, its folder, then everywhere
-  std::string stem;               // file name without extension: `O9010` names a program without O word
+  std::string folder; // a call is looked up in the caller's file, its folder, then everywhere
+  std::string stem;   // file name without extension: `O9010` names a program without O word
   const ProgramModel *model;
 };
 

@@ -25,9 +25,9 @@ std::string toString(const ProgramName &name);
 
 struct Program {
   ProgramName name;
-  Span header;    // the O word, or the first block's span
-  BlockId first;  // blocks from here ..
-  BlockId last;   // .. up to, not including, this one
+  Span header;   // the O word, or the first block's span
+  BlockId first; // blocks from here ..
+  BlockId last;  // .. up to, not including, this one
   bool contains(BlockId block) const { return first <= block && block < last; }
 };
 
@@ -76,15 +76,15 @@ struct LoneEnd {
 };
 
 enum class CallKind : std::uint8_t {
-  Macro,         // G65
-  Modal,         // G66
-  ModalEach,     // G66.1
-  ModalCancel,   // G67
-  MacroA,        // G65 H..: an operation of Macro A, no call
-  Subprogram,    // M98
-  Local,         // M97
-  External,      // M198
-  Code,          // a G, M or T code of the machine's tables
+  Macro,       // G65
+  Modal,       // G66
+  ModalEach,   // G66.1
+  ModalCancel, // G67
+  MacroA,      // G65 H..: an operation of Macro A, no call
+  Subprogram,  // M98
+  Local,       // M97
+  External,    // M198
+  Code,        // a G, M or T code of the machine's tables
 };
 enum class ArgumentRole : std::uint8_t { Passed, Overridden, Forbidden, BeyondSets };
 struct Argument {
@@ -97,11 +97,11 @@ struct Call {
   CallKind kind;
   ProgramId caller;
   BlockId block;
-  WordId code;                             // the G65, M98 .. word
-  std::optional<WordId> programWord;       // P, or the <NAME>
-  ProgramName callee;                      // empty when computed or missing
-  std::optional<std::uint32_t> repeats;    // L, when a literal
-  std::vector<Argument> arguments;         // word by word, as written
+  WordId code;                          // the G65, M98 .. word
+  std::optional<WordId> programWord;    // P, or the <NAME>
+  ProgramName callee;                   // empty when computed or missing
+  std::optional<std::uint32_t> repeats; // L, when a literal
+  std::vector<Argument> arguments;      // word by word, as written
 };
 
 struct VariableUse {
@@ -116,14 +116,18 @@ public:
   Store<Program, ProgramId> programs;
   std::vector<SequenceNumber> sequenceNumbers; // in order of the text
   std::vector<Jump> jumps;
-  std::vector<Loop> loops;      // by place of the DO
+  std::vector<Loop> loops; // by place of the DO
   std::vector<LoneEnd> loneEnds;
   Store<Call, CallId> calls;
   std::vector<VariableUse> variables;
+  /// Indices into sequenceNumbers, by number and then by place.
+  std::vector<std::uint32_t> byNumber;
 
   ProgramId programOf(BlockId block) const;
   /// All sequence numbers of one value in a program, in order of the text.
   std::vector<SequenceNumber> find(ProgramId program, std::uint32_t number) const;
+  /// In byNumber: the first entry that is not before (number, block).
+  std::vector<std::uint32_t>::const_iterator firstAtOrBehind(std::uint32_t number, BlockId block) const;
 };
 
 ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dialect &dialect);

@@ -7,7 +7,9 @@ namespace feedhold {
 namespace {
 
 /// Spreads a span over another piece of text.
-void extend(std::optional<Span> &span, Span piece) { span = span ? cover(*span, piece) : piece; }
+void extend(std::optional<Span> &span, Span piece) {
+  span = span ? cover(*span, piece) : piece;
+}
 
 } // namespace
 
@@ -71,9 +73,7 @@ void Parser::readItem() {
   case TokenKind::Hash:
   case TokenKind::OpenBracket:
   case TokenKind::ControlWord: readStatement(); return;
-  case TokenKind::CloseBracket:
-    takeStrayCloseBrackets();
-    return;
+  case TokenKind::CloseBracket: takeStrayCloseBrackets(); return;
   case TokenKind::Number:
   case TokenKind::Function:
   case TokenKind::Operator:
@@ -214,7 +214,8 @@ void Parser::readComment() {
     const std::size_t close = rest.find_first_of("()\r\n");
     if (close != std::string_view::npos && rest[close] == ')') {
       const auto inside = static_cast<std::uint32_t>(span.begin + 1 + open);
-      issue(SyntaxIssueKind::NestedComment, {inside, inside + 1}, {span.begin, span.end + static_cast<std::uint32_t>(close) + 1}, Broken::No);
+      issue(SyntaxIssueKind::NestedComment, {inside, inside + 1},
+            {span.begin, span.end + static_cast<std::uint32_t>(close) + 1}, Broken::No);
       const std::uint32_t begin = token_.begin;
       moveTo(span.end + static_cast<std::uint32_t>(close) + 1);
       addStatement(begin, BrokenStatement{});

@@ -4,9 +4,13 @@
 
 namespace feedhold {
 
-ExpressionId Parser::expression() { return binary(1); }
+ExpressionId Parser::expression() {
+  return binary(1);
+}
 
-ExpressionId Parser::binary(int lowestPrecedence) { return binaryRest(operand(), lowestPrecedence); }
+ExpressionId Parser::binary(int lowestPrecedence) {
+  return binaryRest(operand(), lowestPrecedence);
+}
 
 ExpressionId Parser::binaryRest(ExpressionId left, int lowestPrecedence) {
   while (const std::optional<OperatorKind> op = peekOperator()) {
@@ -68,8 +72,9 @@ OperatorKind Parser::takeOperator(OperatorKind op) {
     return op;
   advance();
   issue(SyntaxIssueKind::SymbolicComparison, since(taken.begin), {}, Broken::No);
-  return op == OperatorKind::LessThan ? OperatorKind::LessOrEqual
-                                      : op == OperatorKind::GreaterThan ? OperatorKind::GreaterOrEqual : op;
+  return op == OperatorKind::LessThan      ? OperatorKind::LessOrEqual
+         : op == OperatorKind::GreaterThan ? OperatorKind::GreaterOrEqual
+                                           : op;
 }
 
 OperatorKind Parser::takeSymbolicComparison() {

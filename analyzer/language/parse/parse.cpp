@@ -61,7 +61,9 @@ constexpr std::uint8_t usualPrecedence(OperatorKind op) {
 
 } // namespace
 
-SyntaxTree parse(const SourceFile &source, const Dialect &dialect) { return Parser(source.text(), dialect).run(); }
+SyntaxTree parse(const SourceFile &source, const Dialect &dialect) {
+  return Parser(source.text(), dialect).run();
+}
 
 Parser::Parser(std::string_view text, const Dialect &dialect) : text_(text), lexer_(text) {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(OperatorKind::LessOrEqual); ++i) {
@@ -141,7 +143,8 @@ void Parser::readTapeMark() {
   block_.flags |= Block::kPercent;
   const Token mark = token_;
   advance();
-  const bool head = at(TokenKind::Colon) || (at(TokenKind::Address) && token_.letter() == 'O' && peek().kind == TokenKind::Number);
+  const bool head =
+      at(TokenKind::Colon) || (at(TokenKind::Address) && token_.letter() == 'O' && peek().kind == TokenKind::Number);
   if (head && !closes)
     return;
   const std::uint32_t end = lexer_.lineEnd(mark.begin);

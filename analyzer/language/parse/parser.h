@@ -111,13 +111,13 @@ private:
   std::array<std::uint8_t, 16> precedence_{};
 
   Block block_{0, 0, WordId(0), StatementId(0), CommentId(0)};
-  bool broken_ = false;         // the rest of this block is not read
-  bool quiet_ = false;          // text that the control does not read: no issues
-  std::uint8_t wordFlags_ = 0;  // kAfterThen, kAfterSkip of the words that come
-  bool headOfBlock_ = true;     // only block skips and N have been read
+  bool broken_ = false;        // the rest of this block is not read
+  bool quiet_ = false;         // text that the control does not read: no issues
+  std::uint8_t wordFlags_ = 0; // kAfterThen, kAfterSkip of the words that come
+  bool headOfBlock_ = true;    // only block skips and N have been read
   std::optional<Span> statementInBlock_;
   std::optional<Span> lowerCase_;
-  bool dataBlocks_ = false;     // between G10 L50/L52 and G11
+  bool dataBlocks_ = false;      // between G10 L50/L52 and G11
   bool symbolicAllowed_ = false; // inside brackets or a condition: `=` can only mean a comparison
   int depth_ = 0;
   int operatorsInBlock_ = 0;

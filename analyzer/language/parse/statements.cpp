@@ -237,7 +237,8 @@ StatementId Parser::printStatement() {
   const Token keyword = token_;
   const ControlWord word = keyword.controlWord();
   advance();
-  Print print{word, {lastEnd_, lastEnd_}, ExpressionId(tree_.expressions.size()), ExpressionId(tree_.expressions.size())};
+  Print print{
+      word, {lastEnd_, lastEnd_}, ExpressionId(tree_.expressions.size()), ExpressionId(tree_.expressions.size())};
   if (word == ControlWord::Popen || word == ControlWord::Pclos)
     return addStatement(keyword.begin, print);
   const auto close = at(TokenKind::OpenBracket) ? lexer_.closingBracket(token_.begin) : std::nullopt;

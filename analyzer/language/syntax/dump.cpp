@@ -33,8 +33,8 @@ private:
   void block(BlockId id) {
     const Block &block = tree_.blocks[id];
     const std::pair<Block::Flag, std::string_view> flags[] = {
-        {Block::kPercent, "percent"},  {Block::kLeader, "leader"}, {Block::kAfterEnd, "after-end"},
-        {Block::kBroken, "broken"},    {Block::kData, "data"},     {Block::kSkipInside, "skip-inside"},
+        {Block::kPercent, "percent"}, {Block::kLeader, "leader"}, {Block::kAfterEnd, "after-end"},
+        {Block::kBroken, "broken"},   {Block::kData, "data"},     {Block::kSkipInside, "skip-inside"},
     };
     std::string head = fmt::format("block {}", source_.lineOf(block.begin));
     if (block.has(Block::kSkip))
@@ -53,12 +53,13 @@ private:
   }
 
   void word(const Word &word) {
-    const std::string flags = fmt::format("{}{}{}", word.has(Word::kComma) ? " comma" : "",
-                                          word.has(Word::kAfterThen) ? " conditional" : "",
-                                          word.has(Word::kAfterSkip) ? " after-skip" : "");
+    const std::string flags =
+        fmt::format("{}{}{}", word.has(Word::kComma) ? " comma" : "", word.has(Word::kAfterThen) ? " conditional" : "",
+                    word.has(Word::kAfterSkip) ? " after-skip" : "");
     switch (word.form()) {
     case WordForm::Number:
-      line(1, fmt::format("word {} {}{}{}", word.address(), word.number().toString(), word.has(Word::kPoint) ? " point" : "", flags));
+      line(1, fmt::format("word {} {}{}{}", word.address(), word.number().toString(),
+                          word.has(Word::kPoint) ? " point" : "", flags));
       return;
     case WordForm::Expression:
       line(1, fmt::format("word {}{}", word.address(), flags));
@@ -180,6 +181,8 @@ private:
 
 } // namespace
 
-std::string dump(const SyntaxTree &tree, const SourceFile &source) { return Dumper(tree, source).run(); }
+std::string dump(const SyntaxTree &tree, const SourceFile &source) {
+  return Dumper(tree, source).run();
+}
 
 } // namespace feedhold

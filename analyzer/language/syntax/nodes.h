@@ -216,13 +216,13 @@ struct Comment {
 /// the first ones of the next block (SyntaxTree::wordsOf ..).
 struct Block {
   enum Flag : std::uint16_t {
-    kSkip = 1,       // `/` or `/n` at its head
-    kPercent = 2,    // `%`
-    kLeader = 4,     // text before the program: not read by the control
-    kAfterEnd = 8,   // text after the closing `%`: not read by the control
-    kBroken = 16,    // something in it did not parse
+    kSkip = 1,        // `/` or `/n` at its head
+    kPercent = 2,     // `%`
+    kLeader = 4,      // text before the program: not read by the control
+    kAfterEnd = 8,    // text after the closing `%`: not read by the control
+    kBroken = 16,     // something in it did not parse
     kSkipInside = 32, // a `/` in mid-block: what follows may be skipped
-    kData = 64,      // a line of G10 L50 / L52 data: N is a parameter number
+    kData = 64,       // a line of G10 L50 / L52 data: N is a parameter number
   };
   std::uint32_t begin;
   std::uint32_t end; // without the end-of-block

@@ -23,7 +23,9 @@ std::vector<Span> piecesOf(const SyntaxTree &tree, BlockId block, std::span<cons
 }
 
 /// Blanks and ends of blocks: all that may stand between the pieces.
-bool isBetween(char c) { return isTrivia(c) || c == '\n' || c == '\r' || c == ';'; }
+bool isBetween(char c) {
+  return isTrivia(c) || c == '\n' || c == '\r' || c == ';';
+}
 
 } // namespace
 

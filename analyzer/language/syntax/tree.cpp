@@ -12,8 +12,8 @@ namespace feedhold {
 std::string_view nameOf(SyntaxIssueKind kind) {
   switch (kind) {
 #define ISSUE(name)                                                                                                    \
-  case SyntaxIssueKind::name: return #name;
-#include "language/syntax/issues.def"
+  case SyntaxIssueKind::name: return #name;                                                                            \
+      #include "language/syntax/issues.def"
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
@@ -83,7 +83,9 @@ std::vector<ExpressionId> childrenOf(const SyntaxTree &tree, ExpressionId id) {
       [](const Negation &node) { return std::vector{node.operand}; },
       [](const Identity &node) { return std::vector{node.operand}; },
       [](const Bracketed &node) { return std::vector{node.inner}; },
-      [](const BinaryOperation &node) { return std::vector{node.left, node.right}; },
+      [](const BinaryOperation &node) {
+        return std::vector{node.left, node.right};
+      },
       [](const FunctionCall &node) {
         return std::vector<ExpressionId>(node.arguments().begin(), node.arguments().end());
       });

@@ -1,0 +1,81 @@
+// What the codes of one block mean together.
+#include "language/model/block_facts.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+const Code *codeOf(const Word &word, const Dialect &dialect) {
+  if (word.address() != 'G' && word.address() != 'M')
+    return nullptr;
+  const std::optional<std::uint16_t> tenths = word.tenths();
+  if (!tenths)
+    return nullptr;
+  return word.address() == 'G' ? findGCode(dialect, *tenths) : findMCode(dialect, *tenths);
+}
+
+const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &dialect, CodeRole role) {
+  for (const Word &word : tree.wordsOf(block))
+    if (const Code *code = codeOf(word, dialect); code && code->role == role)
+      return &word;
+  return nullptr;
+}
+
+const Word *findWord(const SyntaxTree &tree, BlockId block, char address) {
+  for (const Word &word : tree.wordsOf(block))
+    if (word.address() == address && !word.has(Word::kComma))
+      return &word;
+  return nullptr;
+}
+
+namespace {
+
+/// `#3000 = n`: the program stops here with an alarm.
+bool raisesAlarm(const SyntaxTree &tree, const Statement &statement) {
+  const auto *assignment = std::get_if<Assignment>(&statement.node);
+  return assignment && variableNumber(tree, assignment->target) == kAlarmVariable;
+}
+
+FlowAfter flowOfStatement(const SyntaxTree &tree, const Statement &statement) {
+  if (std::holds_alternative<Goto>(statement.node))
+    return FlowAfter::Jumps;
+  if (raisesAlarm(tree, statement))
+    return FlowAfter::Ends;
+  const bool branches = std::holds_alternative<If>(statement.node) || std::holds_alternative<While>(statement.node) ||
+                        std::holds_alternative<End>(statement.node) || std::holds_alternative<Do>(statement.node) ||
+                        std::holds_alternative<Else>(statement.node) ||
+                        std::holds_alternative<ElseIf>(statement.node) ||
+                        std::holds_alternative<ConditionalWords>(statement.node) ||
+                        std::holds_alternative<BrokenStatement>(statement.node);
+  return branches ? FlowAfter::MayJump : FlowAfter::Next;
+}
+
+bool ends(CodeRole role) {
+  return role == CodeRole::ProgramEnd || role == CodeRole::Return;
+}
+
+} // namespace
+
+FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  FlowAfter flow = FlowAfter::Next;
+  for (const Statement &statement : tree.statementsOf(block))
+    if (!statement.nested)
+      flow = std::max(flow, flowOfStatement(tree, statement));
+  for (const Word &word : tree.wordsOf(block)) {
+    const Code *code = codeOf(word, dialect);
+    if (!code || !ends(code->role))
+      continue;
+    const bool conditional = word.has(Word::kAfterThen) || word.has(Word::kAfterSkip);
+    flow = std::max(flow, conditional ? FlowAfter::MayJump : FlowAfter::Ends);
+  }
+  // A block that the operator may skip may be followed by the next one whatever it does.
+  if (tree.blocks[block].has(Block::kSkip) && flow > FlowAfter::MayJump)
+    return FlowAfter::MayJump;
+  return flow;
+}
+
+bool isEmpty(const SyntaxTree &tree, BlockId block) {
+  return tree.wordsOf(block).empty() && tree.statementsOf(block).empty();
+}
+
+} // namespace feedhold

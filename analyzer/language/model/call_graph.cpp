@@ -1,0 +1,227 @@
+// CallGraph: calls resolved over all files of a run.
+#include "language/model/call_graph.h"
+
+#include "base/support/check.h"
+#include "base/support/text.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace feedhold {
+
+namespace {
+
+struct ProgramRefHash {
+  std::size_t operator()(const ProgramRef &ref) const {
+    return (std::size_t{ref.file.index()} << 32) ^ ref.program.index();
+  }
+};
+
+/// `O9010`, `9010` as a file name without extension names program 9010.
+std::optional<std::uint32_t> numberFromStem(std::string_view stem) {
+  if (!stem.empty() && toUpper(stem.front()) == 'O')
+    stem.remove_prefix(1);
+  if (stem.empty() || stem.size() > 8 || !std::all_of(stem.begin(), stem.end(), isDigit))
+    return std::nullopt;
+  return static_cast<std::uint32_t>(std::stoul(std::string(stem)));
+}
+
+/// A key under which a program is looked up.
+std::string keyOf(const ProgramName &name) {
+  return name.number ? "#" + std::to_string(*name.number) : "<" + toUpper(name.text);
+}
+
+bool transfersControl(CallKind kind) {
+  switch (kind) {
+  case CallKind::Macro:
+  case CallKind::Modal:
+  case CallKind::ModalEach:
+  case CallKind::Subprogram:
+  case CallKind::Code: return true;
+  case CallKind::ModalCancel:
+  case CallKind::MacroA:
+  case CallKind::Local:
+  case CallKind::External: return false;
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind");
+}
+
+bool opensLevel(CallKind kind) {
+  return kind != CallKind::Subprogram;
+}
+
+} // namespace
+
+struct CallGraph::Impl {
+  struct Edge {
+    ProgramRef callee;
+    CallKind kind;
+  };
+
+  std::vector<ModelledFile> files;
+  std::unordered_map<std::uint32_t, std::size_t> slotOf; // FileId -> index in files
+  std::unordered_map<std::string, std::vector<ProgramRef>> byName;
+  std::unordered_map<ProgramRef, std::vector<Edge>, ProgramRefHash> callees;
+  std::unordered_map<ProgramRef, std::vector<Caller>, ProgramRefHash> callers;
+  std::unordered_map<ProgramRef, std::optional<Depth>, ProgramRefHash> depths;
+  std::size_t programCount = 0;
+
+  const ModelledFile &file(FileId id) const { return files[slotOf.at(id.index())]; }
+
+  void indexPrograms();
+  void indexCalls();
+  std::optional<ProgramRef> find(FileId from, const ProgramName &name) const;
+  void computeDepths(ProgramRef start);
+  std::optional<Depth> depthFromCallees(ProgramRef program) const;
+};
+
+void CallGraph::Impl::indexPrograms() {
+  for (std::size_t slot = 0; slot < files.size(); ++slot) {
+    const ModelledFile &each = files[slot];
+    slotOf.emplace(each.file.index(), slot);
+    for (std::size_t i = 0; i < each.model->programs.size(); ++i) {
+      const ProgramRef ref{each.file, ProgramId(i)};
+      const ProgramName &name = each.model->programs[ref.program].name;
+      ++programCount;
+      if (!name.empty())
+        byName[keyOf(name)].push_back(ref);
+      else if (const auto number = numberFromStem(each.stem); number && i == 0)
+        byName[keyOf({number, ""})].push_back(ref);
+    }
+  }
+}
+
+/// The caller's own file first, then its folder, then everywhere; the first in order of the files where there are
+/// several.
+std::optional<ProgramRef> CallGraph::Impl::find(FileId from, const ProgramName &name) const {
+  const auto found = name.empty() ? byName.end() : byName.find(keyOf(name));
+  if (found == byName.end())
+    return std::nullopt;
+  const std::string &folder = file(from).folder;
+  const auto distance = [&](const ProgramRef &ref) {
+    return ref.file == from ? 0 : file(ref.file).folder == folder ? 1 : 2;
+  };
+  return *std::min_element(found->second.begin(), found->second.end(),
+                           [&](const ProgramRef &a, const ProgramRef &b) { return distance(a) < distance(b); });
+}
+
+void CallGraph::Impl::indexCalls() {
+  for (const ModelledFile &each : files)
+    for (std::size_t i = 0; i < each.model->calls.size(); ++i) {
+      const Call &call = each.model->calls[CallId(i)];
+      if (!transfersControl(call.kind))
+        continue;
+      const std::optional<ProgramRef> target = find(each.file, call.callee);
+      if (!target)
+        continue;
+      callees[{each.file, call.caller}].push_back({*target, call.kind});
+      callers[*target].push_back({each.file, CallId(i)});
+    }
+  for (const ModelledFile &each : files)
+    for (std::size_t i = 0; i < each.model->programs.size(); ++i)
+      computeDepths({each.file, ProgramId(i)});
+}
+
+/// Depth-first with a stack of our own: call chains in hostile input are as long as the file.
+void CallGraph::Impl::computeDepths(ProgramRef start) {
+  std::unordered_map<ProgramRef, std::size_t, ProgramRefHash> open; // program on the stack -> callees looked at
+  std::vector<ProgramRef> stack;
+  const auto push = [&](ProgramRef program) {
+    stack.push_back(program);
+    open.emplace(program, 0);
+  };
+  if (!depths.contains(start))
+    push(start);
+  while (!stack.empty()) {
+    const ProgramRef program = stack.back();
+    const auto edges = callees.find(program);
+    std::size_t &next = open[program];
+    if (edges == callees.end() || next == edges->second.size()) {
+      depths.emplace(program, depthFromCallees(program));
+      open.erase(program);
+      stack.pop_back();
+      continue;
+    }
+    const ProgramRef callee = edges->second[next++].callee;
+    if (!depths.contains(callee) && !open.contains(callee))
+      push(callee);
+  }
+}
+
+/// Absent when a callee is recursive, or is still open: then the call closes a cycle.
+std::optional<CallGraph::Depth> CallGraph::Impl::depthFromCallees(ProgramRef program) const {
+  Depth depth;
+  const auto edges = callees.find(program);
+  if (edges == callees.end())
+    return depth;
+  for (const Edge &edge : edges->second) {
+    const auto callee = depths.find(edge.callee);
+    if (callee == depths.end() || !callee->second)
+      return std::nullopt;
+    depth.macro = std::max(depth.macro, callee->second->macro + (opensLevel(edge.kind) ? 1 : 0));
+    depth.total = std::max(depth.total, callee->second->total + 1);
+  }
+  return depth;
+}
+
+CallGraph::CallGraph(std::vector<ModelledFile> files) {
+  auto impl = std::make_shared<Impl>();
+  impl->files = std::move(files);
+  impl->indexPrograms();
+  impl->indexCalls();
+  impl_ = std::move(impl);
+}
+
+std::optional<ProgramRef> CallGraph::callee(FileId file, const Call &call) const {
+  return impl_ && transfersControl(call.kind) ? impl_->find(file, call.callee) : std::nullopt;
+}
+
+std::vector<CallGraph::Caller> CallGraph::callers(ProgramRef program) const {
+  if (!impl_)
+    return {};
+  const auto found = impl_->callers.find(program);
+  return found == impl_->callers.end() ? std::vector<Caller>() : found->second;
+}
+
+std::optional<CallGraph::Depth> CallGraph::depthFrom(ProgramRef program) const {
+  if (!impl_)
+    return Depth{};
+  const auto found = impl_->depths.find(program);
+  return found == impl_->depths.end() ? std::optional(Depth{}) : found->second;
+}
+
+/// Breadth-first from the program back to itself: the shortest cycle.
+std::vector<ProgramRef> CallGraph::cycleThrough(ProgramRef program) const {
+  if (!impl_)
+    return {};
+  std::unordered_map<ProgramRef, ProgramRef, ProgramRefHash> reachedFrom;
+  std::vector<ProgramRef> queue = {program};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const auto edges = impl_->callees.find(queue[i]);
+    if (edges == impl_->callees.end())
+      continue;
+    for (const Impl::Edge &edge : edges->second) {
+      if (edge.callee == program) {
+        std::vector<ProgramRef> cycle = {queue[i]};
+        while (cycle.back() != program)
+          cycle.push_back(reachedFrom.at(cycle.back()));
+        std::reverse(cycle.begin(), cycle.end());
+        return cycle;
+      }
+      if (reachedFrom.emplace(edge.callee, queue[i]).second)
+        queue.push_back(edge.callee);
+    }
+  }
+  return {};
+}
+
+const ProgramModel &CallGraph::model(FileId file) const {
+  FEEDHOLD_CHECK(impl_, "model() asked of an empty call graph");
+  return *impl_->file(file).model;
+}
+
+std::size_t CallGraph::programCount() const {
+  return impl_ ? impl_->programCount : 0;
+}
+
+} // namespace feedhold

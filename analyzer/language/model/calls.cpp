@@ -1,0 +1,181 @@
+// Calls and the arguments they pass.
+#include "base/support/text.h"
+#include "language/model/block_facts.h"
+#include "language/model/internal.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+std::optional<CallKind> kindOf(const Word &word, const Dialect &dialect) {
+  const Code *code = codeOf(word, dialect);
+  if (!code)
+    return std::nullopt;
+  switch (code->role) {
+  case CodeRole::MacroCall: return CallKind::Macro;
+  case CodeRole::ModalCall: return CallKind::Modal;
+  case CodeRole::ModalCallEach: return CallKind::ModalEach;
+  case CodeRole::ModalCallCancel: return CallKind::ModalCancel;
+  case CodeRole::SubprogramCall: return CallKind::Subprogram;
+  case CodeRole::LocalCall: return CallKind::Local;
+  case CodeRole::ExternalCall: return CallKind::External;
+  case CodeRole::Plain:
+  case CodeRole::Motion:
+  case CodeRole::Arc:
+  case CodeRole::CannedCycle:
+  case CodeRole::Dwell:
+  case CodeRole::DataSetting:
+  case CodeRole::DataSettingEnd:
+  case CodeRole::MachinePosition:
+  case CodeRole::CoordinateShift:
+  case CodeRole::ReferenceReturn:
+  case CodeRole::Skip:
+  case CodeRole::Contour:
+  case CodeRole::Return:
+  case CodeRole::ProgramEnd:
+  case CodeRole::ProgramStop: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool passesArguments(CallKind kind) {
+  return kind == CallKind::Macro || kind == CallKind::Modal || kind == CallKind::ModalEach || kind == CallKind::Code;
+}
+
+/// `P9010`, `<NAME>`; packed `P 68003` of M98 (repeats before the last four digits) where programs have four digits.
+void readCallee(const ResolveContext &context, const Word &word, Call &call) {
+  call.programWord = context.tree.idOf(word);
+  if (word.form() == WordForm::Name) {
+    const std::string_view text = context.source.text(word.span());
+    call.callee.text = text.substr(1, text.size() - 2);
+    return;
+  }
+  const std::optional<std::uint32_t> number = word.integer();
+  if (!number)
+    return;
+  const bool packed =
+      call.kind == CallKind::Subprogram && context.dialect.limits.lastProgramNumber <= 9999 && *number > 9999;
+  call.callee.number = packed ? *number % 10000 : *number;
+  if (packed)
+    call.repeats = *number / 10000;
+}
+
+Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId block, const Word &code,
+              CallKind kind) {
+  const SyntaxTree &tree = context.tree;
+  Call call{kind, model.programOf(block), block, tree.idOf(code), std::nullopt, {}, std::nullopt, {}};
+  const Word *program = findWord(tree, block, 'P');
+  if (!program)
+    program = findWord(tree, block, '<');
+  if (kind == CallKind::Macro && !program && findWord(tree, block, 'H')) {
+    call.kind = CallKind::MacroA;
+    return call;
+  }
+  if (kind == CallKind::Macro && program && program->form() != WordForm::Name)
+    if (const Word *operation = findWord(tree, block, 'H');
+        operation && tree.idOf(*operation) == tree.idOf(code).next() && operation->integer().value_or(100) < 100)
+      call.kind = CallKind::MacroA; // `G65 H01 P#100 Q..`: the operation stands first and P is where its result goes
+  if (call.kind == CallKind::MacroA)
+    return call;
+  if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
+    readCallee(context, *program, call);
+  if (kind == CallKind::Local && program)
+    call.programWord = tree.idOf(*program);
+  if (const Word *repeats = findWord(tree, block, 'L'); repeats && repeats->integer())
+    call.repeats = repeats->integer();
+  if (passesArguments(kind))
+    call.arguments = assignArguments(context, block, call);
+  return call;
+}
+
+} // namespace
+
+void findCalls(const ResolveContext &context, ProgramModel &model) {
+  const SyntaxTree &tree = context.tree;
+  for (std::size_t i = 0; i < tree.blockCount(); ++i) {
+    const BlockId block(i);
+    const Block &head = tree.blocks[block];
+    if (head.has(Block::kData) || head.has(Block::kLeader) || head.has(Block::kAfterEnd))
+      continue;
+    for (const Word &word : tree.wordsOf(block)) {
+      if (word.address() != 'G' && word.address() != 'M' && word.address() != 'T')
+        continue;
+      if (const std::optional<CallKind> kind = kindOf(word, context.dialect)) {
+        model.calls.add(readCall(context, model, block, word, *kind));
+        continue;
+      }
+      const std::optional<std::uint16_t> tenths = word.tenths();
+      const CodeCall *codeCall = tenths ? findCodeCall(context.dialect, word.address(), *tenths) : nullptr;
+      if (!codeCall)
+        continue;
+      Call call{CallKind::Code, model.programOf(block),  block,        tree.idOf(word),
+                std::nullopt,   {codeCall->program, ""}, std::nullopt, {}};
+      if (codeCall->isMacro)
+        call.arguments = assignArguments(context, block, call);
+      model.calls.add(std::move(call));
+    }
+  }
+}
+
+namespace {
+
+/// Where I, J and K go: sets of three, a new one when a letter comes again or out of order.
+class IjkSets {
+public:
+  /// The variable for the next word of `letter`, and its set, counted from 0.
+  std::pair<int, int> place(char letter) {
+    const int column = letter - 'I';
+    if (column <= lastColumn_)
+      ++set_;
+    lastColumn_ = column;
+    return {4 + 3 * set_ + column, set_};
+  }
+
+private:
+  int set_ = 0;
+  int lastColumn_ = -1;
+};
+
+bool isArgumentless(char address) {
+  return address == 'N' || address == 'P' || address == 'L' || address == 'O' || address == '<';
+}
+
+} // namespace
+
+std::vector<Argument> assignArguments(const ResolveContext &context, BlockId block, const Call &call) {
+  const SyntaxTree &tree = context.tree;
+  std::vector<Argument> arguments;
+  IjkSets sets;
+  const bool onlyFirst = context.dialect.switches.ijk == Switch::On;
+  const auto words = tree.wordsOf(block);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Word &word = words[i];
+    const WordId id = tree.idOf(word);
+    if (id <= call.code || word.has(Word::kComma)) // the words before the call are not its arguments
+      continue;
+    const char letter = word.address();
+    const bool setLetter = letter == 'I' || letter == 'J' || letter == 'K';
+    if (setLetter && !onlyFirst) {
+      const auto [variable, set] = sets.place(letter);
+      const bool fits = set < context.dialect.limits.ijkSets;
+      arguments.push_back({id, static_cast<std::uint8_t>(fits ? variable : 0),
+                           fits ? ArgumentRole::Passed : ArgumentRole::BeyondSets, set > 0});
+      continue;
+    }
+    const std::uint8_t variable =
+        letter >= 'A' && letter <= 'Z' ? context.dialect.argumentVariables[static_cast<std::size_t>(letter - 'A')] : 0;
+    if (variable != 0)
+      arguments.push_back({id, variable, ArgumentRole::Passed, false});
+    else if (!isArgumentless(letter) || letter == 'O' || letter == 'N')
+      arguments.push_back({id, 0, ArgumentRole::Forbidden, false});
+  }
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    for (std::size_t later = i + 1; later < arguments.size(); ++later)
+      if (arguments[i].variable != 0 && arguments[i].variable == arguments[later].variable)
+        arguments[i].role = ArgumentRole::Overridden;
+  return arguments;
+}
+
+} // namespace feedhold

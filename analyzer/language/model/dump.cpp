@@ -1,0 +1,92 @@
+// dump: the model as text, for golden cases.
+#include "language/model/model.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+namespace {
+
+class Dumper {
+public:
+  Dumper(const ProgramModel &model, const SyntaxTree &tree, const SourceFile &source)
+      : model_(model), tree_(tree), source_(source) {}
+
+  std::string run() {
+    for (std::size_t i = 0; i < model_.programs.size(); ++i)
+      program(ProgramId(i));
+    return std::move(out_);
+  }
+
+private:
+  void line(std::string_view text) { out_.append("  ").append(text).append("\n"); }
+  std::uint32_t at(BlockId block) const { return source_.lineOf(tree_.blocks[block].begin); }
+  std::string text(Span span) const { return source_.utf8(span); }
+  static std::string number(const std::optional<std::uint32_t> &value) {
+    return value ? std::to_string(*value) : std::string("?");
+  }
+
+  void program(ProgramId id) {
+    const Program &program = model_.programs[id];
+    const std::string name = toString(program.name);
+    out_ += fmt::format("program {} from line {}\n", name.empty() ? "without a name" : name, at(program.first));
+    for (const SequenceNumber &each : model_.sequenceNumbers)
+      if (program.contains(each.block))
+        line(fmt::format("N{} line {}", each.number, at(each.block)));
+    for (const Jump &each : model_.jumps)
+      if (each.program == id)
+        jump(each);
+    for (const Loop &each : model_.loops)
+      if (each.program == id)
+        line(fmt::format("loop {} line {} to {}", number(each.number), at(each.doBlock),
+                         each.endBlock ? fmt::format("line {}", at(*each.endBlock)) : "nowhere"));
+    for (const LoneEnd &each : model_.loneEnds)
+      if (each.program == id)
+        line(fmt::format("end {} line {} without its do", number(each.number), at(each.block)));
+    for (const Call &each : model_.calls)
+      if (each.caller == id)
+        call(each);
+    for (const VariableUse &each : model_.variables)
+      if (program.contains(each.block))
+        line(fmt::format("{} {} line {}", each.write ? "write" : "read", text(tree_.expressions[each.expression].span),
+                         at(each.block)));
+  }
+
+  void jump(const Jump &jump) {
+    constexpr std::string_view kKinds[] = {"goto", "return-to", "local-call", "call-at", "contour-from", "contour-to"};
+    line(fmt::format("{} {} line {} {}{}", kKinds[static_cast<std::size_t>(jump.kind)], text(jump.targetSpan),
+                     at(jump.block),
+                     jump.target     ? fmt::format("to line {}", at(*jump.target))
+                     : jump.computed ? "computed"
+                                     : "to nothing here",
+                     jump.conditional ? " conditional" : ""));
+  }
+
+  void call(const Call &call) {
+    constexpr std::string_view kKinds[] = {"macro-call",   "modal-call",    "modal-call-each",
+                                           "modal-cancel", "macro-a",       "subprogram-call",
+                                           "local-call",   "external-call", "code-call"};
+    constexpr std::string_view kRoles[] = {"", " overridden", " forbidden", " beyond-sets"};
+    const std::string name = toString(call.callee);
+    line(fmt::format("{} {} line {}{}", kKinds[static_cast<std::size_t>(call.kind)],
+                     name.empty() ? "of no named program" : name, at(call.block),
+                     call.repeats ? fmt::format(" repeats {}", *call.repeats) : ""));
+    for (const Argument &argument : call.arguments)
+      line(fmt::format("  {} -> {}{}", text(tree_.words[argument.word].span()),
+                       argument.variable ? fmt::format("#{}", argument.variable) : "nothing",
+                       kRoles[static_cast<std::size_t>(argument.role)]));
+  }
+
+  const ProgramModel &model_;
+  const SyntaxTree &tree_;
+  const SourceFile &source_;
+  std::string out_;
+};
+
+} // namespace
+
+std::string dump(const ProgramModel &model, const SyntaxTree &tree, const SourceFile &source) {
+  return Dumper(model, tree, source).run();
+}
+
+} // namespace feedhold

@@ -1,0 +1,25 @@
+// The steps of resolve(), each one function of the tree and what the earlier steps found.
+#pragma once
+
+#include "language/model/model.h"
+
+namespace feedhold {
+
+struct ResolveContext {
+  const SourceFile &source;
+  const SyntaxTree &tree;
+  const Dialect &dialect;
+};
+
+void findPrograms(const ResolveContext &context, ProgramModel &model);
+void findSequenceNumbers(const ResolveContext &context, ProgramModel &model);
+void findLoops(const ResolveContext &context, ProgramModel &model);
+void findCalls(const ResolveContext &context, ProgramModel &model);
+void findJumps(const ResolveContext &context, ProgramModel &model);
+void findVariableUses(const ResolveContext &context, ProgramModel &model);
+
+/// Sorts each word of a macro call into argument assignment I or II as the control does: word by word, so that the
+/// later word wins when two set one variable.
+std::vector<Argument> assignArguments(const ResolveContext &context, BlockId block, const Call &call);
+
+} // namespace feedhold

@@ -1,0 +1,115 @@
+// Programs and sequence numbers.
+#include "base/support/text.h"
+#include "language/model/block_facts.h"
+#include "language/model/internal.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+std::string toString(const ProgramName &name) {
+  if (name.number)
+    return "O" + std::to_string(*name.number);
+  return name.text.empty() ? "" : "<" + name.text + ">";
+}
+
+namespace {
+
+/// The word that names a program: an O word, or a `<NAME>`, at the head of a block.
+const Word *headerOf(const ResolveContext &context, BlockId block) {
+  const auto words = context.tree.wordsOf(block);
+  if (words.empty())
+    return nullptr;
+  const Word &first = words.front();
+  return (first.address() == 'O' || first.address() == '<') && !first.has(Word::kComma) ? &first : nullptr;
+}
+
+ProgramName nameFrom(const ResolveContext &context, const Word &word) {
+  if (word.form() == WordForm::Name) {
+    const std::string_view text = context.source.text(word.span());
+    return {std::nullopt, std::string(text.substr(1, text.size() - 2))};
+  }
+  return {word.integer(), ""};
+}
+
+/// Blocks that the control does not read belong to no program; it begins with the first one that says something.
+bool isRead(const Block &block) {
+  return !block.has(Block::kLeader) && !block.has(Block::kAfterEnd);
+}
+
+} // namespace
+
+void findPrograms(const ResolveContext &context, ProgramModel &model) {
+  const SyntaxTree &tree = context.tree;
+  const auto closeLast = [&](BlockId at) {
+    if (!model.programs.empty())
+      model.programs[ProgramId(model.programs.size() - 1)].last = at;
+  };
+  for (std::size_t i = 0; i < tree.blockCount(); ++i) {
+    const BlockId id(i);
+    const Block &block = tree.blocks[id];
+    const Word *header = isRead(block) ? headerOf(context, id) : nullptr;
+    const bool nameless = model.programs.empty() && isRead(block) && !block.has(Block::kPercent) && !isEmpty(tree, id);
+    if (!header && !nameless)
+      continue;
+    closeLast(id);
+    model.programs.add({header ? nameFrom(context, *header) : ProgramName{}, header ? header->span() : block.span(), id,
+                        BlockId(tree.blockCount())});
+  }
+  if (model.programs.empty())
+    model.programs.add({{}, {0, 0}, BlockId(0), BlockId(tree.blockCount())});
+}
+
+void findSequenceNumbers(const ResolveContext &context, ProgramModel &model) {
+  const SyntaxTree &tree = context.tree;
+  for (std::size_t i = 0; i < tree.blockCount(); ++i) {
+    const Block &block = tree.blocks[BlockId(i)];
+    if (block.has(Block::kData) || !isRead(block))
+      continue;
+    for (const Word &word : tree.wordsOf(BlockId(i))) {
+      if (word.address() != 'N' || word.has(Word::kComma))
+        continue;
+      if (const std::optional<std::uint32_t> number = word.integer())
+        model.sequenceNumbers.push_back({*number, BlockId(i), tree.idOf(word)});
+      break;
+    }
+  }
+}
+
+ProgramId ProgramModel::programOf(BlockId block) const {
+  const auto behind = std::upper_bound(programs.begin(), programs.end(), block,
+                                       [](BlockId at, const Program &program) { return at < program.first; });
+  const auto index = static_cast<std::size_t>(behind - programs.begin());
+  return ProgramId(index == 0 ? 0 : index - 1);
+}
+
+std::vector<std::uint32_t>::const_iterator ProgramModel::firstAtOrBehind(std::uint32_t number, BlockId block) const {
+  const auto before = [&](std::uint32_t index, std::pair<std::uint32_t, BlockId> wanted) {
+    return std::pair(sequenceNumbers[index].number, sequenceNumbers[index].block) < wanted;
+  };
+  return std::lower_bound(byNumber.begin(), byNumber.end(), std::pair(number, block), before);
+}
+
+std::vector<SequenceNumber> ProgramModel::find(ProgramId program, std::uint32_t number) const {
+  std::vector<SequenceNumber> found;
+  for (auto at = firstAtOrBehind(number, programs[program].first);
+       at != byNumber.end() && sequenceNumbers[*at].number == number &&
+       programs[program].contains(sequenceNumbers[*at].block);
+       ++at)
+    found.push_back(sequenceNumbers[*at]);
+  return found;
+}
+
+std::optional<BlockId> findSequence(const ProgramModel &model, ProgramId program, std::uint32_t number, BlockId from) {
+  for (const BlockId start : {from.next(), model.programs[program].first}) {
+    const auto at = model.firstAtOrBehind(number, start);
+    if (at == model.byNumber.end())
+      continue;
+    const SequenceNumber &found = model.sequenceNumbers[*at];
+    if (found.number == number && model.programs[program].contains(found.block))
+      return found.block;
+  }
+  return std::nullopt;
+}
+
+} // namespace feedhold
