@@ -10,8 +10,6 @@
 namespace feedhold {
 namespace {
 
-using namespace std::string_literals;
-
 // 「工具交換」 and half-width ドリル, in code page 932.
 constexpr std::string_view kToolChange = "(\x8d\x48\x8b\xef\x8c\xf0\x8a\xb7)";
 constexpr std::string_view kDrill = "(\xc4\xde\xd8\xd9)";
