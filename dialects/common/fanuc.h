@@ -1,0 +1,70 @@
+// Tables that the FANUC series share.
+#pragma once
+
+#include "dialects/common/hints.h"
+#include "dialects/common/macro_b.h"
+#include "dialects/common/tables.h"
+
+namespace feedhold {
+
+#include "dialects/common/rows.h"
+constexpr std::array kFanucMillingGCodes = {
+#include "dialects/common/fanuc_milling_g_codes.def"
+};
+#include "dialects/common/rows.h"
+constexpr std::array kFanucTurningGCodes = {
+#include "dialects/common/fanuc_turning_g_codes.def"
+};
+#include "dialects/common/rows.h"
+constexpr std::array kFanucMCodes = sorted(std::array{
+#include "dialects/common/macro_b_m_codes.def"
+});
+#include "dialects/common/rows.h"
+constexpr std::array kFanucVariables = {
+#include "dialects/common/fanuc_variables.def"
+};
+#include "dialects/common/rows.h"
+constexpr std::array kFanucMillingVariables = {
+#include "dialects/common/fanuc_milling_variables.def"
+};
+#include "dialects/common/rows.h"
+constexpr std::array kFanucTurningVariables = {
+#include "dialects/common/fanuc_turning_variables.def"
+};
+
+/// MANUAL GUIDE i writes its cycles and figures as G1000 to G1899, and blanks and display data as G1900 to G1999. Their
+/// words are data of the conversational screen, never a movement by themselves.
+consteval std::array<Code, 1000> manualGuideCodes() {
+  std::array<Code, 1000> codes{};
+  for (std::uint16_t i = 0; i < 1000; ++i) {
+    const auto tenths = static_cast<std::uint16_t>((1000 + i) * 10);
+    codes[i] = i < 900 ? Code{tenths, 0, CodeRole::CannedCycle, "MANUAL GUIDE i cycle or figure"}
+                       : Code{tenths, 0, CodeRole::CoordinateShift, "MANUAL GUIDE i blank or display data"};
+  }
+  codes[900].meaning = "MANUAL GUIDE i blank: cylinder";
+  codes[901].meaning = "MANUAL GUIDE i blank: hollow cylinder";
+  codes[902].meaning = "MANUAL GUIDE i blank: rectangular block";
+  return codes;
+}
+constexpr std::array kManualGuideCodes = manualGuideCodes();
+
+constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
+                                                            LanguageHint{TextSignal::FanucComment, 20},
+                                                            LanguageHint{TextSignal::FanucParameterRead, 8},
+                                                            LanguageHint{TextSignal::FanucNamedVariable, 8},
+                                                            LanguageHint{TextSignal::FanucProgramName, 4},
+                                                            LanguageHint{TextSignal::FanucOffsetGroup, 8},
+                                                        });
+
+/// What all series have in common; the tables of codes and variables are the caller's.
+inline Dialect makeFanuc(MachineKind machine) {
+  Dialect dialect;
+  dialect.machine = machine;
+  dialect.addresses = addressesOf(machine);
+  dialect.mCodes = kFanucMCodes;
+  dialect.operators = kOperators;
+  dialect.argumentVariables = kArgumentVariables;
+  return dialect;
+}
+
+} // namespace feedhold

@@ -1,0 +1,25 @@
+// What speaks for a Macro B control, whoever made it, and for the kind of machine.
+#pragma once
+
+#include "language/dialect/dialect.h"
+
+#include <array>
+
+namespace feedhold {
+
+constexpr std::array kMacroBHints = {
+    LanguageHint{TextSignal::HashVariable, 1},   LanguageHint{TextSignal::WordRelation, 1},
+    LanguageHint{TextSignal::MacroControl, 1},   LanguageHint{TextSignal::MacroCall, 3},
+    LanguageHint{TextSignal::SubprogramCall, 1}, LanguageHint{TextSignal::MacroAlarm, 3},
+    LanguageHint{TextSignal::ProgramNumber, 1},
+};
+
+/// Only turning dialects carry these: milling is what is assumed.
+constexpr std::array kTurningHints = {
+    LanguageHint{TextSignal::TurningCycle, 6},    LanguageHint{TextSignal::SpindleLimit, 6},
+    LanguageHint{TextSignal::SurfaceSpeed, 3},    LanguageHint{TextSignal::TurretTool, 2},
+    LanguageHint{TextSignal::IncrementalAxis, 1}, LanguageHint{TextSignal::YAxis, -4},
+    LanguageHint{TextSignal::LengthOffset, -6},   LanguageHint{TextSignal::ToolChange, -4},
+};
+
+} // namespace feedhold

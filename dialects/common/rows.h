@@ -1,0 +1,14 @@
+// How a line of a .def file becomes a row.  To be included before each .def, which takes its macro away again; so no
+// `#pragma once`.
+#ifndef CODE
+#define CODE(tenths, group, role, meaning) Code{tenths, group, CodeRole::role, meaning},
+#endif
+#ifndef VARIABLE
+#define VARIABLE(first, last, kind, access, start, option, name, meaning)                                              \
+  VariableRange{                                                                                                       \
+      first, last,   VariableKind::kind, VariableAccess::access, VariableStart::start, VariableOption::option,         \
+      name,  meaning},
+#endif
+#ifndef ALARM_NUMBER
+#define ALARM_NUMBER(kind, number) AlarmNumber{AlarmKind::kind, number},
+#endif
