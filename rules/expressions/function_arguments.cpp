@@ -21,11 +21,11 @@ std::string_view wantedBy(FunctionForm form) {
 
 bool fits(const FunctionCall &call, FunctionForm form) {
   switch (form) {
-  case FunctionForm::OneArgument: return call.count == 1;
-  case FunctionForm::OneOrTwo: return call.count == 1 || call.count == 2;
-  case FunctionForm::TwoBySlash: return call.count == 2 && call.slash;
-  case FunctionForm::TwoByComma: return call.count == 2 && !call.slash;
-  case FunctionForm::ParameterRead: return call.count >= 1;
+  case FunctionForm::OneArgument: return call.arguments().size() == 1;
+  case FunctionForm::OneOrTwo: return call.arguments().size() == 1 || call.arguments().size() == 2;
+  case FunctionForm::TwoBySlash: return call.arguments().size() == 2 && call.slash;
+  case FunctionForm::TwoByComma: return call.arguments().size() == 2 && !call.slash;
+  case FunctionForm::ParameterRead: return call.arguments().size() >= 1;
   }
   return true;
 }
@@ -37,7 +37,7 @@ std::vector<std::string> notesFor(const FileContext &context) {
 void checkCall(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto *call = as<FunctionCall>(context.tree, id);
   const Function *function = call ? findFunction(context.dialect, call->function) : nullptr;
-  if (!function || call->count == 0 || fits(*call, function->form))
+  if (!function || call->arguments().empty() || fits(*call, function->form))
     return;
   reporter.report({.message = fmt::format("`{}` takes {}", spellingOf(call->function), wantedBy(function->form)),
                    .span = context.tree.expressions[id].span,
