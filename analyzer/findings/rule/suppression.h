@@ -9,7 +9,7 @@
 namespace feedhold {
 
 struct Suppression {
-  Span span;          // the comment
+  Span span; // the comment
   std::string rule;
   std::string reason; // may be empty: that is a finding of its own
   BlockId block;      // on a block of its own it covers the next block that is not empty
@@ -20,7 +20,7 @@ struct Suppression {
 std::vector<Suppression> findSuppressions(const FileContext &context);
 
 struct SuppressionResult {
-  std::vector<RawFinding> kept;       // with the findings about the suppressions themselves, in order
+  std::vector<RawFinding> kept; // with the findings about the suppressions themselves, in order
   std::vector<RawFinding> suppressed;
 };
 

@@ -6,6 +6,7 @@
 #include "findings/session/analyse.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace feedhold {
 
@@ -102,7 +103,7 @@ private:
         continue;
       }
       repair.isFrozen = true;
-      repair.fixes -= repair.lastFixes;
+      repair.fixes -= std::exchange(repair.lastFixes, 0);
       setText(i, std::move(repair.previous));
       tookBack = true;
     }

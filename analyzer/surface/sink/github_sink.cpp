@@ -1,0 +1,53 @@
+// Workflow commands of GitHub Actions: each finding becomes an annotation of the pull request.
+#include "surface/sink/shown.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+namespace {
+
+std::string escaped(std::string_view text, std::string_view alsoEscaped) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '%' || c == '\r' || c == '\n' || alsoEscaped.find(c) != std::string_view::npos)
+      result += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string data(std::string_view text) {
+  return escaped(text, "");
+}
+std::string property(std::string_view text) {
+  return escaped(text, ":,");
+}
+
+std::string_view commandFor(Severity severity) {
+  switch (severity) {
+  case Severity::Error: return "error";
+  case Severity::Warning: return "warning";
+  case Severity::Info: return "notice";
+  }
+  FEEDHOLD_UNREACHABLE("a severity without an annotation");
+}
+
+} // namespace
+
+std::string writeGithub(const Report &report) {
+  std::string text;
+  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+    const Region region = regionOf(file.source, finding.diagnostic.span);
+    text += fmt::format("::{} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
+                        finding.suppressed ? "notice" : commandFor(finding.severity), property(file.path),
+                        region.begin.line, region.end.line, region.begin.column, region.end.column,
+                        property(finding.rule->name), data(messageWithNotes(finding.diagnostic)));
+  });
+  for (const PathProblem &problem : report.result.errors)
+    text += fmt::format("::error file={}::{}\n", property(problem.path), data(problem.message));
+  return text;
+}
+
+} // namespace feedhold

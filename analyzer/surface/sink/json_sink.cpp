@@ -1,0 +1,61 @@
+// JSON for programs; its shape is docs/schemas/check.schema.json.
+#include "surface/sink/shown.h"
+
+#include <nlohmann/json.hpp>
+
+namespace feedhold {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json placeOf(const SourceFile &source, Span span) {
+  const Region region = regionOf(source, span);
+  return {{"line", region.begin.line},
+          {"column", region.begin.column},
+          {"endLine", region.end.line},
+          {"endColumn", region.end.column}};
+}
+
+Json fixToJson(const FixIt &fix, const SourceFile &source) {
+  Json edits = Json::array();
+  for (const Edit &edit : fix.edits) {
+    Json row = placeOf(source, edit.span);
+    row["replacement"] = edit.replacement;
+    edits.push_back(std::move(row));
+  }
+  return {{"title", fix.title}, {"safety", nameOf(fix.safety)}, {"edits", std::move(edits)}};
+}
+
+Json findingToJson(const Finding &finding, const CheckedFile &file) {
+  Json row = {{"path", file.path}};
+  row.update(placeOf(file.source, finding.diagnostic.span));
+  row["rule"] = finding.rule->name;
+  row["severity"] = nameOf(finding.severity);
+  row["message"] = finding.diagnostic.message;
+  row["fingerprint"] = finding.fingerprint;
+  row["notes"] = finding.diagnostic.notes;
+  row["fixes"] = Json::array();
+  for (const FixIt &fix : finding.diagnostic.fixes)
+    row["fixes"].push_back(fixToJson(fix, file.source));
+  if (finding.suppressed)
+    row["suppressed"] = true;
+  return row;
+}
+
+} // namespace
+
+std::string writeJson(const Report &report) {
+  Json document = {{"version", 1}, {"findings", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+    document["findings"].push_back(findingToJson(finding, file));
+  });
+  for (const SkippedFile &skipped : report.result.skipped)
+    document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}});
+  for (const PathProblem &problem : report.result.errors)
+    document["errors"].push_back({{"path", problem.path}, {"message", problem.message}});
+  // A path or a replacement may hold bytes that are no UTF-8; they become U+FFFD.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace feedhold

@@ -1,0 +1,103 @@
+// JUnit XML: a suite for each file, a failure for each finding, so that any build server can show them.
+#include "surface/sink/shown.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+namespace {
+
+constexpr std::string_view kReplacement = "\xef\xbf\xbd"; // U+FFFD, for what XML 1.0 cannot hold
+
+/// The bytes of the UTF-8 character at the head of `text`; 0 when there is none.
+std::size_t characterSize(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t size = first < 0x80   ? 1
+                           : first < 0xC2 ? 0
+                           : first < 0xE0 ? 2
+                           : first < 0xF0 ? 3
+                           : first < 0xF5 ? 4
+                                          : 0;
+  if (size == 0 || size > text.size())
+    return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80)
+      return 0;
+  return size;
+}
+
+std::string_view escapeOf(std::string_view character) {
+  switch (character.front()) {
+  case '&': return "&amp;";
+  case '<': return "&lt;";
+  case '>': return "&gt;";
+  case '"': return "&quot;";
+  case '\n': return "&#10;";
+  case '\r': return "&#13;";
+  case '\t': return "&#9;";
+  default: return static_cast<unsigned char>(character.front()) < ' ' ? kReplacement : character;
+  }
+}
+
+std::string xml(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t size = characterSize(text);
+    result += size == 0 ? kReplacement : escapeOf(text.substr(0, size));
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return result;
+}
+
+std::string failureOf(const CheckedFile &file, const Finding &finding) {
+  const Position at = file.source.position(finding.diagnostic.span.begin);
+  const std::string place = fmt::format("{}:{}:{}", file.path, at.line, at.column);
+  const std::string name = fmt::format("{} {}:{}", finding.rule->name, at.line, at.column);
+  if (finding.suppressed)
+    return fmt::format("    <testcase classname=\"{}\" name=\"{}\"><skipped message=\"allowed: {}\"/></testcase>\n",
+                       xml(file.path), xml(name), xml(finding.diagnostic.message));
+  return fmt::format(
+      "    <testcase classname=\"{}\" name=\"{}\">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n"
+      "    </testcase>\n",
+      xml(file.path), xml(name), nameOf(finding.severity), xml(finding.diagnostic.message),
+      xml(place + "\n" + messageWithNotes(finding.diagnostic)));
+}
+
+std::string suiteOf(const CheckedFile &file, const Report &report) {
+  std::string cases;
+  std::size_t tests = 0;
+  std::size_t failures = 0;
+  for (const Finding &finding : file.findings) {
+    if (!isShown(finding, report))
+      continue;
+    cases += failureOf(file, finding);
+    ++tests;
+    failures += finding.suppressed ? 0U : 1U;
+  }
+  if (tests == 0)
+    cases = fmt::format("    <testcase classname=\"{}\" name=\"no findings\"/>\n", xml(file.path));
+  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}  </testsuite>\n",
+                     xml(file.path), std::max<std::size_t>(tests, 1), failures, cases);
+}
+
+} // namespace
+
+std::string writeJunit(const Report &report) {
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"feedhold\">\n";
+  for (const CheckedFile &file : report.result.files)
+    text += suiteOf(file, report);
+  for (const PathProblem &problem : report.result.errors)
+    text += fmt::format(
+        "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n    <testcase classname=\"{0}\" "
+        "name=\"reading\">\n      <error message=\"{1}\"/>\n    </testcase>\n  </testsuite>\n",
+        xml(problem.path), xml(problem.message));
+  for (const SkippedFile &skipped : report.result.skipped)
+    text +=
+        fmt::format("  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"0\" skipped=\"1\">\n    <testcase "
+                    "classname=\"{0}\" name=\"reading\">\n      <skipped message=\"{1}\"/>\n    </testcase>\n"
+                    "  </testsuite>\n",
+                    xml(skipped.path), xml(skipped.reason));
+  return text + "</testsuites>\n";
+}
+
+} // namespace feedhold

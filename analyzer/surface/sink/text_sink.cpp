@@ -1,0 +1,31 @@
+// For people at a terminal: the program text with carets, or one line for each finding.
+#include "base/diag/render.h"
+#include "surface/sink/shown.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+std::string writeText(const Report &report) {
+  std::string text;
+  const auto fileOf = [&](FileId id) -> const SourceFile & { return report.result.files[id.index()].source; };
+  const RenderOptions options{.colour = report.colour};
+  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+    const std::string severity = std::string(nameOf(finding.severity)) + (finding.suppressed ? ", allowed" : "");
+    text += render(finding.diagnostic, {severity, finding.rule->name}, file.source, fileOf, options);
+    text += '\n';
+  });
+  return text;
+}
+
+std::string writeConcise(const Report &report) {
+  std::string text;
+  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+    const Position at = file.source.position(finding.diagnostic.span.begin);
+    text += fmt::format("{}:{}:{}: {}: {} [{}]{}\n", file.path, at.line, at.column, nameOf(finding.severity),
+                        finding.diagnostic.message, finding.rule->name, finding.suppressed ? " (allowed)" : "");
+  });
+  return text;
+}
+
+} // namespace feedhold
