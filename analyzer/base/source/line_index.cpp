@@ -55,14 +55,7 @@ Mask returnsBeforeLineFeed(Mask lineFeeds, Mask returns, bool lineFeedFollows) {
   return found;
 }
 
-/// std::popcount calls a table routine on processors of the x86-64 baseline.  Adding bits in parallel (Warren, Hacker's
-/// Delight, section 5-1) indexes 30 MB in 4.5 ms instead of 5.7 ms.
-std::uint32_t bitCount(Mask mask) {
-  mask -= (mask >> 1) & 0x5555555555555555ULL;
-  mask = (mask & 0x3333333333333333ULL) + ((mask >> 2) & 0x3333333333333333ULL);
-  mask = (mask + (mask >> 4)) & 0x0F0F0F0F0F0F0F0FULL;
-  return static_cast<std::uint32_t>((mask * 0x0101010101010101ULL) >> 56);
-}
+std::uint32_t bitCount(Mask mask) { return static_cast<std::uint32_t>(std::popcount(mask)); }
 
 struct Piece {
   Mask ends;
