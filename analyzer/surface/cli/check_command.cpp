@@ -1,0 +1,228 @@
+// `feedhold check`: analyses programs and prints what it finds.
+#include "base/diag/edits.h"
+#include "base/source/write_file.h"
+#include "dialects/registry.h"
+#include "findings/session/discovery.h"
+#include "findings/session/session.h"
+#include "rules/registry.h"
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
+#include "surface/sink/sink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace feedhold {
+
+namespace {
+
+/// The options as they are written.
+struct CheckArguments {
+  std::vector<std::string> paths;
+  std::string dialect;
+  std::string format = "text";
+  std::string output;
+  std::vector<std::string> select;
+  std::vector<std::string> ignore;
+  std::string errorOn;
+  std::string config;
+  std::string stdinFilename = "<stdin>";
+  std::string color = "auto";
+  unsigned jobs = 0;
+  bool isolated = false;
+  bool fix = false;
+  bool unsafeFixes = false;
+  bool diff = false;
+  bool showSuppressed = false;
+  bool quiet = false;
+  bool statistics = false;
+  bool exitZero = false;
+};
+
+void addOptions(CLI::App &app, CheckArguments &arguments) {
+  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: the current folder)");
+  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
+  app.add_option("--format", arguments.format, "text, concise, json, sarif, junit or github")
+      ->check(CLI::IsMember({"text", "concise", "json", "sarif", "junit", "github"}));
+  app.add_option("--output", arguments.output, "write the findings to this file");
+  app.add_option("--select", arguments.select, "run only these rules or categories")->delimiter(',');
+  app.add_option("--ignore", arguments.ignore, "leave out these rules or categories")->delimiter(',');
+  app.add_option("--error-on", arguments.errorOn, "exit 1 from this severity on: error, warning (default) or info")
+      ->check(CLI::IsMember({"error", "warning", "info"}));
+  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
+  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  app.add_flag("--fix", arguments.fix, "repair what can be repaired safely");
+  app.add_flag("--unsafe-fixes", arguments.unsafeFixes, "with --fix or --diff: also repairs that need your review");
+  app.add_flag("--diff", arguments.diff, "show the repairs as a unified diff and change nothing");
+  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
+  app.add_option("--color", arguments.color, "auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
+  app.add_flag("--show-suppressed", arguments.showSuppressed, "show findings that a comment allows, too");
+  app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
+  app.add_flag("--statistics", arguments.statistics, "print the number of findings of each rule instead of them");
+  app.add_flag("--exit-zero", arguments.exitZero, "exit 0 even with findings");
+}
+
+const KnownNames &knownNames() {
+  static const KnownNames known{allDialects(), allRules()};
+  return known;
+}
+
+/// What is wrong with the options beyond their form.
+std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
+  for (const std::vector<std::string> *names : {&arguments.select, &arguments.ignore})
+    for (const std::string &name : *names)
+      if (auto complaint = complaintAboutRuleName(name, allRules()))
+        return complaint;
+  if (!arguments.dialect.empty())
+    if (auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
+      return complaint;
+  const bool isPiped = std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end();
+  if (isPiped && arguments.fix && !arguments.diff)
+    return "standard input cannot be repaired in place; --diff shows the repairs";
+  if (arguments.unsafeFixes && !arguments.fix && !arguments.diff)
+    return "--unsafe-fixes says which repairs; add --fix to make them or --diff to see them";
+  return std::nullopt;
+}
+
+ConfigWish configWish(const CheckArguments &arguments) {
+  if (arguments.isolated)
+    return {ConfigSource::None};
+  if (!arguments.config.empty())
+    return {ConfigSource::Named, arguments.config};
+  return {};
+}
+
+CheckOptions toOptions(const CheckArguments &arguments) {
+  CheckOptions options;
+  options.paths = arguments.paths;
+  if (std::erase(options.paths, "-") != 0)
+    options.piped = PipedText{arguments.stdinFilename, readStandardInput()};
+  else if (options.paths.empty())
+    options.paths = {"."};
+  if (!arguments.dialect.empty())
+    options.dialect = arguments.dialect;
+  options.select = arguments.select;
+  options.ignore = arguments.ignore;
+  options.errorOn = severityFromName(arguments.errorOn);
+  options.config = configWish(arguments);
+  options.jobs = arguments.jobs;
+  return options;
+}
+
+ColourWish colourWish(std::string_view name) {
+  return name == "always" ? ColourWish::Always : name == "never" ? ColourWish::Never : ColourWish::Auto;
+}
+
+int exitCodeOf(const CheckResult &result, const CheckArguments &arguments) {
+  if (!result.errors.empty())
+    return kExitCouldNotRun;
+  return anyFails(result) && !arguments.exitZero ? kExitFindings : kExitClean;
+}
+
+/// A hook names every changed file that may be a program by its extension: `.h` and `.txt` files that are none are no
+/// mistake in its call.
+bool isNamedByChance(const SkippedFile &skipped, const CheckArguments &arguments) {
+  const std::filesystem::path path(skipped.path);
+  return kindOfFileName(path.filename().string()) == FoundBy::Content &&
+         std::find(arguments.paths.begin(), arguments.paths.end(), skipped.path) != arguments.paths.end();
+}
+
+/// Being asked to check something and checking nothing is a mistake in the call, not a clean program.
+void complainIfNothingWasChecked(CheckResult &result, const CheckArguments &arguments) {
+  if (!result.files.empty() || !result.errors.empty())
+    return;
+  const auto mistake = std::find_if(result.skipped.begin(), result.skipped.end(),
+                                    [&](const SkippedFile &skipped) { return !isNamedByChance(skipped, arguments); });
+  if (mistake != result.skipped.end())
+    result.errors.push_back({mistake->path, "nothing to check: " + mistake->reason});
+}
+
+void printProblems(const CheckResult &result) {
+  for (const PathProblem &problem : result.errors)
+    printError(problem.path + ": " + problem.message);
+}
+
+/// Prints the findings; returns the exit code.
+int present(const CheckResult &result, const CheckArguments &arguments) {
+  const Format format = *formatFromName(arguments.format);
+  const bool isForPeople = format == Format::Text || format == Format::Concise;
+  int exitCode = exitCodeOf(result, arguments);
+  const Report report{.result = result,
+                      .rules = allRules(),
+                      .version = FEEDHOLD_VERSION,
+                      .root = std::filesystem::current_path(),
+                      .exitCode = exitCode,
+                      .showSuppressed = arguments.showSuppressed ? ShowSuppressed::Yes : ShowSuppressed::No,
+                      .colour = arguments.output.empty() && useColour(colourWish(arguments.color))};
+  std::string text = arguments.statistics ? statistics(report) : write(format, report);
+  if (isForPeople && !arguments.quiet)
+    text += summary(report);
+  printProblems(result);
+  if (arguments.output.empty()) {
+    print(text);
+  } else if (const auto error = writeFile(arguments.output, text)) {
+    printError(arguments.output + ": " + error->message);
+    exitCode = kExitCouldNotRun;
+  }
+  return exitCode;
+}
+
+int showDiffs(const FixResult &fixed, const CheckArguments &arguments) {
+  std::string text;
+  for (const FixedFile &file : fixed.files)
+    text += unifiedDiff(file.path, file.before, file.after);
+  print(text);
+  printProblems(fixed.remaining);
+  if (!fixed.remaining.errors.empty())
+    return kExitCouldNotRun;
+  return fixed.files.empty() || arguments.exitZero ? kExitClean : kExitFindings;
+}
+
+int repair(const CheckOptions &options, const CheckArguments &arguments, ProgressLine &progress) {
+  FixResult fixed = fix(options, arguments.unsafeFixes ? FixWish::All : FixWish::Safe, knownNames());
+  progress.clear();
+  complainIfNothingWasChecked(fixed.remaining, arguments);
+  if (arguments.diff)
+    return showDiffs(fixed, arguments);
+  const std::vector<PathProblem> unwritten = writeFixes(fixed.files);
+  fixed.remaining.errors.insert(fixed.remaining.errors.end(), unwritten.begin(), unwritten.end());
+  std::size_t repairs = 0;
+  for (const FixedFile &file : fixed.files)
+    repairs += file.fixes;
+  if (repairs != 0 && !arguments.quiet)
+    printAside(fmt::format("made {} repair{} in {} file{}\n", repairs, repairs == 1 ? "" : "s", fixed.files.size(),
+                           fixed.files.size() == 1 ? "" : "s"));
+  return present(fixed.remaining, arguments);
+}
+
+int runCheck(const CheckArguments &arguments) {
+  if (const auto complaint = complaintAbout(arguments)) {
+    printError(*complaint);
+    return kExitCouldNotRun;
+  }
+  CheckOptions options = toOptions(arguments);
+  ProgressLine progress;
+  if (!arguments.quiet)
+    options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  if (arguments.fix || arguments.diff)
+    return repair(options, arguments, progress);
+  CheckResult result = check(options, knownNames());
+  progress.clear();
+  complainIfNothingWasChecked(result, arguments);
+  return present(result, arguments);
+}
+
+} // namespace
+
+Command addCheckCommand(CLI::App &parent) {
+  CLI::App *app = parent.add_subcommand("check", "find mistakes in programs");
+  const auto arguments = std::make_shared<CheckArguments>();
+  addOptions(*app, *arguments);
+  return {app, [arguments] { return runCheck(*arguments); }};
+}
+
+} // namespace feedhold

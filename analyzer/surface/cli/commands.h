@@ -1,0 +1,28 @@
+// The sub-commands of `feedhold`; each adds its options and says what to run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace feedhold {
+
+inline constexpr int kExitClean = 0;
+inline constexpr int kExitFindings = 1;
+inline constexpr int kExitCouldNotRun = 2;
+
+/// A sub-command on the command line, and what it does: returns the exit code.
+struct Command {
+  CLI::App *app;
+  std::function<int()> run;
+};
+
+Command addCheckCommand(CLI::App &parent);
+Command addExplainCommand(CLI::App &parent);
+Command addRulesCommand(CLI::App &parent);
+Command addDialectsCommand(CLI::App &parent);
+Command addTokensCommand(CLI::App &parent);
+Command addTreeCommand(CLI::App &parent);
+Command addModelCommand(CLI::App &parent);
+
+} // namespace feedhold

@@ -1,0 +1,38 @@
+// The program `feedhold`: reads the command line and runs one sub-command.
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
+
+#include <exception>
+#include <vector>
+
+namespace {
+
+int run(int argc, char **argv) {
+  using namespace feedhold;
+  CLI::App app("Static analyser for CNC macro programs", "feedhold");
+  app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION);
+  app.require_subcommand(1);
+  const std::vector<Command> commands = {addCheckCommand(app),    addExplainCommand(app), addRulesCommand(app),
+                                         addDialectsCommand(app), addTokensCommand(app),  addTreeCommand(app),
+                                         addModelCommand(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    return app.exit(error) == 0 ? kExitClean : kExitCouldNotRun;
+  }
+  for (const Command &command : commands)
+    if (command.app->parsed())
+      return command.run();
+  return kExitCouldNotRun;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception &error) {
+    feedhold::printError(error.what());
+    return feedhold::kExitCouldNotRun;
+  }
+}

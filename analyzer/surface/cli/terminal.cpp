@@ -1,0 +1,65 @@
+// Writes to the standard streams; the only file here that asks the operating system about them.
+#include "surface/cli/terminal.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <unistd.h>
+
+namespace feedhold {
+
+namespace {
+
+void writeTo(std::FILE *stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
+
+} // namespace
+
+bool useColour(ColourWish wish) {
+  switch (wish) {
+  case ColourWish::Always: return true;
+  case ColourWish::Never: return false;
+  case ColourWish::Auto: break;
+  }
+  const char *noColour = std::getenv("NO_COLOR");
+  return (noColour == nullptr || *noColour == '\0') && ::isatty(STDOUT_FILENO) != 0;
+}
+
+bool isErrorTerminal() { return ::isatty(STDERR_FILENO) != 0; }
+
+void print(std::string_view text) { writeTo(stdout, text); }
+
+void printError(std::string_view message) { writeTo(stderr, "feedhold: error: " + std::string(message) + "\n"); }
+
+void printAside(std::string_view text) { writeTo(stderr, text); }
+
+std::string readStandardInput() {
+  std::string text;
+  char buffer[64 * 1024];
+  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, stdin)) > 0;)
+    text.append(buffer, got);
+  return text;
+}
+
+ProgressLine::ProgressLine() : isOn_(isErrorTerminal()) {}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::show(std::size_t done, std::size_t all) {
+  if (!isOn_ || all < 2)
+    return;
+  const std::size_t percent = done * 100 / all;
+  const std::lock_guard lock(mutex_);
+  if (percent == shownPercent_)
+    return;
+  shownPercent_ = percent;
+  printAside("\r\x1b[Kchecked " + std::to_string(done) + " of " + std::to_string(all) + " files");
+}
+
+void ProgressLine::clear() {
+  const std::lock_guard lock(mutex_);
+  if (isOn_ && shownPercent_ <= 100)
+    printAside("\r\x1b[K");
+  shownPercent_ = 101;
+}
+
+} // namespace feedhold
