@@ -45,7 +45,7 @@ constexpr auto kHaasHints = joined(
                       LanguageHint{TextSignal::HaasComment, 20}, LanguageHint{TextSignal::HaasLocalCall, 6},
                       LanguageHint{TextSignal::HaasCode, 6}, LanguageHint{TextSignal::HaasSetting, 8},
                       LanguageHint{TextSignal::HaasTimer, 3}, LanguageHint{TextSignal::HaasConditionalReturn, 12},
-                      LanguageHint{TextSignal::HaasProgramNumber, 4},
+                      LanguageHint{TextSignal::HaasProgramNumber, 6},
                       LanguageHint{TextSignal::MitsubishiOffsetGroup, 2}, // work offsets are group 12 here too
                   });
 

@@ -7,9 +7,7 @@ namespace feedhold {
 
 namespace {
 
-Style styleOf(MarkerKind kind) {
-  return kind == MarkerKind::Primary ? Style::Severity : Style::Secondary;
-}
+Style styleOf(MarkerKind kind) { return kind == MarkerKind::Primary ? Style::Severity : Style::Secondary; }
 
 /// A row of single cells of one style each; a text may only be the last thing in it.
 class Row {

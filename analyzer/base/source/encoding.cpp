@@ -34,9 +34,7 @@ std::uint8_t byteAt(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
 }
 
-bool isContinuation(std::uint8_t byte) {
-  return (byte & 0xC0) == 0x80;
-}
+bool isContinuation(std::uint8_t byte) { return (byte & 0xC0) == 0x80; }
 
 /// The length of the well-formed sequence at `at`, 0 if there is none (Unicode standard, table 3-7).
 std::size_t utf8Length(std::string_view text, std::size_t at) {

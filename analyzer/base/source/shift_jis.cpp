@@ -11,15 +11,9 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-bool isLead(std::uint8_t byte) {
-  return (byte >= 0x81 && byte <= 0x9F) || (byte >= 0xE0 && byte <= 0xFC);
-}
-bool isTrail(std::uint8_t byte) {
-  return byte >= 0x40 && byte <= 0xFC && byte != 0x7F;
-}
-bool isKatakana(std::uint8_t byte) {
-  return byte >= 0xA1 && byte <= 0xDF;
-}
+bool isLead(std::uint8_t byte) { return (byte >= 0x81 && byte <= 0x9F) || (byte >= 0xE0 && byte <= 0xFC); }
+bool isTrail(std::uint8_t byte) { return byte >= 0x40 && byte <= 0xFC && byte != 0x7F; }
+bool isKatakana(std::uint8_t byte) { return byte >= 0xA1 && byte <= 0xDF; }
 
 std::uint8_t byteAt(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;

@@ -92,34 +92,20 @@ SourceFile SourceFile::fromText(std::string path, std::string text) {
   return SourceFile(std::make_shared<const Contents>(std::move(path), std::move(text)));
 }
 
-const std::string &SourceFile::path() const {
-  return contents_->path;
-}
-std::string_view SourceFile::text() const {
-  return contents_->text;
-}
-Encoding SourceFile::encoding() const {
-  return contents_->encoding();
-}
-std::string SourceFile::utf8(Span span) const {
-  return toUtf8(text(span), encoding());
-}
+const std::string &SourceFile::path() const { return contents_->path; }
+std::string_view SourceFile::text() const { return contents_->text; }
+Encoding SourceFile::encoding() const { return contents_->encoding(); }
+std::string SourceFile::utf8(Span span) const { return toUtf8(text(span), encoding()); }
 
-std::uint32_t SourceFile::lineCount() const {
-  return contents_->lines().lineCount();
-}
-std::uint32_t SourceFile::lineOf(std::uint32_t offset) const {
-  return contents_->lines().lineOf(text(), offset);
-}
+std::uint32_t SourceFile::lineCount() const { return contents_->lines().lineCount(); }
+std::uint32_t SourceFile::lineOf(std::uint32_t offset) const { return contents_->lines().lineOf(text(), offset); }
 
 Span SourceFile::lineSpan(std::uint32_t line) const {
   FEEDHOLD_CHECK(line >= 1 && line <= lineCount(), "a line that the file does not have");
   return contents_->lines().lineSpan(text(), line);
 }
 
-Position SourceFile::position(std::uint32_t offset) const {
-  return positionOf(*this, offset, ColumnUnit::Characters);
-}
+Position SourceFile::position(std::uint32_t offset) const { return positionOf(*this, offset, ColumnUnit::Characters); }
 
 Position SourceFile::positionUtf16(std::uint32_t offset) const {
   return positionOf(*this, offset, ColumnUnit::Utf16Units);

@@ -36,9 +36,7 @@ std::strong_ordering compareMagnitudes(std::uint64_t left, int leftScale, std::u
   return timesPowerOfTen(left, power) <=> Wide{right};
 }
 
-int signOf(std::int64_t value) {
-  return (value > 0) - (value < 0);
-}
+int signOf(std::int64_t value) { return (value > 0) - (value < 0); }
 
 /// The same value with no zero at the end of its fraction.
 Decimal shortest(Decimal value) {
@@ -67,9 +65,7 @@ std::strong_ordering operator<=>(const Decimal &left, const Decimal &right) {
   return sign < 0 ? 0 <=> order : order;
 }
 
-bool Decimal::isInteger() const {
-  return shortest(*this).scale() == 0;
-}
+bool Decimal::isInteger() const { return shortest(*this).scale() == 0; }
 
 std::optional<std::int64_t> Decimal::asInteger() const {
   const Decimal value = shortest(*this);

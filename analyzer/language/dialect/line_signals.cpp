@@ -3,6 +3,8 @@
 #include "language/dialect/line_signals.h"
 
 #include "base/support/text.h"
+#include "language/dialect/comment_signals.h"
+#include "language/dialect/text_keywords.h"
 
 #include <array>
 #include <cstdint>
@@ -12,76 +14,6 @@
 
 namespace feedhold {
 namespace {
-
-enum class KeywordKind : std::uint8_t { Plain, Signal };
-
-struct Keyword {
-  std::string_view spelling;
-  KeywordKind kind;
-  TextSignal signal;
-};
-
-constexpr Keyword kKeywords[] = {
-#define KEYWORD(spelling, signal) {spelling, KeywordKind::Signal, TextSignal::signal},
-#define PLAIN_KEYWORD(spelling) {spelling, KeywordKind::Plain, TextSignal::HashVariable},
-#include "language/dialect/text_keywords.def"
-};
-constexpr std::size_t kKeywordCount = std::size(kKeywords);
-
-/// First keyword of each letter, and the end after the last.
-constexpr auto kFirstByLetter = [] {
-  std::array<std::uint8_t, 27> first{};
-  std::size_t next = 0;
-  for (std::size_t letter = 0; letter < 26; ++letter) {
-    first[letter] = static_cast<std::uint8_t>(next);
-    while (next < kKeywordCount && kKeywords[next].spelling.front() == static_cast<char>('A' + letter))
-      ++next;
-  }
-  first[26] = static_cast<std::uint8_t>(next);
-  return first;
-}();
-static_assert(kFirstByLetter[26] == kKeywordCount, "text_keywords.def is not sorted by first letter");
-
-bool equalsUpper(std::string_view text, std::string_view upper) {
-  if (text.size() != upper.size())
-    return false;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (toUpper(text[i]) != upper[i])
-      return false;
-  return true;
-}
-
-bool beginsUpper(std::string_view text, std::string_view upper) {
-  return text.size() >= upper.size() && equalsUpper(text.substr(0, upper.size()), upper);
-}
-
-template <std::size_t N> bool isOneOf(std::string_view text, const std::string_view (&upper)[N]) {
-  for (const std::string_view candidate : upper)
-    if (equalsUpper(text, candidate))
-      return true;
-  return false;
-}
-
-std::span<const Keyword> keywordsOfLetter(char letter) {
-  const auto index = static_cast<std::size_t>(toUpper(letter) - 'A');
-  return {kKeywords + kFirstByLetter[index], kKeywords + kFirstByLetter[index + 1]};
-}
-
-const Keyword *findKeyword(std::string_view run) {
-  for (const Keyword &keyword : keywordsOfLetter(run.front()))
-    if (equalsUpper(run, keyword.spelling))
-      return &keyword;
-  return nullptr;
-}
-
-/// The longest keyword that `run` begins with: controls read `THENGOTO` as two words.
-const Keyword *longestPrefix(std::string_view run) {
-  const Keyword *best = nullptr;
-  for (const Keyword &keyword : keywordsOfLetter(run.front()))
-    if (beginsUpper(run, keyword.spelling) && (best == nullptr || keyword.spelling.size() > best->spelling.size()))
-      best = &keyword;
-  return best;
-}
 
 constexpr bool isNameCharacter(char c) {
   return isLetter(c) || c == '_';
@@ -172,7 +104,6 @@ private:
   void scanHash();
   void scanVariable(const Number &number);
   void scanComment();
-  void scanCommentWords(std::string_view comment);
   void scanAngle();
   void scanString();
   void scanMark(char c);
@@ -350,6 +281,8 @@ bool LineScanner::scanOWord() {
 
 void LineScanner::scanToken() {
   const char c = peek();
+  if (!isBlank(c) && c != '(' && c != ';')
+    endsWithThen_ = false;
   if (isLetter(c)) {
     scanLetters();
     return;
@@ -404,7 +337,6 @@ void LineScanner::scanMark(char c) {
 
 void LineScanner::scanLetters() {
   const std::size_t start = at_;
-  endsWithThen_ = false;
   const std::string_view run = takeRun();
   if (run.size() > 1) {
     scanLongRun(run);
@@ -428,7 +360,7 @@ void LineScanner::scanLongRun(std::string_view run) {
   }
   std::string_view left = run;
   while (!left.empty() && left.front() != '_') {
-    const Keyword *keyword = longestPrefix(left);
+    const Keyword *keyword = longestKeywordPrefix(left);
     if (keyword == nullptr)
       break;
     scanKeyword(*keyword);
@@ -666,53 +598,10 @@ void LineScanner::scanVariable(const Number &number) {
 
 void LineScanner::scanComment() {
   hasComment_ = true;
-  const std::size_t start = at_ + 1;
-  const std::size_t close = line_.find(')', start);
-  const std::size_t end = close == std::string_view::npos ? line_.size() : close;
-  const std::string_view comment = trimmed(line_.substr(start, end - start));
-  at_ = close == std::string_view::npos ? line_.size() : close + 1;
-  static constexpr std::string_view kRsComments[] = {"DEBUG,", "MSG,", "PRINT,", "DLG", "PROBEOPEN", "ABORT,", "LOG,"};
-  for (const std::string_view begin : kRsComments)
-    if (beginsUpper(comment, begin))
-      count(TextSignal::RsComment);
-  static constexpr std::string_view kFagor[] = {"IF (", "CALL ", "PCALL ", "MCALL ", "SUB ", "RPT N", "RET", "P"};
-  for (const std::string_view begin : kFagor) {
-    if (!beginsUpper(comment, begin))
-      continue;
-    const std::string_view after = comment.substr(begin.size());
-    const bool isAssignment = begin == "P" && !after.empty() && isDigit(after[0]) && after.find('=') < 6;
-    const bool isCall = begin.back() == ' ' && !after.empty() && isDigit(after[0]);
-    if (isAssignment || isCall || begin == "IF (" || begin == "RPT N" || (begin == "RET" && after.empty()))
-      count(TextSignal::FagorStatement);
-  }
-  scanCommentWords(comment);
-}
-
-/// Makers' names at the beginning of words.
-void LineScanner::scanCommentWords(std::string_view comment) {
-  static constexpr struct {
-    std::string_view begin;
-    TextSignal signal;
-  } kNames[] = {
-      {"FANUC", TextSignal::FanucComment},           {"HAAS", TextSignal::HaasComment},
-      {"MITSUBISHI", TextSignal::MitsubishiComment}, {"MELDAS", TextSignal::MitsubishiComment},
-      {"MAZA", TextSignal::MitsubishiComment},       {"30I-", TextSignal::FanucSeries30Comment},
-      {"31I-", TextSignal::FanucSeries30Comment},    {"32I-", TextSignal::FanucSeries30Comment},
-      {"0I-F", TextSignal::FanucSeries30Comment},    {"0I-M", TextSignal::FanucSeries0Comment},
-      {"0I-T", TextSignal::FanucSeries0Comment},     {"0I-C", TextSignal::FanucSeries0Comment},
-      {"0I-D", TextSignal::FanucSeries0Comment},     {"16I-", TextSignal::FanucSeries0Comment},
-      {"18I-", TextSignal::FanucSeries0Comment},     {"21I-", TextSignal::FanucSeries0Comment},
-  };
-  bool isStart = true;
-  for (std::size_t i = 0; i < comment.size(); ++i) {
-    const char c = toUpper(comment[i]);
-    if (isStart && (c == 'F' || c == 'H' || c == 'M' || (c >= '0' && c <= '3'))) {
-      for (const auto &name : kNames)
-        if (beginsUpper(comment.substr(i), name.begin))
-          count(name.signal);
-    }
-    isStart = !isLetter(c) && !isDigit(c);
-  }
+  const std::size_t length = commentLength(rest());
+  if (feedhold::scanComment(rest().substr(0, length), scan_) == CommentLanguage::Foreign)
+    hasSignal_ = true;
+  at_ += length;
 }
 
 void LineScanner::scanAngle() {

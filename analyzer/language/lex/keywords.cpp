@@ -54,9 +54,7 @@ Follow shortFormOf(ControlWord word) {
   FEEDHOLD_UNREACHABLE("the switch names every control word");
 }
 
-constexpr std::uint8_t asByte(auto value) {
-  return static_cast<std::uint8_t>(value);
-}
+constexpr std::uint8_t asByte(auto value) { return static_cast<std::uint8_t>(value); }
 
 using KeywordTable = std::array<std::vector<Keyword>, 26>;
 

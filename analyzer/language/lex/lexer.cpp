@@ -33,9 +33,7 @@ constexpr std::array<ByteClass, 256> buildClasses() {
 }
 constexpr std::array<ByteClass, 256> kClasses = buildClasses();
 
-ByteClass classOf(char c) {
-  return kClasses[static_cast<unsigned char>(c)];
-}
+ByteClass classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
 
 constexpr std::array<TokenKind, 256> buildSymbols() {
   std::array<TokenKind, 256> kinds{};
@@ -57,9 +55,7 @@ constexpr std::array<TokenKind, 256> buildSymbols() {
 constexpr std::array<TokenKind, 256> kSymbols = buildSymbols();
 
 /// What directly follows the letter of a word with a value.
-bool startsValue(char c) {
-  return classOf(c) == ByteClass::Digit || c == '#' || c == '[' || c == '-' || c == '+';
-}
+bool startsValue(char c) { return classOf(c) == ByteClass::Digit || c == '#' || c == '[' || c == '-' || c == '+'; }
 
 /// No keyword is longer; a longer run need not be read to its end to find one.
 constexpr std::uint32_t kLongestKeywordRun = 24;
@@ -69,17 +65,14 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 } // namespace
 
 std::string_view nameOf(TokenKind kind) {
-  switch (kind) {
-#define TOKEN(name, text)                                                                                              \
-  case TokenKind::name: return text;                                                                                   \
-      #include "language/lex/tokens.def"
-  }
-  FEEDHOLD_UNREACHABLE("the switch names every kind");
+  static constexpr std::string_view kNames[] = {
+#define TOKEN(kind, name) name,
+#include "language/lex/tokens.def"
+  };
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
-bool isTrivia(char c) {
-  return classOf(c) == ByteClass::Trivia;
-}
+bool isTrivia(char c) { return classOf(c) == ByteClass::Trivia; }
 
 Lexer::Lexer(std::string_view text) : text_(text) {
   if (text_.starts_with(kByteOrderMark))

@@ -50,9 +50,7 @@ FlowAfter flowOfStatement(const SyntaxTree &tree, const Statement &statement) {
   return branches ? FlowAfter::MayJump : FlowAfter::Next;
 }
 
-bool ends(CodeRole role) {
-  return role == CodeRole::ProgramEnd || role == CodeRole::Return;
-}
+bool ends(CodeRole role) { return role == CodeRole::ProgramEnd || role == CodeRole::Return; }
 
 } // namespace
 

@@ -46,9 +46,7 @@ bool transfersControl(CallKind kind) {
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
 
-bool opensLevel(CallKind kind) {
-  return kind != CallKind::Subprogram;
-}
+bool opensLevel(CallKind kind) { return kind != CallKind::Subprogram; }
 
 } // namespace
 
@@ -220,8 +218,6 @@ const ProgramModel &CallGraph::model(FileId file) const {
   return *impl_->file(file).model;
 }
 
-std::size_t CallGraph::programCount() const {
-  return impl_ ? impl_->programCount : 0;
-}
+std::size_t CallGraph::programCount() const { return impl_ ? impl_->programCount : 0; }
 
 } // namespace feedhold

@@ -81,8 +81,6 @@ private:
 
 } // namespace
 
-void findJumps(const ResolveContext &context, ProgramModel &model) {
-  JumpFinder(context, model).run();
-}
+void findJumps(const ResolveContext &context, ProgramModel &model) { JumpFinder(context, model).run(); }
 
 } // namespace feedhold

@@ -33,9 +33,7 @@ ProgramName nameFrom(const ResolveContext &context, const Word &word) {
 }
 
 /// Blocks that the control does not read belong to no program; it begins with the first one that says something.
-bool isRead(const Block &block) {
-  return !block.has(Block::kLeader) && !block.has(Block::kAfterEnd);
-}
+bool isRead(const Block &block) { return !block.has(Block::kLeader) && !block.has(Block::kAfterEnd); }
 
 } // namespace
 

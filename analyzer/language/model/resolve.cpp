@@ -63,9 +63,7 @@ private:
 
 } // namespace
 
-void findVariableUses(const ResolveContext &context, ProgramModel &model) {
-  VariableUses(context, model).run();
-}
+void findVariableUses(const ResolveContext &context, ProgramModel &model) { VariableUses(context, model).run(); }
 
 ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dialect &dialect) {
   const ResolveContext context{source, tree, dialect};

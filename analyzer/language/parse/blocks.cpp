@@ -7,9 +7,7 @@ namespace feedhold {
 namespace {
 
 /// Spreads a span over another piece of text.
-void extend(std::optional<Span> &span, Span piece) {
-  span = span ? cover(*span, piece) : piece;
-}
+void extend(std::optional<Span> &span, Span piece) { span = span ? cover(*span, piece) : piece; }
 
 } // namespace
 

@@ -4,13 +4,9 @@
 
 namespace feedhold {
 
-ExpressionId Parser::expression() {
-  return binary(1);
-}
+ExpressionId Parser::expression() { return binary(1); }
 
-ExpressionId Parser::binary(int lowestPrecedence) {
-  return binaryRest(operand(), lowestPrecedence);
-}
+ExpressionId Parser::binary(int lowestPrecedence) { return binaryRest(operand(), lowestPrecedence); }
 
 ExpressionId Parser::binaryRest(ExpressionId left, int lowestPrecedence) {
   while (const std::optional<OperatorKind> op = peekOperator()) {

@@ -61,9 +61,7 @@ constexpr std::uint8_t usualPrecedence(OperatorKind op) {
 
 } // namespace
 
-SyntaxTree parse(const SourceFile &source, const Dialect &dialect) {
-  return Parser(source.text(), dialect).run();
-}
+SyntaxTree parse(const SourceFile &source, const Dialect &dialect) { return Parser(source.text(), dialect).run(); }
 
 Parser::Parser(std::string_view text, const Dialect &dialect) : text_(text), lexer_(text) {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(OperatorKind::LessOrEqual); ++i) {

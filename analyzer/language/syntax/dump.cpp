@@ -181,8 +181,6 @@ private:
 
 } // namespace
 
-std::string dump(const SyntaxTree &tree, const SourceFile &source) {
-  return Dumper(tree, source).run();
-}
+std::string dump(const SyntaxTree &tree, const SourceFile &source) { return Dumper(tree, source).run(); }
 
 } // namespace feedhold

@@ -10,8 +10,12 @@ namespace feedhold {
 namespace {
 
 /// The spans of everything in a block, in order of place.
-std::vector<Span> piecesOf(const SyntaxTree &tree, BlockId block, std::span<const Span> skips) {
+std::vector<Span> piecesOf(const SyntaxTree &tree, BlockId block, std::span<const Span> skips, std::string_view text) {
   std::vector<Span> pieces(skips.begin(), skips.end());
+  if (tree.blocks[block].has(Block::kPercent)) {
+    const auto mark = static_cast<std::uint32_t>(text.find('%', tree.blocks[block].begin));
+    pieces.push_back({mark, mark + 1});
+  }
   for (const Word &word : tree.wordsOf(block))
     pieces.push_back(word.span());
   for (const Comment &comment : tree.commentsOf(block))
@@ -23,9 +27,7 @@ std::vector<Span> piecesOf(const SyntaxTree &tree, BlockId block, std::span<cons
 }
 
 /// Blanks and ends of blocks: all that may stand between the pieces.
-bool isBetween(char c) {
-  return isTrivia(c) || c == '\n' || c == '\r' || c == ';';
-}
+bool isBetween(char c) { return isTrivia(c) || c == '\n' || c == '\r' || c == ';'; }
 
 } // namespace
 
@@ -50,7 +52,7 @@ std::string print(const SyntaxTree &tree, const SourceFile &source) {
     while (nextSkip < tree.skips.size() && tree.skips[nextSkip].begin < tree.blocks[block].end)
       ++nextSkip;
     const std::span<const Span> skips(tree.skips.data() + firstSkip, nextSkip - firstSkip);
-    for (const Span piece : piecesOf(tree, block, skips)) {
+    for (const Span piece : piecesOf(tree, block, skips, text)) {
       copyBetween(piece.begin);
       if (piece.end > at) {
         out += text.substr(std::max(at, piece.begin), piece.end - std::max(at, piece.begin));

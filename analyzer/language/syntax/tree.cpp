@@ -10,12 +10,11 @@
 namespace feedhold {
 
 std::string_view nameOf(SyntaxIssueKind kind) {
-  switch (kind) {
-#define ISSUE(name)                                                                                                    \
-  case SyntaxIssueKind::name: return #name;                                                                            \
-      #include "language/syntax/issues.def"
-  }
-  FEEDHOLD_UNREACHABLE("the switch names every kind");
+  static constexpr std::string_view kNames[] = {
+#define ISSUE(kind) #kind,
+#include "language/syntax/issues.def"
+  };
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::optional<std::uint16_t> Word::tenths() const {
@@ -52,9 +51,7 @@ std::span<const Statement> SyntaxTree::statementsOf(BlockId block) const {
   return statements.slice(blocks[block].firstStatement, blocks[block.next()].firstStatement);
 }
 
-WordId SyntaxTree::idOf(const Word &word) const {
-  return WordId(static_cast<std::size_t>(&word - &*words.begin()));
-}
+WordId SyntaxTree::idOf(const Word &word) const { return WordId(static_cast<std::size_t>(&word - &*words.begin())); }
 
 StatementId SyntaxTree::idOf(const Statement &statement) const {
   return StatementId(static_cast<std::size_t>(&statement - &*statements.begin()));

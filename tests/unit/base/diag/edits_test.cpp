@@ -12,9 +12,7 @@
 namespace feedhold {
 namespace {
 
-FixIt fix(std::vector<Edit> edits) {
-  return {FixSafety::Safe, "t", std::move(edits)};
-}
+FixIt fix(std::vector<Edit> edits) { return {FixSafety::Safe, "t", std::move(edits)}; }
 
 TEST(ApplyFixes, ReplacesInsertsAndDeletes) {
   const std::vector<FixIt> fixes = {fix({{{4, 5}, "="}}), fix({{{0, 0}, "N1 "}}), fix({{{8, 9}, ""}})};

@@ -14,9 +14,7 @@ __extension__ using Wide = __int128;
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
-Wide tenTo(int power) {
-  return power == 0 ? Wide{1} : 10 * tenTo(power - 1);
-}
+Wide tenTo(int power) { return power == 0 ? Wide{1} : 10 * tenTo(power - 1); }
 
 TEST(Decimal, TrailingZerosDoNotCount) {
   EXPECT_EQ(Decimal(10, 1), Decimal(1, 0));

@@ -44,9 +44,7 @@ TEST(Text, HashIsFnv1a) {
   EXPECT_EQ(stableHash("foobar"), 0x85944171f73967e8ULL);
 }
 
-TEST(Text, HashContinuesFromASeed) {
-  EXPECT_EQ(stableHash("bar", stableHash("foo")), stableHash("foobar"));
-}
+TEST(Text, HashContinuesFromASeed) { EXPECT_EQ(stableHash("bar", stableHash("foo")), stableHash("foobar")); }
 
 struct GlobCase {
   std::string_view pattern;
