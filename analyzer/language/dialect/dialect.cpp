@@ -31,13 +31,9 @@ const AddressFormat &formatOf(const Dialect &dialect, char address) {
   return isLetter(address) ? dialect.addresses[static_cast<std::size_t>(toUpper(address) - 'A')] : kNone;
 }
 
-const Code *findGCode(const Dialect &dialect, std::uint16_t tenths) {
-  return findCode(dialect.gCodes, tenths);
-}
+const Code *findGCode(const Dialect &dialect, std::uint16_t tenths) { return findCode(dialect.gCodes, tenths); }
 
-const Code *findMCode(const Dialect &dialect, std::uint16_t tenths) {
-  return findCode(dialect.mCodes, tenths);
-}
+const Code *findMCode(const Dialect &dialect, std::uint16_t tenths) { return findCode(dialect.mCodes, tenths); }
 
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) {
   const auto after =

@@ -26,9 +26,7 @@ std::string_view spellingOf(FunctionKind function);
 std::string_view spellingOf(OperatorKind op);
 std::string_view spellingOf(ControlWord word);
 
-constexpr bool isRelation(OperatorKind op) {
-  return op >= OperatorKind::Equal && op <= OperatorKind::LessOrEqual;
-}
+constexpr bool isRelation(OperatorKind op) { return op >= OperatorKind::Equal && op <= OperatorKind::LessOrEqual; }
 constexpr bool isBitwise(OperatorKind op) {
   return op == OperatorKind::And || op == OperatorKind::Or || op == OperatorKind::Xor;
 }

@@ -1,0 +1,89 @@
+// Comments of a text whose language is not known yet.
+#include "language/dialect/comment_signals.h"
+
+#include "base/support/text.h"
+#include "language/dialect/text_keywords.h"
+
+#include <algorithm>
+#include <span>
+
+namespace feedhold {
+namespace {
+
+void count(TextSignal signal, TextScan &scan) { ++scan.counts[static_cast<std::size_t>(signal)]; }
+
+bool beginsWithAny(std::string_view text, std::span<const std::string_view> begins) {
+  return std::any_of(begins.begin(), begins.end(), [text](std::string_view begin) { return beginsUpper(text, begin); });
+}
+
+/// `(IF (P1 EQ 2) ..)`, `(CALL 12)`, `(P12 = ..)`, `(RPT N1,N9)`, `(RET)`.
+bool isFagorStatement(std::string_view text) {
+  static constexpr std::string_view kCalls[] = {"CALL ", "PCALL ", "MCALL ", "SUB "};
+  for (const std::string_view call : kCalls)
+    if (beginsUpper(text, call) && text.size() > call.size() && isDigit(text[call.size()]))
+      return true;
+  const bool isAssignment = beginsUpper(text, "P") && text.size() > 1 && isDigit(text[1]) && text.find('=') < 7;
+  return isAssignment || beginsUpper(text, "IF (") || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
+}
+
+/// Makers' names at the beginning of words.
+void countNames(std::string_view text, TextScan &scan) {
+  static constexpr struct {
+    std::string_view begin;
+    TextSignal signal;
+  } kNames[] = {
+      {"FANUC", TextSignal::FanucComment},           {"HAAS", TextSignal::HaasComment},
+      {"MITSUBISHI", TextSignal::MitsubishiComment}, {"MELDAS", TextSignal::MitsubishiComment},
+      {"MAZAK", TextSignal::MitsubishiComment},      {"MAZATROL", TextSignal::MitsubishiComment},
+      {"30I-", TextSignal::FanucSeries30Comment},    {"31I-", TextSignal::FanucSeries30Comment},
+      {"32I-", TextSignal::FanucSeries30Comment},    {"0I-F", TextSignal::FanucSeries30Comment},
+      {"0I-M", TextSignal::FanucSeries0Comment},     {"0I-T", TextSignal::FanucSeries0Comment},
+      {"0I-C", TextSignal::FanucSeries0Comment},     {"0I-D", TextSignal::FanucSeries0Comment},
+      {"16I-", TextSignal::FanucSeries0Comment},     {"18I-", TextSignal::FanucSeries0Comment},
+      {"21I-", TextSignal::FanucSeries0Comment},
+  };
+  bool isStart = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = toUpper(text[i]);
+    if (isStart && (c == 'F' || c == 'H' || c == 'M' || (c >= '0' && c <= '3'))) {
+      for (const auto &name : kNames)
+        if (beginsUpper(text.substr(i), name.begin))
+          count(name.signal, scan);
+    }
+    isStart = !isLetter(c) && !isDigit(c);
+  }
+}
+
+} // namespace
+
+/// People nest parentheses although controls do not; what stands outside the outer pair is code for certain.
+std::size_t commentLength(std::string_view text) {
+  std::size_t depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(')
+      ++depth;
+    else if (text[i] == ')' && --depth == 0)
+      return i + 1;
+  }
+  const std::size_t first = text.find(')');
+  return first == std::string_view::npos ? text.size() : first + 1;
+}
+
+CommentLanguage scanComment(std::string_view comment, TextScan &scan) {
+  static constexpr std::string_view kRsComments[] = {"DEBUG,",  "MSG,",      "PRINT,", "DLG,", "DLGNAME,",
+                                                     "DLGSHOW", "PROBEOPEN", "ABORT,", "LOG,"};
+  const std::size_t inner = comment.size() > 1 && comment.back() == ')' ? comment.size() - 2 : comment.size() - 1;
+  const std::string_view text = trimmed(comment.substr(1, inner));
+  countNames(text, scan);
+  if (beginsWithAny(text, kRsComments)) {
+    count(TextSignal::RsComment, scan);
+    return CommentLanguage::Foreign;
+  }
+  if (isFagorStatement(text)) {
+    count(TextSignal::FagorStatement, scan);
+    return CommentLanguage::Foreign;
+  }
+  return CommentLanguage::Any;
+}
+
+} // namespace feedhold

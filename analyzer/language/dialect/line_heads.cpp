@@ -1,0 +1,153 @@
+// How lines begin: block skip, program numbers, and the marks of languages that are not Macro B.
+#include "language/dialect/line_scanner.h"
+
+namespace feedhold {
+
+void LineScanner::scanHead() {
+  if (peek() == '/') {
+    ++at_;
+    if (isDigit(peek()))
+      ++at_;
+    skipBlanks();
+  }
+  switch (peek()) {
+  case '%': scanPercent(); return;
+  case '$': scanDollar(); return;
+  case '#': scanHashHead(); return;
+  case '@':
+    if (isLetter(peek(1))) {
+      count(TextSignal::CompilerDirective);
+      stop();
+    }
+    return;
+  case ':':
+    if (isDigit(peek(1))) {
+      count(TextSignal::ProgramNumber);
+      ++at_;
+      takeNumber();
+      hasWord_ = true;
+    }
+    return;
+  case '<': scanAngle(); return;
+  case '[':
+    if (const std::size_t end = rest().rfind(']'); end != std::string_view::npos) {
+      const std::string_view after = trimmed(rest().substr(end + 1));
+      if (beginsUpper(after, "M99") || beginsUpper(after, "M97"))
+        count(TextSignal::HaasConditionalReturn);
+    }
+    return;
+  default: break;
+  }
+  if (isDigit(peek()))
+    scanNumberHead();
+  else if (toUpper(peek()) == 'O')
+    scanOWord();
+}
+
+/// The rest of a line that begins with `%`: leader text, unless a language makes something of it.
+void LineScanner::scanPercent() {
+  ++at_;
+  hasWord_ = true;
+  const char next = peek();
+  if (beginsUpper(rest(), "_N_")) {
+    count(TextSignal::SinumerikFile);
+  } else if (beginsUpper(rest(), "@MACRO")) {
+    count(TextSignal::SyntecMarker);
+  } else if (isLetter(next) && (equalsUpper(rest(), "WAIT") || rest().find('=') != std::string_view::npos)) {
+    count(TextSignal::SenderStatement);
+  } else if (toUpper(next) == 'O' || next == ':' || isBlank(next) || next == '(') {
+    skipBlanks();
+    return;
+  }
+  stop();
+}
+
+void LineScanner::scanDollar() {
+  static constexpr std::string_view kControl[] = {"IF",  "ELSE",   "ELSEIF", "ENDIF",   "WHILE",     "ENDWHILE",
+                                                  "FOR", "ENDFOR", "GOTO",   "SWITCH",  "ENDSWITCH", "CASE",
+                                                  "DO",  "ENDDO",  "BREAK",  "DEFAULT", "CONTINUE"};
+  static constexpr std::string_view kDirective[] = {"INCLUDE", "LIST", "NOLIST", "EJECT", "MIX"};
+  ++at_;
+  const std::string_view run = takeRun();
+  if (isOneOf(run, kControl)) {
+    count(TextSignal::DollarControl);
+  } else if (isOneOf(run, kDirective)) {
+    count(TextSignal::CompilerDirective);
+  } else if (trimmed(line_).back() == '%') {
+    count(TextSignal::OkumaFile);
+  } else {
+    hasUnknown_ = true;
+  }
+  stop();
+}
+
+/// A line whose `#` is followed by no number: macro lines of Fadal, commands of ISG, a heading, a remark.
+void LineScanner::scanHashHead() {
+  static constexpr std::string_view kFadal[] = {"PRINT", "INPUT", "GOTO", "WAIT", "CLEAR", "RETURN"};
+  static constexpr std::string_view kIsg[] = {"VAR", "ENDVAR", "MSG", "COMMENT", "ERROR", "CS", "TRAFO", "SLOPE"};
+  const char next = peek(1);
+  if (next == ':') {
+    count(TextSignal::FadalLine);
+    stop();
+  } else if (isLetter(next)) {
+    ++at_;
+    const std::string_view run = takeRun();
+    const bool isNumbered = run.size() == 1 && (toUpper(run[0]) == 'V' || toUpper(run[0]) == 'R') && isDigit(peek());
+    if (isNumbered || isOneOf(run, kFadal) ||
+        (equalsUpper(run, "IF") && rest().find("THEN") != std::string_view::npos)) {
+      count(TextSignal::FadalLine);
+    } else if (isOneOf(run, kIsg)) {
+      count(TextSignal::IsgCommand);
+    } else {
+      hasUnknown_ = true;
+    }
+    stop();
+  }
+}
+
+/// Klartext numbers its blocks without an address.
+void LineScanner::scanNumberHead() {
+  static constexpr std::string_view kFirst[] = {"L",    "C",    "CC",  "CR", "CT", "RND",  "LBL", "FN",
+                                                "CYCL", "STOP", "CHF", "LP", "CP", "APPR", "DEP", "Q"};
+  takeNumber();
+  if (!isBlank(peek()))
+    return;
+  skipBlanks();
+  const std::string_view run = peekRun();
+  if (isOneOf(run, kFirst)) {
+    count(TextSignal::KlartextBlock);
+    at_ += run.size() == 1 && toUpper(run[0]) == 'Q' ? 0 : run.size();
+  }
+}
+
+/// `o100 while`, `o<name> call`; anything else after O is left to the words.
+bool LineScanner::scanOWord() {
+  static constexpr std::string_view kAfterO[] = {"SUB",    "ENDSUB",    "IF",       "ELSEIF",   "ELSE",
+                                                 "ENDIF",  "WHILE",     "ENDWHILE", "CALL",     "REPEAT",
+                                                 "RETURN", "ENDREPEAT", "BREAK",    "CONTINUE", "DO"};
+  const std::size_t start = at_++;
+  skipBlanks();
+  if (peek() == '<') {
+    const std::size_t end = line_.find('>', at_);
+    at_ = end == std::string_view::npos ? start : end + 1;
+  } else if (isDigit(peek())) {
+    takeNumber();
+  } else {
+    at_ = start;
+  }
+  if (at_ != start) {
+    skipBlanks();
+    const std::string_view run = peekRun();
+    if (isOneOf(run, kAfterO)) {
+      count(TextSignal::OWord);
+      hasOWord_ = true;
+      hasWord_ = true;
+      at_ += run.size();
+      return true;
+    }
+  }
+  at_ = start;
+  return false;
+}
+
+} // namespace feedhold

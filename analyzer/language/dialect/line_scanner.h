@@ -1,0 +1,130 @@
+// The state of the scan of one line.  It is not the lexer: it has to make sense of twelve languages and of prose, and
+// may be wrong about single lines.  line_heads.cpp reads how a line begins, line_signals.cpp what follows.
+#pragma once
+
+#include "base/support/text.h"
+#include "language/dialect/text_keywords.h"
+#include "language/dialect/text_signals.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace feedhold {
+
+constexpr bool isNameCharacter(char c) { return isLetter(c) || c == '_'; }
+
+struct Number {
+  std::uint32_t whole = 0; // at most nine digits
+  std::uint32_t digits = 0;
+  bool hasFraction = false;
+};
+
+class LineScanner {
+public:
+  LineScanner(std::string_view line, TextScan &scan) : line_(line), scan_(scan) {}
+
+  void run() {
+    skipBlanks();
+    if (atEnd())
+      return;
+    scanHead();
+    while (!atEnd())
+      scanToken();
+    countCombinations();
+    sortLine();
+  }
+
+private:
+  bool atEnd() const { return at_ >= line_.size(); }
+  char peek(std::size_t ahead = 0) const { return at_ + ahead < line_.size() ? line_[at_ + ahead] : '\0'; }
+  std::string_view rest() const { return line_.substr(at_); }
+  void skipBlanks() {
+    while (isBlank(peek()))
+      ++at_;
+  }
+  void stop() { at_ = line_.size(); }
+
+  void count(TextSignal signal) {
+    ++scan_.counts[static_cast<std::size_t>(signal)];
+    hasSignal_ = true;
+  }
+
+  std::string_view takeRun() {
+    const std::size_t start = at_;
+    while (isNameCharacter(peek()))
+      ++at_;
+    return line_.substr(start, at_ - start);
+  }
+
+  std::string_view peekRun() const {
+    std::size_t end = at_;
+    while (end < line_.size() && isNameCharacter(line_[end]))
+      ++end;
+    return line_.substr(at_, end - at_);
+  }
+
+  Number takeNumber() {
+    Number number;
+    for (; isDigit(peek()); ++at_) {
+      if (++number.digits <= 9)
+        number.whole = number.whole * 10 + static_cast<std::uint32_t>(peek() - '0');
+    }
+    if (peek() == '.') {
+      number.hasFraction = isDigit(peek(1));
+      ++at_;
+      while (isDigit(peek()))
+        ++at_;
+    }
+    return number;
+  }
+
+  void scanHead();
+  void scanPercent();
+  void scanDollar();
+  void scanHashHead();
+  void scanNumberHead();
+  bool scanOWord();
+  void scanToken();
+  void scanLetters();
+  void scanLongRun(std::string_view run);
+  bool scanPair(std::string_view run);
+  void scanKeyword(const Keyword &keyword);
+  void scanCondition();
+  void scanWord(char letter);
+  void scanNumberedWord(char letter, const Number &number);
+  void scanGCode(const Number &number);
+  void scanMCode(const Number &number);
+  void scanEquals(char letter);
+  void scanHash();
+  void scanVariable(const Number &number);
+  void scanComment();
+  void scanAngle();
+  void scanString();
+  void scanMark(char c);
+  void countCombinations();
+  void sortLine();
+
+  bool hasLetter(char letter) const { return (letters_ >> (letter - 'A') & 1U) != 0; }
+
+  std::string_view line_;
+  TextScan &scan_;
+  std::size_t at_ = 0;
+  std::uint32_t letters_ = 0; // addresses seen
+  bool hasWord_ = false;      // something that NC programs are made of
+  bool hasComment_ = false;
+  bool hasUnknown_ = false;
+  bool hasSignal_ = false;
+  bool hasHash_ = false;
+  bool hasIf_ = false;
+  bool endsWithThen_ = false;
+  bool hasOWord_ = false;
+  bool hasG65_ = false;
+  bool hasM98_ = false;
+  bool hasM97_ = false;
+  bool hasTurningCycle_ = false;
+  bool hasG50_ = false;
+  bool hasG96_ = false;
+};
+
+} // namespace feedhold
