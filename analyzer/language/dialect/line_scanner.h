@@ -88,6 +88,7 @@ private:
   void scanToken();
   void scanLetters();
   void scanLongRun(std::string_view run);
+  void scanJammed(std::string_view run);
   bool scanPair(std::string_view run);
   void scanKeyword(const Keyword &keyword);
   void scanCondition();

@@ -4,6 +4,7 @@
 #include "language/dialect/comment_signals.h"
 #include "language/dialect/line_scanner.h"
 
+#include <array>
 #include <optional>
 
 namespace feedhold {
@@ -87,18 +88,30 @@ void LineScanner::scanLongRun(std::string_view run) {
     stop(); // everything up to the bracket is text
     return;
   }
+  scanJammed(run);
+}
+
+/// Keywords without blanks between them, with an address at the end: `THENGOTO`, `ANDG`.
+void LineScanner::scanJammed(std::string_view run) {
+  std::array<const Keyword *, 8> found{};
+  std::size_t size = 0;
   std::string_view left = run;
-  while (!left.empty() && left.front() != '_') {
+  while (!left.empty() && size < found.size()) {
     const Keyword *keyword = longestKeywordPrefix(left);
     if (keyword == nullptr)
       break;
-    scanKeyword(*keyword);
+    found[size++] = keyword;
     left.remove_prefix(keyword->spelling.size());
   }
+  const bool areAxes = left.find_first_not_of("XYZUVWABCxyzuvwabc") == std::string_view::npos;
+  if (left.size() > 1 && !areAxes) {
+    hasUnknown_ = true;
+    return;
+  }
+  for (std::size_t i = 0; i < size; ++i)
+    scanKeyword(*found[i]);
   if (left.size() == 1 && isLetter(left[0]))
     scanWord(toUpper(left[0]));
-  else if (!left.empty())
-    hasUnknown_ = hasUnknown_ || left.find_first_not_of("XYZUVWABCxyzuvwabc") != std::string_view::npos;
 }
 
 /// Words that mean something only together with what follows.
@@ -120,6 +133,8 @@ bool LineScanner::scanPair(std::string_view run) {
   const std::string_view next = peekRun();
   std::optional<TextSignal> signal;
   if (equalsUpper(run, "DEF") && isOneOf(next, kTypes))
+    signal = TextSignal::SinumerikDefinition;
+  else if ((run == "PROC" || run == "EXTERN") && start == 0 && next.size() > 2)
     signal = TextSignal::SinumerikDefinition;
   else if (equalsUpper(run, "MSG") && peek() == '(' && peek(1) == '"')
     signal = TextSignal::SinumerikWord;
@@ -276,8 +291,8 @@ void LineScanner::scanHash() {
   const bool isBracketed = at_ > 0 && line_[at_ - 1] == '[';
   ++at_;
   skipBlanks();
-  hasHash_ = true;
   const char next = peek();
+  hasHash_ = hasHash_ || isDigit(next) || next == '[' || next == '<';
   if (isDigit(next)) {
     hasWord_ = true;
     scanVariable(takeNumber());

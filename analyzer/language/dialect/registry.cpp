@@ -64,7 +64,7 @@ Best<ForeignLanguage> bestForeign(const TextScan &scan, const DialectRegistry &r
 }
 
 /// Languages with names of their own choosing have many lines that only partly speak to us.
-bool hasForeignLines(const TextScan &scan) { return (scan.programLines + scan.signalLines) * 4 >= scan.otherLines; }
+bool hasForeignLines(const TextScan &scan) { return (scan.programLines + scan.signalLines) * 2 >= scan.otherLines; }
 
 } // namespace
 

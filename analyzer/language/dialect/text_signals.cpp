@@ -10,6 +10,9 @@
 namespace feedhold {
 namespace {
 
+/// Of a line of ten megabytes, the beginning says enough.
+constexpr std::size_t kLongestLine = 512;
+
 struct NamedSignal {
   std::string_view extension;
   TextSignal signal;
@@ -92,7 +95,7 @@ TextScan scanText(std::string_view text, std::string_view path) {
       scan.isMarkup = true;
       return scan;
     }
-    scanLine(line, scan);
+    scanLine(line.substr(0, kLongestLine), scan);
     at = lineEnd == end ? end : lineEnd + 1;
   }
   return scan;

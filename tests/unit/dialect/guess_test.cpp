@@ -1,0 +1,121 @@
+// The guess on small texts of every kind.
+#include "dialects/registry.h"
+#include "language/dialect/text_signals.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace feedhold {
+namespace {
+
+/// The id of the dialect, the name of the language that is refused, or "none".
+std::string guessed(std::string_view text, std::string_view path = "part.nc") {
+  const LanguageGuess guess = guessLanguage(text, path, allDialects());
+  if (!guess.looksLikeProgram)
+    return "none";
+  return std::string(guess.foreign != nullptr ? guess.foreign->name : guess.dialect->id);
+}
+
+TEST(Guess, NothingSpecialIsTheFirstDialect) {
+  EXPECT_EQ(guessed("%\nO1000\nG00 G90 G54 X0 Y0\nM30\n%\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("M30"), "fanuc-30i");
+  EXPECT_EQ(guessed("IF[#1EQ0]GOTO9020\nG65P0142A#4B#5\nN9020M99\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("g1x#611f#9\rg0 z 1 0.\r"), "fanuc-30i");
+}
+
+TEST(Guess, SeriesNamedInAComment) {
+  EXPECT_EQ(guessed("O100(FANUC 0I-MD)\nG0X1.\nM30\n"), "fanuc-0i");
+  EXPECT_EQ(guessed("O100(FANUC 31I-B)\nG0X1.\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, Haas) {
+  EXPECT_EQ(guessed("%\nO00012 (PART)\nG00 G90 X0.\nM97 P100\nM30\nN100 G01 Z-1.\nM99\n%\n"), "haas-ngc");
+  EXPECT_EQ(guessed("#10000 = #3020\nG103 P1\nIF [#10000 GT 5] GOTO 10\nN10 M30\n"), "haas-ngc");
+}
+
+TEST(Guess, MitsubishiAndRelatives) {
+  EXPECT_EQ(guessed("IF[#4012EQ54]GOTO2\n#900010=#410+1\nN2M99\n"), "mitsubishi-m700");
+  EXPECT_EQ(guessed("IF [#11 EQ #0] THEN (NO ARGUMENT)\n#3006=1(NO H)\nENDIF\nM99\n", "CHECK.EIA"), "mitsubishi-m700");
+}
+
+TEST(Guess, ThenWithAStatementIsNoBlockIf) {
+  EXPECT_EQ(guessed("WHILE [#1 GT 2] DO1\nIF [#1 LT 4] THEN #1=#5\n#1=#1-1\nEND1\nM99\n"), "fanuc-30i");
+}
+
+TEST(Guess, Lathes) {
+  EXPECT_EQ(guessed("O10\nG50 S2000\nT0101\nG96 S180 M03\nG71 U2. R1.\nG71 P10 Q20 U0.4 W0.1 F0.3\nM30\n"),
+            "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O00010\nT101\nG50 S2000\nG96 S180\nG71 P1 Q2 U.02 W.005 D.05 F.012\nM97 P5\nM30\n"),
+            "haas-ngc-lathe");
+}
+
+TEST(Guess, LanguagesThatAreRefused) {
+  EXPECT_EQ(guessed("0 BEGIN PGM T1 MM\n1 TOOL CALL 1 Z S800\n2 L X+10 Y+0 R0 FMAX M3\n3 END PGM T1 MM\n", "T1.H"),
+            "Heidenhain Klartext");
+  EXPECT_EQ(guessed("PROC WARM(REAL SPEED)\nDEF INT N1\nR1=5\nIF R1>4 GOTOF ENDE\nG0 X=R1\nENDE: M17\n", "x.txt"),
+            "Sinumerik");
+  EXPECT_EQ(guessed("NTOP G0 X=VC1\nVC1=VC1+1\nCALL OPULL PL=2\nRTS\n"), "Okuma user task");
+  EXPECT_EQ(guessed("o100 sub\n#<depth> = 3\no110 if [#1 gt 2]\ng1 z-1 f100\no110 endif\no100 endsub\nm2\n"),
+            "RS274NGC with o-words");
+  EXPECT_EQ(guessed("%@MACRO\n@1 := 5;\n#1 := @1 + 2;\nIF #1 > 3 THEN\nEND_IF;\nM99;\n"), "Syntec MACRO");
+  EXPECT_EQ(guessed("(P1=5)\n(CALL 3)\nG1 X10\n(RET)\n"), "Fagor 8055");
+  EXPECT_EQ(guessed("$IF V.P.COUNT > 3\nG1 X10\n$ENDIF\nM30\n"), "ISG or Fagor 8060 (`$IF`)");
+  EXPECT_EQ(guessed("#V10 = 5\n#IF V10 > 3 THEN GOTO :NEXT\n#PRINT \"A\"\n#:NEXT\nM30\n"), "Fadal macro");
+  EXPECT_EQ(guessed("#1505 = -5000(wait)\nIF #1 == 2 GOTO1\nIF #3 != 0 GOTO2\nN1\nN2 M30\n"),
+            "a macro language with C operators (DDCS, Centroid, Eding)");
+  EXPECT_EQ(guessed("$INCLUDE COMMON\n@SPEED 100\n@FEED 101\nO9000\n#1=5\nM99\n"), "macro compiler source");
+  EXPECT_EQ(guessed("%wait\n%X0=posx, Y0=posy\nG21\nM5\n"), "sender macro (CNCjs)");
+}
+
+TEST(Guess, OneStrayWordRefusesNothing) {
+  EXPECT_EQ(guessed("O1\n#1=5\nIF[#1==5]GOTO10\nN10G0X1.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1(MSG, CHECK)\n#1=5\nG65P9000A#1\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, TextsThatAreNoPrograms) {
+  EXPECT_EQ(guessed(""), "none");
+  EXPECT_EQ(guessed("This is a letter about the machine.\nIt has seven lines, and no program.\n"), "none");
+  EXPECT_EQ(guessed("# Heading\n\nText with code:\n\n```nc\nO1\nG0 X1.\nM30\n```\n", "notes.txt"), "none");
+  EXPECT_EQ(guessed("%\nO1\nG0 X1.\nM30\n%\n", "README.md"), "none");
+  EXPECT_EQ(guessed("#include <vector>\nint main() { return 0; }\n", "x.txt"), "none");
+  EXPECT_EQ(guessed("int main(int n) {\n  if (n == 2) return 3;\n  else return process(n);\n}\n", "x.txt"), "none");
+  EXPECT_EQ(guessed("def f(x):\n    # a comment == b\n    return x == 2 and x != 3\n", "x.txt"), "none");
+  EXPECT_EQ(guessed("time,load\n1.5,20\n2.5,30\n", "x.txt"), "none");
+  EXPECT_EQ(guessed("{\"name\": 5, \"list\": [1, 2]}\n", "x.txt"), "none");
+  EXPECT_EQ(guessed("<!DOCTYPE html>\n<p>G0 X1</p>\n", "x.txt"), "none");
+  EXPECT_EQ(guessed(std::string("\x7F"
+                                "ELF\x02\x01\x01\x03\x05\x06\x07\x08",
+                                12),
+                    "x.nc"),
+            "none");
+}
+
+TEST(Guess, OddBytesOfAProgramDoNoHarm) {
+  EXPECT_EQ(guessed(std::string(40, '\0') + "%\nO1(\x83\x65\x83\x58)\nG0 X1.\r\nM30\n\x1A"), "fanuc-30i");
+  EXPECT_EQ(guessed("\xEF\xBB\xBF%\nO1\nG0 X1.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("(A (NESTED) REMARK: with words)\n(ANOTHER (ONE): again)\nG0 X1.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("DPRNT[RESULT*OF*THIS*X#1[44]]\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, ReasonsComeStrongestFirst) {
+  const LanguageGuess guess = guessLanguage("O00012\n#1=2\nM97 P1\nM97 P2\nM30\n", "", allDialects());
+  ASSERT_GE(guess.reasons.size(), 2U);
+  EXPECT_EQ(guess.reasons.front(), descriptionOf(TextSignal::HaasLocalCall));
+}
+
+TEST(TextScan, CountsSignals) {
+  const TextScan scan = scanText("#1=2\n#2=[#1+#100]\nG65 P9000 A1.\n(note)\nprose of several words\n", "");
+  EXPECT_EQ(scan.count(TextSignal::HashVariable), 4U);
+  EXPECT_EQ(scan.count(TextSignal::MacroCall), 1U);
+  EXPECT_EQ(scan.programLines, 3U);
+  EXPECT_EQ(scan.otherLines, 1U);
+}
+
+TEST(TextScan, JammedKeywordsAreKeywordsButPartsOfWordsAreNot) {
+  EXPECT_EQ(scanText("IF[#1EQ2]THENGOTO5\n", "").count(TextSignal::MacroControl), 2U);
+  EXPECT_EQ(scanText("process domain endless\n", "").count(TextSignal::MacroControl), 0U);
+}
+
+} // namespace
+} // namespace feedhold

@@ -1,0 +1,198 @@
+// The tables of every dialect: in order, without overlap, complete where other rooms rely on them.
+#include "dialects/registry.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace feedhold {
+namespace {
+
+struct Row {
+  std::string_view id;
+  std::string_view folder;
+};
+
+void PrintTo(const Row &row, std::ostream *out) { *out << row.id; }
+
+constexpr Row kRows[] = {
+#define DIALECT(function, id, folder) {id, folder},
+#include "dialects/dialects.def"
+};
+
+class EveryDialect : public testing::TestWithParam<Row> {
+protected:
+  const Dialect &dialect() const { return *findDialect(allDialects(), GetParam().id); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Tables, EveryDialect, testing::ValuesIn(kRows), [](const auto &info) {
+  std::string name(info.param.id);
+  for (char &c : name)
+    c = c == '-' ? '_' : c;
+  return name;
+});
+
+TEST_P(EveryDialect, CodesAreInOrderAndUnique) {
+  for (const std::span<const Code> codes : {dialect().gCodes, dialect().mCodes}) {
+    ASSERT_FALSE(codes.empty());
+    for (std::size_t i = 1; i < codes.size(); ++i)
+      EXPECT_LT(codes[i - 1].tenths, codes[i].tenths);
+    for (const Code &code : codes)
+      EXPECT_FALSE(code.meaning.empty()) << code.tenths;
+  }
+}
+
+TEST_P(EveryDialect, VariablesAreInOrderWithoutOverlap) {
+  const std::span<const VariableRange> ranges = dialect().variables;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    EXPECT_LE(ranges[i].first, ranges[i].last);
+    if (i > 0) {
+      EXPECT_LT(ranges[i - 1].last, ranges[i].first);
+    }
+  }
+}
+
+TEST_P(EveryDialect, KnowsTheCodesThatTheModelAsksFor) {
+  std::set<CodeRole> roles;
+  for (const Code &code : dialect().gCodes)
+    roles.insert(code.role);
+  for (const Code &code : dialect().mCodes)
+    roles.insert(code.role);
+  for (const CodeRole role : {CodeRole::Motion, CodeRole::Arc, CodeRole::Dwell, CodeRole::DataSetting,
+                              CodeRole::MacroCall, CodeRole::CannedCycle, CodeRole::SubprogramCall, CodeRole::Return,
+                              CodeRole::ProgramEnd, CodeRole::ProgramStop, CodeRole::MachinePosition, CodeRole::Skip})
+    EXPECT_TRUE(roles.contains(role)) << static_cast<int>(role);
+}
+
+TEST_P(EveryDialect, VariablesEveryMacroUses) {
+  EXPECT_EQ(findVariable(dialect(), 0)->kind, VariableKind::Vacant);
+  EXPECT_EQ(findVariable(dialect(), 0)->access, VariableAccess::ReadOnly);
+  EXPECT_EQ(findVariable(dialect(), 33)->kind, VariableKind::Local);
+  EXPECT_EQ(findVariable(dialect(), 34), nullptr);
+  EXPECT_EQ(findVariable(dialect(), 99), nullptr);
+  EXPECT_EQ(findVariable(dialect(), 500)->kind, VariableKind::Retentive);
+  EXPECT_EQ(findVariable(dialect(), kAlarmVariable)->access, VariableAccess::WriteOnly);
+  EXPECT_EQ(findVariable(dialect(), kMessageVariable)->access, VariableAccess::WriteOnly);
+  EXPECT_EQ(findVariable(dialect(), 4001)->access, VariableAccess::ReadOnly);
+  EXPECT_EQ(findVariable(dialect(), 5001)->access, VariableAccess::ReadOnly);
+  EXPECT_EQ(findVariable(dialect(), 5221)->access, VariableAccess::ReadWrite);
+}
+
+TEST_P(EveryDialect, ArgumentLettersAreThoseOfAssignmentOne) {
+  const std::string_view letters = "ABCIJKDEFHMQRSTUVWXYZ";
+  const int variables[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
+  for (std::size_t i = 0; i < letters.size(); ++i)
+    EXPECT_EQ(dialect().argumentVariables[static_cast<std::size_t>(letters[i] - 'A')], variables[i]) << letters[i];
+  for (const char letter : {'G', 'L', 'N', 'O', 'P'})
+    EXPECT_EQ(dialect().argumentVariables[static_cast<std::size_t>(letter - 'A')], 0) << letter;
+}
+
+TEST_P(EveryDialect, AndBindsAsAMultiplication) {
+  EXPECT_EQ(precedenceOf(dialect(), OperatorKind::And), precedenceOf(dialect(), OperatorKind::Multiply));
+  EXPECT_GT(precedenceOf(dialect(), OperatorKind::And), precedenceOf(dialect(), OperatorKind::Add));
+  EXPECT_EQ(precedenceOf(dialect(), OperatorKind::Or), precedenceOf(dialect(), OperatorKind::Add));
+  EXPECT_GT(precedenceOf(dialect(), OperatorKind::Or), precedenceOf(dialect(), OperatorKind::Equal));
+  EXPECT_GT(precedenceOf(dialect(), OperatorKind::Equal), 0);
+}
+
+TEST_P(EveryDialect, NoAlarmHasTwoNumbers) {
+  std::set<AlarmKind> kinds;
+  for (const AlarmNumber &alarm : dialect().alarms)
+    EXPECT_TRUE(kinds.insert(alarm.kind).second) << alarm.number;
+}
+
+TEST_P(EveryDialect, HasAParityPageThatNamesIt) {
+  const std::filesystem::path page =
+      std::filesystem::path(FEEDHOLD_SOURCE_DIR) / "dialects" / GetParam().folder / "parity.md";
+  std::ifstream file(page);
+  ASSERT_TRUE(file) << page;
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find("`" + std::string(GetParam().id) + "`"), std::string::npos) << page;
+  EXPECT_NE(text.str().find("## Not modelled"), std::string::npos) << page;
+}
+
+const Dialect &dialectNamed(std::string_view id) { return *findDialect(allDialects(), id); }
+
+TEST(Dialect, IsFoundByItsId) {
+  EXPECT_EQ(findDialect(allDialects(), "fanuc-99i"), nullptr);
+  EXPECT_EQ(dialectNamed("haas-ngc").id, "haas-ngc");
+  EXPECT_EQ(allDialects().dialects.front()->id, "fanuc-30i");
+}
+
+TEST(Dialect, MillsAndLathesReadTheSameNumberDifferently) {
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i"), 900)->group, 3);
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i-lathe"), 900)->role, CodeRole::CannedCycle);
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-0i-lathe"), 710)->role, CodeRole::Contour);
+  EXPECT_EQ(findGCode(dialectNamed("haas-ngc"), 710)->role, CodeRole::CannedCycle);
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i"), 540)->group, 14);
+  EXPECT_EQ(findGCode(dialectNamed("mitsubishi-m700"), 540)->group, 12);
+  EXPECT_EQ(formatOf(dialectNamed("fanuc-30i"), 'H').kind, AddressKind::Integer);
+  EXPECT_EQ(formatOf(dialectNamed("fanuc-30i-lathe"), 'H').kind, AddressKind::Flexible);
+}
+
+TEST(Dialect, DecimalCodesAndScreenCodesAreCodes) {
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i"), 541)->group, 14);
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i"), 661)->role, CodeRole::ModalCallEach);
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-0i"), 19020)->meaning, "MANUAL GUIDE i blank: rectangular block");
+  EXPECT_EQ(findGCode(dialectNamed("fanuc-30i"), 1540), nullptr);
+  EXPECT_EQ(findGCode(dialectNamed("haas-ngc"), 1540)->group, 12);
+}
+
+TEST(Dialect, LocalCallsAreHaasAlone) {
+  EXPECT_EQ(findMCode(dialectNamed("haas-ngc"), 970)->role, CodeRole::LocalCall);
+  EXPECT_EQ(findMCode(dialectNamed("fanuc-30i"), 970)->role, CodeRole::Plain);
+}
+
+TEST(Dialect, VariablesThatOnlySomeControlsHave) {
+  EXPECT_EQ(findVariable(dialectNamed("fanuc-30i"), 400), nullptr);
+  EXPECT_EQ(findVariable(dialectNamed("mitsubishi-m700"), 400)->option, VariableOption::Optional);
+  EXPECT_EQ(findVariable(dialectNamed("fanuc-0i"), 150)->option, VariableOption::Optional);
+  EXPECT_EQ(findVariable(dialectNamed("haas-ngc"), 10000)->kind, VariableKind::Retentive);
+  EXPECT_EQ(findVariable(dialectNamed("haas-classic"), 10000), nullptr);
+  EXPECT_EQ(findVariable(dialectNamed("fanuc-30i"), 3101)->name, "_PI");
+  EXPECT_EQ(findVariable(dialectNamed("fanuc-0i"), 3101), nullptr);
+  EXPECT_EQ(findVariable(dialectNamed("mitsubishi-m700"), 4294967295U), nullptr);
+}
+
+TEST(Dialect, FunctionsThatOnlySomeControlsHave) {
+  EXPECT_EQ(findFunction(dialectNamed("fanuc-30i"), FunctionKind::Pow)->form, FunctionForm::TwoByComma);
+  EXPECT_EQ(findFunction(dialectNamed("fanuc-0i"), FunctionKind::Pow), nullptr);
+  EXPECT_EQ(findFunction(dialectNamed("haas-classic"), FunctionKind::Bcd), nullptr);
+  EXPECT_EQ(findFunction(dialectNamed("haas-ngc"), FunctionKind::Sqrt)->domain, FunctionDomain::NotNegative);
+}
+
+TEST(Dialect, AlarmsAreNamedAsTheControlNamesThem) {
+  EXPECT_EQ(stopsWith(dialectNamed("fanuc-30i"), AlarmKind::DivideByZero), "stops with PS0112 (divided by zero)");
+  EXPECT_EQ(stopsWith(dialectNamed("fanuc-0i"), AlarmKind::DivideByZero), "stops with P/S 112 (divided by zero)");
+  EXPECT_EQ(stopsWith(dialectNamed("mitsubishi-m700"), AlarmKind::DivideByZero), "stops with P283 (divided by zero)");
+  EXPECT_EQ(stopsWith(dialectNamed("haas-ngc"), AlarmKind::DivideByZero), "stops with an alarm (divided by zero)");
+  EXPECT_EQ(alarmNumber(dialectNamed("fanuc-0i"), AlarmKind::SetVnFormat), std::nullopt);
+}
+
+TEST(Dialect, LimitsDiffer) {
+  EXPECT_EQ(dialectNamed("mitsubishi-m700").limits.lastLoopNumber, 127);
+  EXPECT_EQ(dialectNamed("fanuc-0i").limits.lastLoopNumber, 3);
+  EXPECT_EQ(dialectNamed("fanuc-0i").limits.macroCallDepth, 4);
+  EXPECT_EQ(dialectNamed("haas-ngc").limits.lastAlarmNumber, 999U);
+}
+
+TEST(Dialect, CodeCallsComeFromTheSwitches) {
+  Dialect dialect = dialectNamed("fanuc-30i");
+  EXPECT_EQ(findCodeCall(dialect, 'M', 60), nullptr);
+  dialect.switches.codeCalls.push_back({'M', 60, 9001, false});
+  EXPECT_EQ(findCodeCall(dialect, 'M', 60)->program, 9001U);
+  EXPECT_EQ(findCodeCall(dialect, 'G', 60), nullptr);
+}
+
+TEST(Words, AreSpelledAsInPrograms) {
+  EXPECT_EQ(spellingOf(FunctionKind::Sqrt), "SQRT");
+  EXPECT_EQ(spellingOf(OperatorKind::LessOrEqual), "LE");
+  EXPECT_EQ(spellingOf(ControlWord::Dprnt), "DPRNT");
+}
+
+} // namespace
+} // namespace feedhold
