@@ -145,15 +145,26 @@ Token Lexer::letters(std::uint32_t begin) {
 
 /// Digits and points; blanks inside belong to the number, because two numbers never stand side by side.
 Token Lexer::number(std::uint32_t begin) {
-  std::uint32_t end = begin + 1;
-  for (std::uint32_t i = end; i < size(); ++i) {
-    const ByteClass byte = classOf(text_[i]);
-    if (byte == ByteClass::Digit)
-      end = i + 1;
-    else if (byte != ByteClass::Trivia)
+  NumberText number;
+  const char *const last = text_.data() + text_.size();
+  const char *end = text_.data() + begin;
+  for (const char *at = end; at != last; ++at) {
+    const char c = *at;
+    if (isDigit(c)) {
+      number.digits += number.mantissa != 0 || c != '0';
+      if (number.digits <= NumberText::kMostDigits)
+        number.mantissa = number.mantissa * 10 + (c - '0');
+      number.decimals += number.points;
+      end = at + 1;
+    } else if (c == '.') {
+      ++number.points;
+      end = at + 1;
+    } else if (classOf(c) != ByteClass::Trivia) {
       break;
+    }
   }
-  return make(TokenKind::Number, begin, end);
+  number_ = number;
+  return make(TokenKind::Number, begin, static_cast<std::uint32_t>(end - text_.data()));
 }
 
 /// Up to the first `)`: comments do not nest.  One that is not closed on its line ends there, unless the next line is

@@ -12,6 +12,17 @@ namespace feedhold {
 /// Blanks between tokens: space, tab, and control bytes other than line ends (tape leaders are made of NUL).
 bool isTrivia(char c);
 
+/// The value of a Number token, read while its end was looked for: a CAM program is mostly numbers.
+struct NumberText {
+  std::int64_t mantissa = 0; // of the first kMostDigits digits
+  std::uint32_t digits = 0;  // without leading zeros
+  std::uint32_t decimals = 0;
+  std::uint32_t points = 0;
+
+  /// Digits that 64 bits hold; no control takes as many.
+  static constexpr std::uint32_t kMostDigits = 18;
+};
+
 /// Hands out one token after another.  The parser pulls, so that a program of a million blocks needs no buffer.
 /// Cheap to copy: a copy is a place to come back to.
 class Lexer {
@@ -19,6 +30,8 @@ public:
   explicit Lexer(std::string_view text);
 
   Token next();
+  /// Of the token that next() gave last, when that is a Number.
+  const NumberText &lastNumber() const { return number_; }
   /// Goes on reading at `offset`: behind raw text (DPRNT formats, leaders) or back at a saved place.
   void moveTo(std::uint32_t offset) { at_ = offset; }
   /// End of the line that holds `offset`, without its line end.
@@ -43,6 +56,7 @@ private:
 
   std::string_view text_;
   std::uint32_t at_ = 0;
+  NumberText number_;
 };
 
 /// All tokens of a file, the last one EndOfFile.

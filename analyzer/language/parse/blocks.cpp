@@ -108,11 +108,11 @@ void Parser::readWordValue(char address, std::uint32_t begin, std::uint8_t wordF
   if (sign && peek().kind == TokenKind::Number) {
     const bool negative = at(TokenKind::Minus);
     advance();
-    addNumberWord(address, {begin, token_.end}, wordFlags | Word::kSigned, token_, negative);
+    addNumberWord(address, begin, wordFlags | Word::kSigned, negative);
     return;
   }
   if (at(TokenKind::Number)) {
-    addNumberWord(address, {begin, token_.end}, wordFlags, token_, false);
+    addNumberWord(address, begin, wordFlags, false);
     return;
   }
   if (startsOperand(token_)) {
@@ -127,18 +127,21 @@ void Parser::readWordValue(char address, std::uint32_t begin, std::uint8_t wordF
   tree_.words.add(Word(address, placeholder ? WordForm::Broken : WordForm::Missing, {begin, lastEnd_}, wordFlags));
 }
 
-void Parser::addNumberWord(char address, Span span, std::uint8_t wordFlags, const Token &number, bool negative) {
-  const std::optional<Decimal> value = decimalOf(number, Broken::No);
-  const std::string_view digits = text_.substr(number.begin, number.end - number.begin);
-  if (digits.find('.') != std::string_view::npos)
+/// token_ is the number of the word.
+void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordFlags, bool negative) {
+  const Token digits = token_;
+  const std::optional<Decimal> value = numberHere();
+  if (lexer_.lastNumber().points > 0)
     wordFlags |= Word::kPoint;
   advance();
   if (peekOperator() && !at(TokenKind::Slash) && startsOperand(peek())) {
-    const ExpressionId literal = addExpression(number.begin, NumberLiteral{value.value_or(Decimal())});
-    const ExpressionId left = negative ? addExpression(span.begin + 1, Negation{literal}) : literal;
-    readUnbracketedRest(address, span.begin, wordFlags, left);
+    const ExpressionId literal =
+        tree_.expressions.add(Expression{digits.span(), NumberLiteral{value.value_or(Decimal())}});
+    const ExpressionId left = negative ? addExpression(begin + 1, Negation{literal}) : literal;
+    readUnbracketedRest(address, begin, wordFlags, left);
     return;
   }
+  const Span span{begin, digits.end};
   if (value)
     tree_.words.add(Word::number(address, negative ? value->negated() : *value, span, wordFlags));
   else
@@ -180,7 +183,7 @@ void Parser::readBlockSkip() {
   std::uint8_t level = 1;
   bool levelIsFine = true;
   if (at(TokenKind::Number)) {
-    const std::optional<std::int64_t> number = decimalOf(token_, Broken::No).value_or(Decimal(0, 0)).asInteger();
+    const std::optional<std::int64_t> number = numberHere().value_or(Decimal(0, 0)).asInteger();
     levelIsFine = number && *number >= 1 && *number <= 9;
     level = levelIsFine ? static_cast<std::uint8_t>(*number) : 1;
     advance();

@@ -161,7 +161,7 @@ ExpressionId Parser::brokenOperand() {
 
 ExpressionId Parser::number() {
   const Token token = token_;
-  const std::optional<Decimal> value = decimalOf(token, Broken::No);
+  const std::optional<Decimal> value = numberHere();
   advance();
   if (!value)
     return addExpression(token.begin, BrokenExpression{});
@@ -173,7 +173,7 @@ ExpressionId Parser::variable() {
   const Token hash = token_;
   advance();
   if (at(TokenKind::Number)) {
-    const std::optional<Decimal> number = decimalOf(token_, Broken::No);
+    const std::optional<Decimal> number = numberHere();
     advance();
     if (!number)
       return addExpression(hash.begin, BrokenExpression{});

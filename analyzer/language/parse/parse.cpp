@@ -35,9 +35,6 @@ bool readsAsProgram(std::string_view text) {
   return false;
 }
 
-/// Digits of a number that 64 bits hold; no control takes as many.
-constexpr unsigned kMostDigits = 18;
-
 /// Precedence where the dialect lacks the operator, so that the tree is right even where a rule complains.
 constexpr std::uint8_t usualPrecedence(OperatorKind op) {
   switch (op) {
@@ -176,31 +173,18 @@ void Parser::issue(SyntaxIssueKind kind, Span span, Span other, Broken broken) {
   }
 }
 
-std::optional<Decimal> Parser::decimalOf(const Token &number, Broken onError) {
-  std::int64_t mantissa = 0;
-  unsigned digits = 0; // without leading zeros
-  unsigned decimals = 0;
-  unsigned points = 0;
-  for (std::uint32_t i = number.begin; i < number.end; ++i) {
-    const char c = text_[i];
-    if (isDigit(c)) {
-      digits += mantissa != 0 || c != '0';
-      if (digits <= kMostDigits)
-        mantissa = mantissa * 10 + (c - '0');
-      decimals += points;
-    } else {
-      points += c == '.';
-    }
-  }
-  if (points > 1) {
-    issue(SyntaxIssueKind::TwoDecimalPoints, number.span(), {}, onError);
+/// The value of token_, a Number.
+std::optional<Decimal> Parser::numberHere() {
+  const NumberText &number = lexer_.lastNumber();
+  if (number.points > 1) {
+    issue(SyntaxIssueKind::TwoDecimalPoints, token_.span(), {}, Broken::No);
     return std::nullopt;
   }
-  if (digits > kMostDigits || decimals > kMostDigits) {
-    issue(SyntaxIssueKind::NumberTooLong, number.span(), {}, onError);
+  if (number.digits > NumberText::kMostDigits || number.decimals > NumberText::kMostDigits) {
+    issue(SyntaxIssueKind::NumberTooLong, token_.span(), {}, Broken::No);
     return std::nullopt;
   }
-  return Decimal(mantissa, static_cast<std::uint8_t>(decimals));
+  return Decimal(number.mantissa, static_cast<std::uint8_t>(number.decimals));
 }
 
 } // namespace feedhold

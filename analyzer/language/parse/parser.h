@@ -41,7 +41,7 @@ private:
   void readItem();
   void readWord();
   void readWordValue(char address, std::uint32_t begin, std::uint8_t wordFlags);
-  void addNumberWord(char address, Span span, std::uint8_t wordFlags, const Token &number, bool negative);
+  void addNumberWord(char address, std::uint32_t begin, std::uint8_t wordFlags, bool negative);
   void readUnbracketedRest(char address, std::uint32_t begin, std::uint8_t wordFlags, ExpressionId left);
   void readCommaWord();
   void readBlockSkip();
@@ -101,7 +101,7 @@ private:
   /// Reports unless the block is broken already; `Broken::Yes` gives up the rest of the block.
   enum class Broken { No, Yes };
   void issue(SyntaxIssueKind kind, Span span, Span other, Broken broken);
-  std::optional<Decimal> decimalOf(const Token &number, Broken onError);
+  std::optional<Decimal> numberHere();
 
   std::string_view text_;
   Lexer lexer_;
