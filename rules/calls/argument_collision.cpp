@@ -1,0 +1,42 @@
+// argument-collision: `G65 P1 I1. I2. D5.`: the second I and D are both #7.
+#include "findings/rule/rule.h"
+
+#include "rules/calls/call_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+/// The word that wins: the last one of the variable.
+const Argument &winner(const Call &call, const Argument &loser) {
+  const auto last = std::find_if(call.arguments.rbegin(), call.arguments.rend(),
+                                 [&](const Argument &other) { return other.variable == loser.variable; });
+  return *last;
+}
+
+void check(CallId id, const FileContext &context, const Reporter &reporter) {
+  const Call &call = context.model.calls[id];
+  for (const Argument &argument : call.arguments) {
+    if (argument.role != ArgumentRole::Overridden)
+      continue;
+    const Span lost = wordOf(context, argument.word).span();
+    const Span wins = wordOf(context, winner(call, argument).word).span();
+    reporter.report({.message = fmt::format("{} is lost: {} sets `#{}`, too", context.quoted(lost),
+                                            context.quoted(wins), argument.variable),
+                     .span = lost,
+                     .labels = {{wins, "the later word wins"}},
+                     .notes = {"a second I, J or K in a call sets the variables of other letters"}});
+  }
+}
+
+} // namespace
+
+extern const Rule argumentCollision;
+const Rule argumentCollision{.info = {"argument-collision", Category::Call, Severity::Warning,
+                                      "Reports two words of a macro call that set the same local variable."},
+                             .hooks = {.call = check}};
+
+} // namespace feedhold::rules

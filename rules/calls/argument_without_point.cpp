@@ -1,0 +1,63 @@
+// argument-without-point: `G65 P9010 X10` may pass 0.010.
+#include "findings/rule/rule.h"
+
+#include "rules/calls/call_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+bool isScaled(const Argument &argument, const FileContext &context) {
+  const Word &word = wordOf(context, argument.word);
+  const AddressKind kind = formatOf(context.dialect, word.address()).kind;
+  return word.isNumber() && argument.variable != 0 && (kind == AddressKind::Length || kind == AddressKind::Angle);
+}
+
+bool lacksPoint(const Argument &argument, const FileContext &context) {
+  const Word &word = wordOf(context, argument.word);
+  return isScaled(argument, context) && !word.has(Word::kPoint) && !word.number().isZero();
+}
+
+/// Who writes some lengths of a call with a point and others without works by increments, or forgot one.
+bool mixesForms(const Call &call, const FileContext &context) {
+  return std::ranges::any_of(call.arguments, [&](const Argument &argument) {
+    return isScaled(argument, context) && wordOf(context, argument.word).has(Word::kPoint);
+  });
+}
+
+void check(CallId id, const FileContext &context, const Reporter &reporter) {
+  const Call &call = context.model.calls[id];
+  const Switch dpi = context.dialect.switches.dpi;
+  if (!isMacroCall(call.kind) || dpi == Switch::On || (dpi == Switch::Unknown && !mixesForms(call, context)))
+    return;
+  const auto first =
+      std::ranges::find_if(call.arguments, [&](const Argument &argument) { return lacksPoint(argument, context); });
+  if (first == call.arguments.end())
+    return;
+  Diagnostic diagnostic{
+      .message = fmt::format("argument {} is written without a decimal point",
+                             context.quoted(wordOf(context, first->word).span())),
+      .span = wordOf(context, first->word).span(),
+      .notes = {dpi == Switch::Off
+                    ? "the control passes it in its least increment, a thousandth of a millimetre or degree"
+                    : "parameter 3401#0 decides whether the control passes it in its least increment, a "
+                      "thousandth of a millimetre or degree",
+                "with a point the value is the same on every machine"}};
+  for (auto other = std::next(first); other != call.arguments.end(); ++other)
+    if (lacksPoint(*other, context))
+      diagnostic.labels.push_back({wordOf(context, other->word).span(), "likewise"});
+  reporter.report(std::move(diagnostic));
+}
+
+} // namespace
+
+extern const Rule argumentWithoutPoint;
+const Rule argumentWithoutPoint{
+    .info = {"argument-without-point", Category::Call, Severity::Info,
+             "Reports a length or an angle that a macro call passes without a decimal point."},
+    .hooks = {.call = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,49 @@
+// The words of calls.
+#include "rules/calls/call_view.h"
+
+#include <algorithm>
+
+namespace feedhold::rules {
+
+bool namesProgram(CallKind kind) {
+  switch (kind) {
+  case CallKind::Macro:
+  case CallKind::Modal:
+  case CallKind::ModalEach:
+  case CallKind::Subprogram:
+  case CallKind::External: return true;
+  case CallKind::ModalCancel:
+  case CallKind::MacroA:
+  case CallKind::Local:
+  case CallKind::Code: return false;
+  }
+  return false;
+}
+
+bool isMacroCall(CallKind kind) {
+  return kind == CallKind::Macro || kind == CallKind::Modal || kind == CallKind::ModalEach;
+}
+
+const Word &wordOf(const FileContext &context, WordId id) {
+  return context.tree.words[id];
+}
+
+Span spanOf(const FileContext &context, const Call &call) {
+  const Span code = wordOf(context, call.code).span();
+  return call.programWord ? cover(code, wordOf(context, *call.programWord).span()) : code;
+}
+
+std::string quotedCall(const FileContext &context, const Call &call) {
+  return context.quoted(call.programWord && *call.programWord > call.code ? spanOf(context, call)
+                                                                          : wordOf(context, call.code).span());
+}
+
+const Call *callTo(const FileContext &context, ProgramId caller, ProgramRef callee) {
+  const auto &calls = context.model.calls;
+  const auto found = std::ranges::find_if(calls, [&](const Call &call) {
+    return call.caller == caller && context.callGraph.callee(context.file, call) == callee;
+  });
+  return found == calls.end() ? nullptr : &*found;
+}
+
+} // namespace feedhold::rules

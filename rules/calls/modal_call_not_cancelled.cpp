@@ -1,0 +1,61 @@
+// modal-call-not-cancelled: `G66` and no `G67`.
+#include "findings/rule/rule.h"
+
+#include "rules/calls/call_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+bool isModal(CallKind kind) {
+  return kind == CallKind::Modal || kind == CallKind::ModalEach;
+}
+
+bool cancels(const ProgramModel &model, ProgramId program) {
+  return std::ranges::any_of(
+      model.calls, [&](const Call &call) { return call.caller == program && call.kind == CallKind::ModalCancel; });
+}
+
+/// Who calls this program may cancel what it leaves in force.
+bool callerCancels(const FileContext &context, ProgramId program) {
+  return std::ranges::any_of(context.callGraph.callers({context.file, program}), [&](const CallGraph::Caller &caller) {
+    const ProgramModel &model = context.callGraph.model(caller.file);
+    return cancels(model, model.calls[caller.call].caller);
+  });
+}
+
+/// The last G66 of the program with no G67 behind it.
+const Call *leftInForce(const FileContext &context, ProgramId program) {
+  const Call *last = nullptr;
+  for (const Call &call : context.model.calls) {
+    if (call.caller != program)
+      continue;
+    if (isModal(call.kind))
+      last = &call;
+    else if (call.kind == CallKind::ModalCancel)
+      last = nullptr;
+  }
+  return last;
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const Call *call = leftInForce(context, program);
+  if (!call || callerCancels(context, program))
+    return;
+  reporter.report({.message = fmt::format("{} is never cancelled", quotedCall(context, *call)),
+                   .span = spanOf(context, *call),
+                   .notes = {"every later move calls the macro again, the retract and the move to the tool change too",
+                             "cancel it by G67"}});
+}
+
+} // namespace
+
+extern const Rule modalCallNotCancelled;
+const Rule modalCallNotCancelled{.info = {"modal-call-not-cancelled", Category::Call, Severity::Warning,
+                                          "Reports a modal macro call with no `G67` behind it."},
+                                 .hooks = {.program = check}};
+
+} // namespace feedhold::rules

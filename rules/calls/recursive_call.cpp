@@ -1,0 +1,41 @@
+// recursive-call: a program that calls itself, alone or through others.
+#include "findings/rule/rule.h"
+
+#include "rules/calls/call_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// "`O1` calls `O2` calls `O1`"
+std::string chain(const std::vector<ProgramRef> &cycle, const FileContext &context) {
+  std::string text;
+  for (const ProgramRef &ref : cycle)
+    text += fmt::format("`{}` calls ", toString(context.callGraph.model(ref.file).programs[ref.program].name));
+  const ProgramRef &first = cycle.front();
+  return text + fmt::format("`{}`", toString(context.callGraph.model(first.file).programs[first.program].name));
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const auto cycle = context.callGraph.cycleThrough({context.file, program});
+  if (cycle.empty())
+    return;
+  const Call *call = callTo(context, program, cycle.size() > 1 ? cycle[1] : cycle[0]);
+  if (!call)
+    return;
+  reporter.report(
+      {.message = fmt::format("{} leads back to this program", quotedCall(context, *call)),
+       .span = spanOf(context, *call),
+       .notes = {chain(cycle, context), fmt::format("when nothing ends the chain, the control {}",
+                                                    stopsWith(context.dialect, AlarmKind::SubprogramNesting))}});
+}
+
+} // namespace
+
+extern const Rule recursiveCall;
+const Rule recursiveCall{.info = {"recursive-call", Category::Call, Severity::Warning,
+                                  "Reports a program that calls itself, directly or through others."},
+                         .hooks = {.program = check}};
+
+} // namespace feedhold::rules

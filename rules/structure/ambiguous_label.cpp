@@ -1,0 +1,98 @@
+// ambiguous-label: `N10` twice, and a GOTO that can only ever find one of them.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+using Copies = std::span<const SequenceNumber>;
+
+std::vector<const Jump *> gotosTo(std::uint32_t number, ProgramId program, const FileContext &context) {
+  std::vector<const Jump *> jumps;
+  for (const Jump &jump : context.model.jumps)
+    if (jump.kind == JumpKind::Goto && jump.program == program && jump.target && labelNumber(jump) == number)
+      jumps.push_back(&jump);
+  return jumps;
+}
+
+Span spanOf(const SequenceNumber &copy, const FileContext &context) {
+  return context.tree.words[copy.word].span();
+}
+
+const SequenceNumber &copyAt(Copies copies, BlockId block) {
+  return *std::ranges::find(copies, block, &SequenceNumber::block);
+}
+
+/// Some copy is found by no jump: it is a second use of the number, or a mistyped one.
+void reportNeverFound(const SequenceNumber &lost, Copies copies, const Jump &jump, const FileContext &context,
+                      const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("`N{}` stands more than once, and no jump finds this one", lost.number),
+       .span = spanOf(lost, context),
+       .labels = {{jump.span, "jumps to the other one"},
+                  {spanOf(copyAt(copies, *jump.target), context), "this one is found"}},
+       .notes = {"the control takes the first one that it meets from the jump to the end of the program, then from "
+                 "the top; machine parameters can change the order",
+                 "give each target a number of its own"}});
+}
+
+/// A jump backward to a number of several blocks finds the first in the program, not the nearest before it.
+void reportBackward(const Jump &jump, Copies copies, const FileContext &context, const Reporter &reporter) {
+  const SequenceNumber &found = copyAt(copies, *jump.target);
+  const auto behind = std::ranges::find_if(copies, [&](const SequenceNumber &c) { return c.block > jump.block; });
+  const SequenceNumber &nearest = *std::prev(behind);
+  if (nearest.block == found.block)
+    return;
+  reporter.report(
+      {.message = fmt::format("{} goes back to the first `N{}` of the program, not to the nearest",
+                              context.quoted(jump.span), found.number),
+       .span = jump.span,
+       .labels = {{spanOf(found, context), "this one is found"}, {spanOf(nearest, context), "this one is nearer"}},
+       .notes = {"the search goes from the jump to the end of the program, then from the top",
+                 "give each target a number of its own"}});
+}
+
+void checkNumber(Copies copies, ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const auto jumps = gotosTo(copies.front().number, program, context);
+  if (jumps.empty())
+    return;
+  for (const SequenceNumber &copy : copies) {
+    const bool isFound = std::ranges::any_of(jumps, [&](const Jump *jump) { return *jump->target == copy.block; });
+    if (!isFound) {
+      reportNeverFound(copy, copies, *jumps.front(), context, reporter);
+      return;
+    }
+  }
+  for (const Jump *jump : jumps)
+    if (*jump->target <= jump->block)
+      reportBackward(*jump, copies, context, reporter);
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (std::ranges::none_of(context.model.jumps, [&](const Jump &jump) { return jump.program == program; }))
+    return;
+  const auto labels = sortedSequenceNumbers(context.model, program);
+  for (std::size_t first = 0; first < labels.size();) {
+    std::size_t last = first + 1;
+    while (last < labels.size() && labels[last].number == labels[first].number)
+      ++last;
+    if (last - first > 1)
+      checkNumber(Copies(labels).subspan(first, last - first), program, context, reporter);
+    first = last;
+  }
+}
+
+} // namespace
+
+extern const Rule ambiguousLabel;
+const Rule ambiguousLabel{.info = {"ambiguous-label", Category::Structure, Severity::Warning,
+                                   "Reports a jump target whose number several blocks of the program have, when a jump "
+                                   "may miss the block that was meant."},
+                          .hooks = {.program = check}};
+
+} // namespace feedhold::rules

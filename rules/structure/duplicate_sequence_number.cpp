@@ -1,0 +1,66 @@
+// duplicate-sequence-number: `N10` twice in a program, though no jump uses it.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace feedhold::rules {
+namespace {
+
+std::unordered_set<std::uint32_t> jumpNumbers(ProgramId program, const FileContext &context) {
+  std::unordered_set<std::uint32_t> numbers;
+  for (const Jump &jump : context.model.jumps)
+    if (const auto number = labelNumber(jump); number && jump.program == program)
+      numbers.insert(*number);
+  return numbers;
+}
+
+struct Repeated {
+  SequenceNumber first;
+  SequenceNumber second;
+};
+
+/// The first two blocks of every repeated number that no jump uses.
+std::vector<Repeated> repeatedNumbers(ProgramId program, const FileContext &context) {
+  const auto labels = sortedSequenceNumbers(context.model, program);
+  const auto used = jumpNumbers(program, context);
+  std::vector<Repeated> found;
+  for (std::size_t i = 1; i < labels.size(); ++i) {
+    const bool isSecond =
+        labels[i].number == labels[i - 1].number && (i == 1 || labels[i - 2].number != labels[i].number);
+    if (isSecond && !used.contains(labels[i].number))
+      found.push_back({labels[i - 1], labels[i]});
+  }
+  return found;
+}
+
+/// One finding for the program: numbers that start anew at each tool would give thousands.
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const auto repeated = repeatedNumbers(program, context);
+  if (repeated.empty())
+    return;
+  const Repeated &first = *std::ranges::min_element(repeated, {}, [](const Repeated &r) { return r.second.block; });
+  const std::string message =
+      repeated.size() == 1 ? fmt::format("`N{}` stands more than once in this program", first.second.number)
+                           : fmt::format("`N{}` and {} other sequence number{} stand more than once in this program",
+                                         first.second.number, repeated.size() - 1, repeated.size() == 2 ? "" : "s");
+  reporter.report(
+      {.message = message,
+       .span = context.tree.words[first.second.word].span(),
+       .labels = {{context.tree.words[first.first.word].span(), "the first one"}},
+       .notes = {"no jump uses it, but a search for the number at the machine may stop at the wrong block"}});
+}
+
+} // namespace
+
+extern const Rule duplicateSequenceNumber;
+const Rule duplicateSequenceNumber{
+    .info = {"duplicate-sequence-number", Category::Structure, Severity::Info,
+             "Reports sequence numbers that several blocks of a program have, though no jump uses them."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules

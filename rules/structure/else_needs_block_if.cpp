@@ -1,0 +1,34 @@
+// else-needs-block-if: IF .. ELSE .. ENDIF over several lines on a control that has only the short IF.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.blockIf)
+    return;
+  for (const IfLines &lines : ifStructures(context, program).structures) {
+    if (lines.parts.empty())
+      continue;
+    const Span span = context.tree.statements[lines.parts.front()].span;
+    reporter.report({.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(span)),
+                     .span = span,
+                     .labels = {{context.tree.statements[lines.head].span, "belongs to this IF"}},
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                               "jump over the other branch with `IF[..]GOTO`"}});
+  }
+}
+
+} // namespace
+
+extern const Rule elseNeedsBlockIf;
+const Rule elseNeedsBlockIf{
+    .info = {"else-needs-block-if", Category::Structure, Severity::Error,
+             "Reports an `ELSE`, `ELSEIF` or `ENDIF` on a control that has the one-line `IF` only."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,55 @@
+// endless-loop: a DO without WHILE that nothing ever leaves.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+/// A target in the loop, its DO included, keeps control inside.
+bool staysInside(const Loop &loop, const Jump &jump) {
+  return jump.target && (*jump.target == loop.doBlock || isInside(loop, *jump.target));
+}
+
+bool hasWayOut(const Loop &loop, const FileContext &context) {
+  const auto inLoop = [&](BlockId block) { return isInside(loop, block) || block == loop.doBlock; };
+  // What a called program does is not known from here: it may stop with an alarm or return elsewhere.
+  const bool calls = std::ranges::any_of(context.model.calls, [&](const Call &call) { return inLoop(call.block); });
+  return calls || std::ranges::any_of(context.model.jumps,
+                                      [&](const Jump &jump) { return inLoop(jump.block) && !staysInside(loop, jump); });
+}
+
+/// M30, M99, an alarm; under a condition, too.  M00 waits for a person, who may leave the loop by a reset.
+bool mayEnd(const Loop &loop, const FileContext &context) {
+  for (BlockId block = loop.doBlock; block <= *loop.endBlock; block = block.next())
+    for (const CodeRole role : {CodeRole::ProgramEnd, CodeRole::Return, CodeRole::ProgramStop})
+      if (findCode(context.tree, block, context.dialect, role))
+        return true;
+  return std::ranges::any_of(context.model.variables, [&](const VariableUse &use) {
+    return use.write && use.number == kAlarmVariable && isInside(loop, use.block);
+  });
+}
+
+void check(const FileContext &context, const Reporter &reporter) {
+  for (const Loop &loop : context.model.loops) {
+    if (!loop.endBlock || hasCondition(context, loop) || hasWayOut(loop, context) || mayEnd(loop, context))
+      continue;
+    reporter.report({.message = "this loop never ends: it has no condition and nothing inside leaves it",
+                     .span = context.tree.statements[loop.doStatement].span,
+                     .labels = {{context.tree.statements[*loop.endStatement].span, "goes back every time"}},
+                     .notes = {"only reset stops it; write `WHILE[..]` before the DO, or leave it by `IF[..]GOTO`"}});
+  }
+}
+
+} // namespace
+
+extern const Rule endlessLoop;
+const Rule endlessLoop{.info = {"endless-loop", Category::Structure, Severity::Warning,
+                                "Reports a `DO` without `WHILE` that nothing inside of it ever leaves."},
+                       .hooks = {.file = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,46 @@
+// g10-not-closed: `G10 L50` without `G11`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+bool opensData(const FileContext &context, BlockId block) {
+  if (!findCode(context.tree, block, context.dialect, CodeRole::DataSetting))
+    return false;
+  const Word *kind = findWord(context.tree, block, 'L');
+  return kind && (kind->integer() == 50u || kind->integer() == 52u);
+}
+
+bool isClosed(const FileContext &context, BlockId open) {
+  const Program &program = context.model.programs[context.model.programOf(open)];
+  for (BlockId block = open; block < program.last; block = block.next()) {
+    if (findCode(context.tree, block, context.dialect, CodeRole::DataSettingEnd))
+      return true;
+    if (block != open && opensData(context, block))
+      return false;
+  }
+  return false;
+}
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (!opensData(context, block) || isClosed(context, block))
+    return;
+  const Word *code = findCode(context.tree, block, context.dialect, CodeRole::DataSetting);
+  const Word *kind = findWord(context.tree, block, 'L');
+  reporter.report({.message = fmt::format("{} {} is not ended by `G11`", context.quoted(code->span()),
+                                          context.quoted(kind->span())),
+                   .span = cover(code->span(), kind->span()),
+                   .notes = {"the control takes the blocks that follow for parameter data: their N is the number of a "
+                             "machine parameter"}});
+}
+
+} // namespace
+
+extern const Rule g10NotClosed;
+const Rule g10NotClosed{.info = {"g10-not-closed", Category::Structure, Severity::Warning,
+                                 "Reports parameter input by `G10 L50` or `G10 L52` without the `G11` that ends it."},
+                        .hooks = {.block = check}};
+
+} // namespace feedhold::rules

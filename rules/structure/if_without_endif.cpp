@@ -1,0 +1,33 @@
+// if-without-endif: an IF over several lines that is never closed.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (!context.dialect.grammar.blockIf)
+    return;
+  for (const IfLines &lines : ifStructures(context, program).structures) {
+    if (lines.closed)
+      continue;
+    Diagnostic diagnostic{.message = "this IF has no ENDIF",
+                          .span = context.tree.statements[lines.head].span,
+                          .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}};
+    if (!lines.parts.empty())
+      diagnostic.labels.push_back({context.tree.statements[lines.parts.back()].span, "its last branch"});
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+} // namespace
+
+extern const Rule ifWithoutEndif;
+const Rule ifWithoutEndif{.info = {"if-without-endif", Category::Structure, Severity::Error,
+                                   "Reports an `IF` with its branches on lines of their own that no `ENDIF` closes."},
+                          .hooks = {.program = check}};
+
+} // namespace feedhold::rules

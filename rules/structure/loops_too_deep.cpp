@@ -1,0 +1,37 @@
+// loops-too-deep: a loop in a loop in a loop in a loop.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const FileContext &context, const Reporter &reporter) {
+  const std::size_t limit = context.dialect.limits.loopDepth;
+  std::vector<const Loop *> open;
+  for (const Loop &loop : context.model.loops) {
+    std::erase_if(open,
+                  [&](const Loop *outer) { return outer->program != loop.program || !isInside(*outer, loop.doBlock); });
+    open.push_back(&loop);
+    if (open.size() != limit + 1)
+      continue;
+    Diagnostic diagnostic{.message =
+                              fmt::format("loop in {} others, where at most {} loops may be nested", limit, limit),
+                          .span = context.tree.statements[loop.doStatement].span,
+                          .labels = {{context.tree.statements[open.front()->doStatement].span, "the outermost loop"}},
+                          .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::LoopNumber)),
+                                    "move the inner loop to a macro of its own and call it"}};
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+} // namespace
+
+extern const Rule loopsTooDeep;
+const Rule loopsTooDeep{.info = {"loops-too-deep", Category::Structure, Severity::Error,
+                                 "Reports a loop inside of more loops than the control allows."},
+                        .hooks = {.file = check}};
+
+} // namespace feedhold::rules

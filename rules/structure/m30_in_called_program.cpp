@@ -1,0 +1,59 @@
+// m30-in-called-program: the whole job ends where M99 was meant.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// A call from another program; M97 and a program that calls itself are no proof that this one is a subprogram.
+std::optional<CallGraph::Caller> foreignCaller(const FileContext &context, ProgramId program) {
+  for (const auto &caller : context.callGraph.callers({context.file, program})) {
+    const Call &call = context.callGraph.model(caller.file).calls[caller.call];
+    const bool isItself = caller.file == context.file && call.caller == program;
+    if (!isItself && call.kind != CallKind::Local)
+      return caller;
+  }
+  return std::nullopt;
+}
+
+void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileContext &context, const Reporter &reporter) {
+  const ProgramModel &model = context.callGraph.model(caller.file);
+  const Program &program = model.programs[model.calls[caller.call].caller];
+  reporter.report(
+      {.message = fmt::format("{} in a program that is called ends the whole job", context.quoted(end.span())),
+       .span = end.span(),
+       .labels = {{program.header, "the call is in this program", caller.file}},
+       .notes = {"what the caller does behind the call is lost: restored modes, retracts, counters",
+                 "return with M99; raise an alarm by `#3000=` where the job must stop"}});
+}
+
+void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  const auto caller = foreignCaller(context, id);
+  if (!caller)
+    return;
+  const Program &program = context.model.programs[id];
+  std::optional<DeadBlocks> dead;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    const Word *end = isRead(context.tree.blocks[block])
+                          ? findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd)
+                          : nullptr;
+    if (!end)
+      continue;
+    if (!dead)
+      dead.emplace(context, id);
+    if (!dead->contains(block))
+      reportEnd(*end, *caller, context, reporter);
+  }
+}
+
+} // namespace
+
+extern const Rule m30InCalledProgram;
+const Rule m30InCalledProgram{.info = {"m30-in-called-program", Category::Structure, Severity::Warning,
+                                       "Reports `M02` or `M30` in a program that another program calls."},
+                              .hooks = {.program = check}};
+
+} // namespace feedhold::rules

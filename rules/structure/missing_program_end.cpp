@@ -1,0 +1,34 @@
+// missing-program-end: a program that runs on into `%` or the next O word.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  const Program &program = context.model.programs[id];
+  if (!isNamed(program))
+    return;
+  const auto last = openEnd(context, id);
+  if (!last)
+    return;
+  const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
+  reporter.report({.message = fmt::format("`{}` can run past its last block", toString(program.name)),
+                   .span = context.tree.blocks[*last].span(),
+                   .label = maySkip ? "the end is lost when this block is skipped" : "",
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
+                             "end a main program with M30, a called one with M99"}});
+}
+
+} // namespace
+
+extern const Rule missingProgramEnd;
+const Rule missingProgramEnd{
+    .info = {"missing-program-end", Category::Structure, Severity::Warning,
+             "Reports a program whose last block is not `M02`, `M30`, `M99`, a jump or an alarm."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules

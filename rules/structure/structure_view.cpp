@@ -1,0 +1,213 @@
+// Dead blocks, loops and IF structures, by the text alone.
+#include "rules/structure/structure_view.h"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace feedhold::rules {
+
+namespace {
+
+/// Which sequence numbers of a program control may be sent to.
+struct Entries {
+  bool any = false; // a computed jump: every one
+  std::unordered_set<std::uint32_t> numbers;
+};
+
+void addTarget(Entries &entries, const Jump &jump) {
+  const auto number = labelNumber(jump);
+  if (number)
+    entries.numbers.insert(*number);
+  else
+    entries.any = entries.any || jump.computed;
+}
+
+/// `M99 P n` of the programs that this one calls comes back to one of its blocks.
+void addReturns(Entries &entries, const FileContext &context, ProgramId program) {
+  for (const Call &call : context.model.calls) {
+    if (call.caller != program)
+      continue;
+    const auto callee = context.callGraph.callee(context.file, call);
+    if (!callee)
+      continue;
+    for (const Jump &jump : context.callGraph.model(callee->file).jumps)
+      if (jump.kind == JumpKind::ReturnTo && jump.program == callee->program)
+        addTarget(entries, jump);
+  }
+}
+
+/// `M98 P.. Q n` of a caller starts in the middle.
+void addStarts(Entries &entries, const FileContext &context, ProgramId program) {
+  for (const auto &[file, callId] : context.callGraph.callers({context.file, program})) {
+    const ProgramModel &model = context.callGraph.model(file);
+    for (const Jump &jump : model.jumps)
+      if (jump.kind == JumpKind::CallAt && jump.block == model.calls[callId].block)
+        addTarget(entries, jump);
+  }
+}
+
+Entries entriesOf(const FileContext &context, ProgramId program) {
+  Entries entries;
+  for (const Jump &jump : context.model.jumps)
+    if (jump.program == program && jump.kind != JumpKind::CallAt)
+      addTarget(entries, jump);
+  // `G65 H80 P n` and its like jump, too.
+  entries.any = entries.any || std::ranges::any_of(context.model.calls, [&](const Call &call) {
+                  return call.caller == program && call.kind == CallKind::MacroA;
+                });
+  addReturns(entries, context, program);
+  addStarts(entries, context, program);
+  return entries;
+}
+
+/// Control never reaches the block behind this one.
+bool leavesForGood(const FileContext &context, BlockId block) {
+  if ((context.tree.blocks[block].flags & (Block::kSkip | Block::kSkipInside)) != 0)
+    return false;
+  const FlowAfter flow = flowAfter(context.tree, block, context.dialect);
+  return flow == FlowAfter::Jumps || flow == FlowAfter::Ends;
+}
+
+/// ELSE and ENDIF are reached from their IF, whatever stands before them.
+bool continuesIf(const FileContext &context, BlockId block) {
+  return std::ranges::any_of(context.tree.statementsOf(block), [](const Statement &statement) {
+    return std::holds_alternative<Else>(statement.node) || std::holds_alternative<ElseIf>(statement.node) ||
+           std::holds_alternative<EndIf>(statement.node);
+  });
+}
+
+bool isEntry(const FileContext &context, const Entries &entries, BlockId block) {
+  const Word *number = findWord(context.tree, block, 'N');
+  if (!number)
+    return false;
+  return entries.any || !number->integer() || entries.numbers.contains(*number->integer());
+}
+
+} // namespace
+
+bool isRead(const Block &block) {
+  return (block.flags & (Block::kPercent | Block::kLeader | Block::kAfterEnd)) == 0;
+}
+
+bool hasContent(const FileContext &context, BlockId block) {
+  return !context.tree.statementsOf(block).empty() ||
+         std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
+           return word.address() != 'N' && word.address() != 'O' && word.form() != WordForm::Name;
+         });
+}
+
+bool isNamed(const Program &program) {
+  return !program.name.empty();
+}
+
+std::optional<std::uint32_t> labelNumber(const Jump &jump) {
+  if (!jump.number)
+    return std::nullopt;
+  const auto value = jump.number->asInteger();
+  if (!value || *value < 0 || *value > std::numeric_limits<std::uint32_t>::max())
+    return std::nullopt;
+  return static_cast<std::uint32_t>(*value);
+}
+
+DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
+  const Program &program = context.model.programs[id];
+  const Entries entries = entriesOf(context, id);
+  std::unordered_map<std::uint32_t, BlockId> doOfEnd;
+  for (const Loop &loop : context.model.loops)
+    if (loop.program == id && loop.endBlock)
+      doOfEnd.emplace(loop.endBlock->index(), loop.doBlock);
+  bool isDead = false; // control does not come from `ender`, the last block that it ran
+  BlockId ender = program.first;
+  bool inRun = false;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    if (!isRead(context.tree.blocks[block]))
+      continue;
+    // An END is reached from its DO, when that is.
+    const auto loop = doOfEnd.find(block.index());
+    const bool endsLoop = loop != doOfEnd.end() && !contains(loop->second);
+    if (endsLoop || continuesIf(context, block) || isEntry(context, entries, block)) {
+      isDead = false;
+      inRun = false;
+    } else if (isDead && hasContent(context, block)) {
+      if (inRun)
+        runs_.back().last = block;
+      else
+        runs_.push_back({ender, block, block});
+      inRun = true;
+    }
+    if (!isDead && leavesForGood(context, block)) {
+      isDead = true;
+      ender = block;
+    }
+  }
+}
+
+bool DeadBlocks::contains(BlockId block) const {
+  return std::ranges::any_of(runs_, [&](const Run &run) { return run.first <= block && block <= run.last; });
+}
+
+std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
+  const Program &program = context.model.programs[id];
+  std::optional<BlockId> last;
+  for (BlockId block = program.first; block < program.last; block = block.next())
+    if (isRead(context.tree.blocks[block]) && hasContent(context, block))
+      last = block;
+  if (!last || leavesForGood(context, *last) || DeadBlocks(context, id).contains(*last))
+    return std::nullopt;
+  for (const Loop &loop : context.model.loops)
+    if (loop.endBlock == last && !hasCondition(context, loop))
+      return std::nullopt;
+  return last;
+}
+
+bool isInside(const Loop &loop, BlockId block) {
+  return loop.endBlock && loop.doBlock < block && block <= *loop.endBlock;
+}
+
+bool hasCondition(const FileContext &context, const Loop &loop) {
+  return std::holds_alternative<While>(context.tree.statements[loop.doStatement].node);
+}
+
+IfStructures ifStructures(const FileContext &context, ProgramId id) {
+  const Program &program = context.model.programs[id];
+  IfStructures result;
+  std::vector<std::size_t> open;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    for (const Statement &statement : context.tree.statementsOf(block)) {
+      const StatementId statementId = context.tree.idOf(statement);
+      const auto *head = std::get_if<If>(&statement.node);
+      const bool closes = std::holds_alternative<EndIf>(statement.node);
+      if (head && head->action == IfAction::Lines) {
+        open.push_back(result.structures.size());
+        result.structures.push_back({statementId, {}, false});
+      } else if (closes || std::holds_alternative<Else>(statement.node) ||
+                 std::holds_alternative<ElseIf>(statement.node)) {
+        if (open.empty()) {
+          result.strays.push_back(statementId);
+          continue;
+        }
+        result.structures[open.back()].parts.push_back(statementId);
+        result.structures[open.back()].closed = closes;
+        if (closes)
+          open.pop_back();
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<SequenceNumber> sortedSequenceNumbers(const ProgramModel &model, ProgramId id) {
+  const Program &program = model.programs[id];
+  std::vector<SequenceNumber> own;
+  for (const SequenceNumber &number : model.sequenceNumbers)
+    if (program.contains(number.block))
+      own.push_back(number);
+  const auto byNumber = [](const SequenceNumber &a, const SequenceNumber &b) { return a.number < b.number; };
+  if (!std::ranges::is_sorted(own, byNumber))
+    std::ranges::stable_sort(own, byNumber);
+  return own;
+}
+
+} // namespace feedhold::rules

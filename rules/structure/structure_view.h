@@ -1,0 +1,66 @@
+// How rules look at the flow of one program by its text alone: dead blocks, jumps, loops, IF structures.
+#pragma once
+
+#include "findings/rule/rule.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace feedhold::rules {
+
+/// The control reads the block: it is neither tape mark nor leader nor text behind the end.
+bool isRead(const Block &block);
+
+/// Words other than its sequence number and the head of a program, or a statement: something happens in the block.
+bool hasContent(const FileContext &context, BlockId block);
+
+/// The program has an O word or a `<NAME>`; without it the text may be a fragment of one.
+bool isNamed(const Program &program);
+
+/// The value of a GOTO target or the like, when it is an integer that a sequence number could have.
+std::optional<std::uint32_t> labelNumber(const Jump &jump);
+
+/// Blocks that neither the block before them nor a jump leads to.
+class DeadBlocks {
+public:
+  DeadBlocks(const FileContext &context, ProgramId program);
+
+  bool contains(BlockId block) const;
+  /// Runs of dead blocks with content; `ender` is the block that control leaves for good before each.
+  struct Run {
+    BlockId ender;
+    BlockId first;
+    BlockId last; // inclusive
+  };
+  std::span<const Run> runs() const { return runs_; }
+
+private:
+  std::vector<Run> runs_;
+};
+
+/// The last block with content of a program, when control can reach it and go on behind it.
+std::optional<BlockId> openEnd(const FileContext &context, ProgramId program);
+
+/// The block is in the body of the loop, its END included; false for a loop without END.
+bool isInside(const Loop &loop, BlockId block);
+
+/// A DO that follows a WHILE.
+bool hasCondition(const FileContext &context, const Loop &loop);
+
+/// `IF [..] THEN` at the end of a block, and the ELSE, ELSEIF and ENDIF that belong to it.
+struct IfLines {
+  StatementId head;
+  std::vector<StatementId> parts; // in order of the text
+  bool closed = false;            // the last part is an ENDIF
+};
+struct IfStructures {
+  std::vector<IfLines> structures;
+  std::vector<StatementId> strays; // ELSE, ELSEIF, ENDIF without an IF
+};
+IfStructures ifStructures(const FileContext &context, ProgramId program);
+
+/// The sequence numbers of a program sorted by value, those of one value in order of the text.
+std::vector<SequenceNumber> sortedSequenceNumbers(const ProgramModel &model, ProgramId program);
+
+} // namespace feedhold::rules

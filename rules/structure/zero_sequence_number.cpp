@@ -1,0 +1,27 @@
+// zero-sequence-number: `N0`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.sequenceZero || word.integer() != 0u || context.tree.blocks[block].has(Block::kData))
+    return;
+  // A second N word is no sequence number; misplaced-sequence-number reports it.
+  if (findWord(context.tree, block, 'N') != &word)
+    return;
+  reporter.report({.message = fmt::format("{} is no sequence number: they begin at 1", context.quoted(word.span())),
+                   .span = word.span(),
+                   .notes = {"a jump or a search does not find this block"}});
+}
+
+} // namespace
+
+extern const Rule zeroSequenceNumber;
+const Rule zeroSequenceNumber{.info = {"zero-sequence-number", Category::Structure, Severity::Warning,
+                                       "Reports `N0` on a control whose sequence numbers begin at 1."},
+                              .hooks = {.word = check, .wordAddresses = "N"}};
+
+} // namespace feedhold::rules
