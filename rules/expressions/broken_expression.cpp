@@ -1,15 +1,24 @@
 // broken-expression: an operand or operator is missing.
 #include "findings/rule/rule.h"
 
+#include "base/support/text.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
 
+std::string whatIsWrong(Span span, const FileContext &context) {
+  if (span.empty())
+    return "the expression stops before its operand";
+  const std::string_view before = trimmed(context.source.text().substr(0, span.begin));
+  if (context.text(span) == "]" && before.ends_with('['))
+    return "nothing between the brackets";
+  return fmt::format("{} does not fit into the expression", context.quoted(span));
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = issue.span.empty()
-                                  ? std::string("the expression stops before its operand")
-                                  : fmt::format("{} does not fit into the expression", context.quoted(issue.span)),
+  reporter.report({.message = whatIsWrong(issue.span, context),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat))}});
 }

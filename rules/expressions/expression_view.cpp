@@ -29,6 +29,13 @@ bool readsMachine(const SyntaxTree &tree, ExpressionId id) {
 
 } // namespace
 
+const Statement *firstStatement(const SyntaxTree &tree, BlockId block) {
+  for (const Statement &statement : tree.statementsOf(block))
+    if (!statement.nested)
+      return &statement;
+  return nullptr;
+}
+
 std::optional<ExpressionId> conditionOf(const Statement &statement) {
   using Found = std::optional<ExpressionId>;
   return std::visit(Overloaded{[](const If &node) -> Found { return node.condition; },

@@ -18,6 +18,9 @@ template <typename Kind> const Kind *asInside(const SyntaxTree &tree, Expression
   return as<Kind>(tree, unwrapped(tree, id));
 }
 
+/// The first statement of a block that is not the action of an IF; null when there is none.
+const Statement *firstStatement(const SyntaxTree &tree, BlockId block);
+
 /// The condition of an IF, an ELSEIF, a WHILE or of words under a condition.
 std::optional<ExpressionId> conditionOf(const Statement &statement);
 

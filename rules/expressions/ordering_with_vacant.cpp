@@ -8,9 +8,7 @@
 namespace feedhold::rules {
 namespace {
 
-bool isOrdering(OperatorKind op) {
-  return isRelation(op) && op != OperatorKind::Equal && op != OperatorKind::NotEqual;
-}
+bool isOrdering(OperatorKind op) { return isRelation(op) && op != OperatorKind::Equal && op != OperatorKind::NotEqual; }
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const auto *operation = as<BinaryOperation>(context.tree, id);
@@ -30,7 +28,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 } // namespace
 
 extern const Rule orderingWithVacant;
-const Rule orderingWithVacant{.info = {"ordering-with-vacant", Category::Expression, Severity::Warning,
+const Rule orderingWithVacant{.info = {"ordering-with-vacant", Category::Expression, Severity::Info,
                                        "Reports a comparison by size with the vacant constant: it compares with 0 and "
                                        "does not ask whether a value is there."},
                               .hooks = {.expression = check}};

@@ -9,10 +9,17 @@
 namespace feedhold::rules {
 namespace {
 
-/// The only statement of a block that holds nothing else (comments do not count).
+/// The only statement of a block that holds nothing else (comments and the action of an IF do not count).
 const Statement *onlyStatement(const SyntaxTree &tree, BlockId block) {
   const auto statements = tree.statementsOf(block);
-  return statements.size() == 1 && tree.wordsOf(block).empty() ? &statements.front() : nullptr;
+  const auto outer =
+      std::count_if(statements.begin(), statements.end(), [](const Statement &each) { return !each.nested; });
+  return outer == 1 && tree.wordsOf(block).empty() ? firstStatement(tree, block) : nullptr;
+}
+
+/// The statement of the block before, whatever its sequence number.
+const Statement *statementBefore(const SyntaxTree &tree, BlockId block) {
+  return block.index() == 0 ? nullptr : firstStatement(tree, BlockId(block.index() - 1));
 }
 
 bool mentions(const FileContext &context, ExpressionId root, ExpressionId variable) {
@@ -45,15 +52,14 @@ bool isIdempotent(const FileContext &context, const Statement &statement) {
 }
 
 void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (block.index() == 0 || onlyStatement(context.tree, block) != &statement)
+  if (onlyStatement(context.tree, block) != &statement)
     return;
-  const auto before = context.tree.statementsOf(BlockId(block.index() - 1));
-  if (before.size() != 1 || !sameText(context, before.front().span, statement.span) ||
-      !isIdempotent(context, statement))
+  const Statement *before = statementBefore(context.tree, block);
+  if (!before || !sameText(context, before->span, statement.span) || !isIdempotent(context, statement))
     return;
   reporter.report({.message = fmt::format("{} stands twice, one behind the other", context.quoted(statement.span)),
                    .span = statement.span,
-                   .labels = {{before.front().span, "the first"}},
+                   .labels = {{before->span, "the first"}},
                    .notes = {"the second changes nothing; another variable or value was probably meant"}});
 }
 

@@ -8,7 +8,7 @@
 namespace feedhold::rules {
 namespace {
 
-void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
+void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto *assignment = std::get_if<Assignment>(&statement.node);
   if (!assignment)
     return;
@@ -16,9 +16,12 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
   const Span value = context.tree.expressions[unwrapped(context.tree, assignment->value)].span;
   if (!sameText(context, target, value))
     return;
+  // `#1=#1 (START Y)` is how some writers note what an argument is.
+  const bool saysWhy = !context.tree.commentsOf(block).empty();
   reporter.report({.message = fmt::format("{} is set to itself", context.quoted(target)),
                    .span = statement.span,
-                   .notes = {"nothing changes; another variable was probably meant"}});
+                   .notes = {"nothing changes; another variable was probably meant"}},
+                  saysWhy ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

@@ -8,8 +8,11 @@
 namespace feedhold::rules {
 namespace {
 
-std::string_view longForm(std::string_view text) {
-  const Token token = Lexer(text).next();
+/// Read in its place: what follows a short form decides whether it is one.
+std::string_view longForm(const FileContext &context, Span span) {
+  Lexer lexer(context.source.text());
+  lexer.moveTo(span.begin);
+  const Token token = lexer.next();
   if (token.kind == TokenKind::ControlWord)
     return spellingOf(token.controlWord());
   return token.kind == TokenKind::Function ? spellingOf(token.function()) : spellingOf(token.op());
@@ -17,7 +20,7 @@ std::string_view longForm(std::string_view text) {
 
 void check(const FileContext &context, const Reporter &reporter) {
   for (const Span span : context.tree.abbreviations) {
-    const std::string_view meant = longForm(context.text(span));
+    const std::string_view meant = longForm(context, span);
     reporter.report({.message = fmt::format("{} is short for `{}`", context.quoted(span), meant),
                      .span = span,
                      .notes = {"other makers' controls, and people, may not know it"},

@@ -20,18 +20,20 @@ bool passesArguments(const Word &word, const FileContext &context) {
   return (code && isMacroCall(code->role)) || isCodeCall(word, context);
 }
 
-bool meansOwnWords(const Word &word, const FileContext &context) {
-  const Code *code = codeOf(word, context.dialect);
-  if (code)
-    return isMacroCall(code->role) || code->role == CodeRole::DataSetting || isCodeCall(word, context);
-  return word.address() == 'G' || isCodeCall(word, context);
-}
-
 } // namespace
 
 bool passesArguments(const FileContext &context, BlockId block) {
   const auto words = context.tree.wordsOf(block);
   return std::any_of(words.begin(), words.end(), [&](const Word &word) { return passesArguments(word, context); });
+}
+
+bool meansOwnWords(const Word &word, const FileContext &context) {
+  if (isCodeCall(word, context))
+    return true;
+  if (word.address() != 'G' && word.address() != 'M')
+    return false;
+  const Code *code = codeOf(word, context.dialect);
+  return !code || isMacroCall(code->role) || code->role == CodeRole::DataSetting;
 }
 
 bool meansOwnWords(const FileContext &context, BlockId block) {

@@ -21,9 +21,7 @@ void reportPair(const Word &first, const Word &second, const FileContext &contex
       alarm ? Severity::Error : Severity::Warning);
 }
 
-bool isCode(const Word &word) {
-  return word.address() == 'G' && !word.has(Word::kAfterSkip);
-}
+bool isCode(const Word &word) { return word.address() == 'G' && !word.has(Word::kAfterSkip); }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto words = context.tree.wordsOf(block);

@@ -1,13 +1,30 @@
 // if-without-then: `IF[#1EQ0]#2=1`.
 #include "findings/rule/rule.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
 
+bool leaves(CodeRole role) {
+  return role == CodeRole::Return || role == CodeRole::SubprogramCall || role == CodeRole::LocalCall ||
+         role == CodeRole::ExternalCall || role == CodeRole::MacroCall;
+}
+
+/// Where THEN may be left out, a statement, a call or a return may follow the condition; words for the machine may not.
+bool mayFollowCondition(Span action, const FileContext &context) {
+  const auto words = context.tree.wordsOf(context.tree.blockAt(action.begin));
+  const auto isAction = [&](const Word &word) { return word.has(Word::kAfterThen); };
+  return std::none_of(words.begin(), words.end(), isAction) ||
+         std::any_of(words.begin(), words.end(), [&](const Word &word) {
+           const Code *code = isAction(word) ? codeOf(word, context.dialect) : nullptr;
+           return code && leaves(code->role);
+         });
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.grammar.thenMayBeOmitted)
+  if (context.dialect.grammar.thenMayBeOmitted && mayFollowCondition(issue.span, context))
     return;
   reporter.report({.message = fmt::format("no `THEN` before {}", context.quoted(issue.span)),
                    .span = issue.span,

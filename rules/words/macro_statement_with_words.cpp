@@ -1,6 +1,8 @@
 // macro-statement-with-words: `G00 X1. #1=2`.
 #include "findings/rule/rule.h"
 
+#include "rules/expressions/expression_view.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::rules {
@@ -24,7 +26,7 @@ std::vector<std::string> notesFor(const FileContext &context) {
 
 void checkStatement(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (statement.nested || context.dialect.grammar.macroWithWords || takesWords(statement) ||
-      &context.tree.statementsOf(block).front() != &statement)
+      firstStatement(context.tree, block) != &statement)
     return;
   for (const Word &word : context.tree.wordsOf(block)) {
     if (mayStandBeside(word))

@@ -18,15 +18,27 @@ std::vector<FixIt> fixesFor(const Word &word, const FileContext &context) {
   return {{FixSafety::Safe, fmt::format("write `{}{}`", word.address(), *value), {{{begin, word.span().end}, ""}}}};
 }
 
+/// Another word of the block makes arguments of its words.
+bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) {
+  for (const Word &other : context.tree.wordsOf(block))
+    if (&other != &word && meansOwnWords(other, context))
+      return true;
+  return false;
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
-      format.literalMayHavePoint || passesArguments(context, block))
+      format.literalMayHavePoint || mayBeArgument(word, context, block))
     return;
-  reporter.report({.message = fmt::format("{} takes no decimal point", context.quoted(word.span())),
-                   .span = word.span(),
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))},
-                   .fixes = fixesFor(word, context)});
+  const bool knownToStop = alarmNumber(context.dialect, AlarmKind::MisplacedPoint).has_value();
+  reporter.report(
+      {.message = fmt::format("{} takes no decimal point", context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {knownToStop ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))
+                             : std::string("other controls stop here; whether this one does is not documented")},
+       .fixes = fixesFor(word, context)},
+      knownToStop ? Severity::Error : Severity::Warning);
 }
 
 } // namespace

@@ -149,6 +149,8 @@ void Parser::readTapeMark() {
 }
 
 void Parser::advance() {
+  if (token_.abbreviated && !broken_ && !quiet_)
+    tree_.abbreviations.push_back(token_.span());
   lastEnd_ = token_.end;
   token_ = lexer_.next();
 }
