@@ -7,7 +7,7 @@ namespace {
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
   reporter.report({.message = "this comment has no `)`",
                    .span = issue.span,
-                   .notes = {"what follows it is not run"},
+                   .notes = {"what follows the `(` is not run"},
                    .fixes = {{.title = "insert `)`", .edits = {{{issue.span.end, issue.span.end}, ")"}}}}});
 }
 

@@ -48,7 +48,9 @@ void checkNode(ExpressionId id, BlockId, const FileContext &context, const Repor
 }
 
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  tooDeep(issue.span, "more brackets inside one another than can be read", context, reporter);
+  if (context.text(issue.span) == "[") // checkNode() speaks of brackets
+    return;
+  tooDeep(issue.span, "nested deeper, or longer, than can be read", context, reporter);
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestingTooDeep};

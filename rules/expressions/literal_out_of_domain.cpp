@@ -19,11 +19,11 @@ bool isPole(const Decimal &degrees) {
 std::string_view complaint(FunctionDomain domain, const Decimal &value) {
   switch (domain) {
   case FunctionDomain::Any: return {};
-  case FunctionDomain::NotNegative: return value.isNegative() ? "has no value below 0" : "";
-  case FunctionDomain::Bcd: return value.isNegative() ? "has no value below 0" : "";
-  case FunctionDomain::Positive: return value <= Decimal() ? "has values above 0 only" : "";
+  case FunctionDomain::NotNegative: return value.isNegative() ? "takes no number below 0" : "";
+  case FunctionDomain::Bcd: return value.isNegative() ? "takes no number below 0" : "";
+  case FunctionDomain::Positive: return value <= Decimal() ? "takes numbers above 0 only" : "";
   case FunctionDomain::MinusOneToOne:
-    return value > kOne || value.negated() > kOne ? "has values from -1 to 1 only" : "";
+    return value > kOne || value.negated() > kOne ? "takes numbers from -1 to 1 only" : "";
   case FunctionDomain::NotPole: return isPole(value) ? "has no value at a right angle" : "";
   }
   return {};

@@ -16,7 +16,7 @@ void missingOpen(const SyntaxIssue &issue, const FileContext &context, const Rep
 void missingClose(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   reporter.report({.message = "a `[` without its `]`",
                    .span = issue.other,
-                   .labels = {{issue.span, "reading gave up here"}},
+                   .labels = {{issue.span, "no `]` up to here"}},
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingCloseBracket))},
                    .fixes = {{.title = "insert `]`", .edits = {{{issue.span.begin, issue.span.begin}, "]"}}}}});
 }

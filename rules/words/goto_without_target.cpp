@@ -1,24 +1,34 @@
 // goto-without-target: `GOTO` alone.
 #include "findings/rule/rule.h"
 
+#include "base/support/text.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
 
-/// `GOTO N10`: the number is there, and an N too many.
-std::vector<FixIt> fixesFor(Span jump, const FileContext &context) {
-  for (const Word &word : context.tree.wordsOf(context.tree.blockAt(jump.begin)))
-    if (word.address() == 'N' && word.isNumber() && word.span().begin >= jump.end)
-      return {{FixSafety::Safe, "take out the `N`", {{{word.span().begin, word.span().begin + 1}, ""}}}};
-  return {};
+/// The `N` of `GOTO N10`: the number is there, and a letter too many.
+std::optional<Span> letterBefore(std::uint32_t end, std::string_view text) {
+  const std::size_t letter = text.find_first_not_of(" \t", end);
+  if (letter == std::string_view::npos || toUpper(text[letter]) != 'N')
+    return std::nullopt;
+  const std::size_t digit = text.find_first_not_of(" \t", letter + 1);
+  if (digit == std::string_view::npos || !isDigit(text[digit]))
+    return std::nullopt;
+  const auto begin = static_cast<std::uint32_t>(letter);
+  return Span{begin, begin + 1};
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = "this GOTO names no sequence number",
+  Diagnostic found{.message = "this GOTO names no sequence number",
                    .span = issue.span,
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound))},
-                   .fixes = fixesFor(issue.span, context)});
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound))}};
+  if (const auto letter = letterBefore(issue.span.end, context.source.text())) {
+    found.message = "GOTO takes the number alone, without `N`";
+    found.fixes = {{FixSafety::Safe, "take out the `N`", {{*letter, ""}}}};
+  }
+  reporter.report(std::move(found));
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::GotoWithoutTarget};

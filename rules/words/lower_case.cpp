@@ -3,10 +3,39 @@
 
 #include "base/support/text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
+
+/// What must keep its letters: comments and printed text, in order of the text.
+std::vector<Span> keptIn(const FileContext &context, BlockId block) {
+  std::vector<Span> kept;
+  for (const Comment &comment : context.tree.commentsOf(block))
+    kept.push_back(comment.span);
+  for (const Statement &statement : context.tree.statementsOf(block))
+    if (const auto *print = std::get_if<Print>(&statement.node))
+      kept.push_back(print->format);
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+void addEdit(Span piece, const FileContext &context, std::vector<Edit> &edits) {
+  std::string capitals = toUpper(context.text(piece));
+  if (capitals != context.text(piece))
+    edits.push_back({piece, std::move(capitals)});
+}
+
+void addEdits(Span run, const FileContext &context, std::vector<Edit> &edits) {
+  for (const Span kept : keptIn(context, context.tree.blockAt(run.begin))) {
+    if (kept.begin < run.begin || kept.end > run.end)
+      continue;
+    addEdit({run.begin, kept.begin}, context, edits);
+    run.begin = kept.end;
+  }
+  addEdit(run, context, edits);
+}
 
 void check(const FileContext &context, const Reporter &reporter) {
   const auto &runs = context.tree.lowerCase;
@@ -14,7 +43,7 @@ void check(const FileContext &context, const Reporter &reporter) {
     return;
   FixIt fix{FixSafety::Safe, "write capital letters", {}};
   for (const Span run : runs)
-    fix.edits.push_back({run, toUpper(context.text(run))});
+    addEdits(run, context, fix.edits);
   reporter.report({.message = runs.size() == 1
                                   ? std::string("small letters outside of a comment")
                                   : fmt::format("small letters outside of comments, in {} blocks", runs.size()),

@@ -16,7 +16,7 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
                    .span = word.span(),
                    .notes = {fmt::format("the control {}, unless the machine turns the code into a call",
                                          stopsWith(context.dialect, AlarmKind::GCodeNotUsable)),
-                             "a code that calls a program belongs into `code-calls` of feedhold.toml"}});
+                             "a code that calls a program belongs into `[[code-calls]]` of feedhold.toml"}});
 }
 
 } // namespace
