@@ -67,29 +67,38 @@ std::string defaultName(std::string_view text) {
   return "program.nc";
 }
 
-/// The input that a "```nc DIALECT [NAME] [escaped]" fence gives; absent when the dialect is not known.
-std::optional<InputFile> inputFile(const Fence &fence) {
+/// Adds what a "```nc DIALECT [NAME] [escaped]" fence gives; the reason when it cannot be used.
+std::optional<std::string> addFile(const Fence &fence, Input &input) {
   std::vector<std::string> words = wordsOf(fence.info);
   const bool escaped = std::erase(words, "escaped") > 0;
   const Dialect *dialect = words.size() < 2 ? nullptr : findDialect(allDialects(), words[1]);
   if (!dialect)
-    return std::nullopt;
+    return fmt::format("`{}` names no dialect", fence.info);
+  if (input.dialect && input.dialect != dialect)
+    return "the files of a case have one dialect";
+  input.dialect = dialect;
   std::string text = escaped ? unescaped(fence.text) : fence.text;
   std::string name = words.size() > 2 ? words[2] : defaultName(text);
-  return InputFile{std::move(name), std::move(text), dialect};
+  input.files.push_back({std::move(name), std::move(text)});
+  return std::nullopt;
 }
 
-/// All rules; on the page of a rule only that one, and for rules about suppressions those that the case names.
-std::vector<const Rule *> rulesFor(const Page &page, const Section &section) {
+/// All rules (an empty list); on the page of a rule only that one, and for rules about suppressions also those that
+/// the programs name.
+std::vector<std::string> rulesFor(const Page &page, const Section &section) {
   const RegisteredRule *own = findRule(allRules(), page.title);
-  std::vector<const Rule *> rules;
+  if (!own)
+    return {};
+  std::vector<std::string> rules{page.title};
+  if (own->rule->info.category != Category::Suppression)
+    return rules;
   for (const RegisteredRule &registered : allRules().rules) {
-    const RuleInfo &info = registered.rule->info;
-    const auto names = [&](const Fence &fence) { return fence.text.find(info.name) != std::string::npos; };
-    const bool named = own && own->rule->info.category == Category::Suppression &&
-                       std::any_of(section.fences.begin(), section.fences.end(), names);
-    if (!own || own == &registered || named)
-      rules.push_back(registered.rule);
+    const std::string name(registered.rule->info.name);
+    const auto names = [&](const Fence &fence) {
+      return fence.info.starts_with("nc") && fence.text.find(name) != std::string::npos;
+    };
+    if (name != page.title && std::any_of(section.fences.begin(), section.fences.end(), names))
+      rules.push_back(name);
   }
   return rules;
 }
@@ -113,18 +122,16 @@ void runExpectation(const Fence &fence, const Input &input, const Page &page, co
 }
 
 void runSection(const Page &page, const Section &section, std::vector<NewBody> &bodies, Tally &tally) {
-  Input input{{}, rulesFor(page, section)};
+  Input input;
+  input.rules = rulesFor(page, section);
   std::vector<const Fence *> expectations;
   for (const Fence &fence : section.fences) {
-    if (!fence.info.starts_with("nc")) {
-      if (!fence.info.empty() && fence.info != "text" && fence.info != "toml")
-        expectations.push_back(&fence);
-      continue;
-    }
-    std::optional<InputFile> file = inputFile(fence);
-    if (!file)
-      return fail(tally, page, section, fmt::format("`{}` names no dialect", fence.info));
-    input.files.push_back(std::move(*file));
+    if (fence.info == "toml")
+      input.config = fence.text;
+    else if (!fence.info.starts_with("nc") && !fence.info.empty() && fence.info != "text")
+      expectations.push_back(&fence);
+    else if (const auto problem = fence.info.starts_with("nc") ? addFile(fence, input) : std::nullopt)
+      return fail(tally, page, section, *problem);
   }
   if (input.files.empty())
     return;

@@ -1,42 +1,125 @@
-// The stages of golden cases, each by the engine's own function.
+// The stages of golden cases, each by the engine's own function; findings go the way that `feedhold check` takes, from
+// files in a folder to the text of a sink.
 #include "golden/stages.h"
 
+#include "dialects/registry.h"
+#include "findings/session/session.h"
 #include "language/lex/lexer.h"
-#include "language/model/model.h"
 #include "language/parse/parse.h"
+#include "rules/registry.h"
+#include "surface/sink/sink.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <map>
 
 namespace feedhold::golden {
 
 namespace {
 
-std::string tokens(const SourceFile &source, const Dialect &) {
-  std::string text;
-  for (const Token &token : lex(source))
-    text += fmt::format("{:<14}`{}`{}\n", nameOf(token.kind), source.utf8(token.span()),
-                        token.abbreviated ? " abbreviated" : "");
-  return text;
-}
+namespace fs = std::filesystem;
 
-std::string tree(const SourceFile &source, const Dialect &dialect) {
-  return dump(parse(source, dialect), source);
-}
+// ---- dumps of one file --------------------------------------------------------------------------------------------
+
+using Dump = std::string (*)(const SourceFile &, const Dialect &);
+
+std::string tokens(const SourceFile &source, const Dialect &) { return dump(lex(source), source); }
+
+std::string tree(const SourceFile &source, const Dialect &dialect) { return dump(parse(source, dialect), source); }
 
 std::string model(const SourceFile &source, const Dialect &dialect) {
-  const SyntaxTree tree = parse(source, dialect);
-  return dump(resolve(source, tree, dialect), tree, source);
+  const SyntaxTree syntax = parse(source, dialect);
+  return dump(resolve(source, syntax, dialect), syntax, source);
 }
 
-/// A dump for each file, under the file's name when there are several.
-std::string dumps(const Input &input, std::string (*dumpOne)(const SourceFile &, const Dialect &)) {
+/// Text for each file, under the file's name when there are several.
+std::string eachFile(const Input &input, const std::function<std::string(const InputFile &)> &textOf) {
   std::string text;
   for (const InputFile &file : input.files) {
     if (input.files.size() > 1)
       text += fmt::format("== {} ==\n", file.name);
-    text += dumpOne(SourceFile::fromText(file.name, file.text), *file.dialect);
+    text += textOf(file);
   }
   return text;
+}
+
+std::string dumps(const Input &input, Dump dumpOne) {
+  return eachFile(input, [&](const InputFile &file) {
+    return dumpOne(SourceFile::fromText(file.name, file.text), *input.dialect);
+  });
+}
+
+// ---- whole runs ---------------------------------------------------------------------------------------------------
+
+/// A folder with the files of a case, the working directory as long as it lives.
+class Folder {
+public:
+  explicit Folder(const Input &input) : before_(fs::current_path()) {
+    std::string path = (fs::temp_directory_path() / "feedhold-golden-XXXXXX").string();
+    if (!mkdtemp(path.data()))
+      std::abort();
+    path_ = path;
+    for (const InputFile &file : input.files)
+      std::ofstream(path_ / file.name, std::ios::binary) << file.text;
+    if (input.config)
+      std::ofstream(path_ / kConfigFileName) << *input.config;
+    fs::current_path(path_);
+  }
+  ~Folder() {
+    fs::current_path(before_);
+    fs::remove_all(path_);
+  }
+  Folder(const Folder &) = delete;
+  Folder &operator=(const Folder &) = delete;
+  const fs::path &path() const { return path_; }
+
+private:
+  fs::path before_;
+  fs::path path_;
+};
+
+KnownNames knownNames() { return {allDialects(), allRules()}; }
+
+CheckOptions optionsFor(const Input &input) {
+  CheckOptions options;
+  for (const InputFile &file : input.files)
+    options.paths.push_back(file.name);
+  options.dialect = std::string(input.dialect->id);
+  options.select = input.rules;
+  options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
+  options.jobs = 1;
+  return options;
+}
+
+std::string problemsOf(const CheckResult &result) {
+  std::string text;
+  for (const PathProblem &problem : result.errors)
+    text += fmt::format("{}: {}\n", problem.path, problem.message);
+  for (const SkippedFile &file : result.skipped)
+    text += fmt::format("{}: skipped: {}\n", file.path, file.reason);
+  return text;
+}
+
+std::string report(const Input &input, Format format) {
+  const Folder folder(input);
+  const CheckResult result = check(optionsFor(input), knownNames());
+  std::string text = write(format, {.result = result, .rules = allRules(), .version = "0", .root = folder.path()});
+  const std::string place = folder.path().string();
+  for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
+    text.replace(at, place.size(), "/programs");
+  return problemsOf(result) + text;
+}
+
+std::string fixed(const Input &input, FixWish wish) {
+  const Folder folder(input);
+  const FixResult result = fix(optionsFor(input), wish, knownNames());
+  std::map<std::string, std::string> after;
+  for (const FixedFile &file : result.files)
+    after[file.path] = file.after;
+  return eachFile(input, [&](const InputFile &file) { return after.contains(file.name) ? after[file.name] : file.text; });
 }
 
 } // namespace
@@ -48,6 +131,14 @@ std::optional<std::string> runStage(std::string_view stage, const Input &input) 
     return dumps(input, tree);
   if (stage == "model")
     return dumps(input, model);
+  if (stage == "findings")
+    return report(input, Format::Text);
+  if (stage == "fixed")
+    return fixed(input, FixWish::Safe);
+  if (stage == "fixed-unsafe")
+    return fixed(input, FixWish::All);
+  if (const std::optional<Format> format = formatFromName(stage))
+    return report(input, *format);
   return std::nullopt;
 }
 

@@ -5,7 +5,6 @@
 #include "language/dialect/dialect.h"
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +14,13 @@ namespace feedhold::golden {
 struct InputFile {
   std::string name;
   std::string text;
-  const Dialect *dialect;
 };
 
 struct Input {
   std::vector<InputFile> files;
-  std::vector<const Rule *> rules; // those that run
+  const Dialect *dialect = nullptr;   // of all files
+  std::vector<std::string> rules;     // those that run; empty: all
+  std::optional<std::string> config;  // the text of a feedhold.toml beside the files
 };
 
 /// The text that a stage gives for the input; absent when there is no such stage.

@@ -5,6 +5,7 @@
 #include "language/lex/token.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace feedhold {
@@ -61,5 +62,8 @@ private:
 
 /// All tokens of a file, the last one EndOfFile.
 TokenBuffer lex(const SourceFile &file);
+
+/// The tokens as text, one a line: what golden cases compare.
+std::string dump(const TokenBuffer &tokens, const SourceFile &source);
 
 } // namespace feedhold
