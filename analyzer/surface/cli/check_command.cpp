@@ -47,8 +47,12 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_option("--format", arguments.format, "text, concise, json, sarif, junit or github")
       ->check(CLI::IsMember({"text", "concise", "json", "sarif", "junit", "github"}));
   app.add_option("--output", arguments.output, "write the findings to this file");
-  app.add_option("--select", arguments.select, "run only these rules or categories")->delimiter(',');
-  app.add_option("--ignore", arguments.ignore, "leave out these rules or categories")->delimiter(',');
+  app.add_option("--select", arguments.select, "run only these rules or categories")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--ignore", arguments.ignore, "leave out these rules or categories")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--error-on", arguments.errorOn, "exit 1 from this severity on: error, warning (default) or info")
       ->check(CLI::IsMember({"error", "warning", "info"}));
   CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
@@ -158,9 +162,7 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
                       .exitCode = exitCode,
                       .showSuppressed = arguments.showSuppressed ? ShowSuppressed::Yes : ShowSuppressed::No,
                       .colour = arguments.output.empty() && useColour(colourWish(arguments.color))};
-  std::string text = arguments.statistics ? statistics(report) : write(format, report);
-  if (isForPeople && !arguments.quiet)
-    text += summary(report);
+  const std::string text = arguments.statistics ? statistics(report) : write(format, report);
   printProblems(result);
   if (arguments.output.empty()) {
     print(text);
@@ -168,6 +170,11 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
     printError(arguments.output + ": " + error->message);
     exitCode = kExitCouldNotRun;
   }
+  if (arguments.quiet)
+    return exitCode;
+  printAside(skippedFiles(report));
+  if (isForPeople || !arguments.output.empty())
+    print(summary(report));
   return exitCode;
 }
 

@@ -18,12 +18,8 @@ std::string escaped(std::string_view text, std::string_view alsoEscaped) {
   return result;
 }
 
-std::string data(std::string_view text) {
-  return escaped(text, "");
-}
-std::string property(std::string_view text) {
-  return escaped(text, ":,");
-}
+std::string asMessage(std::string_view text) { return escaped(text, ""); }
+std::string asProperty(std::string_view text) { return escaped(text, ":,"); }
 
 std::string_view commandFor(Severity severity) {
   switch (severity) {
@@ -41,12 +37,12 @@ std::string writeGithub(const Report &report) {
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
     const Region region = regionOf(file.source, finding.diagnostic.span);
     text += fmt::format("::{} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
-                        finding.suppressed ? "notice" : commandFor(finding.severity), property(file.path),
+                        finding.suppressed ? "notice" : commandFor(finding.severity), asProperty(file.path),
                         region.begin.line, region.end.line, region.begin.column, region.end.column,
-                        property(finding.rule->name), data(messageWithNotes(finding.diagnostic)));
+                        asProperty(finding.rule->name), asMessage(messageWithNotes(finding.diagnostic)));
   });
   for (const PathProblem &problem : report.result.errors)
-    text += fmt::format("::error file={}::{}\n", property(problem.path), data(problem.message));
+    text += fmt::format("::error file={}::{}\n", asProperty(problem.path), asMessage(problem.message));
   return text;
 }
 

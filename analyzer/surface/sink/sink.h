@@ -32,8 +32,10 @@ struct Report {
 /// Ends with a line feed unless it is empty.
 std::string write(Format format, const Report &report);
 
-/// For people, behind the findings: how many of what, what was skipped, which dialects were guessed, what to do next.
+/// For people, behind the findings: how many of what, which dialects were guessed, what to do next.
 std::string summary(const Report &report);
+/// For people: the files that are no programs and why, the first few by name.
+std::string skippedFiles(const Report &report);
 /// The number of findings of each rule, most first.
 std::string statistics(const Report &report);
 

@@ -81,15 +81,6 @@ std::string guessesPart(const CheckResult &result) {
   return text;
 }
 
-std::string skippedPart(const CheckResult &result) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(result.skipped.size(), kSkippedShown); ++i)
-    text += fmt::format("skipped {}: {}\n", result.skipped[i].path, result.skipped[i].reason);
-  if (result.skipped.size() > kSkippedShown)
-    text += fmt::format("skipped {} more; --format json lists all\n", result.skipped.size() - kSkippedShown);
-  return text;
-}
-
 } // namespace
 
 std::string summary(const Report &report) {
@@ -102,7 +93,17 @@ std::string summary(const Report &report) {
     head += fmt::format(", {} skipped", counted(result.skipped.size(), "file"));
   if (!result.errors.empty())
     head += fmt::format(", {} in the way", counted(result.errors.size(), "problem"));
-  return head + "\n" + fixesPart(counts) + skippedPart(result) + guessesPart(result);
+  return head + "\n" + fixesPart(counts) + guessesPart(result);
+}
+
+std::string skippedFiles(const Report &report) {
+  const CheckResult &result = report.result;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(result.skipped.size(), kSkippedShown); ++i)
+    text += fmt::format("skipped {}: {}\n", result.skipped[i].path, result.skipped[i].reason);
+  if (result.skipped.size() > kSkippedShown)
+    text += fmt::format("skipped {} more; --format json lists all\n", result.skipped.size() - kSkippedShown);
+  return text;
 }
 
 std::string statistics(const Report &report) {
