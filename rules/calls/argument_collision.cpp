@@ -17,18 +17,25 @@ const Argument &winner(const Call &call, const Argument &loser) {
   return *last;
 }
 
+std::vector<std::string> notesFor(const Argument &lost, const Argument &later) {
+  if (!lost.fromSet && !later.fromSet)
+    return {};
+  return {"a second I, J or K in a call sets the variables of other letters"};
+}
+
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.model.calls[id];
   for (const Argument &argument : call.arguments) {
     if (argument.role != ArgumentRole::Overridden)
       continue;
+    const Argument &later = winner(call, argument);
     const Span lost = wordOf(context, argument.word).span();
-    const Span wins = wordOf(context, winner(call, argument).word).span();
+    const Span wins = wordOf(context, later.word).span();
     reporter.report({.message = fmt::format("{} is lost: {} sets `#{}`, too", context.quoted(lost),
                                             context.quoted(wins), argument.variable),
                      .span = lost,
                      .labels = {{wins, "the later word wins"}},
-                     .notes = {"a second I, J or K in a call sets the variables of other letters"}});
+                     .notes = notesFor(argument, later)});
   }
 }
 

@@ -10,9 +10,7 @@
 namespace feedhold::rules {
 namespace {
 
-char letterOf(const Argument &argument, const FileContext &context) {
-  return wordOf(context, argument.word).address();
-}
+char letterOf(const Argument &argument, const FileContext &context) { return wordOf(context, argument.word).address(); }
 
 /// A letter twice means sets; each letter once, in the wrong order, hardly does.
 bool repeatsLetter(const Call &call, const FileContext &context) {

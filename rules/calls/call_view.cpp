@@ -24,9 +24,7 @@ bool isMacroCall(CallKind kind) {
   return kind == CallKind::Macro || kind == CallKind::Modal || kind == CallKind::ModalEach;
 }
 
-const Word &wordOf(const FileContext &context, WordId id) {
-  return context.tree.words[id];
-}
+const Word &wordOf(const FileContext &context, WordId id) { return context.tree.words[id]; }
 
 Span spanOf(const FileContext &context, const Call &call) {
   const Span code = wordOf(context, call.code).span();

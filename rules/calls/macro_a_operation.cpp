@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace feedhold::rules {
@@ -57,26 +58,21 @@ const Operation *find(const Word *code) {
 
 /// One finding for a program: one that is written so is written so throughout.
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  const Call *first = nullptr;
-  std::size_t count = 0;
-  for (const Call &call : context.model.calls) {
-    if (call.caller != program || call.kind != CallKind::MacroA)
-      continue;
-    first = first ? first : &call;
-    ++count;
-  }
-  if (!first)
+  const auto &calls = context.model.calls;
+  const auto first = std::ranges::find_if(
+      calls, [&](const Call &call) { return call.caller == program && call.kind == CallKind::MacroA; });
+  if (first == calls.end())
     return;
   const Word *code = findWord(context.tree, first->block, 'H');
   const Operation *operation = find(code);
   const Span span =
       code ? cover(wordOf(context, first->code).span(), code->span()) : wordOf(context, first->code).span();
-  reporter.report({.message = fmt::format("{} is an operation of Macro A", context.quoted(span)),
-                   .span = span,
-                   .label = operation ? fmt::format("`{}`, where P, Q, R name p, q, r", operation->meaning) : "",
-                   .notes = {fmt::format("{} of them in this program are not analysed: they calculate in whole "
-                                         "increments, by rules of their own",
-                                         count == 1 ? "one" : std::to_string(count))}});
+  reporter.report(
+      {.message = fmt::format("{} is an operation of Macro A", context.quoted(span)),
+       .span = span,
+       .label = operation ? fmt::format("`{}`, where P, Q, R name p, q, r", operation->meaning) : "",
+       .notes = {"operations of Macro A are read but not analysed: they calculate in whole increments, by rules of "
+                 "their own"}});
 }
 
 } // namespace

@@ -10,9 +10,7 @@
 namespace feedhold::rules {
 namespace {
 
-bool isModal(CallKind kind) {
-  return kind == CallKind::Modal || kind == CallKind::ModalEach;
-}
+bool isModal(CallKind kind) { return kind == CallKind::Modal || kind == CallKind::ModalEach; }
 
 bool cancels(const ProgramModel &model, ProgramId program) {
   return std::ranges::any_of(

@@ -8,9 +8,7 @@
 namespace feedhold::rules {
 namespace {
 
-bool counts(CallKind kind) {
-  return namesProgram(kind) || kind == CallKind::Local;
-}
+bool counts(CallKind kind) { return namesProgram(kind) || kind == CallKind::Local; }
 
 /// The call just before in the text, when it is in the same block.
 const Call *callBefore(CallId id, const FileContext &context) {

@@ -20,9 +20,7 @@ std::vector<const Jump *> gotosTo(std::uint32_t number, ProgramId program, const
   return jumps;
 }
 
-Span spanOf(const SequenceNumber &copy, const FileContext &context) {
-  return context.tree.words[copy.word].span();
-}
+Span spanOf(const SequenceNumber &copy, const FileContext &context) { return context.tree.words[copy.word].span(); }
 
 const SequenceNumber &copyAt(Copies copies, BlockId block) {
   return *std::ranges::find(copies, block, &SequenceNumber::block);

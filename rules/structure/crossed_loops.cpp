@@ -8,9 +8,7 @@
 namespace feedhold::rules {
 namespace {
 
-Span span(StatementId statement, const FileContext &context) {
-  return context.tree.statements[statement].span;
-}
+Span span(StatementId statement, const FileContext &context) { return context.tree.statements[statement].span; }
 
 bool cross(const Loop &outer, const Loop &inner) {
   return outer.program == inner.program && outer.number && inner.number && outer.number != inner.number &&

@@ -87,9 +87,7 @@ bool isEntry(const FileContext &context, const Entries &entries, BlockId block) 
 
 } // namespace
 
-bool isRead(const Block &block) {
-  return (block.flags & (Block::kPercent | Block::kLeader | Block::kAfterEnd)) == 0;
-}
+bool isRead(const Block &block) { return (block.flags & (Block::kPercent | Block::kLeader | Block::kAfterEnd)) == 0; }
 
 bool hasContent(const FileContext &context, BlockId block) {
   return !context.tree.statementsOf(block).empty() ||
@@ -98,9 +96,7 @@ bool hasContent(const FileContext &context, BlockId block) {
          });
 }
 
-bool isNamed(const Program &program) {
-  return !program.name.empty();
-}
+bool isNamed(const Program &program) { return !program.name.empty(); }
 
 std::optional<std::uint32_t> labelNumber(const Jump &jump) {
   if (!jump.number)

@@ -21,7 +21,8 @@ bool onlyEnds(const DeadBlocks::Run &run, const FileContext &context) {
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  for (const DeadBlocks::Run &run : DeadBlocks(context, program).runs()) {
+  const DeadBlocks dead(context, program);
+  for (const DeadBlocks::Run &run : dead.runs()) {
     if (onlyEnds(run, context))
       continue;
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[run.first].begin);
