@@ -28,9 +28,14 @@ bool isProgramNumberName(std::string_view stem) {
   return stem.size() >= 2 && toUpper(stem.front()) == 'O' && std::all_of(stem.begin() + 1, stem.end(), isDigit);
 }
 
+/// `./part.nc` -> `part.nc`: what a walk of the current folder puts before every name.
+fs::path plainPath(const fs::path &path) {
+  const std::string text = path.generic_string();
+  return text.starts_with("./") && text.size() > 2 ? fs::path(text.substr(2)) : path;
+}
+
 std::string shownPath(const fs::path &path) {
-  const std::string text = path.lexically_normal().generic_string();
-  return text.starts_with("./") ? text.substr(2) : text;
+  return plainPath(path).generic_string();
 }
 
 std::string relativeTo(const fs::path &folder, const fs::path &path) {
@@ -132,7 +137,7 @@ private:
       ++passedOver_;
       return;
     }
-    result_.files.push_back({path, shownPath(path), foundBy, config});
+    result_.files.push_back({plainPath(path), shownPath(path), foundBy, config});
   }
 
   ConfigFinder &configs_;

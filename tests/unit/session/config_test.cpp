@@ -1,0 +1,109 @@
+// feedhold.toml: what is read, and where and how a slip of the pen is reported.
+#include "dialects/registry.h"
+#include "findings/session/config.h"
+#include "rules/registry.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace feedhold {
+namespace {
+
+ConfigText read(std::string_view text) { return readConfig(text, "/shop", {allDialects(), allRules()}); }
+
+/// "line:column message" of the only error.
+std::string errorOf(std::string_view text) {
+  const ConfigText config = read(text);
+  if (config.errors.size() != 1)
+    return fmt::format("{} errors", config.errors.size());
+  const ConfigError &error = config.errors.front();
+  return fmt::format("{}:{} {}", error.line, error.column, error.message);
+}
+
+TEST(Config, EverySetting) {
+  const ConfigText text = read("dialect = \"fanuc-0i\"\n"
+                               "select = [\"syntax\", \"missing-label\"]\n"
+                               "ignore = [\"missing-equals\"]\n"
+                               "error-on = \"error\"\n"
+                               "include = [\"*.P-1\"]\n"
+                               "exclude = [\"old/\"]\n"
+                               "[switches]\n"
+                               "dpi = true\n"
+                               "mlg = \"unknown\"\n"
+                               "[[code-calls]]\n"
+                               "code = \"G100.1\"\n"
+                               "program = 9010\n"
+                               "macro = false\n"
+                               "[severity]\n"
+                               "missing-label = \"info\"\n"
+                               "[[files]]\n"
+                               "path = \"lathe/**\"\n"
+                               "dialect = \"haas-ngc\"\n"
+                               "switches = { sqc = true }\n");
+  ASSERT_TRUE(text.errors.empty()) << text.errors[0].message;
+  const Config &config = text.config;
+  EXPECT_EQ(config.dialect, "fanuc-0i");
+  EXPECT_EQ(config.select, (std::vector<std::string>{"syntax", "missing-label"}));
+  EXPECT_EQ(config.errorOn, Severity::Error);
+  EXPECT_EQ(config.exclude, (std::vector<std::string>{"old/"}));
+  ASSERT_EQ(config.switches.size(), 2U);
+  EXPECT_EQ(config.switches[0].value, Switch::On);
+  EXPECT_EQ(config.switches[1].value, Switch::Unknown);
+  ASSERT_EQ(config.codeCalls.size(), 1U);
+  EXPECT_EQ(config.codeCalls[0].tenths, 1001);
+  EXPECT_EQ(config.codeCalls[0].program, 9010U);
+  EXPECT_FALSE(config.codeCalls[0].isMacro);
+  ASSERT_EQ(config.severities.size(), 1U);
+  EXPECT_EQ(config.severities[0].severity, Severity::Info);
+  ASSERT_EQ(config.files.size(), 1U);
+  EXPECT_EQ(config.files[0].dialect, "haas-ngc");
+  EXPECT_TRUE(config.files[0].switches[0].which == &Switches::sqc);
+}
+
+TEST(Config, UnknownKeysHaveASuggestion) {
+  EXPECT_EQ(errorOf("\ndialct = \"fanuc-0i\"\n"), "2:1 there is no setting `dialct` here; did you mean `dialect`?");
+  EXPECT_EQ(errorOf("[switches]\n  dip = true\n"), "2:3 there is no setting `dip` here; did you mean `dpi`?");
+  EXPECT_EQ(errorOf("[[files]]\npath = \"x\"\nignor = []\n"),
+            "3:1 there is no setting `ignor` here; did you mean `ignore`?");
+}
+
+TEST(Config, UnknownNamesHaveASuggestion) {
+  EXPECT_EQ(errorOf("dialect = \"fanuc-3oi\"\n"), "1:11 there is no dialect `fanuc-3oi`; did you mean `fanuc-30i`?");
+  EXPECT_EQ(errorOf("ignore = [\"syntax\", \"mising-equals\"]\n"),
+            "1:21 there is no rule or category `mising-equals`; did you mean `missing-equals`?");
+  EXPECT_EQ(errorOf("[severity]\nmising-equals = \"info\"\n"),
+            "2:1 there is no rule or category `mising-equals`; did you mean `missing-equals`?");
+  EXPECT_EQ(errorOf("error-on = \"errors\"\n"), "1:12 `errors` is not a severity; did you mean `error`?");
+}
+
+TEST(Config, WrongValues) {
+  EXPECT_EQ(errorOf("ignore = \"syntax\"\n"), "1:10 a list of texts is wanted here: [\"..\", \"..\"]");
+  EXPECT_EQ(errorOf("[switches]\ndpi = 1\n"), "2:7 a switch is true, false or \"unknown\"");
+  EXPECT_EQ(errorOf("[[code-calls]]\ncode = \"X1\"\nprogram = 1\n"),
+            "2:8 `code` must be a G, M or T code, such as \"G100\" or \"M6\"");
+  EXPECT_EQ(errorOf("[[code-calls]]\ncode = \"G1\"\nprogram = -1\n"),
+            "3:11 `program` must be a program number: 9010, say");
+  EXPECT_EQ(errorOf("[[files]]\ndialect = \"fanuc-0i\"\n"),
+            "1:1 [[files]] needs a `path`: the pattern of the files it is for");
+}
+
+TEST(Config, ErrorsComeInOrderOfTheText) {
+  const ConfigText text = read("zzz = 1\naaa = 2\n[check\n");
+  ASSERT_EQ(text.errors.size(), 1U);
+  EXPECT_TRUE(text.errors[0].message.starts_with("not valid TOML: "));
+  const ConfigText keys = read("zzz = 1\naaa = 2\n");
+  ASSERT_EQ(keys.errors.size(), 2U);
+  EXPECT_EQ(keys.errors[0].line, 1U);
+}
+
+TEST(Config, Patterns) {
+  EXPECT_TRUE(patternMatches("*.nc", "cell/one/part.nc"));
+  EXPECT_TRUE(patternMatches("old/", "old/part.nc"));
+  EXPECT_TRUE(patternMatches("old", "cell/old/part.nc"));
+  EXPECT_TRUE(patternMatches("cell/*.nc", "cell/part.nc"));
+  EXPECT_FALSE(patternMatches("cell/*.nc", "cell/one/part.nc"));
+  EXPECT_FALSE(patternMatches("old/", "older/part.nc"));
+}
+
+} // namespace
+} // namespace feedhold

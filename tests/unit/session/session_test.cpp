@@ -1,0 +1,190 @@
+// Whole runs on files in a folder of their own: discovery, settings, fingerprints, repairs.
+#include "dialects/registry.h"
+#include "findings/session/session.h"
+#include "rules/registry.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace feedhold {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSlip = "%\nO1001(SLIP)\nN10 #510-#6\nM30\n%\n";
+
+class Session : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("feedhold-session-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string &name, std::string_view text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  std::string read(const std::string &name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  CheckOptions options(const std::string &path = ".") const {
+    CheckOptions result;
+    result.paths = {(folder_ / path).lexically_normal().string()};
+    return result;
+  }
+  CheckResult run(const CheckOptions &options) const { return check(options, known()); }
+  CheckResult run() const { return run(options()); }
+  static KnownNames known() { return {allDialects(), allRules()}; }
+
+  /// Paths from the folder of the test.
+  std::vector<std::string> names(const CheckResult &result) const {
+    std::vector<std::string> found;
+    for (const CheckedFile &file : result.files)
+      found.push_back(fs::path(file.path).lexically_relative(folder_).generic_string());
+    return found;
+  }
+  std::string onlyFingerprint() const {
+    const CheckResult result = run();
+    return result.files.size() == 1 && result.files[0].findings.size() == 1 ? result.files[0].findings[0].fingerprint
+                                                                            : "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Session, FoldersAreWalkedByNameAndContent) {
+  write("b/O1001", kSlip);
+  write("a/part.NC", kSlip);
+  write("a/part.txt", kSlip);
+  write("a/notes.txt", "the coolant must be changed every week\nand the filter too\n");
+  write("a/readme.md", kSlip);
+  write(".git/part.nc", kSlip);
+  const CheckResult result = run();
+  EXPECT_EQ(names(result), (std::vector<std::string>{"a/part.NC", "a/part.txt", "b/O1001"}));
+  ASSERT_EQ(result.skipped.size(), 1U);
+  EXPECT_TRUE(result.skipped[0].path.ends_with("a/notes.txt"));
+  EXPECT_TRUE(result.errors.empty());
+}
+
+TEST_F(Session, NamedFilesAreTakenWhateverTheirExtension) {
+  write("part.xyz", kSlip);
+  EXPECT_EQ(names(run(options("part.xyz"))), (std::vector<std::string>{"part.xyz"}));
+  EXPECT_EQ(run().errors.size(), 1U); // no program in the folder
+}
+
+TEST_F(Session, ExcludeAndInclude) {
+  write("feedhold.toml", "exclude = [\"old/\"]\ninclude = [\"*.xyz\"]\n");
+  write("old/part.nc", kSlip);
+  write("new/part.xyz", kSlip);
+  EXPECT_EQ(names(run()), (std::vector<std::string>{"new/part.xyz"}));
+}
+
+TEST_F(Session, TheNearestConfigurationCounts) {
+  write("feedhold.toml", "ignore = [\"missing-equals\"]\n");
+  write("part.nc", kSlip);
+  write("strict/feedhold.toml", "dialect = \"fanuc-0i\"\n[severity]\nmissing-equals = \"info\"\n");
+  write("strict/part.nc", kSlip);
+  const CheckResult result = run();
+  ASSERT_EQ(result.files.size(), 2U);
+  EXPECT_TRUE(result.files[0].findings.empty());
+  ASSERT_EQ(result.files[1].findings.size(), 1U);
+  EXPECT_EQ(result.files[1].findings[0].severity, Severity::Info);
+  EXPECT_EQ(result.files[1].dialect, "fanuc-0i");
+  EXPECT_EQ(result.files[1].choice, DialectChoice::Config);
+  EXPECT_FALSE(anyFails(result));
+}
+
+TEST_F(Session, AConfigurationWithErrorsStopsOnlyItsFiles) {
+  write("bad/feedhold.toml", "dialct = \"x\"\n");
+  write("bad/part.nc", kSlip);
+  write("good/part.nc", kSlip);
+  const CheckResult result = run();
+  EXPECT_EQ(names(result), (std::vector<std::string>{"good/part.nc"}));
+  ASSERT_EQ(result.errors.size(), 1U);
+  EXPECT_TRUE(result.errors[0].path.ends_with("feedhold.toml:1:1"));
+}
+
+TEST_F(Session, SettingsByPattern) {
+  write("feedhold.toml", "[[files]]\npath = \"lathe/**\"\ndialect = \"haas-ngc\"\nignore = [\"syntax\"]\n");
+  write("lathe/part.nc", kSlip);
+  write("mill/part.nc", kSlip);
+  const CheckResult result = run();
+  ASSERT_EQ(result.files.size(), 2U);
+  EXPECT_EQ(result.files[0].dialect, "haas-ngc");
+  EXPECT_TRUE(result.files[0].findings.empty());
+  EXPECT_EQ(result.files[1].findings.size(), 1U);
+}
+
+TEST_F(Session, FingerprintsOutliveEditsElsewhere) {
+  write("part.nc", kSlip);
+  const std::string before = onlyFingerprint();
+  EXPECT_EQ(before.size(), 16U);
+  write("part.nc", "%\nO1001(SLIP)\n(NEW)\nN20  #510 - #6\nM30\n%\n");
+  EXPECT_EQ(onlyFingerprint(), before);
+  write("part.nc", "%\nO1001(SLIP)\nN10 #511-#6\nM30\n%\n");
+  EXPECT_NE(onlyFingerprint(), before);
+  write("part.nc", "%\nO1002(SLIP)\nN10 #510-#6\nM30\n%\n");
+  EXPECT_NE(onlyFingerprint(), before);
+}
+
+TEST_F(Session, EqualFindingsHaveDifferentFingerprints) {
+  write("part.nc", "O1\n#510-#6\n#510-#6\nM30\n");
+  const CheckResult result = run();
+  ASSERT_EQ(result.files[0].findings.size(), 2U);
+  EXPECT_NE(result.files[0].findings[0].fingerprint, result.files[0].findings[1].fingerprint);
+}
+
+TEST_F(Session, ForeignLanguageIsOneFinding) {
+  std::string text = "0 BEGIN PGM TEST MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n";
+  for (int line = 2; line < 100; ++line)
+    text += std::to_string(line) + " L X+1 Y+0 R0 FMAX M3\n";
+  write("part.h", text + "100 END PGM TEST MM\n");
+  const CheckResult result = run();
+  ASSERT_EQ(result.files.size(), 1U);
+  ASSERT_EQ(result.files[0].findings.size(), 1U);
+  EXPECT_EQ(result.files[0].findings[0].rule->name, "foreign-language");
+}
+
+TEST_F(Session, UnsafeFixesOnlyWhenAskedFor) {
+  write("part.nc", kSlip);
+  EXPECT_TRUE(fix(options(), FixWish::Safe, known()).files.empty());
+  const FixResult all = fix(options(), FixWish::All, known());
+  ASSERT_EQ(all.files.size(), 1U);
+  EXPECT_EQ(all.files[0].before, kSlip);
+  EXPECT_EQ(all.files[0].after, "%\nO1001(SLIP)\nN10 #510=#6\nM30\n%\n");
+  EXPECT_EQ(all.files[0].fixes, 1U);
+  EXPECT_TRUE(all.remaining.files[0].findings.empty());
+  EXPECT_EQ(read("part.nc"), kSlip);
+}
+
+TEST_F(Session, WritingKeepsThePermissionsAndLeavesNothingBehind) {
+  write("part.nc", kSlip);
+  fs::permissions(folder_ / "part.nc", fs::perms::owner_all);
+  const FixResult fixed = fix(options(), FixWish::All, known());
+  EXPECT_TRUE(writeFixes(fixed.files).empty());
+  EXPECT_EQ(read("part.nc"), "%\nO1001(SLIP)\nN10 #510=#6\nM30\n%\n");
+  EXPECT_EQ(fs::status(folder_ / "part.nc").permissions(), fs::perms::owner_all);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(Session, BinaryAndEmptyFilesDoNotStopTheOthers) {
+  write("part.nc", kSlip);
+  write("empty.nc", "");
+  write("picture.nc", std::string("\x01\x02\x03\x04\x05\x06\x07\x08", 8));
+  const CheckResult result = run();
+  EXPECT_EQ(names(result), (std::vector<std::string>{"part.nc"}));
+  ASSERT_EQ(result.skipped.size(), 2U);
+  EXPECT_EQ(result.skipped[0].reason, "the file is empty");
+  EXPECT_EQ(result.skipped[1].reason, "a binary file");
+}
+
+} // namespace
+} // namespace feedhold
