@@ -15,7 +15,7 @@ constexpr std::array kKlartext = {
 constexpr std::array kSinumerik = {
     LanguageHint{TextSignal::SinumerikDefinition, 12}, LanguageHint{TextSignal::SinumerikControl, 12},
     LanguageHint{TextSignal::SinumerikVariable, 6},    LanguageHint{TextSignal::SinumerikWord, 6},
-    LanguageHint{TextSignal::SinumerikFile, 30},
+    LanguageHint{TextSignal::SinumerikFile, 10},
 };
 constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaVariable, 12},

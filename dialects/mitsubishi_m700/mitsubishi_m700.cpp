@@ -38,7 +38,6 @@ constexpr auto kMillingHints = joined(kMacroBHints, std::array{
                                                         LanguageHint{TextSignal::MitsubishiVariable, 6},
                                                         LanguageHint{TextSignal::MitsubishiOffsetGroup, 4},
                                                         LanguageHint{TextSignal::BlockIf, 4},
-                                                        LanguageHint{TextSignal::HighLoopNumber, 4},
                                                         LanguageHint{TextSignal::EiaFile, 12},
                                                     });
 constexpr auto kLatheHints = joined(kMillingHints, kTurningHints);

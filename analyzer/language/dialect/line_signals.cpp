@@ -176,10 +176,6 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
     endsWithThen_ = true;
   } else if (keyword.spelling == "ENDIF" && !hasOWord_) {
     count(TextSignal::BlockIf);
-  } else if (keyword.spelling == "DO") {
-    skipBlanks();
-    if (isDigit(peek()) && takeNumber().whole > 3)
-      count(TextSignal::HighLoopNumber);
   }
 }
 
