@@ -50,7 +50,7 @@ constexpr std::array kCLike = {
     LanguageHint{TextSignal::EdingStatement, 12},
 };
 constexpr std::array kCompiler = {
-    LanguageHint{TextSignal::CompilerDirective, 8},
+    LanguageHint{TextSignal::CompilerDirective, 25},
 };
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
