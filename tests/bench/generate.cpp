@@ -45,9 +45,7 @@ private:
   std::size_t lines_ = 0;
 };
 
-double millimetres(Dice &dice, std::uint32_t range) {
-  return static_cast<double>(dice.below(range * 1000)) / 1000;
-}
+double millimetres(Dice &dice, std::uint32_t range) { return static_cast<double>(dice.below(range * 1000)) / 1000; }
 
 void plainHead(Writer &out, std::size_t program) {
   out.line("O{:04}(POCKET {})", 1000 + program, program);

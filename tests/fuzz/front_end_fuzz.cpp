@@ -30,7 +30,8 @@ void run(std::string text, const Dialect &dialect) {
   FEEDHOLD_CHECK(dump(tree, source).size() + dump(model, tree, source).size() > 0, "a dump is empty");
   const CallGraph graph({{FileId(0), "", "fuzz", &model}});
   const FileContext context{FileId(0), source, dialect, tree, model, graph};
-  for (const RawFinding &finding : applySuppressions(runRules(everyRule(), context), context, allRules(), everyRule()).kept)
+  for (const RawFinding &finding :
+       applySuppressions(runRules(everyRule(), context), context, allRules(), everyRule()).kept)
     FEEDHOLD_CHECK(finding.diagnostic.span.end <= source.text().size(), "a finding outside of the text");
 }
 

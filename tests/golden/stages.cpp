@@ -119,7 +119,8 @@ std::string fixed(const Input &input, FixWish wish) {
   std::map<std::string, std::string> after;
   for (const FixedFile &file : result.files)
     after[file.path] = file.after;
-  return eachFile(input, [&](const InputFile &file) { return after.contains(file.name) ? after[file.name] : file.text; });
+  return eachFile(input,
+                  [&](const InputFile &file) { return after.contains(file.name) ? after[file.name] : file.text; });
 }
 
 } // namespace

@@ -18,9 +18,9 @@ struct InputFile {
 
 struct Input {
   std::vector<InputFile> files;
-  const Dialect *dialect = nullptr;   // of all files
-  std::vector<std::string> rules;     // those that run; empty: all
-  std::optional<std::string> config;  // the text of a feedhold.toml beside the files
+  const Dialect *dialect = nullptr;  // of all files
+  std::vector<std::string> rules;    // those that run; empty: all
+  std::optional<std::string> config; // the text of a feedhold.toml beside the files
 };
 
 /// The text that a stage gives for the input; absent when there is no such stage.

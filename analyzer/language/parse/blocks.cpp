@@ -71,7 +71,7 @@ void Parser::readItem() {
   case TokenKind::Hash:
   case TokenKind::OpenBracket:
   case TokenKind::ControlWord: readStatement(); return;
-  case TokenKind::CloseBracket: takeStrayCloseBrackets(); return;
+  case TokenKind::CloseBracket: takeStrayCloseBrackets(Broken::Yes); return;
   case TokenKind::Number:
   case TokenKind::Function:
   case TokenKind::Operator:
@@ -98,7 +98,7 @@ void Parser::readWord() {
   if (text_[head.begin] >= 'a')
     extend(lowerCase_, head.span());
   headOfBlock_ = headOfBlock_ && address == 'N';
-  advance();
+  advanceToValue();
   readWordValue(address, head.begin, wordFlags_);
 }
 
@@ -182,13 +182,14 @@ void Parser::readBlockSkip() {
   advance();
   std::uint8_t level = 1;
   bool levelIsFine = true;
-  if (at(TokenKind::Number)) {
+  const bool levelIsWritten = at(TokenKind::Number); // `/1/3` is two levels; `//3` is not
+  if (levelIsWritten) {
     const std::optional<std::int64_t> number = numberHere().value_or(Decimal(0, 0)).asInteger();
     levelIsFine = number && *number >= 1 && *number <= 9;
     level = levelIsFine ? static_cast<std::uint8_t>(*number) : 1;
     advance();
   }
-  if (!levelIsFine || at(TokenKind::Slash))
+  if (!levelIsFine || (!levelIsWritten && at(TokenKind::Slash)))
     issue(SyntaxIssueKind::BlockSkipLevel, {slash.begin, at(TokenKind::Slash) ? token_.end : lastEnd_}, {}, Broken::No);
   if (headOfBlock_) {
     block_.flags |= Block::kSkip;

@@ -71,7 +71,7 @@ Parser::Parser(std::string_view text, const Dialect &dialect) : text_(text), lex
 SyntaxTree Parser::run() {
   reserve();
   readLeader();
-  advance();
+  token_ = lexer_.next();
   while (!at(TokenKind::EndOfFile))
     readBlock();
   openBlock(static_cast<std::uint32_t>(text_.size())); // the end mark
@@ -125,8 +125,10 @@ void Parser::readRawLine(std::uint32_t begin, Block::Flag flag) {
   tree_.blocks.add(block_);
   Lexer behind = lexer_;
   const Token end = behind.next();
-  if (end.kind == TokenKind::EndOfBlock)
-    lexer_.moveTo(end.end);
+  if (end.kind != TokenKind::EndOfBlock)
+    return;
+  lexer_.moveTo(end.end);
+  lastEnd_ = end.end;
 }
 
 /// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened.  The
@@ -153,6 +155,26 @@ void Parser::advance() {
     tree_.abbreviations.push_back(token_.span());
   lastEnd_ = token_.end;
   token_ = lexer_.next();
+  if (commentsAreBlanks_)
+    takeCommentsAsBlanks();
+}
+
+/// Behind an address: `X(WIDTH)10.`
+void Parser::advanceToValue() {
+  const bool before = std::exchange(commentsAreBlanks_, true);
+  advance();
+  commentsAreBlanks_ = before;
+}
+
+/// A comment with a fault ends what is being read: readComment() says what is wrong with it.
+void Parser::takeCommentsAsBlanks() {
+  while (at(TokenKind::Comment)) {
+    const std::string_view inner = text_.substr(token_.begin + 1, token_.span().size() - 1);
+    if (inner.find_first_of("(\r\n") != std::string_view::npos || !inner.ends_with(')'))
+      return;
+    tree_.comments.add({token_.span(), true});
+    token_ = lexer_.next();
+  }
 }
 
 Token Parser::peek() const {

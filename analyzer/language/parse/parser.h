@@ -66,7 +66,6 @@ private:
   std::optional<ExpressionId> condition(const Token &keyword, SyntaxIssueKind whenMissing);
   std::optional<ExpressionId> loopNumber();
   void readPrintedVariables(Span format);
-  void takeStrayCloseBrackets();
   StatementId addStatement(std::uint32_t begin, decltype(Statement::node) node);
 
   // expressions.cpp
@@ -92,6 +91,8 @@ private:
 
   // tokens and issues
   void advance();
+  void advanceToValue();
+  void takeCommentsAsBlanks();
   bool at(TokenKind kind) const { return token_.kind == kind; }
   bool at(ControlWord word) const { return token_.kind == TokenKind::ControlWord && token_.controlWord() == word; }
   bool atEnd() const { return at(TokenKind::EndOfBlock) || at(TokenKind::EndOfFile); }
@@ -101,6 +102,7 @@ private:
   /// Reports unless the block is broken already; `Broken::Yes` gives up the rest of the block.
   enum class Broken { No, Yes };
   void issue(SyntaxIssueKind kind, Span span, Span other, Broken broken);
+  void takeStrayCloseBrackets(Broken broken);
   std::optional<Decimal> numberHere();
 
   std::string_view text_;
@@ -117,8 +119,9 @@ private:
   bool headOfBlock_ = true;    // only block skips and N have been read
   std::optional<Span> statementInBlock_;
   std::optional<Span> lowerCase_;
-  bool dataBlocks_ = false;      // between G10 L50/L52 and G11
-  bool symbolicAllowed_ = false; // inside brackets or a condition: `=` can only mean a comparison
+  bool commentsAreBlanks_ = false; // inside a macro statement, and between an address and its value
+  bool dataBlocks_ = false;        // between G10 L50/L52 and G11
+  bool symbolicAllowed_ = false;   // inside brackets or a condition: `=` can only mean a comparison
   int depth_ = 0;
   int operatorsInBlock_ = 0;
   enum class Tape { Unmarked, Open, Closed } tape_ = Tape::Unmarked;

@@ -11,7 +11,9 @@ void Parser::readStatement() {
   const Token first = token_;
   if (text_[first.begin] >= 'a' && text_[first.begin] <= 'z')
     lowerCase_ = lowerCase_ ? cover(*lowerCase_, first.span()) : first.span();
+  commentsAreBlanks_ = true;
   const StatementId statement = at(TokenKind::ControlWord) ? controlStatement() : variableStatement();
+  commentsAreBlanks_ = false;
   headOfBlock_ = false;
   addTopStatement(statement);
 }
@@ -88,7 +90,7 @@ StatementId Parser::ifStatement() {
   const Token keyword = token_;
   advance();
   If statement{condition(keyword, SyntaxIssueKind::IfWithoutCondition), IfAction::Nothing, std::nullopt, false};
-  takeStrayCloseBrackets();
+  takeStrayCloseBrackets(Broken::No);
   statement.statement = ifAction(statement, keyword);
   return addStatement(keyword.begin, statement);
 }
@@ -146,9 +148,9 @@ StatementId Parser::whileStatement() {
   const Token keyword = token_;
   advance();
   const auto test = condition(keyword, SyntaxIssueKind::WhileWithoutCondition);
-  takeStrayCloseBrackets();
+  takeStrayCloseBrackets(Broken::No);
   if (!at(ControlWord::Do)) {
-    issue(SyntaxIssueKind::WhileWithoutDo, since(keyword.begin), {}, Broken::No);
+    issue(SyntaxIssueKind::WhileWithoutDo, since(keyword.begin), {}, Broken::Yes);
     return addStatement(keyword.begin, While{test, std::nullopt});
   }
   return addStatement(keyword.begin, While{test, loopNumber()});
@@ -204,10 +206,10 @@ std::optional<ExpressionId> Parser::condition(const Token &keyword, SyntaxIssueK
 }
 
 /// `]` without its `[`: reported once, read over.
-void Parser::takeStrayCloseBrackets() {
+void Parser::takeStrayCloseBrackets(Broken broken) {
   if (!at(TokenKind::CloseBracket))
     return;
-  issue(SyntaxIssueKind::StrayCloseBracket, token_.span(), {}, Broken::No);
+  issue(SyntaxIssueKind::StrayCloseBracket, token_.span(), {}, broken);
   block_.flags |= Block::kBroken;
   const std::uint32_t begin = token_.begin;
   while (at(TokenKind::CloseBracket))
