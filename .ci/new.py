@@ -86,7 +86,8 @@ DIALECT_PARITY = """# {name}: what is modelled
 | SAY EACH FACT | yes / no / as another control | MANUAL, PAGE |
 """
 
-CATEGORIES = {"expressions": "Expression", "variables": "Variable", "alarms": "Alarm", "words": "Word", "calls": "Call",
+# A group of another name holds rules about expressions, until its author says otherwise.
+CATEGORIES = {"variables": "Variable", "alarms": "Alarm", "words": "Word", "calls": "Call",
               "comments": "Comment", "structure": "Structure", "suppressions": "Suppression"}
 
 
@@ -119,7 +120,7 @@ def add_line(path, macro, line, sort):
 
 
 def new_rule(group, name):
-    category = CATEGORIES.get(group, group.rstrip("s").capitalize())
+    category = CATEGORIES.get(group, "Expression")
     file, symbol = name.replace("-", "_"), symbol_of(name)
     folder = ROOT / "rules" / group
     create(folder / f"{file}.cpp", RULE_CPP.format(name=name, symbol=symbol, category=category))
