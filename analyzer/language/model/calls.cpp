@@ -25,6 +25,7 @@ std::optional<CallKind> kindOf(const Word &word, const Dialect &dialect) {
   case CodeRole::Motion:
   case CodeRole::Arc:
   case CodeRole::CannedCycle:
+  case CodeRole::OwnWords:
   case CodeRole::Dwell:
   case CodeRole::DataSetting:
   case CodeRole::DataSettingEnd:
@@ -176,6 +177,48 @@ std::vector<Argument> assignArguments(const ResolveContext &context, BlockId blo
       if (arguments[i].variable != 0 && arguments[i].variable == arguments[later].variable)
         arguments[i].role = ArgumentRole::Overridden;
   return arguments;
+}
+
+namespace {
+
+Span spanOf(const SyntaxTree &tree, const Call &call) {
+  const Span code = tree.words[call.code].span();
+  return call.programWord && *call.programWord > call.code ? cover(code, tree.words[*call.programWord].span()) : code;
+}
+
+/// A block in which nothing happens but the end of the program, or nothing at all.
+bool onlyEnds(const ResolveContext &context, BlockId block) {
+  if (context.tree.blocks[block].has(Block::kPercent) || context.tree.blocks[block].has(Block::kAfterEnd))
+    return true;
+  const auto words = context.tree.wordsOf(block);
+  return context.tree.statementsOf(block).empty() && std::all_of(words.begin(), words.end(), [&](const Word &word) {
+           const Code *code = codeOf(word, context.dialect);
+           return word.address() == 'N' ||
+                  (code && (code->role == CodeRole::ProgramEnd || code->role == CodeRole::Return));
+         });
+}
+
+/// The last block of the program that does more than end it.
+BlockId lastWorkingBlock(const ResolveContext &context, const Program &program) {
+  BlockId block(program.last.index() - 1);
+  while (block > program.first && onlyEnds(context, block))
+    block = BlockId(block.index() - 1);
+  return block;
+}
+
+} // namespace
+
+void placeCalls(const ResolveContext &context, ProgramModel &model) {
+  std::optional<ProgramId> program;
+  BlockId last(0);
+  for (std::size_t i = 0; i < model.calls.size(); ++i) {
+    Call &call = model.calls[CallId(i)];
+    if (call.caller != program)
+      last = lastWorkingBlock(context, model.programs[call.caller]);
+    program = call.caller;
+    call.span = spanOf(context.tree, call);
+    call.isLast = call.block == last;
+  }
 }
 
 } // namespace feedhold
