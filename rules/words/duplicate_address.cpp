@@ -31,14 +31,15 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     return;
   std::array<const Word *, 26> seen{};
   for (const Word &word : words) {
+    if (!counts(word, context)) // a `<NAME>` has no letter
+      continue;
     const Word *&first = seen[static_cast<std::size_t>(word.address() - 'A')];
-    if (first && counts(word, context)) {
+    if (first) {
       if (!meansOwnWords(context, block))
         reportPair(*first, word, context, reporter);
       return;
     }
-    if (counts(word, context))
-      first = &word;
+    first = &word;
   }
 }
 
