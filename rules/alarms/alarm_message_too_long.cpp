@@ -31,7 +31,7 @@ void check(const Statement &statement, BlockId block, const FileContext &context
 } // namespace
 
 extern const Rule alarmMessageTooLong;
-const Rule alarmMessageTooLong{.info = {"alarm-message-too-long", Category::Alarm, Severity::Warning,
+const Rule alarmMessageTooLong{.info = {"alarm-message-too-long", Category::Alarm, Severity::Info,
                                         "Reports an alarm message that is longer than the control shows."},
                                .hooks = {.statement = check}};
 

@@ -26,16 +26,6 @@ bool isMacroCall(CallKind kind) {
 
 const Word &wordOf(const FileContext &context, WordId id) { return context.tree.words[id]; }
 
-Span spanOf(const FileContext &context, const Call &call) {
-  const Span code = wordOf(context, call.code).span();
-  return call.programWord ? cover(code, wordOf(context, *call.programWord).span()) : code;
-}
-
-std::string quotedCall(const FileContext &context, const Call &call) {
-  return context.quoted(call.programWord && *call.programWord > call.code ? spanOf(context, call)
-                                                                          : wordOf(context, call.code).span());
-}
-
 const Call *callTo(const FileContext &context, ProgramId caller, ProgramRef callee) {
   const auto &calls = context.model.calls;
   const auto found = std::ranges::find_if(calls, [&](const Call &call) {

@@ -12,10 +12,6 @@ bool namesProgram(CallKind kind);
 bool isMacroCall(CallKind kind);
 
 const Word &wordOf(const FileContext &context, WordId id);
-/// "`G65 P9010`", or the code alone when the program is computed or missing.
-std::string quotedCall(const FileContext &context, const Call &call);
-Span spanOf(const FileContext &context, const Call &call);
-
 /// The call of the program `caller` that reaches `callee` first in the text; null when there is none.
 const Call *callTo(const FileContext &context, ProgramId caller, ProgramRef callee);
 

@@ -43,8 +43,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   const Call *call = leftInForce(context, program);
   if (!call || callerCancels(context, program))
     return;
-  reporter.report({.message = fmt::format("{} is never cancelled", quotedCall(context, *call)),
-                   .span = spanOf(context, *call),
+  reporter.report({.message = fmt::format("{} is never cancelled", context.quoted(call->span)),
+                   .span = call->span,
                    .notes = {"every later move calls the macro again, the retract and the move to the tool change too",
                              "cancel it by G67"}});
 }

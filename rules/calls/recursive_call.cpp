@@ -25,8 +25,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   if (!call)
     return;
   reporter.report(
-      {.message = fmt::format("{} leads back to this program", quotedCall(context, *call)),
-       .span = spanOf(context, *call),
+      {.message = fmt::format("{} leads back to this program", context.quoted(call->span)),
+       .span = call->span,
        .notes = {chain(cycle, context), fmt::format("when nothing ends the chain, the control {}",
                                                     stopsWith(context.dialect, AlarmKind::SubprogramNesting))}});
 }

@@ -60,7 +60,7 @@ void checkReturn(const Jump &jump, std::uint32_t number, const FileContext &cont
     reporter.report(
         {.message = fmt::format("{} has no target: {} has no `N{}`", context.quoted(jump.span), name, number),
          .span = jump.targetSpan,
-         .labels = {{caller.header, "this program calls it", file}},
+         .labels = {{call.span, "called here", file}},
          .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
                    neighbours(model, call.caller, number)}});
     return;

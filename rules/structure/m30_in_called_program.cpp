@@ -8,24 +8,24 @@
 namespace feedhold::rules {
 namespace {
 
-/// A call from another program; M97 and a program that calls itself are no proof that this one is a subprogram.
+/// A call from another program that has more to do behind it; M97 and a program that calls itself are no proof that
+/// this one is a subprogram.
 std::optional<CallGraph::Caller> foreignCaller(const FileContext &context, ProgramId program) {
   for (const auto &caller : context.callGraph.callers({context.file, program})) {
     const Call &call = context.callGraph.model(caller.file).calls[caller.call];
     const bool isItself = caller.file == context.file && call.caller == program;
-    if (!isItself && call.kind != CallKind::Local)
+    if (!isItself && !call.isLast && call.kind != CallKind::Local)
       return caller;
   }
   return std::nullopt;
 }
 
 void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileContext &context, const Reporter &reporter) {
-  const ProgramModel &model = context.callGraph.model(caller.file);
-  const Program &program = model.programs[model.calls[caller.call].caller];
+  const Call &call = context.callGraph.model(caller.file).calls[caller.call];
   reporter.report(
       {.message = fmt::format("{} in a program that is called ends the whole job", context.quoted(end.span())),
        .span = end.span(),
-       .labels = {{program.header, "the call is in this program", caller.file}},
+       .labels = {{call.span, "called here", caller.file}},
        .notes = {"what the caller does behind the call is lost: restored modes, retracts, counters",
                  "return with M99; raise an alarm by `#3000=` where the job must stop"}});
 }

@@ -152,10 +152,14 @@ std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
       last = block;
   if (!last || leavesForGood(context, *last) || DeadBlocks(context, id).contains(*last))
     return std::nullopt;
-  for (const Loop &loop : context.model.loops)
-    if (loop.endBlock == last && !hasCondition(context, loop))
-      return std::nullopt;
-  return last;
+  const bool endless = std::ranges::any_of(
+      context.model.loops, [&](const Loop &loop) { return loop.endBlock == last && !hasCondition(context, loop); });
+  // A program that every job calls last, and that ends it by M30.
+  const bool callEnds = std::ranges::any_of(context.model.calls, [&](const Call &call) {
+    const auto callee = call.block == *last ? context.callGraph.callee(context.file, call) : std::nullopt;
+    return callee && !context.callGraph.model(callee->file).programs[callee->program].returns;
+  });
+  return endless || callEnds ? std::nullopt : last;
 }
 
 bool isInside(const Loop &loop, BlockId block) {
@@ -197,12 +201,9 @@ IfStructures ifStructures(const FileContext &context, ProgramId id) {
 std::vector<SequenceNumber> sortedSequenceNumbers(const ProgramModel &model, ProgramId id) {
   const Program &program = model.programs[id];
   std::vector<SequenceNumber> own;
-  for (const SequenceNumber &number : model.sequenceNumbers)
-    if (program.contains(number.block))
-      own.push_back(number);
-  const auto byNumber = [](const SequenceNumber &a, const SequenceNumber &b) { return a.number < b.number; };
-  if (!std::ranges::is_sorted(own, byNumber))
-    std::ranges::stable_sort(own, byNumber);
+  for (const std::uint32_t index : model.byNumber)
+    if (program.contains(model.sequenceNumbers[index].block))
+      own.push_back(model.sequenceNumbers[index]);
   return own;
 }
 

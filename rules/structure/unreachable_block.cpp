@@ -8,28 +8,36 @@
 namespace feedhold::rules {
 namespace {
 
-/// `#3000=1(..)` and an M30 behind it: a second end of the program is a belt beside the braces.
-bool onlyEnds(const DeadBlocks::Run &run, const FileContext &context) {
-  for (BlockId block = run.first; block <= run.last; block = block.next()) {
-    if (!isRead(context.tree.blocks[block]) || !hasContent(context, block))
-      continue;
-    const FlowAfter flow = flowAfter(context.tree, block, context.dialect);
-    if (flow != FlowAfter::Ends && flow != FlowAfter::Jumps)
-      return false;
-  }
-  return true;
+/// `#3000=1(..)`, then M00 or M30 behind it: a belt beside the braces.  A label between them shows that the block was
+/// meant to be reached.
+bool isSecondEnd(BlockId block, const FileContext &context) {
+  const FlowAfter flow = flowAfter(context.tree, block, context.dialect);
+  return !findWord(context.tree, block, 'N') &&
+         (!hasContent(context, block) || flow == FlowAfter::Ends || flow == FlowAfter::Jumps ||
+          findCode(context.tree, block, context.dialect, CodeRole::ProgramStop));
+}
+
+/// The first block of the run that is more than a second end of what ended before.
+std::optional<BlockId> firstUnintended(const DeadBlocks::Run &run, const FileContext &context) {
+  if (flowAfter(context.tree, run.ender, context.dialect) != FlowAfter::Ends)
+    return run.first;
+  BlockId block = run.ender.next();
+  while (block <= run.last && (!isRead(context.tree.blocks[block]) || isSecondEnd(block, context)))
+    block = block.next();
+  return block <= run.last ? std::optional(block) : std::nullopt;
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
-    if (onlyEnds(run, context))
+    const auto start = firstUnintended(run, context);
+    if (!start)
       continue;
-    const std::uint32_t first = context.source.lineOf(context.tree.blocks[run.first].begin);
+    const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
     const std::uint32_t last = context.source.lineOf(context.tree.blocks[run.last].begin);
     reporter.report({.message = first == last ? "this block is never run"
                                               : fmt::format("the blocks from here to line {} are never run", last),
-                     .span = context.tree.blocks[run.first].span(),
+                     .span = context.tree.blocks[*start].span(),
                      .labels = {{context.tree.blocks[run.ender].span(), "control does not go on behind this block"}},
                      .notes = {"no jump leads here either"}});
   }

@@ -15,6 +15,8 @@ void findPrograms(const ResolveContext &context, ProgramModel &model);
 void findSequenceNumbers(const ResolveContext &context, ProgramModel &model);
 void findLoops(const ResolveContext &context, ProgramModel &model);
 void findCalls(const ResolveContext &context, ProgramModel &model);
+/// Fills in Call::span and Call::isLast.
+void placeCalls(const ResolveContext &context, ProgramModel &model);
 void findJumps(const ResolveContext &context, ProgramModel &model);
 void findVariableUses(const ResolveContext &context, ProgramModel &model);
 

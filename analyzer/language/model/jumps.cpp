@@ -36,9 +36,10 @@ private:
   }
 
   void readCode(BlockId block, const Word &code, CodeRole role) {
-    if (role == CodeRole::Return)
+    if (role == CodeRole::Return) {
+      model_.programs[model_.programOf(block)].returns = true;
       addWord(JumpKind::ReturnTo, block, code, 'P');
-    else if (role == CodeRole::LocalCall)
+    } else if (role == CodeRole::LocalCall)
       addWord(JumpKind::LocalCall, block, code, 'P');
     else if (role == CodeRole::SubprogramCall && context_.dialect.switches.sqc != Switch::Off)
       addWord(JumpKind::CallAt, block, code, 'Q');

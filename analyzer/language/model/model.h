@@ -25,9 +25,10 @@ std::string toString(const ProgramName &name);
 
 struct Program {
   ProgramName name;
-  Span header;   // the O word, or the first block's span
-  BlockId first; // blocks from here ..
-  BlockId last;  // .. up to, not including, this one
+  Span header;          // the O word, or the first block's span
+  BlockId first;        // blocks from here ..
+  BlockId last;         // .. up to, not including, this one
+  bool returns = false; // an M99 stands in it
   bool contains(BlockId block) const { return first <= block && block < last; }
 };
 
@@ -102,6 +103,8 @@ struct Call {
   ProgramName callee;                   // empty when computed or missing
   std::optional<std::uint32_t> repeats; // L, when a literal
   std::vector<Argument> arguments;      // word by word, as written
+  Span span = {};                       // the code and the program that it names
+  bool isLast = false;                  // behind it only the end of the calling program
 };
 
 struct VariableUse {

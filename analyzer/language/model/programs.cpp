@@ -15,13 +15,17 @@ std::string toString(const ProgramName &name) {
 
 namespace {
 
-/// The word that names a program: an O word, or a `<NAME>`, at the head of a block.
+/// The word that names a program: an O word, or a `<NAME>`, at the head of a block.  A lone `:` at the end of a block
+/// is a mistyped `;`.
 const Word *headerOf(const ResolveContext &context, BlockId block) {
   const auto words = context.tree.wordsOf(block);
   if (words.empty())
     return nullptr;
   const Word &first = words.front();
-  return (first.address() == 'O' || first.address() == '<') && !first.has(Word::kComma) ? &first : nullptr;
+  const auto statements = context.tree.statementsOf(block);
+  const bool atHead = statements.empty() || first.span().begin < statements.front().span.begin;
+  const bool names = (first.address() == 'O' || first.address() == '<') && !first.has(Word::kComma);
+  return atHead && names ? &first : nullptr;
 }
 
 ProgramName nameFrom(const ResolveContext &context, const Word &word) {

@@ -73,6 +73,7 @@ ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dia
   model.byNumber = sortedByNumber(model.sequenceNumbers);
   findLoops(context, model);
   findCalls(context, model);
+  placeCalls(context, model);
   findJumps(context, model);
   findVariableUses(context, model);
   return model;
