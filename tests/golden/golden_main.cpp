@@ -71,7 +71,10 @@ std::string defaultName(std::string_view text) {
 std::optional<std::string> addFile(const Fence &fence, Input &input) {
   std::vector<std::string> words = wordsOf(fence.info);
   const bool escaped = std::erase(words, "escaped") > 0;
-  const Dialect *dialect = words.size() < 2 ? nullptr : findDialect(allDialects(), words[1]);
+  input.guess = words.size() > 1 && words[1] == "guess";
+  const Dialect *dialect = words.size() < 2 ? nullptr
+                           : input.guess    ? allDialects().dialects.front()
+                                            : findDialect(allDialects(), words[1]);
   if (!dialect)
     return fmt::format("`{}` names no dialect", fence.info);
   if (input.dialect && input.dialect != dialect)

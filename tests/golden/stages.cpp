@@ -87,7 +87,8 @@ CheckOptions optionsFor(const Input &input) {
   CheckOptions options;
   for (const InputFile &file : input.files)
     options.paths.push_back(file.name);
-  options.dialect = std::string(input.dialect->id);
+  if (!input.guess)
+    options.dialect = std::string(input.dialect->id);
   options.select = input.rules;
   options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
   options.jobs = 1;

@@ -19,6 +19,7 @@ struct InputFile {
 struct Input {
   std::vector<InputFile> files;
   const Dialect *dialect = nullptr;  // of all files
+  bool guess = false;                // `findings` finds the dialect, or a foreign language, by itself
   std::vector<std::string> rules;    // those that run; empty: all
   std::optional<std::string> config; // the text of a feedhold.toml beside the files
 };
