@@ -22,7 +22,7 @@ std::string errorOf(std::string_view text) {
 
 TEST(Config, EverySetting) {
   const ConfigText text = read("dialect = \"fanuc-0i\"\n"
-                               "select = [\"syntax\", \"missing-label\"]\n"
+                               "select = [\"syntax\", \"missing-value\"]\n"
                                "ignore = [\"missing-equals\"]\n"
                                "error-on = \"error\"\n"
                                "include = [\"*.P-1\"]\n"
@@ -35,7 +35,7 @@ TEST(Config, EverySetting) {
                                "program = 9010\n"
                                "macro = false\n"
                                "[severity]\n"
-                               "missing-label = \"info\"\n"
+                               "missing-value = \"info\"\n"
                                "[[files]]\n"
                                "path = \"lathe/**\"\n"
                                "dialect = \"haas-ngc\"\n"
@@ -43,7 +43,7 @@ TEST(Config, EverySetting) {
   ASSERT_TRUE(text.errors.empty()) << text.errors[0].message;
   const Config &config = text.config;
   EXPECT_EQ(config.dialect, "fanuc-0i");
-  EXPECT_EQ(config.select, (std::vector<std::string>{"syntax", "missing-label"}));
+  EXPECT_EQ(config.select, (std::vector<std::string>{"syntax", "missing-value"}));
   EXPECT_EQ(config.errorOn, Severity::Error);
   EXPECT_EQ(config.exclude, (std::vector<std::string>{"old/"}));
   ASSERT_EQ(config.switches.size(), 2U);

@@ -113,7 +113,7 @@ TEST_F(Session, AConfigurationWithErrorsStopsOnlyItsFiles) {
 }
 
 TEST_F(Session, SettingsByPattern) {
-  write("feedhold.toml", "[[files]]\npath = \"lathe/**\"\ndialect = \"haas-ngc\"\nignore = [\"syntax\"]\n");
+  write("feedhold.toml", "[[files]]\npath = \"lathe/**\"\ndialect = \"haas-ngc\"\nignore = [\"expression\"]\n");
   write("lathe/part.nc", kSlip);
   write("mill/part.nc", kSlip);
   const CheckResult result = run();

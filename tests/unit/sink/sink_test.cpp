@@ -26,10 +26,10 @@ CheckResult sample() {
   const SourceFile source = SourceFile::fromText("cell 1/part.nc", "O1(\xc3\xa4<&>)\n#510-#6\nM30\n");
   Finding slip{&kSlip, Severity::Error, {}, "0123456789abcdef", false};
   slip.diagnostic.message = "`#510-#6` is 50% of a statement";
-  slip.diagnostic.span = {12, 19};
+  slip.diagnostic.span = {10, 17};
   slip.diagnostic.labels = {{{0, 2}, "in this program"}};
   slip.diagnostic.notes = {"the control stops"};
-  slip.diagnostic.fixes = {{FixSafety::NeedsReview, "write `=`", {{{16, 17}, "="}}}};
+  slip.diagnostic.fixes = {{FixSafety::NeedsReview, "write `=`", {{{14, 15}, "="}}}};
   Finding style{&kStyle, Severity::Info, {}, "fedcba9876543210", true};
   style.diagnostic.message = "a <comment>";
   style.diagnostic.span = {2, 9};
