@@ -41,7 +41,7 @@ public:
   std::size_t blockCount() const { return blocks.size() - 1; }
   std::span<const Word> wordsOf(BlockId block) const;
   std::span<const Comment> commentsOf(BlockId block) const;
-  /// Without those that are the action of an IF: they are reached through it.
+  /// With those that are the action of an IF (`nested`); they stand before it, as children do.
   std::span<const Statement> statementsOf(BlockId block) const;
   WordId idOf(const Word &word) const;
   StatementId idOf(const Statement &statement) const;
