@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Error systemError(std::string_view what) {
-  return {fmt::format("{}: {}", what, std::strerror(errno))};
-}
+Error systemError(std::string_view what) { return {fmt::format("{}: {}", what, std::strerror(errno))}; }
 
 /// A file beside another one, gone again unless it was renamed.
 class TemporaryFile {

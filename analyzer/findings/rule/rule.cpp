@@ -9,9 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 48; // bytes of UTF-8; a longer text would push the sentence off the screen
 
-bool isContinuationByte(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
+bool isContinuationByte(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 /// The longest head of at most `size` bytes that does not cut a character.
 std::string_view wholeCharacters(std::string_view text, std::size_t size) {
@@ -50,9 +48,7 @@ std::string FileContext::quoted(Span span) const {
   return "`" + std::string(trimmed(wholeCharacters(whole, kLongestQuote))) + " ...`";
 }
 
-void Reporter::report(Diagnostic diagnostic) const {
-  report(std::move(diagnostic), rule_->severity);
-}
+void Reporter::report(Diagnostic diagnostic) const { report(std::move(diagnostic), rule_->severity); }
 
 void Reporter::report(Diagnostic diagnostic, Severity severity) const {
   sink_->push_back(RawFinding{rule_, severity, std::move(diagnostic)});

@@ -34,9 +34,7 @@ struct HookLists {
   Listeners<decltype(RuleHooks::comment)> comment;
 };
 
-std::size_t slotOf(char address) {
-  return static_cast<std::size_t>(address & 0x7f);
-}
+std::size_t slotOf(char address) { return static_cast<std::size_t>(address & 0x7f); }
 
 template <typename Hook> void addIfAsked(Listeners<Hook> &list, Hook hook, const Reporter &reporter) {
   if (hook != nullptr)

@@ -15,9 +15,7 @@ namespace {
 constexpr std::string_view kMark = "@ALLOW";
 constexpr std::string_view kProgramMark = "@ALLOW-PROGRAM";
 
-bool isNameCharacter(char c) {
-  return isLetter(c) || isDigit(c) || c == '-';
-}
+bool isNameCharacter(char c) { return isLetter(c) || isDigit(c) || c == '-'; }
 
 /// The head of `rest` as long as `belongs` holds, cut off from `rest`.
 template <typename Predicate> std::string_view takeWhile(std::string_view &rest, Predicate belongs) {

@@ -10,9 +10,7 @@ namespace {
 constexpr std::size_t kSample = 64 * 1024;
 
 /// Control bytes that punched-tape files and serial links leave in real programs: NUL leaders, DC1 to DC4, EOF, DEL.
-bool isTapeByte(unsigned char c) {
-  return c == 0x00 || (c >= 0x11 && c <= 0x14) || c == 0x1a || c == 0x7f;
-}
+bool isTapeByte(unsigned char c) { return c == 0x00 || (c >= 0x11 && c <= 0x14) || c == 0x1a || c == 0x7f; }
 
 bool isStrange(char byte) {
   const auto c = static_cast<unsigned char>(byte);

@@ -12,9 +12,7 @@ namespace {
 // A block longer than this is not a line that a person edits; hashing it for each of its findings would be quadratic.
 constexpr std::uint32_t kLongestBlock = 2048;
 
-std::string hexadecimal(std::uint64_t hash) {
-  return fmt::format("{:016x}", hash);
-}
+std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 } // namespace
 
