@@ -153,7 +153,7 @@ std::optional<FoundBy> kindOfFileName(std::string_view name) {
   const std::string extension = point == std::string_view::npos ? "" : toLower(name.substr(point + 1));
   if (isOneOf(extension, kProgramExtensions) || (extension.empty() && isProgramNumberName(name)))
     return FoundBy::Extension;
-  if (isOneOf(extension, kSharedExtensions))
+  if (extension.empty() || isOneOf(extension, kSharedExtensions))
     return FoundBy::Content;
   return std::nullopt;
 }
