@@ -16,10 +16,9 @@ struct FirstUse {
 };
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
-  const Program &program = context.model.programs[id];
   std::map<Decimal, FirstUse> firstUses;
-  for (const VariableUse &use : context.model.variables) {
-    if (!use.write || use.number != kAlarmVariable || !program.contains(use.block))
+  for (const VariableUse &use : context.model.variablesOf(id)) {
+    if (!use.write || use.number != kAlarmVariable)
       continue;
     const Block &block = context.tree.blocks[use.block];
     const Block &next = context.tree.blocks[use.block.next()];

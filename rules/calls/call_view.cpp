@@ -27,10 +27,9 @@ bool isMacroCall(CallKind kind) {
 const Word &wordOf(const FileContext &context, WordId id) { return context.tree.words[id]; }
 
 const Call *callTo(const FileContext &context, ProgramId caller, ProgramRef callee) {
-  const auto &calls = context.model.calls;
-  const auto found = std::ranges::find_if(calls, [&](const Call &call) {
-    return call.caller == caller && context.callGraph.callee(context.file, call) == callee;
-  });
+  const auto calls = context.model.callsOf(caller);
+  const auto found = std::ranges::find_if(
+      calls, [&](const Call &call) { return context.callGraph.callee(context.file, call) == callee; });
   return found == calls.end() ? nullptr : &*found;
 }
 

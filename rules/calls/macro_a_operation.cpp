@@ -58,9 +58,8 @@ const Operation *find(const Word *code) {
 
 /// One finding for a program: one that is written so is written so throughout.
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  const auto &calls = context.model.calls;
-  const auto first = std::ranges::find_if(
-      calls, [&](const Call &call) { return call.caller == program && call.kind == CallKind::MacroA; });
+  const auto calls = context.model.callsOf(program);
+  const auto first = std::ranges::find(calls, CallKind::MacroA, &Call::kind);
   if (first == calls.end())
     return;
   const Word *code = findWord(context.tree, first->block, 'H');

@@ -13,8 +13,8 @@ namespace {
 bool isModal(CallKind kind) { return kind == CallKind::Modal || kind == CallKind::ModalEach; }
 
 bool cancels(const ProgramModel &model, ProgramId program) {
-  return std::ranges::any_of(
-      model.calls, [&](const Call &call) { return call.caller == program && call.kind == CallKind::ModalCancel; });
+  return std::ranges::any_of(model.callsOf(program),
+                             [](const Call &call) { return call.kind == CallKind::ModalCancel; });
 }
 
 /// Who calls this program may cancel what it leaves in force.
@@ -28,9 +28,7 @@ bool callerCancels(const FileContext &context, ProgramId program) {
 /// The last G66 of the program with no G67 behind it.
 const Call *leftInForce(const FileContext &context, ProgramId program) {
   const Call *last = nullptr;
-  for (const Call &call : context.model.calls) {
-    if (call.caller != program)
-      continue;
+  for (const Call &call : context.model.callsOf(program)) {
     if (isModal(call.kind))
       last = &call;
     else if (call.kind == CallKind::ModalCancel)

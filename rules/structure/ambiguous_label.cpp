@@ -6,18 +6,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace feedhold::rules {
 namespace {
 
 using Copies = std::span<const SequenceNumber>;
 
-std::vector<const Jump *> gotosTo(std::uint32_t number, ProgramId program, const FileContext &context) {
-  std::vector<const Jump *> jumps;
-  for (const Jump &jump : context.model.jumps)
-    if (jump.kind == JumpKind::Goto && jump.program == program && jump.target && labelNumber(jump) == number)
-      jumps.push_back(&jump);
-  return jumps;
+/// The GOTOs of a program that find a block, by the number that they name.
+using Gotos = std::unordered_map<std::uint32_t, std::vector<const Jump *>>;
+
+Gotos gotosOf(ProgramId program, const FileContext &context) {
+  Gotos gotos;
+  for (const Jump &jump : context.model.jumpsOf(program))
+    if (const auto number = labelNumber(jump); number && jump.kind == JumpKind::Goto && jump.target)
+      gotos[*number].push_back(&jump);
+  return gotos;
 }
 
 Span spanOf(const SequenceNumber &copy, const FileContext &context) { return context.tree.words[copy.word].span(); }
@@ -55,13 +60,13 @@ void reportBackward(const Jump &jump, Copies copies, const FileContext &context,
                  "give each target a number of its own"}});
 }
 
-void checkNumber(Copies copies, ProgramId program, const FileContext &context, const Reporter &reporter) {
-  const auto jumps = gotosTo(copies.front().number, program, context);
-  if (jumps.empty())
-    return;
+void checkNumber(Copies copies, std::span<const Jump *const> jumps, const FileContext &context,
+                 const Reporter &reporter) {
+  std::unordered_set<std::uint32_t> found;
+  for (const Jump *jump : jumps)
+    found.insert(jump->target->index());
   for (const SequenceNumber &copy : copies) {
-    const bool isFound = std::ranges::any_of(jumps, [&](const Jump *jump) { return *jump->target == copy.block; });
-    if (!isFound) {
+    if (!found.contains(copy.block.index())) {
       reportNeverFound(copy, copies, *jumps.front(), context, reporter);
       return;
     }
@@ -72,15 +77,17 @@ void checkNumber(Copies copies, ProgramId program, const FileContext &context, c
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (std::ranges::none_of(context.model.jumps, [&](const Jump &jump) { return jump.program == program; }))
+  const Gotos gotos = gotosOf(program, context);
+  if (gotos.empty())
     return;
   const auto labels = sortedSequenceNumbers(context.model, program);
   for (std::size_t first = 0; first < labels.size();) {
     std::size_t last = first + 1;
     while (last < labels.size() && labels[last].number == labels[first].number)
       ++last;
-    if (last - first > 1)
-      checkNumber(Copies(labels).subspan(first, last - first), program, context, reporter);
+    const auto jumps = gotos.find(labels[first].number);
+    if (last - first > 1 && jumps != gotos.end())
+      checkNumber(Copies(labels).subspan(first, last - first), jumps->second, context, reporter);
     first = last;
   }
 }

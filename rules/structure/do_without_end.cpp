@@ -5,22 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 namespace feedhold::rules {
 namespace {
 
 /// The END that was meant: the only one of the program that is left over.
 const LoneEnd *leftOverEnd(const Loop &loop, const ProgramModel &model) {
-  const LoneEnd *found = nullptr;
-  for (const LoneEnd &end : model.loneEnds) {
-    if (end.program != loop.program || end.block < loop.doBlock)
-      continue;
-    if (found)
-      return nullptr;
-    found = &end;
-  }
-  return found;
+  const auto ends = model.loneEndsIn(loop.doBlock, model.programs[loop.program].last);
+  return ends.size() == 1 ? &ends.front() : nullptr;
 }
 
 void addRepair(Diagnostic &diagnostic, const Loop &loop, const FileContext &context) {
@@ -35,8 +27,8 @@ void addRepair(Diagnostic &diagnostic, const Loop &loop, const FileContext &cont
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   std::optional<DeadBlocks> dead;
-  for (const Loop &loop : context.model.loops) {
-    if (loop.program != program || !loop.number || loop.endBlock)
+  for (const Loop &loop : context.model.loopsOf(program)) {
+    if (!loop.number || loop.endBlock)
       continue;
     if (!dead)
       dead.emplace(context, program);

@@ -13,8 +13,8 @@ namespace {
 
 std::unordered_set<std::uint32_t> jumpNumbers(ProgramId program, const FileContext &context) {
   std::unordered_set<std::uint32_t> numbers;
-  for (const Jump &jump : context.model.jumps)
-    if (const auto number = labelNumber(jump); number && jump.program == program)
+  for (const Jump &jump : context.model.jumpsOf(program))
+    if (const auto number = labelNumber(jump))
       numbers.insert(*number);
   return numbers;
 }

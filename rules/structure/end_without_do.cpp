@@ -10,17 +10,18 @@
 namespace feedhold::rules {
 namespace {
 
-/// An END with another number belongs here, and do-without-end says so.
-bool isMistypedEnd(const LoneEnd &end, const ProgramModel &model) {
-  return std::ranges::any_of(model.loops, [&](const Loop &loop) {
-    return loop.program == end.program && loop.number && !loop.endBlock && loop.doBlock < end.block;
-  });
+/// The first DO without an END: an END behind it may be its own with a mistyped number, and do-without-end says so.
+std::optional<BlockId> firstOpenDo(ProgramId program, const ProgramModel &model) {
+  const auto loops = model.loopsOf(program);
+  const auto open = std::ranges::find_if(loops, [](const Loop &loop) { return loop.number && !loop.endBlock; });
+  return open == loops.end() ? std::nullopt : std::optional(open->doBlock);
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   std::optional<DeadBlocks> dead;
-  for (const LoneEnd &end : context.model.loneEnds) {
-    if (end.program != program || !end.number || isMistypedEnd(end, context.model))
+  const std::optional<BlockId> openDo = firstOpenDo(program, context.model);
+  for (const LoneEnd &end : context.model.loneEndsOf(program)) {
+    if (!end.number || (openDo && *openDo < end.block))
       continue;
     if (!dead)
       dead.emplace(context, program);

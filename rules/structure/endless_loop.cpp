@@ -16,11 +16,11 @@ bool staysInside(const Loop &loop, const Jump &jump) {
 }
 
 bool hasWayOut(const Loop &loop, const FileContext &context) {
-  const auto inLoop = [&](BlockId block) { return isInside(loop, block) || block == loop.doBlock; };
+  const BlockId behind = loop.endBlock->next();
   // What a called program does is not known from here: it may stop with an alarm or return elsewhere.
-  const bool calls = std::ranges::any_of(context.model.calls, [&](const Call &call) { return inLoop(call.block); });
-  return calls || std::ranges::any_of(context.model.jumps,
-                                      [&](const Jump &jump) { return inLoop(jump.block) && !staysInside(loop, jump); });
+  return !context.model.callsIn(loop.doBlock, behind).empty() ||
+         std::ranges::any_of(context.model.jumpsIn(loop.doBlock, behind),
+                             [&](const Jump &jump) { return !staysInside(loop, jump); });
 }
 
 /// M30, M99, an alarm; under a condition, too.  M00 waits for a person, who may leave the loop by a reset.
@@ -29,9 +29,9 @@ bool mayEnd(const Loop &loop, const FileContext &context) {
     for (const CodeRole role : {CodeRole::ProgramEnd, CodeRole::Return, CodeRole::ProgramStop})
       if (findCode(context.tree, block, context.dialect, role))
         return true;
-  return std::ranges::any_of(context.model.variables, [&](const VariableUse &use) {
-    return use.write && use.number == kAlarmVariable && isInside(loop, use.block);
-  });
+  return std::ranges::any_of(
+      context.model.variablesIn(loop.doBlock, loop.endBlock->next()),
+      [](const VariableUse &use) { return use.write && use.number == kAlarmVariable; });
 }
 
 void check(const FileContext &context, const Reporter &reporter) {

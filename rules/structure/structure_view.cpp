@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -26,14 +27,13 @@ void addTarget(Entries &entries, const Jump &jump) {
 
 /// `M99 P n` of the programs that this one calls comes back to one of its blocks.
 void addReturns(Entries &entries, const FileContext &context, ProgramId program) {
-  for (const Call &call : context.model.calls) {
-    if (call.caller != program)
-      continue;
+  std::set<ProgramRef> seen;
+  for (const Call &call : context.model.callsOf(program)) {
     const auto callee = context.callGraph.callee(context.file, call);
-    if (!callee)
+    if (!callee || !seen.insert(*callee).second)
       continue;
-    for (const Jump &jump : context.callGraph.model(callee->file).jumps)
-      if (jump.kind == JumpKind::ReturnTo && jump.program == callee->program)
+    for (const Jump &jump : context.callGraph.model(callee->file).jumpsOf(callee->program))
+      if (jump.kind == JumpKind::ReturnTo)
         addTarget(entries, jump);
   }
 }
@@ -42,20 +42,21 @@ void addReturns(Entries &entries, const FileContext &context, ProgramId program)
 void addStarts(Entries &entries, const FileContext &context, ProgramId program) {
   for (const auto &[file, callId] : context.callGraph.callers({context.file, program})) {
     const ProgramModel &model = context.callGraph.model(file);
-    for (const Jump &jump : model.jumps)
-      if (jump.kind == JumpKind::CallAt && jump.block == model.calls[callId].block)
+    const BlockId block = model.calls[callId].block;
+    for (const Jump &jump : model.jumpsIn(block, block.next()))
+      if (jump.kind == JumpKind::CallAt)
         addTarget(entries, jump);
   }
 }
 
 Entries entriesOf(const FileContext &context, ProgramId program) {
   Entries entries;
-  for (const Jump &jump : context.model.jumps)
-    if (jump.program == program && jump.kind != JumpKind::CallAt)
+  for (const Jump &jump : context.model.jumpsOf(program))
+    if (jump.kind != JumpKind::CallAt)
       addTarget(entries, jump);
   // `G65 H80 P n` and its like jump, too.
-  entries.any = entries.any || std::ranges::any_of(context.model.calls, [&](const Call &call) {
-                  return call.caller == program && call.kind == CallKind::MacroA;
+  entries.any = entries.any || std::ranges::any_of(context.model.callsOf(program), [](const Call &call) {
+                  return call.kind == CallKind::MacroA;
                 });
   addReturns(entries, context, program);
   addStarts(entries, context, program);
@@ -111,8 +112,8 @@ DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
   const Program &program = context.model.programs[id];
   const Entries entries = entriesOf(context, id);
   std::unordered_map<std::uint32_t, BlockId> doOfEnd;
-  for (const Loop &loop : context.model.loops)
-    if (loop.program == id && loop.endBlock)
+  for (const Loop &loop : context.model.loopsOf(id))
+    if (loop.endBlock)
       doOfEnd.emplace(loop.endBlock->index(), loop.doBlock);
   bool isDead = false; // control does not come from `ender`, the last block that it ran
   BlockId ender = program.first;
@@ -141,7 +142,8 @@ DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
 }
 
 bool DeadBlocks::contains(BlockId block) const {
-  return std::ranges::any_of(runs_, [&](const Run &run) { return run.first <= block && block <= run.last; });
+  const auto behind = std::ranges::upper_bound(runs_, block, {}, &Run::first);
+  return behind != runs_.begin() && block <= std::prev(behind)->last;
 }
 
 std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
@@ -153,10 +155,10 @@ std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
   if (!last || leavesForGood(context, *last) || DeadBlocks(context, id).contains(*last))
     return std::nullopt;
   const bool endless = std::ranges::any_of(
-      context.model.loops, [&](const Loop &loop) { return loop.endBlock == last && !hasCondition(context, loop); });
+      context.model.loopsOf(id), [&](const Loop &loop) { return loop.endBlock == last && !hasCondition(context, loop); });
   // A program that every job calls last, and that ends it by M30.
-  const bool callEnds = std::ranges::any_of(context.model.calls, [&](const Call &call) {
-    const auto callee = call.block == *last ? context.callGraph.callee(context.file, call) : std::nullopt;
+  const bool callEnds = std::ranges::any_of(context.model.callsIn(*last, last->next()), [&](const Call &call) {
+    const auto callee = context.callGraph.callee(context.file, call);
     return callee && !context.callGraph.model(callee->file).programs[callee->program].returns;
   });
   return endless || callEnds ? std::nullopt : last;
@@ -199,12 +201,30 @@ IfStructures ifStructures(const FileContext &context, ProgramId id) {
 }
 
 std::vector<SequenceNumber> sortedSequenceNumbers(const ProgramModel &model, ProgramId id) {
-  const Program &program = model.programs[id];
-  std::vector<SequenceNumber> own;
-  for (const std::uint32_t index : model.byNumber)
-    if (program.contains(model.sequenceNumbers[index].block))
-      own.push_back(model.sequenceNumbers[index]);
-  return own;
+  const auto inText = model.sequenceNumbersOf(id);
+  std::vector<SequenceNumber> sorted(inText.begin(), inText.end());
+  std::ranges::stable_sort(sorted, {}, &SequenceNumber::number);
+  return sorted;
+}
+
+LoopNest::LoopNest(std::span<const Loop> loops) : loops_(loops) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    std::erase_if(open, [&](std::size_t outer) { return !isInside(loops[outer], loops[i].doBlock); });
+    outer_.push_back(open.empty() ? kNone : open.back());
+    open.push_back(i);
+  }
+}
+
+std::vector<const Loop *> LoopNest::around(BlockId block) const {
+  const auto behind = std::ranges::lower_bound(loops_, block, {}, &Loop::doBlock);
+  std::vector<const Loop *> found;
+  // A loop around the block is the last one begun before it, or one that was open when that one began.
+  std::size_t at = behind == loops_.begin() ? kNone : static_cast<std::size_t>(behind - loops_.begin()) - 1;
+  for (; at != kNone; at = outer_[at])
+    if (isInside(loops_[at], block))
+      found.push_back(&loops_[at]);
+  return found;
 }
 
 } // namespace feedhold::rules

@@ -45,6 +45,19 @@ std::optional<BlockId> openEnd(const FileContext &context, ProgramId program);
 /// The block is in the body of the loop, its END included; false for a loop without END.
 bool isInside(const Loop &loop, BlockId block);
 
+/// Which loops of a program a block is in, without looking at all of them.
+class LoopNest {
+public:
+  explicit LoopNest(std::span<const Loop> loops);
+  /// The loops whose body holds the block, the innermost first.
+  std::vector<const Loop *> around(BlockId block) const;
+
+private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::span<const Loop> loops_;
+  std::vector<std::size_t> outer_; // for each loop the last one around its DO
+};
+
 /// A DO that follows a WHILE.
 bool hasCondition(const FileContext &context, const Loop &loop);
 

@@ -5,6 +5,7 @@
 #include "language/syntax/tree.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -127,6 +128,20 @@ public:
   std::vector<std::uint32_t> byNumber;
 
   ProgramId programOf(BlockId block) const;
+  // What lies in the blocks from `first` up to, not including, `last`, in order of the text.
+  std::span<const SequenceNumber> sequenceNumbersIn(BlockId first, BlockId last) const;
+  std::span<const Jump> jumpsIn(BlockId first, BlockId last) const;
+  std::span<const Loop> loopsIn(BlockId first, BlockId last) const; // by their DO
+  std::span<const LoneEnd> loneEndsIn(BlockId first, BlockId last) const;
+  std::span<const Call> callsIn(BlockId first, BlockId last) const;
+  std::span<const VariableUse> variablesIn(BlockId first, BlockId last) const;
+  // The same for the blocks of one program.
+  std::span<const SequenceNumber> sequenceNumbersOf(ProgramId program) const;
+  std::span<const Jump> jumpsOf(ProgramId program) const;
+  std::span<const Loop> loopsOf(ProgramId program) const;
+  std::span<const LoneEnd> loneEndsOf(ProgramId program) const;
+  std::span<const Call> callsOf(ProgramId program) const;
+  std::span<const VariableUse> variablesOf(ProgramId program) const;
   /// All sequence numbers of one value in a program, in order of the text.
   std::vector<SequenceNumber> find(ProgramId program, std::uint32_t number) const;
   /// In byNumber: the first entry that is not before (number, block).

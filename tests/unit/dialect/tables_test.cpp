@@ -28,8 +28,8 @@ protected:
   const Dialect &dialect() const { return *findDialect(allDialects(), GetParam().id); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Tables, EveryDialect, testing::ValuesIn(kRows), [](const auto &info) {
-  std::string name(info.param.id);
+INSTANTIATE_TEST_SUITE_P(Tables, EveryDialect, testing::ValuesIn(kRows), [](const auto &row) {
+  std::string name(row.param.id);
   for (char &c : name)
     c = c == '-' ? '_' : c;
   return name;
