@@ -5,7 +5,8 @@ add_library(feedhold_options INTERFACE)
 target_compile_options(feedhold_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch-enum -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False on std::string and std::optional at some levels of optimisation (GCC bugs 105651, 105562, 107852).
-  target_compile_options(feedhold_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_compile_options(feedhold_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds
+                         -Wno-stringop-overflow)
 endif()
 target_include_directories(feedhold_options INTERFACE ${PROJECT_SOURCE_DIR}/analyzer ${PROJECT_SOURCE_DIR})
 if(FEEDHOLD_SANITIZE)

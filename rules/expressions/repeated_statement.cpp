@@ -51,14 +51,13 @@ bool isIdempotent(const FileContext &context, const Statement &statement) {
   return branch && isIdempotent(context, *branch);
 }
 
-void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (onlyStatement(context.tree, block) != &statement)
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Statement *statement = onlyStatement(context.tree, block);
+  const Statement *before = statement ? statementBefore(context.tree, block) : nullptr;
+  if (!before || !sameText(context, before->span, statement->span) || !isIdempotent(context, *statement))
     return;
-  const Statement *before = statementBefore(context.tree, block);
-  if (!before || !sameText(context, before->span, statement.span) || !isIdempotent(context, statement))
-    return;
-  reporter.report({.message = fmt::format("{} stands twice, one behind the other", context.quoted(statement.span)),
-                   .span = statement.span,
+  reporter.report({.message = fmt::format("{} stands twice, one behind the other", context.quoted(statement->span)),
+                   .span = statement->span,
                    .labels = {{before->span, "the first"}},
                    .notes = {"the second changes nothing; another variable or value was probably meant"}});
 }
@@ -69,6 +68,6 @@ extern const Rule repeatedStatement;
 const Rule repeatedStatement{
     .info = {"repeated-statement", Category::Expression, Severity::Info,
              "Reports a macro statement that is the same as the one directly before it and changes nothing more."},
-    .hooks = {.statement = check}};
+    .hooks = {.block = check}};
 
 } // namespace feedhold::rules

@@ -51,7 +51,10 @@ std::string FileContext::quoted(Span span) const {
 void Reporter::report(Diagnostic diagnostic) const { report(std::move(diagnostic), rule_->severity); }
 
 void Reporter::report(Diagnostic diagnostic, Severity severity) const {
-  sink_->push_back(RawFinding{rule_, severity, std::move(diagnostic)});
+  if (sink_->kept.size() < RuleFindings::kMostKept)
+    sink_->kept.push_back(RawFinding{rule_, severity, std::move(diagnostic)});
+  else
+    ++sink_->dropped;
 }
 
 } // namespace feedhold

@@ -41,23 +41,31 @@ struct FileContext {
   std::string quoted(Span span) const;
 };
 
-/// Where a rule leaves what it found.
-class Reporter {
-public:
-  Reporter(const RuleInfo &rule, std::vector<struct RawFinding> &sink) : rule_(&rule), sink_(&sink) {}
-  void report(Diagnostic diagnostic) const;
-  void report(Diagnostic diagnostic, Severity severity) const;
-
-private:
-  const RuleInfo *rule_;
-  std::vector<RawFinding> *sink_;
-};
-
 /// A finding before suppressions and before it knows its fingerprint.
 struct RawFinding {
   const RuleInfo *rule;
   Severity severity;
   Diagnostic diagnostic;
+};
+
+/// What one rule found in one file.  Beyond kMostKept findings are only counted: a program of megabytes that is wrong
+/// in every block would fill the memory with what nobody reads.
+struct RuleFindings {
+  static constexpr std::size_t kMostKept = 1000;
+  std::vector<RawFinding> kept;
+  std::size_t dropped = 0;
+};
+
+/// Where a rule leaves what it found.
+class Reporter {
+public:
+  Reporter(const RuleInfo &rule, RuleFindings &sink) : rule_(&rule), sink_(&sink) {}
+  void report(Diagnostic diagnostic) const;
+  void report(Diagnostic diagnostic, Severity severity) const;
+
+private:
+  const RuleInfo *rule_;
+  RuleFindings *sink_;
 };
 
 /// What a rule wants to be called for.  A null pointer: nothing.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <string>
 
 namespace feedhold {
 
@@ -41,10 +43,12 @@ template <typename Hook> void addIfAsked(Listeners<Hook> &list, Hook hook, const
     list.push_back({hook, reporter});
 }
 
-HookLists gather(std::span<const Rule *const> rules, std::vector<RawFinding> &sink) {
+/// `sinks` has one place for each rule.
+HookLists gather(std::span<const Rule *const> rules, std::span<RuleFindings> sinks) {
   HookLists lists;
-  for (const Rule *rule : rules) {
-    const Reporter reporter(rule->info, sink);
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const Rule *rule = rules[i];
+    const Reporter reporter(rule->info, sinks[i]);
     const RuleHooks &hooks = rule->hooks;
     for (const SyntaxIssueKind kind : hooks.issueKinds)
       addIfAsked(lists.issues[static_cast<std::size_t>(kind)], hooks.issue, reporter);
@@ -142,16 +146,33 @@ bool comesBefore(const RawFinding &a, const RawFinding &b) {
   return a.rule->name < b.rule->name;
 }
 
-std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context) {
+namespace {
+
+/// All findings in their order; a rule that found more than is kept says so at the last one.
+std::vector<RawFinding> joined(std::vector<RuleFindings> sinks) {
   std::vector<RawFinding> found;
-  const HookLists lists = gather(rules, found);
+  for (RuleFindings &sink : sinks) {
+    std::stable_sort(sink.kept.begin(), sink.kept.end(), comesBefore);
+    if (sink.dropped > 0)
+      sink.kept.back().diagnostic.notes.push_back("the rule has " + std::to_string(sink.dropped) +
+                                                  " more findings in this file, which are not listed");
+    std::move(sink.kept.begin(), sink.kept.end(), std::back_inserter(found));
+  }
+  std::stable_sort(found.begin(), found.end(), comesBefore);
+  return found;
+}
+
+} // namespace
+
+std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context) {
+  std::vector<RuleFindings> sinks(rules.size());
+  const HookLists lists = gather(rules, sinks);
   for (const SyntaxIssue &issue : context.tree.issues)
     tell(lists.issues[static_cast<std::size_t>(issue.kind)], context, issue);
   tell(lists.file, context);
   Walk(lists, context).run();
   visitModel(lists, context);
-  std::stable_sort(found.begin(), found.end(), comesBefore);
-  return found;
+  return joined(std::move(sinks));
 }
 
 } // namespace feedhold

@@ -122,7 +122,7 @@ private:
 
   void report(std::string_view rule, Diagnostic diagnostic, std::vector<RawFinding> &into) const {
     if (const Rule *selected = findSelected(rule))
-      Reporter(selected->info, into).report(std::move(diagnostic));
+      into.push_back({&selected->info, selected->info.severity, std::move(diagnostic)});
   }
 
   void reviewName(const Suppression &suppression, std::vector<RawFinding> &into) const {

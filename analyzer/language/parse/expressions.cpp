@@ -184,6 +184,8 @@ ExpressionId Parser::variable() {
     advance();
     return addExpression(hash.begin, NamedVariable{name});
   }
+  if (at(TokenKind::OpenBracket) && startsName(token_.end))
+    return namedVariable(hash.begin, token_.end);
   if (at(TokenKind::Hash))
     issue(SyntaxIssueKind::DoubleHash, {hash.begin, token_.end}, {}, Broken::No);
   else if (!at(TokenKind::OpenBracket))
@@ -194,10 +196,8 @@ ExpressionId Parser::variable() {
 
 ExpressionId Parser::bracketed() {
   const Token open = token_;
-  const bool named = open.end + 1 < text_.size() && text_[open.end] == '#' &&
-                     (isLetter(text_[open.end + 1]) || text_[open.end + 1] == '_');
-  if (named)
-    return namedVariable();
+  if (open.end < text_.size() && text_[open.end] == '#' && startsName(open.end + 1))
+    return namedVariable(open.begin, open.end + 1);
   advance();
   const bool outer = std::exchange(symbolicAllowed_, true);
   const ExpressionId inner = expression();
@@ -206,8 +206,17 @@ ExpressionId Parser::bracketed() {
   return addExpression(open.begin, Bracketed{inner});
 }
 
-/// `[#_ALM]`, `[#_UI[3]]`, `[#WIDTH]`
-ExpressionId Parser::namedVariable() {
+/// A letter or `_` that begins a name, not a function: `#[WIDTH]`, but `#[ABS[#1]]`.
+bool Parser::startsName(std::uint32_t offset) const {
+  if (offset >= text_.size() || (!isLetter(text_[offset]) && text_[offset] != '_'))
+    return false;
+  Lexer ahead = lexer_;
+  ahead.moveTo(offset);
+  return ahead.next().kind != TokenKind::Function || ahead.next().kind != TokenKind::OpenBracket;
+}
+
+/// `[#_ALM]`, `[#_UI[3]]`, `[#WIDTH]`, `#[WIDTH]`; token_ is the outer bracket.
+ExpressionId Parser::namedVariable(std::uint32_t begin, std::uint32_t nameBegin) {
   const Token open = token_;
   const std::optional<std::uint32_t> close = lexer_.closingBracket(open.begin);
   if (!close) {
@@ -215,7 +224,7 @@ ExpressionId Parser::namedVariable() {
     return brokenOperand();
   }
   moveTo(*close + 1);
-  return addExpression(open.begin, NamedVariable{{open.end + 1, *close}});
+  return addExpression(begin, NamedVariable{{nameBegin, *close}});
 }
 
 /// `SQRT[a]`, `ATAN[a]/[b]`, `ATAN[a,b]`, `PRM[n,b]/[x]`.

@@ -80,7 +80,8 @@ private:
   ExpressionId number();
   ExpressionId variable();
   ExpressionId bracketed();
-  ExpressionId namedVariable();
+  ExpressionId namedVariable(std::uint32_t begin, std::uint32_t nameBegin);
+  bool startsName(std::uint32_t offset) const;
   ExpressionId functionCall();
   ExpressionId brokenOperand();
   ExpressionId expressionTooDeep();
