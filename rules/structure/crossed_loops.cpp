@@ -29,6 +29,7 @@ void check(const FileContext &context, const Reporter &reporter) {
                                   {span(*loops[k].endStatement, context), "the inner loop ends too late"}},
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd)),
                                  "an inner loop must end before the loop around it"}});
+      break; // one finding for each outer loop
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace feedhold::rules {
 namespace {
@@ -14,30 +15,37 @@ bool inRange(const FileContext &context, std::uint32_t number) {
   return (number > 0 || context.dialect.grammar.sequenceZero) && number <= context.dialect.limits.lastSequenceNumber;
 }
 
-/// Behind the closing `%`: code-after-end-of-tape speaks of it.
-bool standsBehindTape(const FileContext &context, std::uint32_t number) {
+/// Sequence numbers behind the closing `%`: code-after-end-of-tape speaks of jumps to them.
+std::unordered_set<std::uint32_t> numbersBehindTape(const FileContext &context) {
+  std::unordered_set<std::uint32_t> numbers;
   for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
     if (!context.tree.blocks[BlockId(i)].has(Block::kAfterEnd))
       continue;
     const Word *label = findWord(context.tree, BlockId(i), 'N');
-    if (label && label->integer() == number)
-      return true;
+    if (label && label->integer())
+      numbers.insert(*label->integer());
   }
-  return false;
+  return numbers;
 }
 
 /// "the nearest sequence numbers are `N5` and `N8`"
 std::string neighbours(const ProgramModel &model, ProgramId program, std::uint32_t number) {
-  const auto labels = sortedSequenceNumbers(model, program);
-  if (labels.empty())
+  const auto inProgram = [&](std::uint32_t index) {
+    return model.programs[program].contains(model.sequenceNumbers[index].block);
+  };
+  const auto at = model.firstAtOrBehind(number, BlockId(0));
+  const auto next = std::find_if(at, model.byNumber.end(), inProgram);
+  const auto previous = std::find_if(std::make_reverse_iterator(at), model.byNumber.rend(), inProgram);
+  const bool hasNext = next != model.byNumber.end();
+  const bool hasPrevious = previous != model.byNumber.rend();
+  if (!hasPrevious && !hasNext)
     return "the program has no sequence numbers";
-  const auto above = std::ranges::lower_bound(labels, number, {}, &SequenceNumber::number);
-  if (above == labels.begin())
-    return fmt::format("the lowest sequence number of the program is `N{}`", labels.front().number);
-  const auto below = std::prev(above);
-  if (above == labels.end())
-    return fmt::format("the highest sequence number of the program is `N{}`", below->number);
-  return fmt::format("the nearest sequence numbers are `N{}` and `N{}`", below->number, above->number);
+  if (!hasPrevious)
+    return fmt::format("the lowest sequence number of the program is `N{}`", model.sequenceNumbers[*next].number);
+  if (!hasNext)
+    return fmt::format("the highest sequence number of the program is `N{}`", model.sequenceNumbers[*previous].number);
+  return fmt::format("the nearest sequence numbers are `N{}` and `N{}`", model.sequenceNumbers[*previous].number,
+                     model.sequenceNumbers[*next].number);
 }
 
 Diagnostic missing(const Jump &jump, std::uint32_t number, const FileContext &context) {
@@ -71,8 +79,8 @@ void checkReturn(const Jump &jump, std::uint32_t number, const FileContext &cont
 void checkStart(const Jump &jump, std::uint32_t number, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.switches.sqc == Switch::Off)
     return;
-  for (const Call &call : context.model.calls) {
-    if (call.block != jump.block || call.kind != CallKind::Subprogram)
+  for (const Call &call : context.model.callsIn(jump.block, jump.block.next())) {
+    if (call.kind != CallKind::Subprogram)
       continue;
     const auto callee = context.callGraph.callee(context.file, call);
     if (!callee)
@@ -88,21 +96,37 @@ void checkStart(const Jump &jump, std::uint32_t number, const FileContext &conte
   }
 }
 
-void check(const Jump &jump, const FileContext &context, const Reporter &reporter) {
-  const auto number = labelNumber(jump);
-  if (!number || !inRange(context, *number) || jump.target)
-    return;
-  switch (jump.kind) {
-  case JumpKind::ReturnTo: checkReturn(jump, *number, context, reporter); return;
-  case JumpKind::CallAt: checkStart(jump, *number, context, reporter); return;
-  case JumpKind::Goto:
-  case JumpKind::LocalCall:
-  case JumpKind::ContourFrom:
-  case JumpKind::ContourTo: break;
+/// What is only needed when a target is missing, and then once for the program.
+class Exceptions {
+public:
+  Exceptions(const FileContext &context, ProgramId program)
+      : behindTape_(numbersBehindTape(context)), dead_(context, program) {}
+  bool cover(const Jump &jump, std::uint32_t number) const {
+    return behindTape_.contains(number) || dead_.contains(jump.block);
   }
-  if (standsBehindTape(context, *number) || DeadBlocks(context, jump.program).contains(jump.block))
-    return;
-  reporter.report(missing(jump, *number, context));
+
+private:
+  std::unordered_set<std::uint32_t> behindTape_;
+  DeadBlocks dead_;
+};
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  std::optional<Exceptions> exceptions;
+  for (const Jump &jump : context.model.jumpsOf(program)) {
+    const auto number = labelNumber(jump);
+    if (!number || !inRange(context, *number) || jump.target)
+      continue;
+    if (jump.kind == JumpKind::ReturnTo) {
+      checkReturn(jump, *number, context, reporter);
+    } else if (jump.kind == JumpKind::CallAt) {
+      checkStart(jump, *number, context, reporter);
+    } else {
+      if (!exceptions)
+        exceptions.emplace(context, program);
+      if (!exceptions->cover(jump, *number))
+        reporter.report(missing(jump, *number, context));
+    }
+  }
 }
 
 } // namespace
@@ -110,6 +134,6 @@ void check(const Jump &jump, const FileContext &context, const Reporter &reporte
 extern const Rule gotoMissingLabel;
 const Rule gotoMissingLabel{.info = {"goto-missing-label", Category::Structure, Severity::Error,
                                      "Reports a jump to a sequence number that does not exist."},
-                            .hooks = {.jump = check}};
+                            .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -11,8 +11,8 @@ namespace {
 void check(const Jump &jump, const FileContext &context, const Reporter &reporter) {
   if (jump.kind != JumpKind::Goto || !jump.target)
     return;
-  for (const Loop &loop : context.model.loops) {
-    if (loop.program != jump.program || !isInside(loop, *jump.target))
+  for (const Loop &loop : context.model.loopsIn(context.model.programs[jump.program].first, *jump.target)) {
+    if (!isInside(loop, *jump.target))
       continue;
     if (jump.block == loop.doBlock || isInside(loop, jump.block))
       continue;
