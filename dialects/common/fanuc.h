@@ -8,27 +8,27 @@
 namespace feedhold {
 
 #include "dialects/common/rows.h"
-constexpr std::array kFanucMillingGCodes = {
+inline constexpr std::array kFanucMillingGCodes = {
 #include "dialects/common/fanuc_milling_g_codes.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kFanucTurningGCodes = {
+inline constexpr std::array kFanucTurningGCodes = {
 #include "dialects/common/fanuc_turning_g_codes.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kFanucMCodes = sorted(std::array{
+inline constexpr std::array kFanucMCodes = sorted(std::array{
 #include "dialects/common/macro_b_m_codes.def"
 });
 #include "dialects/common/rows.h"
-constexpr std::array kFanucVariables = {
+inline constexpr std::array kFanucVariables = {
 #include "dialects/common/fanuc_variables.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kFanucMillingVariables = {
+inline constexpr std::array kFanucMillingVariables = {
 #include "dialects/common/fanuc_milling_variables.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kFanucTurningVariables = {
+inline constexpr std::array kFanucTurningVariables = {
 #include "dialects/common/fanuc_turning_variables.def"
 };
 
@@ -46,15 +46,15 @@ consteval std::array<Code, 1000> manualGuideCodes() {
   codes[902].meaning = "MANUAL GUIDE i blank: rectangular block";
   return codes;
 }
-constexpr std::array kManualGuideCodes = manualGuideCodes();
+inline constexpr std::array kManualGuideCodes = manualGuideCodes();
 
-constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
-                                                            LanguageHint{TextSignal::FanucComment, 20},
-                                                            LanguageHint{TextSignal::FanucParameterRead, 8},
-                                                            LanguageHint{TextSignal::FanucNamedVariable, 8},
-                                                            LanguageHint{TextSignal::FanucProgramName, 4},
-                                                            LanguageHint{TextSignal::FanucOffsetGroup, 8},
-                                                        });
+inline constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
+                                                                   LanguageHint{TextSignal::FanucComment, 20},
+                                                                   LanguageHint{TextSignal::FanucParameterRead, 8},
+                                                                   LanguageHint{TextSignal::FanucNamedVariable, 8},
+                                                                   LanguageHint{TextSignal::FanucProgramName, 4},
+                                                                   LanguageHint{TextSignal::FanucOffsetGroup, 8},
+                                                               });
 
 /// What all series have in common; the tables of codes and variables are the caller's.
 inline Dialect makeFanuc(MachineKind machine) {

@@ -8,19 +8,19 @@
 namespace feedhold {
 
 #include "dialects/common/rows.h"
-constexpr std::array kHaasMillingGCodes = {
+inline constexpr std::array kHaasMillingGCodes = {
 #include "dialects/common/haas_milling_g_codes.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kHaasTurningGCodes = {
+inline constexpr std::array kHaasTurningGCodes = {
 #include "dialects/common/haas_turning_g_codes.def"
 };
 #include "dialects/common/rows.h"
-constexpr std::array kHaasMCodes = sorted(std::array{
+inline constexpr std::array kHaasMCodes = sorted(std::array{
 #include "dialects/common/haas_m_codes.def"
 });
 #include "dialects/common/rows.h"
-constexpr std::array kHaasVariables = {
+inline constexpr std::array kHaasVariables = {
 #include "dialects/common/haas_variables.def"
 };
 
@@ -31,7 +31,7 @@ consteval std::array<Code, 20> haasWorkCoordinates() {
     codes[i] = {static_cast<std::uint16_t>((110 + i) * 10), 12, CodeRole::Plain, "additional work coordinate system"};
   return codes;
 }
-constexpr std::array kHaasWorkCoordinates = haasWorkCoordinates();
+inline constexpr std::array kHaasWorkCoordinates = haasWorkCoordinates();
 
 /// The lathe uses G112 and G113 otherwise.
 consteval std::array<Code, 16> haasLatheWorkCoordinates() {
@@ -40,7 +40,7 @@ consteval std::array<Code, 16> haasLatheWorkCoordinates() {
   return codes;
 }
 
-constexpr auto kHaasHints = joined(
+inline constexpr auto kHaasHints = joined(
     kMacroBHints, std::array{
                       LanguageHint{TextSignal::HaasComment, 20}, LanguageHint{TextSignal::HaasLocalCall, 6},
                       LanguageHint{TextSignal::HaasCode, 6}, LanguageHint{TextSignal::HaasSetting, 8},

@@ -7,7 +7,7 @@
 
 namespace feedhold {
 
-constexpr std::array kMacroBHints = {
+inline constexpr std::array kMacroBHints = {
     LanguageHint{TextSignal::HashVariable, 1},   LanguageHint{TextSignal::WordRelation, 1},
     LanguageHint{TextSignal::MacroControl, 1},   LanguageHint{TextSignal::MacroCall, 3},
     LanguageHint{TextSignal::SubprogramCall, 1}, LanguageHint{TextSignal::MacroAlarm, 3},
@@ -15,7 +15,7 @@ constexpr std::array kMacroBHints = {
 };
 
 /// Only turning dialects carry these: milling is what is assumed.
-constexpr std::array kTurningHints = {
+inline constexpr std::array kTurningHints = {
     LanguageHint{TextSignal::TurningCycle, 6},    LanguageHint{TextSignal::SpindleLimit, 6},
     LanguageHint{TextSignal::SurfaceSpeed, 3},    LanguageHint{TextSignal::TurretTool, 2},
     LanguageHint{TextSignal::IncrementalAxis, 1}, LanguageHint{TextSignal::YAxis, -4},

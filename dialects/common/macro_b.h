@@ -8,13 +8,13 @@
 namespace feedhold {
 
 /// Argument assignment I: the local variable that each letter sets.  G, L, N, O and P never are arguments.
-constexpr std::array<std::uint8_t, 26> kArgumentVariables = {
+inline constexpr std::array<std::uint8_t, 26> kArgumentVariables = {
     /*A*/ 1, 2, 3, 7,        8,  9,  /*G*/ 0, 11, 4,  5,  6,  /*L*/ 0, 13,
     /*N*/ 0, 0, 0, /*Q*/ 17, 18, 19, 20,      21, 22, 23, 24, 25,
     /*Z*/ 26};
 
 /// Functions bind tightest (they are brackets of their own); AND stands with the multiplications, OR with the sums.
-constexpr std::array kOperators = {
+inline constexpr std::array kOperators = {
     Operator{OperatorKind::Multiply, 3},    Operator{OperatorKind::Divide, 3},
     Operator{OperatorKind::Modulo, 3},      Operator{OperatorKind::And, 3},
     Operator{OperatorKind::Add, 2},         Operator{OperatorKind::Subtract, 2},
@@ -24,7 +24,7 @@ constexpr std::array kOperators = {
     Operator{OperatorKind::LessThan, 1},    Operator{OperatorKind::LessOrEqual, 1},
 };
 
-constexpr std::array kBasicFunctions = {
+inline constexpr std::array kBasicFunctions = {
     Function{FunctionKind::Sin},
     Function{FunctionKind::Cos},
     Function{FunctionKind::Tan, FunctionForm::OneArgument, FunctionDomain::NotPole},
@@ -43,7 +43,7 @@ constexpr std::array kBasicFunctions = {
 };
 
 /// Formats that the controls share; `machine` decides on E, H, U, V and W.
-constexpr std::array<AddressFormat, 26> addressesOf(MachineKind machine) {
+inline constexpr std::array<AddressFormat, 26> addressesOf(MachineKind machine) {
   constexpr AddressFormat kLength{AddressKind::Length, true, 8};
   constexpr AddressFormat kAngle{AddressKind::Angle, true, 8};
   constexpr AddressFormat kFlexible{AddressKind::Flexible, true, 8};

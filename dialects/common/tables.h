@@ -9,18 +9,10 @@
 
 namespace feedhold {
 
-constexpr std::uint32_t firstOf(const Code &code) {
-  return code.tenths;
-}
-constexpr std::uint32_t lastOf(const Code &code) {
-  return code.tenths;
-}
-constexpr std::uint32_t firstOf(const VariableRange &range) {
-  return range.first;
-}
-constexpr std::uint32_t lastOf(const VariableRange &range) {
-  return range.last;
-}
+constexpr std::uint32_t firstOf(const Code &code) { return code.tenths; }
+constexpr std::uint32_t lastOf(const Code &code) { return code.tenths; }
+constexpr std::uint32_t firstOf(const VariableRange &range) { return range.first; }
+constexpr std::uint32_t lastOf(const VariableRange &range) { return range.last; }
 
 template <typename Row, std::size_t N> consteval std::array<Row, N> sorted(std::array<Row, N> rows) {
   std::sort(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return firstOf(a) < firstOf(b); });
