@@ -120,7 +120,9 @@ void Parser::readWordValue(char address, std::uint32_t begin, std::uint8_t wordF
     readUnbracketedRest(address, begin, sign ? wordFlags | Word::kSigned : wordFlags, value);
     return;
   }
-  issue(SyntaxIssueKind::MissingValue, {begin, headEnd}, {}, Broken::No);
+  const bool parentheses = address != 'N' && address != 'O' && expressionInParentheses();
+  if (!parentheses)
+    issue(SyntaxIssueKind::MissingValue, {begin, headEnd}, {}, Broken::No);
   const bool placeholder = at(TokenKind::Other) && text_[token_.begin] == '?';
   if (placeholder)
     advance();

@@ -153,7 +153,41 @@ ExpressionId Parser::operandInside() {
   return brokenOperand();
 }
 
+namespace {
+
+/// Nothing but operands and operators, at least one.
+bool looksLikeExpression(std::string_view text) {
+  Lexer lexer(text);
+  std::size_t count = 0;
+  for (Token token = lexer.next(); token.kind != TokenKind::EndOfFile; token = lexer.next(), ++count) {
+    const bool fits =
+        token.kind == TokenKind::Number || token.kind == TokenKind::Function ||
+        (token.kind >= TokenKind::Operator && token.kind <= TokenKind::Comma && token.kind != TokenKind::ControlWord) ||
+        token.kind == TokenKind::Less || token.kind == TokenKind::Greater;
+    if (!fits)
+      return false;
+  }
+  return count > 0;
+}
+
+} // namespace
+
+/// `(#2+1)` where an operand is missing: the parentheses of other languages, read as a comment just before token_.
+/// Reported, and the block given up.
+bool Parser::expressionInParentheses() {
+  if (tree_.comments.size() == block_.firstComment.index())
+    return false;
+  const Comment &comment = tree_.comments[CommentId(tree_.comments.size() - 1)];
+  const Span span = comment.span;
+  if (!comment.closed || span.begin < lastEnd_ || !looksLikeExpression(text_.substr(span.begin + 1, span.size() - 2)))
+    return false;
+  issue(SyntaxIssueKind::ExpressionInParentheses, span, {}, Broken::Yes);
+  return true;
+}
+
 ExpressionId Parser::brokenOperand() {
+  if (expressionInParentheses())
+    return tree_.expressions.add(Expression{{lastEnd_, lastEnd_}, BrokenExpression{}});
   const bool nothing = atEnd() || at(TokenKind::Comment);
   issue(SyntaxIssueKind::BrokenExpression, nothing ? Span{lastEnd_, lastEnd_} : token_.span(), {}, Broken::Yes);
   return tree_.expressions.add(Expression{{lastEnd_, lastEnd_}, BrokenExpression{}});
@@ -233,7 +267,8 @@ ExpressionId Parser::functionCall() {
   FunctionCall call(name.function());
   advance();
   if (!at(TokenKind::OpenBracket)) {
-    issue(SyntaxIssueKind::MissingOpenBracket, {lastEnd_, lastEnd_}, name.span(), Broken::No);
+    if (!expressionInParentheses())
+      issue(SyntaxIssueKind::MissingOpenBracket, {lastEnd_, lastEnd_}, name.span(), Broken::No);
     call.add(operand());
     return addExpression(name.begin, call);
   }

@@ -81,6 +81,7 @@ private:
   ExpressionId variable();
   ExpressionId bracketed();
   ExpressionId namedVariable(std::uint32_t begin, std::uint32_t nameBegin);
+  bool expressionInParentheses();
   bool startsName(std::uint32_t offset) const;
   ExpressionId functionCall();
   ExpressionId brokenOperand();

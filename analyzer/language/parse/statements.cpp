@@ -178,6 +178,8 @@ StatementId Parser::gotoStatement() {
   advance();
   if (startsOperand(token_))
     return addStatement(keyword.begin, Goto{operand()});
+  if (expressionInParentheses())
+    return addStatement(keyword.begin, Goto{});
   issue(SyntaxIssueKind::GotoWithoutTarget, keyword.span(), {}, Broken::No);
   // `GOTO N100`: what is meant is plain; the N is what is wrong.
   if (at(TokenKind::Address) && token_.letter() == 'N' && peek().kind == TokenKind::Number) {
@@ -190,7 +192,8 @@ StatementId Parser::gotoStatement() {
 /// The condition of IF or WHILE.  Brackets are required; what stands without them is read all the same.
 std::optional<ExpressionId> Parser::condition(const Token &keyword, SyntaxIssueKind whenMissing) {
   if (!startsOperand(token_)) {
-    issue(whenMissing, keyword.span(), {}, Broken::No);
+    if (!expressionInParentheses())
+      issue(whenMissing, keyword.span(), {}, Broken::No);
     return std::nullopt;
   }
   const bool outer = std::exchange(symbolicAllowed_, true);
