@@ -61,6 +61,9 @@ extern const Rule bracketsTooDeep;
 const Rule bracketsTooDeep{
     .info = {"brackets-too-deep", Category::Expression, Severity::Error,
              "Reports more brackets inside one another than the control can hold, function brackets included."},
-    .hooks = {.issue = checkIssue, .issueKinds = kIssues, .expression = checkNode}};
+    .hooks = {.issue = checkIssue,
+              .issueKinds = kIssues,
+              .expression = checkNode,
+              .expressionNodes = nodeSet<Bracketed, FunctionCall, IndirectVariable>()}};
 
 } // namespace feedhold::rules

@@ -30,6 +30,6 @@ const Rule chainedComparison{
     .info =
         {"chained-comparison", Category::Expression, Severity::Error,
          "Reports a comparison whose operand is itself a comparison without brackets, as in `#1 EQ 1 AND #2 EQ 2`."},
-    .hooks = {.expression = check}};
+    .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

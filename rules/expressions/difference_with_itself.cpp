@@ -27,6 +27,6 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule differenceWithItself;
 const Rule differenceWithItself{.info = {"difference-with-itself", Category::Expression, Severity::Warning,
                                          "Reports a value that is subtracted from itself or divided by itself."},
-                                .hooks = {.expression = check}};
+                                .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

@@ -41,6 +41,6 @@ extern const Rule equalityWithVacantArithmetic;
 const Rule equalityWithVacantArithmetic{
     .info = {"equality-with-vacant-arithmetic", Category::Expression, Severity::Warning,
              "Reports a computed value or a number that is compared with the vacant constant: it is never vacant."},
-    .hooks = {.expression = check}};
+    .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

@@ -9,14 +9,6 @@
 namespace feedhold::rules {
 namespace {
 
-std::string significant(std::string_view text) {
-  std::string kept;
-  for (const char c : text)
-    if (!isBlank(c))
-      kept.push_back(toUpper(c));
-  return kept;
-}
-
 bool isVariable(const SyntaxTree &tree, ExpressionId id) {
   return as<NumberedVariable>(tree, id) || as<IndirectVariable>(tree, id) || as<NamedVariable>(tree, id);
 }
@@ -73,7 +65,20 @@ bool readsLiveValue(const FileContext &context, ExpressionId root) {
 }
 
 bool sameText(const FileContext &context, Span left, Span right) {
-  return significant(context.text(left)) == significant(context.text(right));
+  const std::string_view a = context.text(left);
+  const std::string_view b = context.text(right);
+  const auto skipBlanks = [](std::string_view text, std::size_t at) {
+    while (at < text.size() && isBlank(text[at]))
+      ++at;
+    return at;
+  };
+  std::size_t i = skipBlanks(a, 0);
+  std::size_t k = skipBlanks(b, 0);
+  while (i < a.size() && k < b.size() && toUpper(a[i]) == toUpper(b[k])) {
+    i = skipBlanks(a, i + 1);
+    k = skipBlanks(b, k + 1);
+  }
+  return i == a.size() && k == b.size();
 }
 
 } // namespace feedhold::rules

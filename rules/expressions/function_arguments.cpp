@@ -58,6 +58,9 @@ extern const Rule functionArguments;
 const Rule functionArguments{
     .info = {"function-arguments", Category::Expression, Severity::Error,
              "Reports a function with a number or form of arguments that the control does not take."},
-    .hooks = {.issue = checkIssue, .issueKinds = kIssues, .expression = checkCall}};
+    .hooks = {.issue = checkIssue,
+              .issueKinds = kIssues,
+              .expression = checkCall,
+              .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

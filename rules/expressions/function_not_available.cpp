@@ -23,6 +23,6 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule functionNotAvailable;
 const Rule functionNotAvailable{.info = {"function-not-available", Category::Expression, Severity::Error,
                                          "Reports a function that the control does not have."},
-                                .hooks = {.expression = check}};
+                                .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

@@ -27,6 +27,6 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule literalDivisionByZero;
 const Rule literalDivisionByZero{.info = {"literal-division-by-zero", Category::Expression, Severity::Error,
                                           "Reports a division, or a `MOD`, by the number 0."},
-                                 .hooks = {.expression = check}};
+                                 .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

@@ -48,6 +48,6 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule literalOutOfDomain;
 const Rule literalOutOfDomain{.info = {"literal-out-of-domain", Category::Expression, Severity::Error,
                                        "Reports a function of a number for which it has no value, as `SQRT[-1]`."},
-                              .hooks = {.expression = check}};
+                              .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

@@ -40,6 +40,6 @@ extern const Rule mixedBitwisePrecedence;
 const Rule mixedBitwisePrecedence{.info = {"mixed-bitwise-precedence", Category::Expression, Severity::Warning,
                                            "Reports `AND`, `OR` or `XOR` without brackets beside `+ - * /` where the "
                                            "control groups them in an unexpected way."},
-                                  .hooks = {.expression = check}};
+                                  .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

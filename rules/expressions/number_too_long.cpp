@@ -41,6 +41,9 @@ extern const Rule numberTooLong;
 const Rule numberTooLong{.info = {"number-too-long", Category::Expression, Severity::Error,
                                   "Reports a number in a macro statement or an expression with more digits than the "
                                   "control reads, zeros included."},
-                         .hooks = {.issue = checkIssue, .issueKinds = kIssues, .expression = checkNode}};
+                         .hooks = {.issue = checkIssue,
+                                   .issueKinds = kIssues,
+                                   .expression = checkNode,
+                                   .expressionNodes = nodeSet<NumberLiteral>()}};
 
 } // namespace feedhold::rules

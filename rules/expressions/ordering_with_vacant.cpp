@@ -31,6 +31,6 @@ extern const Rule orderingWithVacant;
 const Rule orderingWithVacant{.info = {"ordering-with-vacant", Category::Expression, Severity::Info,
                                        "Reports a comparison by size with the vacant constant: it compares with 0 and "
                                        "does not ask whether a value is there."},
-                              .hooks = {.expression = check}};
+                              .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

@@ -63,6 +63,6 @@ const Rule radians{
     .info =
         {"radians", Category::Expression, Severity::Warning,
          "Reports an angle that is turned into radians before `SIN`, `COS` or `TAN`: the control computes in degrees."},
-    .hooks = {.expression = check}};
+    .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

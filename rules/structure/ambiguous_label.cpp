@@ -20,7 +20,7 @@ using Gotos = std::unordered_map<std::uint32_t, std::vector<const Jump *>>;
 Gotos gotosOf(ProgramId program, const FileContext &context) {
   Gotos gotos;
   for (const Jump &jump : context.model.jumpsOf(program))
-    if (const auto number = labelNumber(jump); number && jump.kind == JumpKind::Goto && jump.target)
+    if (const auto number = targetNumber(jump); number && jump.kind == JumpKind::Goto && jump.target)
       gotos[*number].push_back(&jump);
   return gotos;
 }

@@ -29,7 +29,7 @@ std::vector<const Jump *> lostJumps(const FileContext &context) {
   std::vector<const Jump *> jumps;
   const auto numbers = lostNumbers(context);
   for (const Jump &jump : context.model.jumps) {
-    const auto number = labelNumber(jump);
+    const auto number = targetNumber(jump);
     if (number && !jump.target && numbers.contains(*number))
       jumps.push_back(&jump);
   }
@@ -52,7 +52,7 @@ void reportJumps(const std::vector<const Jump *> &jumps, Span span, const FileCo
                                               stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
                                   "move the `%` to the end of the file"}};
   for (std::size_t i = 0; i < jumps.size() && i < kShownJumps; ++i)
-    diagnostic.labels.push_back({jumps[i]->span, fmt::format("`N{}` is behind the end", *labelNumber(*jumps[i]))});
+    diagnostic.labels.push_back({jumps[i]->span, fmt::format("`N{}` is behind the end", *targetNumber(*jumps[i]))});
   if (jumps.size() > kShownJumps)
     diagnostic.notes.push_back(fmt::format("{} more jumps go there", jumps.size() - kShownJumps));
   reporter.report(std::move(diagnostic));

@@ -14,7 +14,7 @@ namespace {
 std::unordered_set<std::uint32_t> jumpNumbers(ProgramId program, const FileContext &context) {
   std::unordered_set<std::uint32_t> numbers;
   for (const Jump &jump : context.model.jumpsOf(program))
-    if (const auto number = labelNumber(jump))
+    if (const auto number = targetNumber(jump))
       numbers.insert(*number);
   return numbers;
 }

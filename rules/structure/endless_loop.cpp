@@ -23,15 +23,24 @@ bool hasWayOut(const Loop &loop, const FileContext &context) {
                              [&](const Jump &jump) { return !staysInside(loop, jump); });
 }
 
-/// M30, M99, an alarm; under a condition, too.  M00 waits for a person, who may leave the loop by a reset.
+/// An M code that the tables do not know: the machine builder may have made a call or a stop of it.
+bool hasUnknownMCode(const FileContext &context, BlockId block) {
+  return std::ranges::any_of(context.tree.wordsOf(block),
+                             [&](const Word &word) { return word.address() == 'M' && !codeOf(word, context.dialect); });
+}
+
+/// M30, M99, an alarm; under a condition, too.  M00 waits for a person, who may leave the loop by a reset.  A block
+/// that does not parse may do anything.
 bool mayEnd(const Loop &loop, const FileContext &context) {
-  for (BlockId block = loop.doBlock; block <= *loop.endBlock; block = block.next())
+  for (BlockId block = loop.doBlock; block <= *loop.endBlock; block = block.next()) {
+    if (context.tree.blocks[block].has(Block::kBroken) || hasUnknownMCode(context, block))
+      return true;
     for (const CodeRole role : {CodeRole::ProgramEnd, CodeRole::Return, CodeRole::ProgramStop})
       if (findCode(context.tree, block, context.dialect, role))
         return true;
-  return std::ranges::any_of(
-      context.model.variablesIn(loop.doBlock, loop.endBlock->next()),
-      [](const VariableUse &use) { return use.write && use.number == kAlarmVariable; });
+  }
+  return std::ranges::any_of(context.model.variablesIn(loop.doBlock, loop.endBlock->next()),
+                             [](const VariableUse &use) { return use.write && use.number == kAlarmVariable; });
 }
 
 void check(const FileContext &context, const Reporter &reporter) {

@@ -113,14 +113,14 @@ private:
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   std::optional<Exceptions> exceptions;
   for (const Jump &jump : context.model.jumpsOf(program)) {
-    const auto number = labelNumber(jump);
-    if (!number || !inRange(context, *number) || jump.target)
+    const auto number = targetNumber(jump);
+    if (!number || !inRange(context, *number))
       continue;
     if (jump.kind == JumpKind::ReturnTo) {
       checkReturn(jump, *number, context, reporter);
     } else if (jump.kind == JumpKind::CallAt) {
       checkStart(jump, *number, context, reporter);
-    } else {
+    } else if (!jump.target) {
       if (!exceptions)
         exceptions.emplace(context, program);
       if (!exceptions->cover(jump, *number))

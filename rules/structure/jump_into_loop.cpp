@@ -8,23 +8,27 @@
 namespace feedhold::rules {
 namespace {
 
-void check(const Jump &jump, const FileContext &context, const Reporter &reporter) {
-  if (jump.kind != JumpKind::Goto || !jump.target)
-    return;
-  for (const Loop &loop : context.model.loopsIn(context.model.programs[jump.program].first, *jump.target)) {
-    if (!isInside(loop, *jump.target))
+void report(const Jump &jump, const Loop &loop, const FileContext &context, const Reporter &reporter) {
+  const std::string number = loop.number ? std::to_string(*loop.number) : "";
+  reporter.report({.message = fmt::format("{} jumps into the loop `DO{}`", context.quoted(jump.span), number),
+                   .span = jump.span,
+                   .labels = {{context.tree.statements[loop.doStatement].span, "the loop begins"},
+                              {context.tree.blocks[*jump.target].span(), "the jump comes in here"}},
+                   .notes = {fmt::format("at `END{}`, which no DO has opened, the control {}", number,
+                                         stopsWith(context.dialect, AlarmKind::MissingDo)),
+                             "jump to a block before the DO"}});
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const LoopNest nest(context.model.loopsOf(program));
+  for (const Jump &jump : context.model.jumpsOf(program)) {
+    if (jump.kind != JumpKind::Goto || !jump.target)
       continue;
-    if (jump.block == loop.doBlock || isInside(loop, jump.block))
-      continue;
-    const std::string number = loop.number ? std::to_string(*loop.number) : "";
-    reporter.report({.message = fmt::format("{} jumps into the loop `DO{}`", context.quoted(jump.span), number),
-                     .span = jump.span,
-                     .labels = {{context.tree.statements[loop.doStatement].span, "the loop begins"},
-                                {context.tree.blocks[*jump.target].span(), "the jump comes in here"}},
-                     .notes = {fmt::format("at `END{}`, which no DO has opened, the control {}", number,
-                                           stopsWith(context.dialect, AlarmKind::MissingDo)),
-                               "jump to a block before the DO"}});
-    return;
+    std::vector<const Loop *> entered = nest.around(*jump.target);
+    std::erase_if(entered,
+                  [&](const Loop *loop) { return jump.block == loop->doBlock || isInside(*loop, jump.block); });
+    if (!entered.empty()) // the outermost: what is inside of it is entered too
+      report(jump, *entered.back(), context, reporter);
   }
 }
 
@@ -33,6 +37,6 @@ void check(const Jump &jump, const FileContext &context, const Reporter &reporte
 extern const Rule jumpIntoLoop;
 const Rule jumpIntoLoop{.info = {"jump-into-loop", Category::Structure, Severity::Warning,
                                  "Reports a jump from outside of a loop to a block inside of it."},
-                        .hooks = {.jump = check}};
+                        .hooks = {.program = check}};
 
 } // namespace feedhold::rules

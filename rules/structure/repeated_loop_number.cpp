@@ -5,32 +5,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold::rules {
 namespace {
 
 /// The nearest loop of the same number around a DO.
-const Loop *enclosing(const std::vector<Loop> &loops, std::size_t inner) {
-  for (std::size_t i = inner; i-- > 0;)
-    if (loops[i].program == loops[inner].program && loops[i].number == loops[inner].number &&
-        isInside(loops[i], loops[inner].doBlock))
-      return &loops[i];
-  return nullptr;
+const Loop *enclosing(const LoopNest &nest, const Loop &inner) {
+  const auto around = nest.around(inner.doBlock);
+  const auto same = std::ranges::find_if(around, [&](const Loop *loop) { return loop->number == inner.number; });
+  return same == around.end() ? nullptr : *same;
 }
 
-void check(const FileContext &context, const Reporter &reporter) {
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.doNumberMayRepeatNested)
     return;
-  const std::vector<Loop> &loops = context.model.loops;
-  for (std::size_t i = 1; i < loops.size(); ++i) {
-    const Loop *outer = loops[i].number ? enclosing(loops, i) : nullptr;
+  const auto loops = context.model.loopsOf(program);
+  const LoopNest nest(loops);
+  for (const Loop &inner : loops) {
+    const Loop *outer = inner.number ? enclosing(nest, inner) : nullptr;
     if (!outer)
       continue;
-    reporter.report({.message = fmt::format("`DO{}` inside of a loop with the same number", *loops[i].number),
-                     .span = context.tree.statements[loops[i].doStatement].span,
+    reporter.report({.message = fmt::format("`DO{}` inside of a loop with the same number", *inner.number),
+                     .span = context.tree.statements[inner.doStatement].span,
                      .labels = {{context.tree.statements[outer->doStatement].span, "this loop is still open"}},
                      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd)),
                                fmt::format("number the inner loop differently, or put the missing `END{}` before it",
-                                           *loops[i].number)}});
+                                           *inner.number)}});
   }
 }
 
@@ -39,6 +40,6 @@ void check(const FileContext &context, const Reporter &reporter) {
 extern const Rule repeatedLoopNumber;
 const Rule repeatedLoopNumber{.info = {"repeated-loop-number", Category::Structure, Severity::Error,
                                        "Reports a loop inside of another loop with the same number."},
-                              .hooks = {.file = check}};
+                              .hooks = {.program = check}};
 
 } // namespace feedhold::rules

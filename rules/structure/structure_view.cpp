@@ -2,7 +2,6 @@
 #include "rules/structure/structure_view.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
@@ -18,7 +17,7 @@ struct Entries {
 };
 
 void addTarget(Entries &entries, const Jump &jump) {
-  const auto number = labelNumber(jump);
+  const auto number = targetNumber(jump);
   if (number)
     entries.numbers.insert(*number);
   else
@@ -55,9 +54,12 @@ Entries entriesOf(const FileContext &context, ProgramId program) {
     if (jump.kind != JumpKind::CallAt)
       addTarget(entries, jump);
   // `G65 H80 P n` and its like jump, too.
-  entries.any = entries.any || std::ranges::any_of(context.model.callsOf(program), [](const Call &call) {
-                  return call.kind == CallKind::MacroA;
-                });
+  entries.any = entries.any || std::ranges::any_of(context.model.callsOf(program),
+                                                   [](const Call &call) { return call.kind == CallKind::MacroA; });
+  // A block that does not parse may jump anywhere.
+  const Program &blocks = context.model.programs[program];
+  for (BlockId block = blocks.first; block < blocks.last; block = block.next())
+    entries.any = entries.any || context.tree.blocks[block].has(Block::kBroken);
   addReturns(entries, context, program);
   addStarts(entries, context, program);
   return entries;
@@ -98,15 +100,6 @@ bool hasContent(const FileContext &context, BlockId block) {
 }
 
 bool isNamed(const Program &program) { return !program.name.empty(); }
-
-std::optional<std::uint32_t> labelNumber(const Jump &jump) {
-  if (!jump.number)
-    return std::nullopt;
-  const auto value = jump.number->asInteger();
-  if (!value || *value < 0 || *value > std::numeric_limits<std::uint32_t>::max())
-    return std::nullopt;
-  return static_cast<std::uint32_t>(*value);
-}
 
 DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
   const Program &program = context.model.programs[id];
@@ -154,8 +147,9 @@ std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
       last = block;
   if (!last || leavesForGood(context, *last) || DeadBlocks(context, id).contains(*last))
     return std::nullopt;
-  const bool endless = std::ranges::any_of(
-      context.model.loopsOf(id), [&](const Loop &loop) { return loop.endBlock == last && !hasCondition(context, loop); });
+  const bool endless = std::ranges::any_of(context.model.loopsOf(id), [&](const Loop &loop) {
+    return loop.endBlock == last && !hasCondition(context, loop);
+  });
   // A program that every job calls last, and that ends it by M30.
   const bool callEnds = std::ranges::any_of(context.model.callsIn(*last, last->next()), [&](const Call &call) {
     const auto callee = context.callGraph.callee(context.file, call);

@@ -18,9 +18,6 @@ bool hasContent(const FileContext &context, BlockId block);
 /// The program has an O word or a `<NAME>`; without it the text may be a fragment of one.
 bool isNamed(const Program &program);
 
-/// The value of a GOTO target or the like, when it is an integer that a sequence number could have.
-std::optional<std::uint32_t> labelNumber(const Jump &jump);
-
 /// Blocks that neither the block before them nor a jump leads to.
 class DeadBlocks {
 public:

@@ -22,6 +22,6 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule fractionalVariableNumber;
 const Rule fractionalVariableNumber{.info = {"fractional-variable-number", Category::Variable, Severity::Error,
                                              "Reports a variable number with a fraction."},
-                                    .hooks = {.expression = check}};
+                                    .hooks = {.expression = check, .expressionNodes = nodeSet<NumberedVariable>()}};
 
 } // namespace feedhold::rules

@@ -5,25 +5,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold::rules {
 namespace {
 
-std::vector<FixIt> fixesFor(const Word &word, const FileContext &context) {
+/// Safe only where the control stops at the point: another one might read the number in its own unit.
+std::vector<FixIt> fixesFor(const Word &word, FixSafety safety) {
   const auto value = word.number().asInteger();
-  const std::string_view text = context.text(word.span());
-  const std::size_t point = text.find('.');
-  if (!value || point == std::string_view::npos)
+  if (!value)
     return {};
-  const std::uint32_t begin = word.span().begin + static_cast<std::uint32_t>(point);
-  return {{FixSafety::Safe, fmt::format("write `{}{}`", word.address(), *value), {{{begin, word.span().end}, ""}}}};
+  const std::string whole = fmt::format("{}{}", word.address(), *value);
+  return {{safety, fmt::format("write `{}`", whole), {{word.span(), whole}}}};
 }
 
-/// Another word of the block makes arguments of its words.
+/// A cycle in whose words an address means something else: D of a turning cycle is a depth.
+bool isCycle(const Word &word, const FileContext &context) {
+  const Code *code = codeOf(word, context.dialect);
+  return code && (code->role == CodeRole::Contour || code->role == CodeRole::CannedCycle);
+}
+
+/// Another word of the block makes arguments of its words, or `G66.1` those of every block.
 bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) {
   for (const Word &other : context.tree.wordsOf(block))
-    if (&other != &word && meansOwnWords(other, context))
+    if (&other != &word && (meansOwnWords(other, context) || isCycle(other, context)))
       return true;
-  return false;
+  const auto calls = context.model.callsOf(context.model.programOf(block));
+  return std::ranges::find(calls, CallKind::ModalEach, &Call::kind) != calls.end();
 }
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -37,7 +45,7 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
        .span = word.span(),
        .notes = {knownToStop ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))
                              : std::string("other controls stop here; whether this one does is not documented")},
-       .fixes = fixesFor(word, context)},
+       .fixes = fixesFor(word, knownToStop ? FixSafety::Safe : FixSafety::NeedsReview)},
       knownToStop ? Severity::Error : Severity::Warning);
 }
 

@@ -11,7 +11,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
                    .span = issue.other,
                    .labels = {{issue.span, "the jump"}},
                    .notes = {"not every version of the control takes it; `IF[..]GOTO n` is right on all"},
-                   .fixes = {{FixSafety::Safe, "remove `THEN`", {{{issue.other.begin, issue.span.begin}, ""}}}}});
+                   .fixes = {{FixSafety::Safe, "remove `THEN`", {{issue.other, ""}}}}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithGoto};

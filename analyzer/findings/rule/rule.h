@@ -51,7 +51,7 @@ struct RawFinding {
 /// What one rule found in one file.  Beyond kMostKept findings are only counted: a program of megabytes that is wrong
 /// in every block would fill the memory with what nobody reads.
 struct RuleFindings {
-  static constexpr std::size_t kMostKept = 1000;
+  static constexpr std::size_t kMostKept = 100'000;
   std::vector<RawFinding> kept;
   std::size_t dropped = 0;
 };
@@ -68,6 +68,22 @@ private:
   RuleFindings *sink_;
 };
 
+/// Kinds of expression nodes, one bit for each alternative of Expression::node.
+using NodeSet = std::uint16_t;
+inline constexpr NodeSet kAllNodes = 0xffff;
+
+/// The set of some kinds: `nodeSet<BinaryOperation, FunctionCall>()`.
+template <typename... Kinds> consteval NodeSet nodeSet() {
+  const auto bitOf = []<typename Kind, typename... All>(std::in_place_type_t<Kind>, std::variant<All...> *) {
+    NodeSet bit = 1;
+    NodeSet found = 0;
+    ((found = std::is_same_v<Kind, All> ? bit : found, bit = static_cast<NodeSet>(bit << 1)), ...);
+    return found;
+  };
+  return static_cast<NodeSet>(
+      (bitOf(std::in_place_type<Kinds>, static_cast<decltype(Expression::node) *>(nullptr)) | ...));
+}
+
 /// What a rule wants to be called for.  A null pointer: nothing.
 struct RuleHooks {
   void (*issue)(const SyntaxIssue &, const FileContext &, const Reporter &) = nullptr;
@@ -78,7 +94,8 @@ struct RuleHooks {
   void (*word)(const Word &, BlockId, const FileContext &, const Reporter &) = nullptr;
   std::string_view wordAddresses = {}; // word is called for these addresses only
   void (*statement)(const Statement &, BlockId, const FileContext &, const Reporter &) = nullptr; // nested ones too
-  void (*expression)(ExpressionId, BlockId, const FileContext &, const Reporter &) = nullptr;     // every node
+  void (*expression)(ExpressionId, BlockId, const FileContext &, const Reporter &) = nullptr;
+  NodeSet expressionNodes = kAllNodes; // expression is called for these
   void (*jump)(const Jump &, const FileContext &, const Reporter &) = nullptr;
   void (*call)(CallId, const FileContext &, const Reporter &) = nullptr;
   void (*variable)(const VariableUse &, const FileContext &, const Reporter &) = nullptr;

@@ -16,6 +16,8 @@ constexpr std::size_t kIssueKinds = 0
 #include "language/syntax/issues.def"
     ;
 
+constexpr std::size_t kExpressionKinds = std::variant_size_v<decltype(Expression::node)>;
+
 template <typename Hook> struct Listener {
   Hook hook;
   Reporter reporter;
@@ -29,7 +31,7 @@ struct HookLists {
   Listeners<decltype(RuleHooks::program)> program;
   Listeners<decltype(RuleHooks::block)> block;
   Listeners<decltype(RuleHooks::statement)> statement;
-  Listeners<decltype(RuleHooks::expression)> expression;
+  std::array<Listeners<decltype(RuleHooks::expression)>, kExpressionKinds> expressions; // by alternative of the node
   Listeners<decltype(RuleHooks::jump)> jump;
   Listeners<decltype(RuleHooks::call)> call;
   Listeners<decltype(RuleHooks::variable)> variable;
@@ -58,7 +60,9 @@ HookLists gather(std::span<const Rule *const> rules, std::span<RuleFindings> sin
     addIfAsked(lists.program, hooks.program, reporter);
     addIfAsked(lists.block, hooks.block, reporter);
     addIfAsked(lists.statement, hooks.statement, reporter);
-    addIfAsked(lists.expression, hooks.expression, reporter);
+    for (std::size_t kind = 0; kind < kExpressionKinds; ++kind)
+      if ((hooks.expressionNodes >> kind & 1) != 0)
+        addIfAsked(lists.expressions[kind], hooks.expression, reporter);
     addIfAsked(lists.jump, hooks.jump, reporter);
     addIfAsked(lists.call, hooks.call, reporter);
     addIfAsked(lists.variable, hooks.variable, reporter);
@@ -100,8 +104,7 @@ private:
         for (const Statement &statement : tree_.statements.slice(block.firstStatement, next.firstStatement))
           tell(lists_.statement, context_, statement, id);
     }
-    if (!lists_.expression.empty())
-      visitExpressions(id, block, isRead);
+    visitExpressions(id, block, isRead);
   }
 
   void visitWords(BlockId id, const Block &block, const Block &next) {
@@ -115,7 +118,7 @@ private:
       if (tree_.expressions[expression].span.begin > block.end)
         return;
       if (isRead)
-        tell(lists_.expression, context_, expression, id);
+        tell(lists_.expressions[tree_.expressions[expression].node.index()], context_, expression, id);
     }
   }
 

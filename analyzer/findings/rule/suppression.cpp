@@ -99,8 +99,8 @@ bool isSuppressed(const RawFinding &finding, std::vector<Suppression> &suppressi
 /// Says what is wrong with the suppressions themselves, by those rules that were selected.
 class SuppressionReview {
 public:
-  SuppressionReview(const RuleRegistry &registry, std::span<const Rule *const> selected)
-      : registry_(registry), selected_(selected) {}
+  SuppressionReview(const RuleRegistry &registry, std::span<const Rule *const> selected, const SyntaxTree &tree)
+      : registry_(registry), selected_(selected), tree_(tree) {}
 
   void review(std::span<const Suppression> suppressions, std::vector<RawFinding> &into) const {
     for (const Suppression &suppression : suppressions) {
@@ -151,20 +151,24 @@ private:
             .notes = {fmt::format("the next reader must know why: `(@ALLOW {} reason)`", suppression.rule)}};
   }
 
-  static Diagnostic unused(const Suppression &suppression, std::span<const Suppression> all) {
+  Diagnostic unused(const Suppression &suppression, std::span<const Suppression> all) const {
     const std::string_view where = suppression.wholeProgram ? "this program" : "this place";
     Diagnostic diagnostic{.message = fmt::format("`{}` is allowed here and finds nothing", suppression.rule),
                           .span = suppression.span,
                           .notes = {fmt::format("left in, it would hide the next finding of this rule at {}", where)}};
     const auto sameComment =
         std::count_if(all.begin(), all.end(), [&](const Suppression &other) { return other.span == suppression.span; });
+    // Behind `#3000=` and `#3006=` a comment is the text on the screen.
+    const bool mayBeMessage = !tree_.statementsOf(tree_.blockAt(suppression.span.begin)).empty();
     if (sameComment == 1)
-      diagnostic.fixes = {{FixSafety::Safe, "take the comment out", {{suppression.span, ""}}}};
+      diagnostic.fixes = {
+          {mayBeMessage ? FixSafety::NeedsReview : FixSafety::Safe, "take the comment out", {{suppression.span, ""}}}};
     return diagnostic;
   }
 
   const RuleRegistry &registry_;
   std::span<const Rule *const> selected_;
+  const SyntaxTree &tree_;
 };
 
 } // namespace
@@ -185,7 +189,7 @@ SuppressionResult applySuppressions(std::vector<RawFinding> findings, const File
   SuppressionResult result;
   for (RawFinding &finding : findings)
     (isSuppressed(finding, suppressions, context) ? result.suppressed : result.kept).push_back(std::move(finding));
-  SuppressionReview(registry, selected).review(suppressions, result.kept);
+  SuppressionReview(registry, selected, context.tree).review(suppressions, result.kept);
   std::stable_sort(result.kept.begin(), result.kept.end(), comesBefore);
   return result;
 }

@@ -4,6 +4,7 @@
 #include "language/model/internal.h"
 
 #include <algorithm>
+#include <array>
 
 namespace feedhold {
 
@@ -63,6 +64,16 @@ void readCallee(const ResolveContext &context, const Word &word, Call &call) {
     call.repeats = *number / 10000;
 }
 
+/// `G65 H01 P#100 Q..`: the operation stands first, and P is the variable for its result; from H80 on P is the target
+/// of a jump or the number of an alarm.  `G65 H5. P9100` passes an argument.
+bool isMacroA(const SyntaxTree &tree, BlockId block, const Word &code, const Word &program) {
+  const Word *operation = findWord(tree, block, 'H');
+  if (!operation || tree.idOf(*operation) != tree.idOf(code).next() || operation->has(Word::kPoint))
+    return false;
+  const std::uint32_t number = operation->integer().value_or(100);
+  return number < 100 && (number >= 80 || program.form() == WordForm::Expression);
+}
+
 Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId block, const Word &code,
               CallKind kind) {
   const SyntaxTree &tree = context.tree;
@@ -74,10 +85,8 @@ Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId 
     call.kind = CallKind::MacroA;
     return call;
   }
-  if (kind == CallKind::Macro && program && program->form() != WordForm::Name)
-    if (const Word *operation = findWord(tree, block, 'H');
-        operation && tree.idOf(*operation) == tree.idOf(code).next() && operation->integer().value_or(100) < 100)
-      call.kind = CallKind::MacroA; // `G65 H01 P#100 Q..`: the operation stands first and P is where its result goes
+  if (kind == CallKind::Macro && program && isMacroA(tree, block, code, *program))
+    call.kind = CallKind::MacroA;
   if (call.kind == CallKind::MacroA)
     return call;
   if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
@@ -172,10 +181,14 @@ std::vector<Argument> assignArguments(const ResolveContext &context, BlockId blo
     else if (!isArgumentless(letter) || letter == 'O' || letter == 'N')
       arguments.push_back({id, 0, ArgumentRole::Forbidden, false});
   }
-  for (std::size_t i = 0; i < arguments.size(); ++i)
-    for (std::size_t later = i + 1; later < arguments.size(); ++later)
-      if (arguments[i].variable != 0 && arguments[i].variable == arguments[later].variable)
-        arguments[i].role = ArgumentRole::Overridden;
+  std::array<bool, 256> setLater{};
+  for (auto argument = arguments.rbegin(); argument != arguments.rend(); ++argument) {
+    if (argument->variable == 0)
+      continue;
+    if (setLater[argument->variable])
+      argument->role = ArgumentRole::Overridden;
+    setLater[argument->variable] = true;
+  }
   return arguments;
 }
 

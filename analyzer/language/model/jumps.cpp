@@ -69,10 +69,10 @@ private:
   }
 
   void add(Jump jump) {
-    const std::optional<std::int64_t> number = jump.number ? jump.number->asInteger() : std::nullopt;
+    const std::optional<std::uint32_t> number = targetNumber(jump);
     // The target of a CallAt is in another program.
-    if (number && *number >= 0 && *number <= 0xffffffffLL && jump.kind != JumpKind::CallAt)
-      jump.target = findSequence(model_, jump.program, static_cast<std::uint32_t>(*number), jump.block);
+    if (number && jump.kind != JumpKind::CallAt)
+      jump.target = findSequence(model_, jump.program, *number, jump.block);
     model_.jumps.push_back(jump);
   }
 
@@ -81,6 +81,17 @@ private:
 };
 
 } // namespace
+
+std::optional<std::uint32_t> targetNumber(const Jump &jump) {
+  if (!jump.number || jump.number->isNegative())
+    return std::nullopt;
+  std::int64_t tenths = jump.number->mantissa();
+  std::uint8_t scale = jump.number->scale();
+  for (; scale > 1; --scale)
+    tenths /= 10;
+  const std::int64_t rounded = scale == 0 ? tenths : (tenths + 5) / 10;
+  return rounded <= 0xffffffffLL ? std::optional(static_cast<std::uint32_t>(rounded)) : std::nullopt;
+}
 
 void findJumps(const ResolveContext &context, ProgramModel &model) { JumpFinder(context, model).run(); }
 

@@ -1,7 +1,8 @@
-// DO and END, paired as a control pairs them: by reading the text on from the DO, not by nesting.
+// DO and END, paired number by number: an END belongs to the last DO of its number that is still open, whatever loops
+// of other numbers lie between.
 #include "language/model/internal.h"
 
-#include <algorithm>
+#include <unordered_map>
 
 namespace feedhold {
 
@@ -26,24 +27,19 @@ std::optional<std::optional<std::uint32_t>> doNumber(const SyntaxTree &tree, con
 /// The loops of one program that have no END yet, by number.
 class OpenLoops {
 public:
-  void open(std::uint32_t number, std::size_t loop) { open_.push_back({number, loop}); }
-  /// The innermost one of the number, taken out.
+  void open(std::uint32_t number, std::size_t loop) { open_[number].push_back(loop); }
+  /// The last one begun with the number, taken out.
   std::optional<std::size_t> close(std::uint32_t number) {
-    const auto found =
-        std::find_if(open_.rbegin(), open_.rend(), [&](const auto &each) { return each.number == number; });
-    if (found == open_.rend())
+    std::vector<std::size_t> &loops = open_[number];
+    if (loops.empty())
       return std::nullopt;
-    const std::size_t loop = found->loop;
-    open_.erase(std::next(found).base());
+    const std::size_t loop = loops.back();
+    loops.pop_back();
     return loop;
   }
 
 private:
-  struct Each {
-    std::uint32_t number;
-    std::size_t loop;
-  };
-  std::vector<Each> open_;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> open_;
 };
 
 } // namespace

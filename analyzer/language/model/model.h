@@ -60,7 +60,7 @@ struct Jump {
   bool conditional = false;             // under an IF or a block skip
 };
 
-/// A DO and the END that the control pairs with it: the next END of its number when the text is read on from the DO.
+/// A DO and its END: the one that closes the last open DO of that number, whatever loops of other numbers lie between.
 struct Loop {
   ProgramId program;
   std::optional<std::uint32_t> number; // absent: missing or not a number
@@ -147,6 +147,10 @@ public:
   /// In byNumber: the first entry that is not before (number, block).
   std::vector<std::uint32_t>::const_iterator firstAtOrBehind(std::uint32_t number, BlockId block) const;
 };
+
+/// The sequence number that a jump with a literal target looks for: the control rounds to the nearest.  Absent when it
+/// is computed, negative, or beyond 32 bits.
+std::optional<std::uint32_t> targetNumber(const Jump &jump);
 
 ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dialect &dialect);
 

@@ -30,6 +30,7 @@ void Parser::openBlock(std::uint32_t begin) {
   wordFlags_ = 0;
   headOfBlock_ = true;
   operatorsInBlock_ = 0;
+  itemsInBlock_ = 0;
   statementInBlock_.reset();
   lowerCase_.reset();
   if (tape_ == Tape::Closed && !at(TokenKind::Percent)) {
@@ -53,6 +54,8 @@ void Parser::closeBlock() {
 
 void Parser::readItem() {
   contentSinceMark_ = true;
+  if (++itemsInBlock_ > kMostItems)
+    issue(SyntaxIssueKind::BlockTooLong, token_.span(), {}, Broken::Yes);
   if (broken_ && !at(TokenKind::Comment)) {
     skipBrokenRest();
     return;

@@ -25,6 +25,9 @@ private:
   static constexpr int kDeepestNesting = 100;
   /// Operators in one block: `1+1+..` makes a tree as deep as it is long, and later stages walk it.
   static constexpr int kMostOperators = 4000;
+  /// Words, statements and signs in one block; controls take some hundreds of characters.  Bounds what a rule meets
+  /// when it compares the words of a block with one another.
+  static constexpr int kMostItems = 2000;
   /// How far recovery looks for a closing sign, so that a line of megabytes is read in linear time.
   static constexpr std::size_t kRecoveryWindow = 512;
 
@@ -126,6 +129,7 @@ private:
   bool symbolicAllowed_ = false;   // inside brackets or a condition: `=` can only mean a comparison
   int depth_ = 0;
   int operatorsInBlock_ = 0;
+  int itemsInBlock_ = 0;
   enum class Tape { Unmarked, Open, Closed } tape_ = Tape::Unmarked;
   bool contentSinceMark_ = false;
 };

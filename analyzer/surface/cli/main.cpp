@@ -30,7 +30,11 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   try {
-    return run(argc, argv);
+    const int exitCode = run(argc, argv);
+    if (feedhold::outputArrived())
+      return exitCode;
+    feedhold::printError("standard output cannot be written; is the disk full?");
+    return feedhold::kExitCouldNotRun;
   } catch (const std::exception &error) {
     feedhold::printError(error.what());
     return feedhold::kExitCouldNotRun;

@@ -32,6 +32,8 @@ void printError(std::string_view message) { writeTo(stderr, "feedhold: error: " 
 
 void printAside(std::string_view text) { writeTo(stderr, text); }
 
+bool outputArrived() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
 std::string readStandardInput() {
   std::string text;
   char buffer[64 * 1024];

@@ -20,6 +20,9 @@ void print(std::string_view text);
 void printError(std::string_view message);
 /// Plain text on standard error.
 void printAside(std::string_view text);
+/// All that was printed reached its place; false on a full disk.
+bool outputArrived();
+
 std::string readStandardInput();
 
 /// One line on a terminal's standard error that is written over; nothing elsewhere.  May be called from any thread.

@@ -1,0 +1,23 @@
+// block-too-long: thousands of words without an end of block.
+#include "findings/rule/rule.h"
+
+namespace feedhold::rules {
+namespace {
+
+void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
+  reporter.report({.message = "this block has more words than any control reads",
+                   .span = issue.span,
+                   .label = "reading stopped here",
+                   .notes = {"the line ends of the file are probably lost; the rest of the block is not analysed"}});
+}
+
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::BlockTooLong};
+
+} // namespace
+
+extern const Rule blockTooLong;
+const Rule blockTooLong{.info = {"block-too-long", Category::Syntax, Severity::Error,
+                                 "Reports a block of thousands of words, as a file without line ends has."},
+                        .hooks = {.issue = check, .issueKinds = kIssues}};
+
+} // namespace feedhold::rules
