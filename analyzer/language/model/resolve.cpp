@@ -27,6 +27,7 @@ public:
   VariableUses(const ResolveContext &context, ProgramModel &model) : tree_(context.tree), model_(model) {}
 
   void run() {
+    model_.variables.reserve(tree_.expressions.size() / 2); // more than that are rarely variables
     for (std::size_t i = 0; i < tree_.blockCount(); ++i) {
       const BlockId block(i);
       const bool read = !tree_.blocks[block].has(Block::kAfterEnd);
