@@ -158,12 +158,21 @@ private:
                           .notes = {fmt::format("left in, it would hide the next finding of this rule at {}", where)}};
     const auto sameComment =
         std::count_if(all.begin(), all.end(), [&](const Suppression &other) { return other.span == suppression.span; });
-    // Behind `#3000=` and `#3006=` a comment is the text on the screen.
-    const bool mayBeMessage = !tree_.statementsOf(tree_.blockAt(suppression.span.begin)).empty();
     if (sameComment == 1)
-      diagnostic.fixes = {
-          {mayBeMessage ? FixSafety::NeedsReview : FixSafety::Safe, "take the comment out", {{suppression.span, ""}}}};
+      diagnostic.fixes = {{isOnScreen(suppression.span) ? FixSafety::NeedsReview : FixSafety::Safe,
+                           "take the comment out",
+                           {{suppression.span, ""}}}};
     return diagnostic;
+  }
+
+  /// Behind `#3000=` and `#3006=` a comment is the text that the operator sees.
+  bool isOnScreen(Span comment) const {
+    const auto statements = tree_.statementsOf(tree_.blockAt(comment.begin));
+    return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+      const auto *assignment = std::get_if<Assignment>(&statement.node);
+      const auto target = assignment ? variableNumber(tree_, assignment->target) : std::nullopt;
+      return target == kAlarmVariable || target == kMessageVariable;
+    });
   }
 
   const RuleRegistry &registry_;
