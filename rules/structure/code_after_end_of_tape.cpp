@@ -5,32 +5,17 @@
 
 #include <fmt/format.h>
 
-#include <unordered_set>
-
 namespace feedhold::rules {
 namespace {
 
 constexpr std::size_t kShownJumps = 3;
 
-std::unordered_set<std::uint32_t> lostNumbers(const FileContext &context) {
-  std::unordered_set<std::uint32_t> numbers;
-  for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
-    if (!context.tree.blocks[BlockId(i)].has(Block::kAfterEnd))
-      continue;
-    const Word *label = findWord(context.tree, BlockId(i), 'N');
-    if (label && label->integer())
-      numbers.insert(*label->integer());
-  }
-  return numbers;
-}
-
 /// The jumps that look for a block behind the end.
 std::vector<const Jump *> lostJumps(const FileContext &context) {
   std::vector<const Jump *> jumps;
-  const auto numbers = lostNumbers(context);
   for (const Jump &jump : context.model.jumps) {
     const auto number = targetNumber(jump);
-    if (number && !jump.target && numbers.contains(*number))
+    if (number && !jump.target && context.model.isBehindEnd(*number))
       jumps.push_back(&jump);
   }
   return jumps;

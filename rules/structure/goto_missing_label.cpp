@@ -6,26 +6,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
 
 namespace feedhold::rules {
 namespace {
 
 bool inRange(const FileContext &context, std::uint32_t number) {
   return (number > 0 || context.dialect.grammar.sequenceZero) && number <= context.dialect.limits.lastSequenceNumber;
-}
-
-/// Sequence numbers behind the closing `%`: code-after-end-of-tape speaks of jumps to them.
-std::unordered_set<std::uint32_t> numbersBehindTape(const FileContext &context) {
-  std::unordered_set<std::uint32_t> numbers;
-  for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
-    if (!context.tree.blocks[BlockId(i)].has(Block::kAfterEnd))
-      continue;
-    const Word *label = findWord(context.tree, BlockId(i), 'N');
-    if (label && label->integer())
-      numbers.insert(*label->integer());
-  }
-  return numbers;
 }
 
 /// "the nearest sequence numbers are `N5` and `N8`"
@@ -96,22 +82,8 @@ void checkStart(const Jump &jump, std::uint32_t number, const FileContext &conte
   }
 }
 
-/// What is only needed when a target is missing, and then once for the program.
-class Exceptions {
-public:
-  Exceptions(const FileContext &context, ProgramId program)
-      : behindTape_(numbersBehindTape(context)), dead_(context, program) {}
-  bool cover(const Jump &jump, std::uint32_t number) const {
-    return behindTape_.contains(number) || dead_.contains(jump.block);
-  }
-
-private:
-  std::unordered_set<std::uint32_t> behindTape_;
-  DeadBlocks dead_;
-};
-
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  std::optional<Exceptions> exceptions;
+  std::optional<DeadBlocks> dead; // only needed when a target is missing
   for (const Jump &jump : context.model.jumpsOf(program)) {
     const auto number = targetNumber(jump);
     if (!number || !inRange(context, *number))
@@ -121,9 +93,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     } else if (jump.kind == JumpKind::CallAt) {
       checkStart(jump, *number, context, reporter);
     } else if (!jump.target) {
-      if (!exceptions)
-        exceptions.emplace(context, program);
-      if (!exceptions->cover(jump, *number))
+      if (!dead)
+        dead.emplace(context, program);
+      // code-after-end-of-tape speaks of jumps to blocks behind the closing `%`.
+      if (!context.model.isBehindEnd(*number) && !dead->contains(jump.block))
         reporter.report(missing(jump, *number, context));
     }
   }

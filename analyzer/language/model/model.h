@@ -127,7 +127,11 @@ public:
   /// Indices into sequenceNumbers, by number and then by place.
   std::vector<std::uint32_t> byNumber;
 
+  /// Sequence numbers behind the closing `%`, which no jump finds; sorted.
+  std::vector<std::uint32_t> numbersBehindEnd;
+
   ProgramId programOf(BlockId block) const;
+  bool isBehindEnd(std::uint32_t number) const;
   // What lies in the blocks from `first` up to, not including, `last`, in order of the text.
   std::span<const SequenceNumber> sequenceNumbersIn(BlockId first, BlockId last) const;
   std::span<const Jump> jumpsIn(BlockId first, BlockId last) const;

@@ -66,16 +66,24 @@ void findSequenceNumbers(const ResolveContext &context, ProgramModel &model) {
   const SyntaxTree &tree = context.tree;
   for (std::size_t i = 0; i < tree.blockCount(); ++i) {
     const Block &block = tree.blocks[BlockId(i)];
-    if (block.has(Block::kData) || !isRead(block))
+    if (block.has(Block::kData) || block.has(Block::kLeader))
       continue;
     for (const Word &word : tree.wordsOf(BlockId(i))) {
       if (word.address() != 'N' || word.has(Word::kComma))
         continue;
-      if (const std::optional<std::uint32_t> number = word.integer())
+      const std::optional<std::uint32_t> number = word.integer();
+      if (number && block.has(Block::kAfterEnd))
+        model.numbersBehindEnd.push_back(*number);
+      else if (number)
         model.sequenceNumbers.push_back({*number, BlockId(i), tree.idOf(word)});
       break;
     }
   }
+  std::sort(model.numbersBehindEnd.begin(), model.numbersBehindEnd.end());
+}
+
+bool ProgramModel::isBehindEnd(std::uint32_t number) const {
+  return std::binary_search(numbersBehindEnd.begin(), numbersBehindEnd.end(), number);
 }
 
 ProgramId ProgramModel::programOf(BlockId block) const {
