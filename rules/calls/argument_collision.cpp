@@ -23,12 +23,23 @@ std::vector<std::string> notesFor(const Argument &lost, const Argument &later) {
   return {"a second I, J or K in a call sets the variables of other letters"};
 }
 
+/// I, J or K counted as a second set only because the letters are out of order.  Controls differ there, and
+/// argument-order says so; the collision is sure when the letter is written twice.
+bool isSureOfSet(const Argument &argument, const Call &call, const FileContext &context) {
+  const char letter = wordOf(context, argument.word).address();
+  return !argument.fromSet || std::ranges::count_if(call.arguments, [&](const Argument &other) {
+                                return wordOf(context, other.word).address() == letter;
+                              }) > 1;
+}
+
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.model.calls[id];
   for (const Argument &argument : call.arguments) {
     if (argument.role != ArgumentRole::Overridden)
       continue;
     const Argument &later = winner(call, argument);
+    if (!isSureOfSet(argument, call, context) || !isSureOfSet(later, call, context))
+      continue;
     const Span lost = wordOf(context, argument.word).span();
     const Span wins = wordOf(context, later.word).span();
     reporter.report({.message = fmt::format("{} is lost: {} sets `#{}`, too", context.quoted(lost),
