@@ -18,7 +18,8 @@ namespace {
 
 std::string_view pageOf(std::string_view file) {
   const std::span<const rules::Page> pages(rules::kPages, rules::kPageCount);
-  const auto found = std::find_if(pages.begin(), pages.end(), [&](const rules::Page &page) { return page.file == file; });
+  const auto found =
+      std::find_if(pages.begin(), pages.end(), [&](const rules::Page &page) { return page.file == file; });
   return found == pages.end() ? std::string_view() : found->text;
 }
 
@@ -28,9 +29,8 @@ std::vector<RegisteredRule> collect() {
 #include "rules/rules.def"
 #undef RULE
   };
-  std::sort(all.begin(), all.end(), [](const RegisteredRule &a, const RegisteredRule &b) {
-    return a.rule->info.name < b.rule->info.name;
-  });
+  std::sort(all.begin(), all.end(),
+            [](const RegisteredRule &a, const RegisteredRule &b) { return a.rule->info.name < b.rule->info.name; });
   return all;
 }
 

@@ -76,8 +76,6 @@ constexpr std::array kLanguages = {
 
 } // namespace
 
-std::span<const ForeignLanguage> foreignLanguages() {
-  return kLanguages;
-}
+std::span<const ForeignLanguage> foreignLanguages() { return kLanguages; }
 
 } // namespace feedhold

@@ -9,9 +9,7 @@ namespace feedhold::rules {
 namespace {
 
 /// `X?` is how templates mark a number to be filled in.
-bool isPlaceholder(std::string_view text) {
-  return trimmed(text).find_first_not_of('?') == std::string_view::npos;
-}
+bool isPlaceholder(std::string_view text) { return trimmed(text).find_first_not_of('?') == std::string_view::npos; }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isPlaceholder(context.text(issue.span)))

@@ -33,8 +33,7 @@ bool meansOwnWords(const Word &word, const FileContext &context) {
   if (word.address() != 'G' && word.address() != 'M')
     return false;
   const Code *code = codeOf(word, context.dialect);
-  return !code || isMacroCall(code->role) || code->role == CodeRole::DataSetting ||
-         code->role == CodeRole::OwnWords;
+  return !code || isMacroCall(code->role) || code->role == CodeRole::DataSetting || code->role == CodeRole::OwnWords;
 }
 
 bool meansOwnWords(const FileContext &context, BlockId block) {

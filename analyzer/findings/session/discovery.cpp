@@ -34,9 +34,7 @@ fs::path plainPath(const fs::path &path) {
   return text.starts_with("./") && text.size() > 2 ? fs::path(text.substr(2)) : path;
 }
 
-std::string shownPath(const fs::path &path) {
-  return plainPath(path).generic_string();
-}
+std::string shownPath(const fs::path &path) { return plainPath(path).generic_string(); }
 
 std::string relativeTo(const fs::path &folder, const fs::path &path) {
   return fs::absolute(path).lexically_normal().lexically_relative(folder).generic_string();

@@ -40,7 +40,7 @@ enum class CodeRole : std::uint8_t {
   Motion,      // G00 G01 ..: linear or rapid motion
   Arc,         // G02 G03
   CannedCycle, // words of the block belong to the cycle
-  OwnWords,        // a statement whose words are all its own (MANUAL GUIDE i: blanks, figures, cycles); not modelled
+  OwnWords,    // a statement whose words are all its own (MANUAL GUIDE i: blanks, figures, cycles); not modelled
   Dwell,
   DataSetting,     // G10: the words of the block (and of those up to G11, for L50/L52) are data
   DataSettingEnd,  // G11
