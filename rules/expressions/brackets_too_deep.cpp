@@ -41,7 +41,8 @@ std::size_t bracketDepth(const SyntaxTree &tree, ExpressionId id) {
 void checkNode(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const std::size_t limit = context.dialect.limits.bracketDepth;
   const Span span = context.tree.expressions[id].span;
-  const bool canBeTooDeep = span.size() > 2 * limit && opensBracket(context.tree, id);
+  const std::string_view text = context.text(span);
+  const bool canBeTooDeep = static_cast<std::size_t>(std::ranges::count(text, '[')) > limit;
   if (!canBeTooDeep || bracketDepth(context.tree, id) != limit + 1)
     return;
   tooDeep(span, fmt::format("{} brackets inside one another, {} are the limit", limit + 1, limit), context, reporter);
