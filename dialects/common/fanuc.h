@@ -38,7 +38,7 @@ consteval std::array<Code, 1000> manualGuideCodes() {
   std::array<Code, 1000> codes{};
   for (std::uint16_t i = 0; i < 1000; ++i) {
     const auto tenths = static_cast<std::uint16_t>((1000 + i) * 10);
-    codes[i] = Code{tenths, 0, CodeRole::OwnWords,
+    codes[i] = Code{tenths, 0, CodeRole::OwnWords, i < 900 ? CodeAction::OtherCycle : CodeAction::None,
                     i < 900 ? "MANUAL GUIDE i cycle or figure" : "MANUAL GUIDE i blank or display data"};
   }
   codes[900].meaning = "MANUAL GUIDE i blank: cylinder";

@@ -28,7 +28,8 @@ inline constexpr std::array kHaasVariables = {
 consteval std::array<Code, 20> haasWorkCoordinates() {
   std::array<Code, 20> codes{};
   for (std::uint16_t i = 0; i < 20; ++i)
-    codes[i] = {static_cast<std::uint16_t>((110 + i) * 10), 12, CodeRole::Plain, "additional work coordinate system"};
+    codes[i] = {static_cast<std::uint16_t>((110 + i) * 10), 12, CodeRole::Plain,
+                CodeAction::ExtendedWorkOffset, "additional work coordinate system"};
   return codes;
 }
 inline constexpr std::array kHaasWorkCoordinates = haasWorkCoordinates();

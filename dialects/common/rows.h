@@ -1,13 +1,19 @@
 // How a line of a .def file becomes a row.  To be included before each .def, which takes its macro away again; so no
 // `#pragma once`.
 #ifndef CODE
-#define CODE(tenths, group, role, meaning) Code{tenths, group, CodeRole::role, meaning},
+#define CODE(tenths, group, role, action, meaning) Code{tenths, group, CodeRole::role, CodeAction::action, meaning},
 #endif
 #ifndef VARIABLE
-#define VARIABLE(first, last, kind, access, start, option, name, meaning)                                              \
-  VariableRange{                                                                                                       \
-      first, last,   VariableKind::kind, VariableAccess::access, VariableStart::start, VariableOption::option,         \
-      name,  meaning},
+#define VARIABLE(first, last, kind, access, start, option, role, name, meaning)                                        \
+  VariableRange{first,                                                                                                  \
+                last,                                                                                                   \
+                VariableKind::kind,                                                                                     \
+                VariableAccess::access,                                                                                 \
+                VariableStart::start,                                                                                   \
+                VariableOption::option,                                                                                 \
+                VariableRole::role,                                                                                     \
+                name,                                                                                                   \
+                meaning},
 #endif
 #ifndef ALARM_NUMBER
 #define ALARM_NUMBER(kind, number) AlarmNumber{AlarmKind::kind, number},

@@ -61,11 +61,89 @@ enum class CodeRole : std::uint8_t {
   ProgramStop,     // M00 M01
 };
 
+/// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  None: nothing that a
+/// program could notice in its variables or its path.  Unmodelled: it changes what coordinates mean in a way that is not
+/// followed, so that nothing is known of positions behind it.
+enum class CodeAction : std::uint8_t {
+  None,
+  Unmodelled,
+  Rapid,
+  Linear,
+  ArcClockwise,
+  ArcCounterclockwise,
+  Thread,
+  OtherCurve, // a curve that ends at the programmed point and is not followed on its way
+  Dwell,
+  CycleOff,
+  CycleDrill,
+  CycleDwell,
+  CyclePeck,
+  CycleChipBreak,
+  CycleTap,
+  CycleTapLeft,
+  CycleBore,
+  CycleBoreStop,
+  CycleBackBore,
+  CycleBoreManual,
+  CycleBoreDwell,
+  CycleFineBore,
+  SideCycle,    // drilling cycle of a lathe
+  TurningCycle, // returns to where it started
+  OtherCycle,   // words and motion of its own: nothing is known of the position behind it
+  PlaneXY,
+  PlaneZX,
+  PlaneYZ,
+  Absolute,
+  Incremental,
+  ArcAbsolute,    // I, J, K are coordinates
+  ArcIncremental, // I, J, K are distances from the start
+  Inch,
+  Metric,
+  FeedInverse,
+  FeedPerMinute,
+  FeedPerRevolution,
+  CompensationOff,
+  CompensationLeft,
+  CompensationRight,
+  LengthPlus,
+  LengthMinus,
+  LengthOff,
+  ReturnToInitial,
+  ReturnToR,
+  ScalingOff,
+  ScalingOn,
+  MirrorOff,
+  MirrorOn,
+  RotationOff,
+  RotationOn,
+  PolarOff,
+  PolarOn,
+  WorkOffset,
+  ExtendedWorkOffset,
+  LocalShift,
+  CoordinateSet,
+  CoordinateSetOff,
+  MachineMove,
+  ReferenceReturn,
+  SecondReference,
+  ReferenceCheck,
+  Skip,
+  ConstantSurface,
+  ConstantSpeed,
+  SpindleClockwise,
+  SpindleCounterclockwise,
+  SpindleStop,
+  ToolChange,
+  CoolantOn,
+  CoolantOff,
+};
+
 /// A G or M code.  `tenths`: ten times its number, so that G54.1 is 541.
 struct Code {
   std::uint16_t tenths = 0;
   std::uint8_t group = 0; // modal group of the control's own list; 0: not modal
   CodeRole role = CodeRole::Plain;
+  CodeAction action = CodeAction::None;
   std::string_view meaning; // for hover texts and messages: "linear interpolation"
 };
 
@@ -76,6 +154,24 @@ enum class VariableStart : std::uint8_t { Vacant, Unknown };
 /// Whether every machine has the range, or only one with an option.
 enum class VariableOption : std::uint8_t { Always, Optional };
 
+/// What reading and writing a variable means.
+enum class VariableRole : std::uint8_t {
+  Plain,            // local and common variables: keeps what was written
+  Stored,           // a cell of the control that keeps what was written (offsets, #3003)
+  Volatile,         // may change between any two reads: inputs, clocks, positions in motion
+  Alarm,            // writing stops the program
+  MessageStop,      // writing stops until cycle start
+  ModalCode,        // first + group - 1: G code in force of a modal group
+  ModalWord,        // other modal words (F, S, T ..), by the table of the control
+  BlockEndPosition, // first + axis - 1, as the four below: programmed end point of the preceding block
+  MachinePosition,
+  WorkPosition,
+  SkipPosition,
+  WorkOffset, // in steps of 20 from #5201: external, G54 .. G59
+  Pi,
+  EulersNumber,
+};
+
 struct VariableRange {
   std::uint32_t first;
   std::uint32_t last;
@@ -83,6 +179,7 @@ struct VariableRange {
   VariableAccess access = VariableAccess::ReadWrite;
   VariableStart start = VariableStart::Unknown;
   VariableOption option = VariableOption::Always;
+  VariableRole role = VariableRole::Plain;
   std::string_view name = {};    // `_ALM` where the control names it
   std::string_view meaning = {}; // "macro alarm"
 };
@@ -187,6 +284,30 @@ struct Grammar {
   bool doNumberMayRepeatNested = false;
 };
 
+enum class ModuloMeaning : std::uint8_t {
+  OfIntegers, // both operands are rounded to integers first; the sign is that of the dividend
+  NotNegative // of reals; the result is never negative
+};
+enum class IntegerPart : std::uint8_t { TowardZero, Floor }; // FIX; FUP goes the other way
+enum class LogicMeaning : std::uint8_t { Bitwise, Logical }; // AND, OR, XOR of numbers
+
+/// How the control computes and moves, where controls differ.
+struct Behaviour {
+  ModuloMeaning modulo = ModuloMeaning::OfIntegers;
+  IntegerPart integerPart = IntegerPart::TowardZero;
+  LogicMeaning logic = LogicMeaning::Bitwise;
+  bool variablesMayBeVacant = true;  // else one that was never written reads as 0
+  bool roundsWords = true;           // a word computed from variables is rounded to the least increment
+  bool assignsAfterReading = false;  // all assignments of a line take place after the whole line is read
+  bool arcDistanceModes = false;     // G90.1 and G91.1 exist
+  bool cycleClearsFirst = false;     // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool repeatsByK = true;            // K of a canned cycle repeats it; L does so everywhere
+  double equalTolerance = 0;         // EQ, NE, GE, LE take values this near as equal
+  double arcTolerance = 0.05;        // mm: largest difference of the radii at start and end
+  Decimal leastIncrementMetric{1, 3}; // mm and degrees
+  Decimal leastIncrementInch{1, 4};
+};
+
 /// One text feature that speaks for a dialect, or against it.
 struct LanguageHint {
   TextSignal signal;
@@ -216,6 +337,7 @@ struct Dialect {
       argumentVariables{}; // A .. Z -> local variable of argument assignment I; 0: not an argument
   Limits limits;
   Grammar grammar;
+  Behaviour behaviour;
   Switches switches;
   std::span<const LanguageHint> hints;
 };
