@@ -1,0 +1,171 @@
+// Cfg: the control-flow graph of one file: what is executed, and what may come next.
+//
+// A node is one instruction; a block of the program becomes one or a few of them.  Instructions point into the syntax
+// tree, so that there is one copy of every expression.  The graph of all programs of a file is one graph with an entry
+// for each program; jumps never lead from one program into another, calls do (program_set.h).
+#pragma once
+
+#include "language/dialect/dialect.h"
+#include "language/model/model.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace feedhold {
+
+using NodeId = Id<struct NodeTag>;
+using CounterId = Id<struct CounterTag>;
+
+/// Nothing happens: the entry of a program, a place that only jumps lead to.
+struct Pass {};
+
+/// A `/` or `/n`: the operator's switch decides, at any time.  Next: the block is executed.
+struct BlockSkip {
+  std::uint8_t level;
+  NodeId skipped;
+};
+
+/// Which words of the block: all but those that the other choices name.
+enum class WordChoice : std::uint8_t {
+  Always,       // not under a condition, not behind a `/` in mid-block
+  WithSkipped,  // Always and those behind a `/` in mid-block
+  UnderCondition, // the words of `IF [..] THEN S900`, `[..] M99`
+};
+/// The NC words of the block: modal codes, offsets, motion, dwell, spindle.  Arguments of calls, N and O do not count,
+/// nor do the codes that are nodes of their own (calls, returns, ends).
+struct ExecuteWords {
+  WordChoice which;
+};
+
+/// `#1=2`; several in one block only where the control reads the whole line first (all read the old values).
+struct Assign {
+  StatementId first; // `count` statements from here that are assignments
+  std::uint32_t count;
+};
+
+/// Goes to `taken` when the condition holds, else to next.  Without condition (it did not parse): either.
+struct Test {
+  std::optional<ExpressionId> condition;
+  NodeId taken;
+};
+
+/// GOTO to a computed number: searches the program.  Targets: Cfg::labelsOf(program).
+struct JumpTo {
+  ExpressionId target;
+};
+
+/// The DO of loop `number` is executed.  Only where some jump leads into the loop from outside.
+struct EnterLoop {
+  std::uint8_t number;
+};
+/// A jump leads into loop `number` past its DO.
+struct JumpIntoLoop {
+  std::uint8_t number;
+};
+/// The END of a loop that a jump may have entered: an alarm unless its DO has been executed (MissingDo).
+struct RequireLoop {
+  std::uint8_t number;
+};
+
+/// `repeat [n]`: sets the counter, rounded as the control does.
+struct StartCount {
+  CounterId counter;
+  ExpressionId times;
+};
+/// Goes to `taken` and counts one down while the counter is above zero, else to next.
+struct CountDown {
+  CounterId counter;
+  NodeId taken;
+};
+
+/// A call; next is where its return leads.  What is called: ProgramSet::callee.
+struct CallProgram {
+  CallId call;
+};
+
+/// M99, `endsub`, `return`.
+struct ReturnFromProgram {
+  std::optional<WordId> target;      // P of `M99 P100`: a sequence number of the caller
+  std::optional<ExpressionId> value; // of `o100 return [..]`
+};
+
+enum class ProgramEnd : std::uint8_t { M02, M30, EndOfFile };
+struct EndProgram {
+  ProgramEnd end;
+};
+
+/// The control stops here with an alarm, whatever the values.
+struct StopWithAlarm {
+  AlarmKind alarm;
+};
+
+/// Anything may happen to variables, modal state and position here; `reason` says why, in shop words.
+struct Havoc {
+  std::string_view reason;
+};
+
+using Instruction = std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop,
+                                 RequireLoop, StartCount, CountDown, CallProgram, ReturnFromProgram, EndProgram,
+                                 StopWithAlarm, Havoc>;
+
+struct Node {
+  BlockId block;
+  NodeId next; // itself when nothing follows (EndProgram, ReturnFromProgram, StopWithAlarm, JumpTo)
+  Instruction instruction;
+};
+
+/// Where a jump to a sequence number arrives.
+struct LabelNode {
+  std::uint32_t number;
+  NodeId node;
+};
+
+class Cfg {
+public:
+  Store<Node, NodeId> nodes;
+  std::vector<NodeId> entries;   // by ProgramId
+  std::vector<NodeId> blockNode; // by BlockId: the first node of the block
+  std::size_t counters = 0;
+
+  NodeId entryOf(ProgramId program) const { return entries[program.index()]; }
+  NodeId nodeOf(BlockId block) const { return blockNode[block.index()]; }
+};
+
+/// Calls visit(NodeId) for each successor inside the graph, next first.  A JumpTo has all labels of its program; a call
+/// has its return; a return has none (see ProgramSet).
+template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId node, Visit &&visit);
+
+/// The labels of a program by number; of several with one number, all, in order of the text.
+std::vector<LabelNode> labelsOf(const Cfg &cfg, const ProgramModel &model, ProgramId program);
+
+/// Where a search for N `number` from a block arrives: forward, then from the top of the program.
+std::optional<NodeId> findLabel(const Cfg &cfg, const ProgramModel &model, ProgramId program, std::uint32_t number,
+                                BlockId from);
+
+/// Never fails: what did not parse is a Havoc.
+Cfg lower(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect);
+
+/// One line for each node: what golden cases compare.
+std::string dump(const Cfg &cfg, const SyntaxTree &tree, const SourceFile &source, const ProgramModel &model);
+
+// ---- template -----------------------------------------------------------------------------------------------------
+
+template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId id, Visit &&visit) {
+  const Node &node = cfg.nodes[id];
+  if (node.next != id)
+    visit(node.next);
+  if (const auto *skip = std::get_if<BlockSkip>(&node.instruction))
+    visit(skip->skipped);
+  else if (const auto *test = std::get_if<Test>(&node.instruction))
+    visit(test->taken);
+  else if (const auto *count = std::get_if<CountDown>(&node.instruction))
+    visit(count->taken);
+  else if (std::holds_alternative<JumpTo>(node.instruction))
+    for (const LabelNode &label : labelsOf(cfg, model, model.programOf(node.block)))
+      visit(label.node);
+}
+
+} // namespace feedhold

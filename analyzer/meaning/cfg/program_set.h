@@ -1,0 +1,71 @@
+// ProgramSet: all programs of a run with their graphs: where a call leads, and what variables are called.
+#pragma once
+
+#include "language/model/call_graph.h"
+#include "meaning/cfg/cfg.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold {
+
+/// One file of a run, from its text to its graph.  The parts outlive the set.
+struct ProgramFile {
+  FileId file;
+  const SourceFile *source;
+  const SyntaxTree *tree;
+  const ProgramModel *model;
+  const Dialect *dialect;
+  Cfg cfg = {};
+};
+
+/// A node of one file.
+struct Place {
+  FileId file;
+  NodeId node;
+  friend auto operator<=>(const Place &, const Place &) = default;
+};
+
+/// Where a call leads.
+struct Callee {
+  FileId file;
+  NodeId entry;
+  ProgramId program; // in which a search for a sequence number takes place
+};
+
+/// Names of variables that are no numbers (`#<depth>`): from here on in the numbering of variables, so that every
+/// variable is one 32-bit number.
+inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
+
+class ProgramSet {
+public:
+  /// Lowers the files; the call graph is over the same files.
+  ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph);
+
+  const ProgramFile &file(FileId file) const { return files_[file.index()]; }
+  std::size_t size() const { return files_.size(); }
+  const CallGraph &callGraph() const { return callGraph_; }
+  const Node &node(Place place) const { return file(place.file).cfg.nodes[place.node]; }
+
+  /// Absent when the program is in none of the files, or its number is computed.
+  std::optional<Callee> callee(FileId file, CallId call) const;
+  /// As callee, for a number that is known only when the call is made.
+  std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
+
+  /// The number of the variable that a name stands for: a system variable of the dialect, one named by SETVN, or one of
+  /// the names from kFirstNamedVariable on.  Absent: the control does not know it.
+  std::optional<std::uint32_t> variableOf(FileId file, Span name) const;
+  /// `#<depth>` for numbers from kFirstNamedVariable on, else `#101`.
+  std::string nameOfVariable(std::uint32_t variable) const;
+  /// A named variable that every program sees (`#<_depth>`).
+  bool isGlobalName(std::uint32_t variable) const;
+
+private:
+  std::vector<ProgramFile> files_;
+  CallGraph callGraph_;
+  std::vector<std::string> names_; // sorted; canonical spelling
+};
+
+} // namespace feedhold

@@ -1,0 +1,37 @@
+// Wto: a weak topological order of a graph (Bourdoncle, "Efficient chaotic iteration strategies with widenings", 1993):
+// every cycle has a head, and every edge that leads backwards in the order ends at one.
+#pragma once
+
+#include "meaning/cfg/cfg.h"
+
+#include <vector>
+
+namespace feedhold {
+
+class Wto {
+public:
+  /// Of the nodes that can be reached from `entry`, calls taken as going on to their return.  Iterative: a program of a
+  /// million blocks does not overflow the stack.
+  Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry);
+
+  static constexpr std::uint32_t kUnreachable = 0xffffffff;
+  /// The reachable nodes, in order.
+  const std::vector<NodeId> &order() const { return order_; }
+  /// kUnreachable for those that are not.
+  std::uint32_t positionOf(NodeId node) const;
+  bool isHead(NodeId node) const;
+  /// The head of the innermost component that holds the node; the node itself when it is in none.
+  NodeId headOf(NodeId node) const;
+  /// How many components hold the node.
+  std::uint32_t depthOf(NodeId node) const;
+
+private:
+  std::vector<NodeId> order_;
+  NodeId first_;                         // lowest node that is reachable; the vectors below start with it
+  std::vector<std::uint32_t> positions_; // by node
+  std::vector<std::uint32_t> heads_;     // by position: the position of the head
+  std::vector<bool> isHead_;             // by position
+  std::vector<std::uint32_t> depths_;    // by position
+};
+
+} // namespace feedhold
