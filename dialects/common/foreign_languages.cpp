@@ -23,11 +23,6 @@ constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaLabel, 4},
     LanguageHint{TextSignal::OkumaFile, 30},
 };
-constexpr std::array kOWords = {
-    LanguageHint{TextSignal::OWord, 30},
-    LanguageHint{TextSignal::AngleName, 30},
-    LanguageHint{TextSignal::RsComment, 3},
-};
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},
     LanguageHint{TextSignal::SyntecControl, 12},
@@ -62,7 +57,6 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"Sinumerik", "only a program in ISO dialect mode (`G291`) can be read, with `--dialect`",
                     kSinumerik},
     ForeignLanguage{"Okuma user task", "OSP programs have named labels and variables, which are not read", kOkuma},
-    ForeignLanguage{"RS274NGC with o-words", "LinuxCNC and its kin; plain G code without o-words can be read", kOWords},
     ForeignLanguage{"Syntec MACRO", "a program without `%@MACRO` is in ISO mode and can be read", kSyntec},
     ForeignLanguage{"Fagor 8055", "statements in parentheses would be taken for comments", kFagor},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not read", kDollar},

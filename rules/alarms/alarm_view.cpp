@@ -9,7 +9,8 @@ namespace feedhold::rules {
 
 std::optional<RaisedAlarm> raisedAlarm(const Statement &statement, BlockId block, const FileContext &context) {
   const auto *assignment = std::get_if<Assignment>(&statement.node);
-  if (!assignment || variableNumber(context.tree, assignment->target) != kAlarmVariable)
+  const auto number = assignment ? variableNumber(context.tree, assignment->target) : std::nullopt;
+  if (!number || !raisesAlarm(context.dialect, *number))
     return std::nullopt;
   RaisedAlarm alarm{statement.span, context.tree.expressions[assignment->value].span,
                     literalValue(context.tree, assignment->value), std::nullopt};

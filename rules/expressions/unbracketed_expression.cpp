@@ -13,8 +13,10 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   if (context.dialect.grammar.wordMayBeUnbracketed)
     return;
   const std::string_view word = context.text(issue.other);
+  const std::size_t equals = word.find('=');
   const auto letter = std::find_if(word.begin(), word.end(), isLetter);
-  const auto open = issue.other.begin + static_cast<std::uint32_t>(letter - word.begin()) + 1;
+  const auto before = equals != std::string_view::npos ? equals : static_cast<std::size_t>(letter - word.begin());
+  const auto open = issue.other.begin + static_cast<std::uint32_t>(before) + 1;
   reporter.report({.message = fmt::format("{} is an expression without brackets", context.quoted(issue.other)),
                    .span = issue.other,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},

@@ -10,7 +10,7 @@ namespace {
 
 /// Read in its place: what follows a short form decides whether it is one.
 std::string_view longForm(const FileContext &context, Span span) {
-  Lexer lexer(context.source.text());
+  Lexer lexer(context.source.text(), context.dialect.grammar);
   lexer.moveTo(span.begin);
   const Token token = lexer.next();
   if (token.kind == TokenKind::ControlWord)

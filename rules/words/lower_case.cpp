@@ -39,7 +39,7 @@ void addEdits(Span run, const FileContext &context, std::vector<Edit> &edits) {
 
 void check(const FileContext &context, const Reporter &reporter) {
   const auto &runs = context.tree.lowerCase;
-  if (runs.empty())
+  if (runs.empty() || context.dialect.grammar.smallLetters)
     return;
   FixIt fix{FixSafety::Safe, "write capital letters", {}};
   for (const Span run : runs)

@@ -40,6 +40,8 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
 }
 
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.macroWithWords)
+    return;
   reporter.report({.message = "two macro statements in one block",
                    .span = issue.span,
                    .labels = {{issue.other, "the first"}},

@@ -29,7 +29,7 @@ void countThroughput(benchmark::State &state, const SourceFile &source) {
 void lexing(benchmark::State &state, InputKind kind) {
   const SourceFile &source = input(kind);
   for (auto _ : state) {
-    Lexer lexer(source.text());
+    Lexer lexer(source.text(), dialect().grammar);
     std::size_t tokens = 0;
     while (lexer.next().kind != TokenKind::EndOfFile)
       ++tokens;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 using Dump = std::string (*)(const SourceFile &, const Dialect &);
 
-std::string tokens(const SourceFile &source, const Dialect &) { return dump(lex(source), source); }
+std::string tokens(const SourceFile &source, const Dialect &dialect) { return dump(lex(source, dialect), source); }
 
 std::string tree(const SourceFile &source, const Dialect &dialect) { return dump(parse(source, dialect), source); }
 

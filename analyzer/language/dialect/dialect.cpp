@@ -57,6 +57,11 @@ int precedenceOf(const Dialect &dialect, OperatorKind op) {
   return found != dialect.operators.end() ? found->precedence : 0;
 }
 
+bool raisesAlarm(const Dialect &dialect, std::uint32_t number) {
+  const VariableRange *range = findVariable(dialect, number);
+  return range != nullptr && range->role == VariableRole::Alarm;
+}
+
 std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind kind) {
   const auto found = std::find_if(dialect.alarms.begin(), dialect.alarms.end(),
                                   [kind](const AlarmNumber &row) { return row.kind == kind; });

@@ -62,8 +62,8 @@ enum class CodeRole : std::uint8_t {
 };
 
 /// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  None: nothing that a
-/// program could notice in its variables or its path.  Unmodelled: it changes what coordinates mean in a way that is not
-/// followed, so that nothing is known of positions behind it.
+/// program could notice in its variables or its path.  Unmodelled: it changes what coordinates mean in a way that is
+/// not followed, so that nothing is known of positions behind it.
 enum class CodeAction : std::uint8_t {
   None,
   Unmodelled,
@@ -137,6 +137,7 @@ enum class CodeAction : std::uint8_t {
   CoolantOn,
   CoolantOff,
 };
+inline constexpr std::size_t kCodeActions = static_cast<std::size_t>(CodeAction::CoolantOff) + 1;
 
 /// A G or M code.  `tenths`: ten times its number, so that G54.1 is 541.
 struct Code {
@@ -279,9 +280,18 @@ struct Grammar {
   bool wordMayBeUnbracketed = false;   // `X#1+10`
   bool conditionalReturn = false;      // `[#1 LT 10] M99 P10`
   bool sequenceZero = false;           // N0 is a label
-  bool macroWithWords = false;         // NC words and a macro statement in one block
+  bool macroWithWords = false;         // NC words and macro statements in one block
   bool fractionalVariable = false;     // `#30057.21`: a bit of a setting
   bool doNumberMayRepeatNested = false;
+  bool oWords = false;                 // `o100 if [..]`, `o<name> call [1]`; control words without a label do not exist
+  bool namedParameters = false;        // `#<name>`
+  bool semicolonComment = false;       // `;` begins a comment that ends with the line
+  bool doubleHash = false;             // `##2`
+  bool doubleStar = false;             // `**` raises to a power
+  bool smallLetters = false;           // lower case is as good as upper case
+  bool shortForms = true;              // `WH`, `GO`: two letters for a control word, a function or an operator
+  bool valueNeedsBrackets = false;     // `#1=[#2+1]`: a sum in an assignment needs brackets, as in a word
+  std::string_view signAddresses = {}; // signs that begin a word as letters do
 };
 
 enum class ModuloMeaning : std::uint8_t {
@@ -296,14 +306,14 @@ struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
   IntegerPart integerPart = IntegerPart::TowardZero;
   LogicMeaning logic = LogicMeaning::Bitwise;
-  bool variablesMayBeVacant = true;  // else one that was never written reads as 0
-  bool roundsWords = true;           // a word computed from variables is rounded to the least increment
-  bool assignsAfterReading = false;  // all assignments of a line take place after the whole line is read
-  bool arcDistanceModes = false;     // G90.1 and G91.1 exist
-  bool cycleClearsFirst = false;     // a cycle that starts below its R level goes up to it before it goes to X, Y
-  bool repeatsByK = true;            // K of a canned cycle repeats it; L does so everywhere
-  double equalTolerance = 0;         // EQ, NE, GE, LE take values this near as equal
-  double arcTolerance = 0.05;        // mm: largest difference of the radii at start and end
+  bool variablesMayBeVacant = true;   // else one that was never written reads as 0
+  bool roundsWords = true;            // a word computed from variables is rounded to the least increment
+  bool assignsAfterReading = false;   // all assignments of a line take place after the whole line is read
+  bool arcDistanceModes = false;      // G90.1 and G91.1 exist
+  bool cycleClearsFirst = false;      // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
+  double equalTolerance = 0;          // EQ, NE, GE, LE take values this near as equal
+  double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end
   Decimal leastIncrementMetric{1, 3}; // mm and degrees
   Decimal leastIncrementInch{1, 4};
 };
@@ -353,6 +363,8 @@ const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
 const Function *findFunction(const Dialect &dialect, FunctionKind kind);
 /// 0 when the dialect does not have the operator.
 int precedenceOf(const Dialect &dialect, OperatorKind op);
+/// Whether writing the variable stops the program: #3000, where the control has it.
+bool raisesAlarm(const Dialect &dialect, std::uint32_t number);
 /// The control's number for an alarm; absent where it is not known.
 std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind kind);
 /// "stops with PS0112 (divided by zero)", or without a number where it is not known.

@@ -186,8 +186,12 @@ void LineScanner::scanCondition() {
 }
 
 void LineScanner::scanWord(char letter) {
-  if (letter == 'O' && scanOWord())
-    return;
+  if (letter == 'O') { // `N10 o100 call`
+    --at_;
+    if (scanOWord())
+      return;
+    ++at_;
+  }
   if (letter == 'V' && peek() == '.' && isLetter(peek(1)) && peek(2) == '.') {
     count(TextSignal::IsgVariable);
     stop();

@@ -20,7 +20,7 @@ struct NamedSignal {
 
 constexpr NamedSignal kExtensions[] = {
     {"mpf", TextSignal::SinumerikFile}, {"spf", TextSignal::SinumerikFile}, {"min", TextSignal::OkumaFile},
-    {"ssb", TextSignal::OkumaFile},     {"eia", TextSignal::EiaFile},
+    {"ssb", TextSignal::OkumaFile},     {"eia", TextSignal::EiaFile},       {"ngc", TextSignal::NgcFile},
 };
 
 /// Files that hold programs at most as quotations.

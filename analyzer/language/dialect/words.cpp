@@ -29,4 +29,12 @@ std::string_view spellingOf(ControlWord word) {
   return kSpellings[static_cast<std::size_t>(word)];
 }
 
+std::string_view spellingOf(OWordKind word) {
+  static constexpr std::string_view kSpellings[] = {
+#define O_WORD(kind, spelling) spelling,
+#include "language/dialect/o_words.def"
+  };
+  return kSpellings[static_cast<std::size_t>(word)];
+}
+
 } // namespace feedhold

@@ -1,4 +1,5 @@
-// The closed vocabularies of the macro languages: functions, operators, control words.  Dialects choose from them.
+// The closed vocabularies of the macro languages: functions, operators, control words, o-words.  Dialects choose from
+// them.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +23,15 @@ enum class ControlWord : std::uint8_t {
 #include "language/dialect/control_words.def"
 };
 
+enum class OWordKind : std::uint8_t {
+#define O_WORD(kind, spelling) kind,
+#include "language/dialect/o_words.def"
+};
+
 std::string_view spellingOf(FunctionKind function);
 std::string_view spellingOf(OperatorKind op);
 std::string_view spellingOf(ControlWord word);
+std::string_view spellingOf(OWordKind word);
 
 constexpr bool isRelation(OperatorKind op) { return op >= OperatorKind::Equal && op <= OperatorKind::LessOrEqual; }
 constexpr bool isBitwise(OperatorKind op) {

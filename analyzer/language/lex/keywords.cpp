@@ -23,9 +23,10 @@ struct Keyword {
 };
 
 Follow shortFormOf(FunctionKind function) {
-  // LN and AX are two letters already; POW has none (it would be read as POPEN), nor has AXNUM (AX is a function).
+  // LN and AX are two letters already; POW has none (it would be read as POPEN), nor have AXNUM (AX is a function)
+  // and EXISTS (EX is EXP).
   const bool none = function == FunctionKind::Ln || function == FunctionKind::Ax || function == FunctionKind::Pow ||
-                    function == FunctionKind::AxNumber;
+                    function == FunctionKind::AxNumber || function == FunctionKind::Exists;
   return none ? Follow::None : Follow::Bracket;
 }
 
@@ -114,6 +115,17 @@ KeywordMatch matchKeyword(std::string_view run, char next) {
   for (const Keyword &keyword : row)
     if (startsWith(run, keyword.spelling.substr(0, 2)) && follows(keyword.shortForm, next))
       return {keyword.kind, keyword.detail, 2, true};
+  return {};
+}
+
+KeywordMatch matchOWord(std::string_view run) {
+  static constexpr std::string_view kSpellings[] = {
+#define O_WORD(kind, spelling) spelling,
+#include "language/dialect/o_words.def"
+  };
+  for (std::size_t i = 0; i < std::size(kSpellings); ++i)
+    if (run.size() == kSpellings[i].size() && startsWith(run, kSpellings[i]))
+      return {TokenKind::OWord, asByte(i), asByte(run.size()), false};
   return {};
 }
 

@@ -19,4 +19,7 @@ struct KeywordMatch {
 /// long form could stand before: two letters are too little evidence elsewhere.
 KeywordMatch matchKeyword(std::string_view run, char next);
 
+/// `sub`, `endif`: the o-word that the whole run is.
+KeywordMatch matchOWord(std::string_view run);
+
 } // namespace feedhold

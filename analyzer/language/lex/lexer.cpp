@@ -74,7 +74,7 @@ std::string_view nameOf(TokenKind kind) {
 
 bool isTrivia(char c) { return classOf(c) == ByteClass::Trivia; }
 
-Lexer::Lexer(std::string_view text) : text_(text) {
+Lexer::Lexer(std::string_view text, const Grammar &grammar) : text_(text), grammar_(&grammar) {
   if (text_.starts_with(kByteOrderMark))
     at_ = static_cast<std::uint32_t>(kByteOrderMark.size());
 }
@@ -87,7 +87,10 @@ Token Lexer::next() {
   case ByteClass::Letter: return letters(begin);
   case ByteClass::Digit: return number(begin);
   case ByteClass::LineEnd: return endOfBlock(begin);
-  case ByteClass::Symbol: return make(kSymbols[static_cast<unsigned char>(text_[begin])], begin, begin + 1);
+  case ByteClass::Symbol:
+    if (text_[begin] == '*' && grammar_->doubleStar)
+      return star(begin);
+    return make(kSymbols[static_cast<unsigned char>(text_[begin])], begin, begin + 1);
   case ByteClass::Parenthesis: return comment(begin);
   case ByteClass::Angle: return angle(begin);
   case ByteClass::Trivia:
@@ -127,7 +130,11 @@ Token Lexer::letters(std::uint32_t begin) {
   const std::uint32_t end = afterLetters(begin, begin + kLongestKeywordRun);
   const std::uint32_t behind = afterBlanks(end);
   const std::string_view run = text_.substr(begin, end - begin);
-  KeywordMatch match = matchKeyword(run, at(behind));
+  KeywordMatch match = grammar_->oWords ? matchOWord(run) : KeywordMatch{};
+  if (match.kind == TokenKind::Other)
+    match = matchKeyword(run, at(behind));
+  if (match.abbreviated && !grammar_->shortForms)
+    match = {};
   // `GO TO 10`: the only keyword that people write in two.
   if (run.size() == 2 && toUpper(run) == "GO" && toUpper(text_.substr(behind, 2)) == "TO" && !isLetter(at(behind + 2)))
     match = {TokenKind::ControlWord, static_cast<std::uint8_t>(ControlWord::Goto),
@@ -185,19 +192,34 @@ Token Lexer::comment(std::uint32_t begin) {
   return make(TokenKind::Comment, begin, end);
 }
 
-/// A line end, or `;` with the line end behind it.
+/// `**`, which blanks may part; `*` alone.
+Token Lexer::star(std::uint32_t begin) {
+  const std::uint32_t second = afterBlanks(begin + 1);
+  if (at(second) != '*')
+    return make(TokenKind::Star, begin, begin + 1);
+  Token token = make(TokenKind::Operator, begin, second + 1);
+  token.detail = static_cast<std::uint8_t>(OperatorKind::Power);
+  return token;
+}
+
+/// A line end, or `;` with the line end behind it; a comment where `;` begins one.
 Token Lexer::endOfBlock(std::uint32_t begin) {
   if (text_[begin] != ';')
     return make(TokenKind::EndOfBlock, begin, afterLineEnd(begin));
+  if (grammar_->semicolonComment)
+    return make(TokenKind::Comment, begin, lineEnd(begin));
   const std::uint32_t behind = afterBlanks(begin + 1);
   const bool lineEnds = at(behind) == '\n' || at(behind) == '\r';
   return make(TokenKind::EndOfBlock, begin, lineEnds ? afterLineEnd(behind) : begin + 1);
 }
 
-/// `<NAME>`, or the sign alone.
+/// `<NAME>`, or the sign alone.  Names of parameters may hold any sign, blanks too.
 Token Lexer::angle(std::uint32_t begin) {
   std::uint32_t end = begin + 1;
-  const auto inName = [](char c) { return isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '_' || c == '.'; };
+  const auto inName = [this](char c) {
+    return grammar_->namedParameters ? c != '>' && c != '\n' && c != '\r' && c != '('
+                                     : isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '_' || c == '.';
+  };
   while (end < size() && inName(text_[end]))
     ++end;
   if (at(end) == '>' && end > begin + 1)
@@ -207,6 +229,11 @@ Token Lexer::angle(std::uint32_t begin) {
 
 Token Lexer::other(std::uint32_t begin) {
   std::uint32_t end = begin + 1;
+  if (grammar_->signAddresses.find(text_[begin]) != std::string_view::npos) {
+    Token token = make(TokenKind::Address, begin, end);
+    token.detail = static_cast<std::uint8_t>(text_[begin]);
+    return token;
+  }
   while (end < size() && classOf(text_[end]) == ByteClass::Other)
     ++end;
   return make(TokenKind::Other, begin, end);
@@ -238,9 +265,9 @@ std::uint32_t Lexer::afterLineEnd(std::uint32_t offset) const {
   return at(offset + 1) == '\n' ? offset + 2 : offset + 1;
 }
 
-TokenBuffer lex(const SourceFile &file) {
+TokenBuffer lex(const SourceFile &file, const Dialect &dialect) {
   TokenBuffer tokens;
-  Lexer lexer(file.text());
+  Lexer lexer(file.text(), dialect.grammar);
   do
     tokens.push_back(lexer.next());
   while (tokens.back().kind != TokenKind::EndOfFile);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/source/source_file.h"
+#include "language/dialect/dialect.h"
 #include "language/lex/token.h"
 
 #include <optional>
@@ -28,7 +29,8 @@ struct NumberText {
 /// Cheap to copy: a copy is a place to come back to.
 class Lexer {
 public:
-  explicit Lexer(std::string_view text);
+  /// The grammar is the dialect's and outlives the lexer.
+  Lexer(std::string_view text, const Grammar &grammar);
 
   Token next();
   /// Of the token that next() gave last, when that is a Number.
@@ -45,6 +47,7 @@ private:
   Token letters(std::uint32_t begin);
   Token number(std::uint32_t begin);
   Token comment(std::uint32_t begin);
+  Token star(std::uint32_t begin);
   Token endOfBlock(std::uint32_t begin);
   Token angle(std::uint32_t begin);
   Token other(std::uint32_t begin);
@@ -56,12 +59,13 @@ private:
   std::uint32_t size() const { return static_cast<std::uint32_t>(text_.size()); }
 
   std::string_view text_;
+  const Grammar *grammar_;
   std::uint32_t at_ = 0;
   NumberText number_;
 };
 
 /// All tokens of a file, the last one EndOfFile.
-TokenBuffer lex(const SourceFile &file);
+TokenBuffer lex(const SourceFile &file, const Dialect &dialect);
 
 /// The tokens as text, one a line: what golden cases compare.
 std::string dump(const TokenBuffer &tokens, const SourceFile &source);

@@ -21,7 +21,8 @@ struct Token {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
   TokenKind kind = TokenKind::EndOfFile;
-  /// Address: the letter in upper case.  Function, Operator, ControlWord: the value of that enum.
+  /// Address: the letter in upper case.  Function, Operator, ControlWord, OWord: the value of
+  /// that enum.
   std::uint8_t detail = 0;
   /// Function, Operator, ControlWord: written in its short form (`WH`, `RO`).
   bool abbreviated = false;
@@ -31,6 +32,7 @@ struct Token {
   FunctionKind function() const { return static_cast<FunctionKind>(detail); }
   OperatorKind op() const { return static_cast<OperatorKind>(detail); }
   ControlWord controlWord() const { return static_cast<ControlWord>(detail); }
+  OWordKind oWord() const { return static_cast<OWordKind>(detail); }
 };
 
 using TokenBuffer = std::vector<Token>;

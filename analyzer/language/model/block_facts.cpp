@@ -31,22 +31,23 @@ const Word *findWord(const SyntaxTree &tree, BlockId block, char address) {
 namespace {
 
 /// `#3000 = n`: the program stops here with an alarm.
-bool raisesAlarm(const SyntaxTree &tree, const Statement &statement) {
+bool raisesAlarm(const SyntaxTree &tree, const Statement &statement, const Dialect &dialect) {
   const auto *assignment = std::get_if<Assignment>(&statement.node);
-  return assignment && variableNumber(tree, assignment->target) == kAlarmVariable;
+  const auto number = assignment ? variableNumber(tree, assignment->target) : std::nullopt;
+  return number && raisesAlarm(dialect, *number);
 }
 
-FlowAfter flowOfStatement(const SyntaxTree &tree, const Statement &statement) {
+FlowAfter flowOfStatement(const SyntaxTree &tree, const Statement &statement, const Dialect &dialect) {
   if (std::holds_alternative<Goto>(statement.node))
     return FlowAfter::Jumps;
-  if (raisesAlarm(tree, statement))
+  if (raisesAlarm(tree, statement, dialect))
     return FlowAfter::Ends;
-  const bool branches = std::holds_alternative<If>(statement.node) || std::holds_alternative<While>(statement.node) ||
-                        std::holds_alternative<End>(statement.node) || std::holds_alternative<Do>(statement.node) ||
-                        std::holds_alternative<Else>(statement.node) ||
-                        std::holds_alternative<ElseIf>(statement.node) ||
-                        std::holds_alternative<ConditionalWords>(statement.node) ||
-                        std::holds_alternative<BrokenStatement>(statement.node);
+  const bool branches =
+      std::holds_alternative<If>(statement.node) || std::holds_alternative<While>(statement.node) ||
+      std::holds_alternative<End>(statement.node) || std::holds_alternative<Do>(statement.node) ||
+      std::holds_alternative<Else>(statement.node) || std::holds_alternative<ElseIf>(statement.node) ||
+      std::holds_alternative<ConditionalWords>(statement.node) || std::holds_alternative<OWord>(statement.node) ||
+      std::holds_alternative<BrokenStatement>(statement.node);
   return branches ? FlowAfter::MayJump : FlowAfter::Next;
 }
 
@@ -58,7 +59,7 @@ FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialec
   FlowAfter flow = FlowAfter::Next;
   for (const Statement &statement : tree.statementsOf(block))
     if (!statement.nested)
-      flow = std::max(flow, flowOfStatement(tree, statement));
+      flow = std::max(flow, flowOfStatement(tree, statement, dialect));
   for (const Word &word : tree.wordsOf(block)) {
     const Code *code = codeOf(word, dialect);
     if (!code || !ends(code->role))

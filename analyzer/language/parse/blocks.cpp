@@ -61,7 +61,12 @@ void Parser::readItem() {
     return;
   }
   switch (token_.kind) {
-  case TokenKind::Address: readWord(); return;
+  case TokenKind::Address:
+    if (atOWord())
+      readStatement();
+    else
+      readWord();
+    return;
   case TokenKind::Comment: readComment(); return;
   case TokenKind::Slash: readBlockSkip(); return;
   case TokenKind::Comma: readCommaWord(); return;
@@ -72,9 +77,15 @@ void Parser::readItem() {
     advance();
     return;
   case TokenKind::Hash:
-  case TokenKind::OpenBracket:
-  case TokenKind::ControlWord: readStatement(); return;
+  case TokenKind::OpenBracket: readStatement(); return;
   case TokenKind::CloseBracket: takeStrayCloseBrackets(Broken::Yes); return;
+  case TokenKind::ControlWord:
+    if (!grammar_.oWords) {
+      readStatement();
+      return;
+    }
+    [[fallthrough]];
+  case TokenKind::OWord:
   case TokenKind::Number:
   case TokenKind::Function:
   case TokenKind::Operator:
@@ -209,6 +220,11 @@ void Parser::readBlockSkip() {
 
 void Parser::readComment() {
   const Span span = token_.span();
+  if (text_[span.begin] == ';') {
+    tree_.comments.add({span, true});
+    advance();
+    return;
+  }
   const std::string_view inner = text_.substr(span.begin + 1, span.size() - 1);
   // A comment that was read over a line end is one that its line does not close.
   const bool closed = inner.ends_with(')') && inner.find_first_of("\r\n") == std::string_view::npos;

@@ -44,6 +44,7 @@ std::optional<OperatorKind> Parser::peekOperator() const {
   case TokenKind::Number:
   case TokenKind::Function:
   case TokenKind::ControlWord:
+  case TokenKind::OWord:
   case TokenKind::Hash:
   case TokenKind::OpenBracket:
   case TokenKind::CloseBracket:
@@ -136,6 +137,7 @@ ExpressionId Parser::operandInside() {
   case TokenKind::Address:
   case TokenKind::Operator:
   case TokenKind::ControlWord:
+  case TokenKind::OWord:
   case TokenKind::CloseBracket:
   case TokenKind::Star:
   case TokenKind::Slash:
@@ -156,14 +158,14 @@ ExpressionId Parser::operandInside() {
 namespace {
 
 /// Nothing but operands and operators, at least one.
-bool looksLikeExpression(std::string_view text) {
-  Lexer lexer(text);
+bool looksLikeExpression(std::string_view text, const Grammar &grammar) {
+  Lexer lexer(text, grammar);
   std::size_t count = 0;
   for (Token token = lexer.next(); token.kind != TokenKind::EndOfFile; token = lexer.next(), ++count) {
-    const bool fits =
-        token.kind == TokenKind::Number || token.kind == TokenKind::Function ||
-        (token.kind >= TokenKind::Operator && token.kind <= TokenKind::Comma && token.kind != TokenKind::ControlWord) ||
-        token.kind == TokenKind::Less || token.kind == TokenKind::Greater;
+    const bool fits = token.kind == TokenKind::Number || token.kind == TokenKind::Function ||
+                      (token.kind >= TokenKind::Operator && token.kind <= TokenKind::Comma &&
+                       token.kind != TokenKind::ControlWord && token.kind != TokenKind::OWord) ||
+                      token.kind == TokenKind::Less || token.kind == TokenKind::Greater;
     if (!fits)
       return false;
   }
@@ -179,7 +181,8 @@ bool Parser::expressionInParentheses() {
     return false;
   const Comment &comment = tree_.comments[CommentId(tree_.comments.size() - 1)];
   const Span span = comment.span;
-  if (!comment.closed || span.begin < lastEnd_ || !looksLikeExpression(text_.substr(span.begin + 1, span.size() - 2)))
+  if (!comment.closed || span.begin < lastEnd_ ||
+      !looksLikeExpression(text_.substr(span.begin + 1, span.size() - 2), grammar_))
     return false;
   issue(SyntaxIssueKind::ExpressionInParentheses, span, {}, Broken::Yes);
   return true;
@@ -202,7 +205,7 @@ ExpressionId Parser::number() {
   return addExpression(token.begin, NumberLiteral{*value});
 }
 
-/// `#101`, `#[..]`, `##1` (reported), `#<name>` of other languages.
+/// `#101`, `#[..]`, `#<name>`, `##1` (reported where the control does not read it).
 ExpressionId Parser::variable() {
   const Token hash = token_;
   advance();
@@ -214,15 +217,15 @@ ExpressionId Parser::variable() {
     return addExpression(hash.begin, NumberedVariable{*number});
   }
   if (at(TokenKind::Name)) {
-    const Span name = token_.span();
+    const Span name{token_.begin + 1, token_.end - 1};
     advance();
     return addExpression(hash.begin, NamedVariable{name});
   }
   if (at(TokenKind::OpenBracket) && startsName(token_.end))
     return namedVariable(hash.begin, token_.end);
-  if (at(TokenKind::Hash))
+  if (at(TokenKind::Hash) && !grammar_.doubleHash)
     issue(SyntaxIssueKind::DoubleHash, {hash.begin, token_.end}, {}, Broken::No);
-  else if (!at(TokenKind::OpenBracket))
+  else if (!at(TokenKind::OpenBracket) && !at(TokenKind::Hash))
     return brokenOperand();
   const ExpressionId index = operand();
   return addExpression(hash.begin, IndirectVariable{index});

@@ -38,6 +38,7 @@ bool readsAsProgram(std::string_view text) {
 /// Precedence where the dialect lacks the operator, so that the tree is right even where a rule complains.
 constexpr std::uint8_t usualPrecedence(OperatorKind op) {
   switch (op) {
+  case OperatorKind::Power: return 4;
   case OperatorKind::Multiply:
   case OperatorKind::Divide:
   case OperatorKind::Modulo:
@@ -60,7 +61,8 @@ constexpr std::uint8_t usualPrecedence(OperatorKind op) {
 
 SyntaxTree parse(const SourceFile &source, const Dialect &dialect) { return Parser(source.text(), dialect).run(); }
 
-Parser::Parser(std::string_view text, const Dialect &dialect) : text_(text), lexer_(text) {
+Parser::Parser(std::string_view text, const Dialect &dialect)
+    : text_(text), grammar_(dialect.grammar), lexer_(text, dialect.grammar) {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(OperatorKind::LessOrEqual); ++i) {
     const auto op = static_cast<OperatorKind>(i);
     const int own = precedenceOf(dialect, op);
@@ -174,7 +176,7 @@ void Parser::advanceToValue() {
 
 /// A comment with a fault ends what is being read: readComment() says what is wrong with it.
 void Parser::takeCommentsAsBlanks() {
-  while (at(TokenKind::Comment)) {
+  while (at(TokenKind::Comment) && text_[token_.begin] == '(') {
     const std::string_view inner = text_.substr(token_.begin + 1, token_.span().size() - 1);
     if (inner.find_first_of("(\r\n") != std::string_view::npos || !inner.ends_with(')'))
       return;

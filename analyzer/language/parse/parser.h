@@ -1,5 +1,5 @@
 // Parser: recursive descent over the tokens of one file, LLVM in manner.  One file for each part of the grammar:
-// parse.cpp (the file and its tape marks), blocks.cpp (blocks and words), statements.cpp, expressions.cpp.
+// parse.cpp (the file and its tape marks), blocks.cpp (blocks and words), statements.cpp, o_word.cpp, expressions.cpp.
 //
 // Recovery: the first thing in a block that cannot be read is an issue; the rest of the block becomes a
 // BrokenStatement without further issues, and reading goes on with the next block.
@@ -57,6 +57,7 @@ private:
   void readStatement();
   void addTopStatement(StatementId statement);
   StatementId variableStatement();
+  ExpressionId assignedValue(std::uint32_t begin);
   StatementId controlStatement();
   StatementId ifStatement();
   std::optional<StatementId> ifAction(If &statement, const Token &keyword);
@@ -70,6 +71,11 @@ private:
   std::optional<ExpressionId> loopNumber();
   void readPrintedVariables(Span format);
   StatementId addStatement(std::uint32_t begin, decltype(Statement::node) node);
+
+  // o_word.cpp
+  bool atOWord() const;
+  StatementId oWordStatement();
+  void readOWordArguments(OWord &oWord, const Token &keyword);
 
   // expressions.cpp
   ExpressionId expression();
@@ -111,6 +117,7 @@ private:
   std::optional<Decimal> numberHere();
 
   std::string_view text_;
+  const Grammar &grammar_;
   Lexer lexer_;
   SyntaxTree tree_;
   Token token_;

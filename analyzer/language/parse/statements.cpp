@@ -12,7 +12,9 @@ void Parser::readStatement() {
   if (text_[first.begin] >= 'a' && text_[first.begin] <= 'z')
     lowerCase_ = lowerCase_ ? cover(*lowerCase_, first.span()) : first.span();
   commentsAreBlanks_ = true;
-  const StatementId statement = at(TokenKind::ControlWord) ? controlStatement() : variableStatement();
+  const StatementId statement = at(TokenKind::ControlWord) ? controlStatement()
+                                : at(TokenKind::Address)   ? oWordStatement()
+                                                           : variableStatement();
   commentsAreBlanks_ = false;
   headOfBlock_ = false;
   addTopStatement(statement);
@@ -33,7 +35,7 @@ StatementId Parser::variableStatement() {
   const ExpressionId target = operand();
   if (at(TokenKind::Equals)) {
     advance();
-    const ExpressionId value = expression();
+    const ExpressionId value = grammar_.valueNeedsBrackets ? assignedValue(begin) : expression();
     return addStatement(begin, Assignment{target, value});
   }
   if (bracket && at(TokenKind::Address)) {
@@ -48,6 +50,17 @@ StatementId Parser::variableStatement() {
     expression();
   issue(SyntaxIssueKind::MissingEquals, sign, since(begin), Broken::No);
   return addStatement(begin, LoneExpression{whole});
+}
+
+/// The value where a sum needs brackets: `#1=#2+1` is read, and reported.
+ExpressionId Parser::assignedValue(std::uint32_t begin) {
+  const ExpressionId value = operand();
+  if (!peekOperator() || at(TokenKind::Slash) || broken_)
+    return value;
+  const std::uint32_t from = token_.begin;
+  const ExpressionId whole = binaryRest(value, 1);
+  issue(SyntaxIssueKind::UnbracketedExpression, since(from), since(begin), Broken::No);
+  return whole;
 }
 
 StatementId Parser::controlStatement() {

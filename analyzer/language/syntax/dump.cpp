@@ -1,5 +1,6 @@
 // dump: the tree as indented text, one node a line, for golden cases and for people who wonder what was read.
 #include "base/support/match.h"
+#include "base/support/text.h"
 #include "language/syntax/tree.h"
 
 #include <fmt/format.h>
@@ -126,6 +127,13 @@ private:
           for (std::size_t i = node.firstVariable.index(); i < node.lastVariable.index(); ++i)
             if (std::holds_alternative<NumberedVariable>(tree_.expressions[ExpressionId(i)].node))
               expression(ExpressionId(i), depth + 1);
+        },
+        [&](const OWord &node) {
+          line(depth, fmt::format("o-word {} {}", text(node.label), toLower(spellingOf(node.kind))));
+          if (node.computed)
+            expression(*node.computed, depth + 1);
+          for (const ExpressionId argument : tree_.argumentsOf(node))
+            expression(argument, depth + 1);
         },
         [&](const BrokenStatement &) { line(depth, fmt::format("broken `{}`", text(statement.span))); });
   }

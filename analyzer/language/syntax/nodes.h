@@ -88,11 +88,11 @@ struct NumberLiteral {
 struct NumberedVariable {
   Decimal number;
 };
-/// `#[#1+1]`, and `##1` where it was written against the rules.
+/// `#[#1+1]`, and `##1` as some controls read it; where others do not, it is reported.
 struct IndirectVariable {
   ExpressionId index;
 };
-/// `[#_ALM]`, `[#WIDTH]`; `name` is the text without `#` and brackets.
+/// `[#_ALM]`, `[#WIDTH]`, `#<depth>`; `name` is the text without `#` and brackets.
 struct NamedVariable {
   Span name;
 };
@@ -195,13 +195,21 @@ struct Print {
   ExpressionId firstVariable; // the variables that the format prints are the expressions from here ..
   ExpressionId lastVariable;  // .. up to, not including, this one that are variables
 };
+/// `o100 sub`, `o<name> call [1] [2]`, `o100 if [..]`: a statement with a label that pairs it with others.
+struct OWord {
+  OWordKind kind;
+  Span label;                           // `100`, `<name>`, `#1`; labelText() is what is compared
+  std::optional<ExpressionId> computed; // of `#1`, `[..]`
+  std::uint32_t firstArgument;          // condition, count, arguments, value: SyntaxTree::argumentsOf
+  std::uint32_t argumentCount;
+};
 struct BrokenStatement {};
 
 struct Statement {
   Span span;
   bool nested = false; // the action of an IF; reached through it
   std::variant<Assignment, LoneExpression, Goto, If, Else, ElseIf, EndIf, While, Do, End, NameVariables,
-               ConditionalWords, Print, BrokenStatement>
+               ConditionalWords, Print, OWord, BrokenStatement>
       node;
 };
 

@@ -51,6 +51,10 @@ std::span<const Statement> SyntaxTree::statementsOf(BlockId block) const {
   return statements.slice(blocks[block].firstStatement, blocks[block.next()].firstStatement);
 }
 
+std::span<const ExpressionId> SyntaxTree::argumentsOf(const OWord &oWord) const {
+  return std::span(oWordArguments).subspan(oWord.firstArgument, oWord.argumentCount);
+}
+
 WordId SyntaxTree::idOf(const Word &word) const { return WordId(static_cast<std::size_t>(&word - &*words.begin())); }
 
 StatementId SyntaxTree::idOf(const Statement &statement) const {
@@ -67,7 +71,8 @@ BlockId SyntaxTree::blockAt(std::uint32_t offset) const {
 std::size_t SyntaxTree::bytes() const {
   return blocks.size() * sizeof(Block) + words.size() * sizeof(Word) + comments.size() * sizeof(Comment) +
          statements.size() * sizeof(Statement) + expressions.size() * sizeof(Expression) +
-         issues.size() * sizeof(SyntaxIssue) + (skips.size() + lowerCase.size() + abbreviations.size()) * sizeof(Span);
+         oWordArguments.size() * sizeof(ExpressionId) + issues.size() * sizeof(SyntaxIssue) +
+         (skips.size() + lowerCase.size() + abbreviations.size()) * sizeof(Span);
 }
 
 std::vector<ExpressionId> childrenOf(const SyntaxTree &tree, ExpressionId id) {
@@ -134,6 +139,24 @@ std::optional<std::uint32_t> variableNumber(const SyntaxTree &tree, ExpressionId
   if (!number || *number < 0 || *number > 0xffffffffLL)
     return std::nullopt;
   return static_cast<std::uint32_t>(*number);
+}
+
+std::string comparedName(std::string_view name) {
+  std::string compared;
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) > ' ')
+      compared += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return compared;
+}
+
+std::string labelText(const OWord &oWord, const SourceFile &source) {
+  if (oWord.computed)
+    return {};
+  const std::string label = comparedName(source.text(oWord.label));
+  if (label.starts_with('<'))
+    return label.substr(1, label.size() - 2);
+  const std::size_t first = label.find_first_not_of('0');
+  return first == std::string::npos ? "0" : label.substr(first);
 }
 
 } // namespace feedhold

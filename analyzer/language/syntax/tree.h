@@ -32,6 +32,7 @@ public:
   Store<Comment, CommentId> comments;
   Store<Statement, StatementId> statements;
   Store<Expression, ExpressionId> expressions;
+  std::vector<ExpressionId> oWordArguments;
   std::vector<SyntaxIssue> issues; // in order of the text
   std::vector<Span> abbreviations; // control words, functions and operators in their short form
   std::vector<Span> skips;         // `/` and `/n`, at the head of a block or inside it
@@ -43,6 +44,7 @@ public:
   std::span<const Comment> commentsOf(BlockId block) const;
   /// With those that are the action of an IF (`nested`); they stand before it, as children do.
   std::span<const Statement> statementsOf(BlockId block) const;
+  std::span<const ExpressionId> argumentsOf(const OWord &oWord) const;
   WordId idOf(const Word &word) const;
   StatementId idOf(const Statement &statement) const;
   /// The block that holds a byte.
@@ -61,6 +63,12 @@ ExpressionId unwrapped(const SyntaxTree &tree, ExpressionId root);
 std::optional<Decimal> literalValue(const SyntaxTree &tree, ExpressionId root);
 /// The number of a `#101`; absent for computed and named ones.
 std::optional<std::uint32_t> variableNumber(const SyntaxTree &tree, ExpressionId root);
+
+/// A name as the control compares it: in small letters, without blanks.
+std::string comparedName(std::string_view name);
+/// The label of an o-word as the control compares it: a number without leading zeros, or a name without `<>`.  Empty
+/// for a computed one.
+std::string labelText(const OWord &oWord, const SourceFile &source);
 
 /// The text of the file put together again from the nodes of the tree and the blanks between them.  A byte that is
 /// neither in a node nor blank is left out, so that comparing with the source shows what the tree lost.

@@ -6,7 +6,7 @@ namespace feedhold {
 
 namespace {
 
-std::string dumpTokens(const SourceFile &source, const Dialect &) { return dump(lex(source), source); }
+std::string dumpTokens(const SourceFile &source, const Dialect &dialect) { return dump(lex(source, dialect), source); }
 
 } // namespace
 

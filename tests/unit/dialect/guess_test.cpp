@@ -50,14 +50,21 @@ TEST(Guess, Lathes) {
             "haas-ngc-lathe");
 }
 
+TEST(Guess, OWords) {
+  EXPECT_EQ(guessed("o100 sub\n#<depth> = 3\no110 if [#1 gt 2]\ng1 z-1 f100\no110 endif\no100 endsub\nm2\n"),
+            "linuxcnc");
+  EXPECT_EQ(guessed("N10 O<part one> CALL [#1] [2]\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("g0 x#<_ini[AXIS_X]HOME> ; home\nm2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("g0 x1 ; a remark\nm2\n", "part.ngc"), "linuxcnc");
+  EXPECT_EQ(guessed("O9000\nG65 P9001 A1.\nM99\n", "O9000.ngc"), "fanuc-30i");
+}
+
 TEST(Guess, LanguagesThatAreRefused) {
   EXPECT_EQ(guessed("0 BEGIN PGM T1 MM\n1 TOOL CALL 1 Z S800\n2 L X+10 Y+0 R0 FMAX M3\n3 END PGM T1 MM\n", "T1.H"),
             "Heidenhain Klartext");
   EXPECT_EQ(guessed("PROC WARM(REAL SPEED)\nDEF INT N1\nR1=5\nIF R1>4 GOTOF ENDE\nG0 X=R1\nENDE: M17\n", "x.txt"),
             "Sinumerik");
   EXPECT_EQ(guessed("NTOP G0 X=VC1\nVC1=VC1+1\nCALL OPULL PL=2\nRTS\n"), "Okuma user task");
-  EXPECT_EQ(guessed("o100 sub\n#<depth> = 3\no110 if [#1 gt 2]\ng1 z-1 f100\no110 endif\no100 endsub\nm2\n"),
-            "RS274NGC with o-words");
   EXPECT_EQ(guessed("%@MACRO\n@1 := 5;\n#1 := @1 + 2;\nIF #1 > 3 THEN\nEND_IF;\nM99;\n"), "Syntec MACRO");
   EXPECT_EQ(guessed("(P1=5)\n(CALL 3)\nG1 X10\n(RET)\n"), "Fagor 8055");
   EXPECT_EQ(guessed("$IF V.P.COUNT > 3\nG1 X10\n$ENDIF\nM30\n"), "ISG or Fagor 8060 (`$IF`)");

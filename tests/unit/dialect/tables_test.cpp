@@ -28,12 +28,26 @@ protected:
   const Dialect &dialect() const { return *findDialect(allDialects(), GetParam().id); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Tables, EveryDialect, testing::ValuesIn(kRows), [](const auto &row) {
+std::string testName(const testing::TestParamInfo<Row> &row) {
   std::string name(row.param.id);
   for (char &c : name)
     c = c == '-' ? '_' : c;
   return name;
-});
+}
+
+std::vector<Row> macroBRows() {
+  std::vector<Row> rows;
+  for (const Row &row : kRows)
+    if (!findDialect(allDialects(), row.id)->grammar.oWords)
+      rows.push_back(row);
+  return rows;
+}
+
+/// Those whose macro language is Macro B.
+class EveryMacroBDialect : public EveryDialect {};
+
+INSTANTIATE_TEST_SUITE_P(Tables, EveryDialect, testing::ValuesIn(kRows), testName);
+INSTANTIATE_TEST_SUITE_P(Tables, EveryMacroBDialect, testing::ValuesIn(macroBRows()), testName);
 
 TEST_P(EveryDialect, CodesAreInOrderAndUnique) {
   for (const std::span<const Code> codes : {dialect().gCodes, dialect().mCodes}) {
@@ -62,12 +76,13 @@ TEST_P(EveryDialect, KnowsTheCodesThatTheModelAsksFor) {
   for (const Code &code : dialect().mCodes)
     roles.insert(code.role);
   for (const CodeRole role : {CodeRole::Motion, CodeRole::Arc, CodeRole::Dwell, CodeRole::DataSetting,
-                              CodeRole::MacroCall, CodeRole::CannedCycle, CodeRole::SubprogramCall, CodeRole::Return,
-                              CodeRole::ProgramEnd, CodeRole::ProgramStop, CodeRole::MachinePosition, CodeRole::Skip})
+                              CodeRole::CannedCycle, CodeRole::SubprogramCall, CodeRole::Return, CodeRole::ProgramEnd,
+                              CodeRole::ProgramStop, CodeRole::MachinePosition, CodeRole::Skip})
     EXPECT_TRUE(roles.contains(role)) << static_cast<int>(role);
+  EXPECT_EQ(roles.contains(CodeRole::MacroCall), !dialect().grammar.oWords);
 }
 
-TEST_P(EveryDialect, VariablesEveryMacroUses) {
+TEST_P(EveryMacroBDialect, VariablesEveryMacroUses) {
   EXPECT_EQ(findVariable(dialect(), 0)->kind, VariableKind::Vacant);
   EXPECT_EQ(findVariable(dialect(), 0)->access, VariableAccess::ReadOnly);
   EXPECT_EQ(findVariable(dialect(), 33)->kind, VariableKind::Local);
@@ -81,7 +96,7 @@ TEST_P(EveryDialect, VariablesEveryMacroUses) {
   EXPECT_EQ(findVariable(dialect(), 5221)->access, VariableAccess::ReadWrite);
 }
 
-TEST_P(EveryDialect, ArgumentLettersAreThoseOfAssignmentOne) {
+TEST_P(EveryMacroBDialect, ArgumentLettersAreThoseOfAssignmentOne) {
   const std::string_view letters = "ABCIJKDEFHMQRSTUVWXYZ";
   const int variables[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
   for (std::size_t i = 0; i < letters.size(); ++i)
@@ -90,7 +105,7 @@ TEST_P(EveryDialect, ArgumentLettersAreThoseOfAssignmentOne) {
     EXPECT_EQ(dialect().argumentVariables[static_cast<std::size_t>(letter - 'A')], 0) << letter;
 }
 
-TEST_P(EveryDialect, AndBindsAsAMultiplication) {
+TEST_P(EveryMacroBDialect, AndBindsAsAMultiplication) {
   EXPECT_EQ(precedenceOf(dialect(), OperatorKind::And), precedenceOf(dialect(), OperatorKind::Multiply));
   EXPECT_GT(precedenceOf(dialect(), OperatorKind::And), precedenceOf(dialect(), OperatorKind::Add));
   EXPECT_EQ(precedenceOf(dialect(), OperatorKind::Or), precedenceOf(dialect(), OperatorKind::Add));
@@ -165,6 +180,24 @@ TEST(Dialect, FunctionsThatOnlySomeControlsHave) {
   EXPECT_EQ(findFunction(dialectNamed("haas-ngc"), FunctionKind::Sqrt)->domain, FunctionDomain::NotNegative);
 }
 
+TEST(Dialect, OWordsComeWithAnotherOrderOfOperators) {
+  const Dialect &dialect = dialectNamed("linuxcnc");
+  const auto precedence = [&](OperatorKind op) { return precedenceOf(dialect, op); };
+  EXPECT_GT(precedence(OperatorKind::Power), precedence(OperatorKind::Multiply));
+  EXPECT_EQ(precedence(OperatorKind::Modulo), precedence(OperatorKind::Multiply));
+  EXPECT_GT(precedence(OperatorKind::Equal), precedence(OperatorKind::And));
+  EXPECT_EQ(precedence(OperatorKind::Xor), precedence(OperatorKind::And));
+  EXPECT_EQ(precedenceOf(dialectNamed("fanuc-30i"), OperatorKind::Power), 0);
+}
+
+TEST(Dialect, AParameterIsNoAlarmWhereControlsHaveNone) {
+  EXPECT_TRUE(raisesAlarm(dialectNamed("fanuc-30i"), kAlarmVariable));
+  EXPECT_FALSE(raisesAlarm(dialectNamed("linuxcnc"), kAlarmVariable));
+  EXPECT_EQ(findVariable(dialectNamed("linuxcnc"), 0), nullptr);
+  EXPECT_EQ(findVariable(dialectNamed("linuxcnc"), 5602), nullptr);
+  EXPECT_EQ(findVariable(dialectNamed("linuxcnc"), 5420)->access, VariableAccess::ReadOnly);
+}
+
 TEST(Dialect, AlarmsAreNamedAsTheControlNamesThem) {
   EXPECT_EQ(stopsWith(dialectNamed("fanuc-30i"), AlarmKind::DivideByZero), "stops with PS0112 (divided by zero)");
   EXPECT_EQ(stopsWith(dialectNamed("fanuc-0i"), AlarmKind::DivideByZero), "stops with P/S 112 (divided by zero)");
@@ -192,6 +225,7 @@ TEST(Words, AreSpelledAsInPrograms) {
   EXPECT_EQ(spellingOf(FunctionKind::Sqrt), "SQRT");
   EXPECT_EQ(spellingOf(OperatorKind::LessOrEqual), "LE");
   EXPECT_EQ(spellingOf(ControlWord::Dprnt), "DPRNT");
+  EXPECT_EQ(spellingOf(OWordKind::EndWhile), "ENDWHILE");
 }
 
 } // namespace
