@@ -15,6 +15,7 @@ bool namesProgram(CallKind kind) {
   case CallKind::ModalCancel:
   case CallKind::MacroA:
   case CallKind::Local:
+  case CallKind::OWord:
   case CallKind::Code: return false;
   }
   return false;

@@ -73,6 +73,18 @@ bool leavesForGood(const FileContext &context, BlockId block) {
   return flow == FlowAfter::Jumps || flow == FlowAfter::Ends;
 }
 
+/// An o-word that others of its label lead to; behind `endsub` goes on what passes over the subroutine.
+bool isReachedByOWord(const FileContext &context, BlockId block) {
+  const auto reached = [](const OWordUse &use) {
+    return use.kind != OWordKind::Call && use.kind != OWordKind::Break && use.kind != OWordKind::Continue &&
+           use.kind != OWordKind::Return;
+  };
+  const auto ends = [](const OWordUse &use) { return use.kind == OWordKind::EndSub; };
+  const BlockId before(block.index() == 0 ? 0 : block.index() - 1);
+  return std::ranges::any_of(context.model.oWordsIn(block, block.next()), reached) ||
+         std::ranges::any_of(context.model.oWordsIn(before, block), ends);
+}
+
 /// ELSE and ENDIF are reached from their IF, whatever stands before them.
 bool continuesIf(const FileContext &context, BlockId block) {
   return std::ranges::any_of(context.tree.statementsOf(block), [](const Statement &statement) {
@@ -117,7 +129,8 @@ DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
     // An END is reached from its DO, when that is.
     const auto loop = doOfEnd.find(block.index());
     const bool endsLoop = loop != doOfEnd.end() && !contains(loop->second);
-    if (endsLoop || continuesIf(context, block) || isEntry(context, entries, block)) {
+    if (endsLoop || continuesIf(context, block) || isReachedByOWord(context, block) ||
+        isEntry(context, entries, block)) {
       isDead = false;
       inRun = false;
     } else if (isDead && hasContent(context, block)) {

@@ -37,17 +37,40 @@ bool raisesAlarm(const SyntaxTree &tree, const Statement &statement, const Diale
   return number && raisesAlarm(dialect, *number);
 }
 
+FlowAfter flowOf(OWordKind kind) {
+  switch (kind) {
+  case OWordKind::Call: return FlowAfter::Next;
+  case OWordKind::EndSub: return FlowAfter::Ends;
+  case OWordKind::Return:
+  case OWordKind::Break:
+  case OWordKind::Continue: return FlowAfter::Jumps;
+  case OWordKind::Sub:
+  case OWordKind::If:
+  case OWordKind::ElseIf:
+  case OWordKind::Else:
+  case OWordKind::EndIf:
+  case OWordKind::While:
+  case OWordKind::EndWhile:
+  case OWordKind::Do:
+  case OWordKind::Repeat:
+  case OWordKind::EndRepeat: return FlowAfter::MayJump;
+  }
+  return FlowAfter::MayJump;
+}
+
 FlowAfter flowOfStatement(const SyntaxTree &tree, const Statement &statement, const Dialect &dialect) {
   if (std::holds_alternative<Goto>(statement.node))
     return FlowAfter::Jumps;
   if (raisesAlarm(tree, statement, dialect))
     return FlowAfter::Ends;
-  const bool branches =
-      std::holds_alternative<If>(statement.node) || std::holds_alternative<While>(statement.node) ||
-      std::holds_alternative<End>(statement.node) || std::holds_alternative<Do>(statement.node) ||
-      std::holds_alternative<Else>(statement.node) || std::holds_alternative<ElseIf>(statement.node) ||
-      std::holds_alternative<ConditionalWords>(statement.node) || std::holds_alternative<OWord>(statement.node) ||
-      std::holds_alternative<BrokenStatement>(statement.node);
+  if (const auto *oWord = std::get_if<OWord>(&statement.node))
+    return flowOf(oWord->kind);
+  const bool branches = std::holds_alternative<If>(statement.node) || std::holds_alternative<While>(statement.node) ||
+                        std::holds_alternative<End>(statement.node) || std::holds_alternative<Do>(statement.node) ||
+                        std::holds_alternative<Else>(statement.node) ||
+                        std::holds_alternative<ElseIf>(statement.node) ||
+                        std::holds_alternative<ConditionalWords>(statement.node) ||
+                        std::holds_alternative<BrokenStatement>(statement.node);
   return branches ? FlowAfter::MayJump : FlowAfter::Next;
 }
 

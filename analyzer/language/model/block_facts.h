@@ -17,7 +17,7 @@ const Code *codeOf(const Word &word, const Dialect &dialect);
 
 /// How the control goes on after a block that is not skipped.
 enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
-/// Ends: M02, M30, M99, `#3000=`.  Jumps: an unconditional GOTO.
+/// Ends: M02, M30, M99, `#3000=`, `o100 endsub`.  Jumps: an unconditional GOTO, `break`, `continue`, `return`.
 FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
 
 /// The block only ends or separates: no word, no statement (it may hold comments).

@@ -28,6 +28,8 @@ std::optional<std::uint32_t> numberFromStem(std::string_view stem) {
 
 /// A key under which a program is looked up.
 std::string keyOf(const ProgramName &name) {
+  if (name.isSubroutine)
+    return "o" + name.text;
   return name.number ? "#" + std::to_string(*name.number) : "<" + toUpper(name.text);
 }
 
@@ -37,7 +39,8 @@ bool transfersControl(CallKind kind) {
   case CallKind::Modal:
   case CallKind::ModalEach:
   case CallKind::Subprogram:
-  case CallKind::Code: return true;
+  case CallKind::Code:
+  case CallKind::OWord: return true;
   case CallKind::ModalCancel:
   case CallKind::MacroA:
   case CallKind::Local:
@@ -90,17 +93,20 @@ void CallGraph::Impl::indexPrograms() {
 }
 
 /// The caller's own file first, then its folder, then everywhere; the first in order of the files where there are
-/// several.
+/// several.  A subroutine of o-words is found in the caller's own file or in the one named after it (`name.ngc`).
 std::optional<ProgramRef> CallGraph::Impl::find(FileId from, const ProgramName &name) const {
   const auto found = name.empty() ? byName.end() : byName.find(keyOf(name));
   if (found == byName.end())
     return std::nullopt;
   const std::string &folder = file(from).folder;
   const auto distance = [&](const ProgramRef &ref) {
-    return ref.file == from ? 0 : file(ref.file).folder == folder ? 1 : 2;
+    const bool isInReach = !name.isSubroutine || ref.file == from || comparedName(file(ref.file).stem) == name.text;
+    return !isInReach ? 3 : ref.file == from ? 0 : file(ref.file).folder == folder ? 1 : 2;
   };
-  return *std::min_element(found->second.begin(), found->second.end(),
-                           [&](const ProgramRef &a, const ProgramRef &b) { return distance(a) < distance(b); });
+  const auto nearest =
+      std::min_element(found->second.begin(), found->second.end(),
+                       [&](const ProgramRef &a, const ProgramRef &b) { return distance(a) < distance(b); });
+  return distance(*nearest) < 3 ? std::optional(*nearest) : std::nullopt;
 }
 
 void CallGraph::Impl::indexCalls() {

@@ -100,6 +100,20 @@ Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId 
   return call;
 }
 
+Call readOWordCall(const ResolveContext &context, const ProgramModel &model, BlockId block, const OWord &oWord,
+                   Span span) {
+  Call call{CallKind::OWord, model.programOf(block),
+            block,           context.tree.blocks[block.next()].firstWord,
+            std::nullopt,    {},
+            std::nullopt,    {}};
+  if (!oWord.computed)
+    call.callee = {std::nullopt, labelText(oWord, context.source), true};
+  const auto values = context.tree.argumentsOf(oWord);
+  call.values.assign(values.begin(), values.end());
+  call.span = span;
+  return call;
+}
+
 } // namespace
 
 void findCalls(const ResolveContext &context, ProgramModel &model) {
@@ -109,6 +123,9 @@ void findCalls(const ResolveContext &context, ProgramModel &model) {
     const Block &head = tree.blocks[block];
     if (head.has(Block::kData) || head.has(Block::kLeader) || head.has(Block::kAfterEnd))
       continue;
+    for (const Statement &statement : tree.statementsOf(block))
+      if (const auto *oWord = std::get_if<OWord>(&statement.node); oWord && oWord->kind == OWordKind::Call)
+        model.calls.add(readOWordCall(context, model, block, *oWord, statement.span));
     for (const Word &word : tree.wordsOf(block)) {
       if (word.address() != 'G' && word.address() != 'M' && word.address() != 'T')
         continue;
@@ -195,6 +212,8 @@ std::vector<Argument> assignArguments(const ResolveContext &context, BlockId blo
 namespace {
 
 Span spanOf(const SyntaxTree &tree, const Call &call) {
+  if (call.kind == CallKind::OWord)
+    return call.span;
   const Span code = tree.words[call.code].span();
   return call.programWord && *call.programWord > call.code ? cover(code, tree.words[*call.programWord].span()) : code;
 }

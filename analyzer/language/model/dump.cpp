@@ -1,4 +1,5 @@
 // dump: the model as text, for golden cases.
+#include "base/support/text.h"
 #include "language/model/model.h"
 
 #include <fmt/format.h>
@@ -29,9 +30,12 @@ private:
   void program(ProgramId id) {
     const Program &program = model_.programs[id];
     const std::string name = toString(program.name);
-    out_ += fmt::format("program {} from line {}\n", name.empty() ? "without a name" : name, at(program.first));
+    out_ += fmt::format("program {} from line {}", name.empty() ? "without a name" : name, at(program.first));
+    if (program.within)
+      out_ += fmt::format(" to line {}", at(BlockId(program.last.index() - 1)));
+    out_ += '\n';
     for (const SequenceNumber &each : model_.sequenceNumbers)
-      if (program.contains(each.block))
+      if (model_.programOf(each.block) == id)
         line(fmt::format("N{} line {}", each.number, at(each.block)));
     for (const Jump &each : model_.jumps)
       if (each.program == id)
@@ -43,13 +47,41 @@ private:
     for (const LoneEnd &each : model_.loneEnds)
       if (each.program == id)
         line(fmt::format("end {} line {} without its do", number(each.number), at(each.block)));
+    for (const Construct &each : model_.constructs)
+      if (model_.oWords[each.parts.front()].program == id)
+        construct(each);
+    for (const OWordUse &each : model_.oWords)
+      if (each.program == id)
+        loneOrLeaving(each);
     for (const Call &each : model_.calls)
       if (each.caller == id)
         call(each);
     for (const VariableUse &each : model_.variables)
-      if (program.contains(each.block))
+      if (model_.programOf(each.block) == id)
         line(fmt::format("{} {} line {}", each.write ? "write" : "read", text(tree_.expressions[each.expression].span),
                          at(each.block)));
+  }
+
+  std::string named(const OWordUse &use) const {
+    return fmt::format("o{} {}", use.label.empty() ? "?" : use.label, toLower(spellingOf(use.kind)));
+  }
+
+  void construct(const Construct &construct) {
+    std::string parts;
+    for (const OWordId part : construct.parts)
+      parts += fmt::format("{}{} line {}", parts.empty() ? "" : ", ", named(model_.oWords[part]),
+                           at(model_.oWords[part].block));
+    line(parts + (construct.closed ? "" : ", not closed"));
+  }
+
+  void loneOrLeaving(const OWordUse &use) {
+    const bool leaves =
+        use.kind == OWordKind::Break || use.kind == OWordKind::Continue || use.kind == OWordKind::Return;
+    if (!use.construct && use.kind != OWordKind::Call)
+      line(fmt::format("{} line {} without its partner", named(use), at(use.block)));
+    else if (leaves)
+      line(fmt::format("{} line {} of line {}", named(use), at(use.block),
+                       at(model_.oWords[model_.constructs[*use.construct].parts.front()].block)));
   }
 
   void jump(const Jump &jump) {
@@ -63,9 +95,9 @@ private:
   }
 
   void call(const Call &call) {
-    constexpr std::string_view kKinds[] = {"macro-call",   "modal-call",    "modal-call-each",
-                                           "modal-cancel", "macro-a",       "subprogram-call",
-                                           "local-call",   "external-call", "code-call"};
+    constexpr std::string_view kKinds[] = {"macro-call", "modal-call",      "modal-call-each", "modal-cancel",
+                                           "macro-a",    "subprogram-call", "local-call",      "external-call",
+                                           "code-call",  "o-word-call"};
     constexpr std::string_view kRoles[] = {"", " overridden", " forbidden", " beyond-sets"};
     const std::string name = toString(call.callee);
     line(fmt::format("{} {} line {}{}", kKinds[static_cast<std::size_t>(call.kind)],
@@ -75,6 +107,8 @@ private:
       line(fmt::format("  {} -> {}{}", text(tree_.words[argument.word].span()),
                        argument.variable ? fmt::format("#{}", argument.variable) : "nothing",
                        kRoles[static_cast<std::size_t>(argument.role)]));
+    for (std::size_t i = 0; i < call.values.size(); ++i)
+      line(fmt::format("  {} -> #{}", text(tree_.expressions[call.values[i]].span), i + 1));
   }
 
   const ProgramModel &model_;

@@ -11,6 +11,8 @@ struct ResolveContext {
   const Dialect &dialect;
 };
 
+/// Pairs the o-words; OWordUse::program is filled in by findPrograms.
+void findOWords(const ResolveContext &context, ProgramModel &model);
 void findPrograms(const ResolveContext &context, ProgramModel &model);
 void findSequenceNumbers(const ResolveContext &context, ProgramModel &model);
 void findLoops(const ResolveContext &context, ProgramModel &model);

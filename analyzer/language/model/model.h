@@ -14,11 +14,14 @@ namespace feedhold {
 
 using ProgramId = Id<struct ProgramTag>;
 using CallId = Id<struct CallTag>;
+using OWordId = Id<struct OWordTag>;
+using ConstructId = Id<struct ConstructTag>;
 
-/// `O1000`, or `<NAME>` where programs have names; neither for a file that starts without one.
+/// `O1000`, `<NAME>` where programs have names, or the label of `o<name> sub`; none for a file that starts without one.
 struct ProgramName {
   std::optional<std::uint32_t> number;
-  std::string text; // of `<NAME>`
+  std::string text;          // of `<NAME>`; the label of a subroutine (labelText)
+  bool isSubroutine = false; // called by o-words, not by `M98 P`
   bool empty() const { return !number && text.empty(); }
   friend bool operator==(const ProgramName &, const ProgramName &) = default;
 };
@@ -29,7 +32,9 @@ struct Program {
   Span header;          // the O word, or the first block's span
   BlockId first;        // blocks from here ..
   BlockId last;         // .. up to, not including, this one
-  bool returns = false; // an M99 stands in it
+  bool returns = false; // an M99 stands in it, or it is a subroutine of o-words
+  /// Of a subroutine from `o100 sub` up to its `endsub`: the program in whose text it stands, and which passes over it.
+  std::optional<ProgramId> within = {};
   bool contains(BlockId block) const { return first <= block && block < last; }
 };
 
@@ -77,6 +82,25 @@ struct LoneEnd {
   StatementId statement;
 };
 
+/// An o-word statement.
+struct OWordUse {
+  OWordKind kind;
+  ProgramId program; // `sub` and `endsub` belong to their subroutine
+  BlockId block;
+  StatementId statement;
+  std::string label; // labelText; empty when computed
+  /// Of if .. endif, while, do, repeat, sub: the construct of which it is a part.  Of `break`, `continue`: the loop; of
+  /// `return`: the subroutine.  Absent for `call`, and for a statement that finds no partner.
+  std::optional<ConstructId> construct;
+};
+/// The o-words of one label that belong together: `if` with its `elseif`, `else` and `endif`; `while` and `endwhile`;
+/// `do` and `while`; `repeat` and `endrepeat`; `sub` and `endsub`.
+struct Construct {
+  OWordKind kind;             // If, While, Do, Repeat, Sub
+  std::vector<OWordId> parts; // in order of the text, the head first
+  bool closed = false;        // the last part is its end
+};
+
 enum class CallKind : std::uint8_t {
   Macro,       // G65
   Modal,       // G66
@@ -87,6 +111,7 @@ enum class CallKind : std::uint8_t {
   Local,       // M97
   External,    // M198
   Code,        // a G, M or T code of the machine's tables
+  OWord,       // o100 call [1] [2]
 };
 enum class ArgumentRole : std::uint8_t { Passed, Overridden, Forbidden, BeyondSets };
 struct Argument {
@@ -99,13 +124,14 @@ struct Call {
   CallKind kind;
   ProgramId caller;
   BlockId block;
-  WordId code;                          // the G65, M98 .. word
-  std::optional<WordId> programWord;    // P, or the <NAME>
-  ProgramName callee;                   // empty when computed or missing
-  std::optional<std::uint32_t> repeats; // L, when a literal
-  std::vector<Argument> arguments;      // word by word, as written
-  Span span = {};                       // the code and the program that it names
-  bool isLast = false;                  // behind it only the end of the calling program
+  WordId code;                           // the G65, M98 .. word; of an o-word call, the first word behind the block
+  std::optional<WordId> programWord;     // P, or the <NAME>
+  ProgramName callee;                    // empty when computed or missing
+  std::optional<std::uint32_t> repeats;  // L, when a literal
+  std::vector<Argument> arguments;       // word by word, as written
+  Span span = {};                        // the code and the program that it names
+  bool isLast = false;                   // behind it only the end of the calling program
+  std::vector<ExpressionId> values = {}; // of an o-word call: #1, #2 ..
 };
 
 struct VariableUse {
@@ -122,6 +148,8 @@ public:
   std::vector<Jump> jumps;
   std::vector<Loop> loops; // by place of the DO
   std::vector<LoneEnd> loneEnds;
+  Store<OWordUse, OWordId> oWords;          // in order of the text
+  Store<Construct, ConstructId> constructs; // by place of their heads
   Store<Call, CallId> calls;
   std::vector<VariableUse> variables;
   /// Indices into sequenceNumbers, by number and then by place.
@@ -130,6 +158,7 @@ public:
   /// Sequence numbers behind the closing `%`, which no jump finds; sorted.
   std::vector<std::uint32_t> numbersBehindEnd;
 
+  /// The innermost one.
   ProgramId programOf(BlockId block) const;
   bool isBehindEnd(std::uint32_t number) const;
   // What lies in the blocks from `first` up to, not including, `last`, in order of the text.
@@ -137,9 +166,10 @@ public:
   std::span<const Jump> jumpsIn(BlockId first, BlockId last) const;
   std::span<const Loop> loopsIn(BlockId first, BlockId last) const; // by their DO
   std::span<const LoneEnd> loneEndsIn(BlockId first, BlockId last) const;
+  std::span<const OWordUse> oWordsIn(BlockId first, BlockId last) const;
   std::span<const Call> callsIn(BlockId first, BlockId last) const;
   std::span<const VariableUse> variablesIn(BlockId first, BlockId last) const;
-  // The same for the blocks of one program.
+  // The same for the blocks of one program, those of the subroutines in its text included.
   std::span<const SequenceNumber> sequenceNumbersOf(ProgramId program) const;
   std::span<const Jump> jumpsOf(ProgramId program) const;
   std::span<const Loop> loopsOf(ProgramId program) const;

@@ -10,6 +10,8 @@ namespace feedhold {
 std::string toString(const ProgramName &name) {
   if (name.number)
     return "O" + std::to_string(*name.number);
+  if (name.isSubroutine)
+    return std::all_of(name.text.begin(), name.text.end(), isDigit) ? "o" + name.text : "o<" + name.text + ">";
   return name.text.empty() ? "" : "<" + name.text + ">";
 }
 
@@ -41,26 +43,71 @@ bool isRead(const Block &block) { return !block.has(Block::kLeader) && !block.ha
 
 } // namespace
 
-void findPrograms(const ResolveContext &context, ProgramModel &model) {
-  const SyntaxTree &tree = context.tree;
-  const auto closeLast = [&](BlockId at) {
-    if (!model.programs.empty())
-      model.programs[ProgramId(model.programs.size() - 1)].last = at;
-  };
-  for (std::size_t i = 0; i < tree.blockCount(); ++i) {
-    const BlockId id(i);
-    const Block &block = tree.blocks[id];
-    const Word *header = isRead(block) ? headerOf(context, id) : nullptr;
-    const bool nameless = model.programs.empty() && isRead(block) && !block.has(Block::kPercent) && !isEmpty(tree, id);
-    if (!header && !nameless)
-      continue;
-    closeLast(id);
-    model.programs.add({header ? nameFrom(context, *header) : ProgramName{}, header ? header->span() : block.span(), id,
-                        BlockId(tree.blockCount())});
+namespace {
+
+/// The programs of a file one after another, and the subroutines in their text.
+class ProgramFinder {
+public:
+  ProgramFinder(const ResolveContext &context, ProgramModel &model) : context_(context), model_(model) {}
+
+  void run() {
+    const SyntaxTree &tree = context_.tree;
+    for (std::size_t i = 0; i < tree.blockCount(); ++i) {
+      const BlockId id(i);
+      const Block &block = tree.blocks[id];
+      const Word *header = isRead(block) ? headerOf(context_, id) : nullptr;
+      const bool nameless = !outer_ && isRead(block) && !block.has(Block::kPercent) && !isEmpty(tree, id);
+      if (header || nameless)
+        addProgram(header ? nameFrom(context_, *header) : ProgramName{}, header ? header->span() : block.span(), id);
+      while (next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id)
+        place(model_.oWords[OWordId(next_++)], id);
+    }
+    if (model_.programs.empty())
+      model_.programs.add({{}, {0, 0}, BlockId(0), BlockId(tree.blockCount())});
   }
-  if (model.programs.empty())
-    model.programs.add({{}, {0, 0}, BlockId(0), BlockId(tree.blockCount())});
-}
+
+private:
+  void addProgram(ProgramName name, Span header, BlockId first) {
+    for (const auto open : {outer_, subroutine_})
+      if (open)
+        model_.programs[*open].last = first;
+    subroutine_.reset();
+    outer_ = model_.programs.add({std::move(name), header, first, BlockId(context_.tree.blockCount())});
+  }
+
+  /// A subroutine without its `endsub` runs to the end of the program around it.
+  void place(OWordUse &use, BlockId block) {
+    if (use.kind == OWordKind::Sub && use.construct) {
+      endSubroutine(block);
+      Program program{{std::nullopt, use.label, true},
+                      context_.tree.statements[use.statement].span,
+                      block,
+                      BlockId(context_.tree.blockCount()),
+                      true,
+                      outer_};
+      subroutine_ = model_.programs.add(std::move(program));
+    }
+    use.program = subroutine_ ? *subroutine_ : *outer_;
+    if (use.kind == OWordKind::EndSub)
+      endSubroutine(block.next());
+  }
+
+  void endSubroutine(BlockId last) {
+    if (subroutine_)
+      model_.programs[*subroutine_].last = last;
+    subroutine_.reset();
+  }
+
+  const ResolveContext &context_;
+  ProgramModel &model_;
+  std::size_t next_ = 0; // in model_.oWords
+  std::optional<ProgramId> outer_;
+  std::optional<ProgramId> subroutine_;
+};
+
+} // namespace
+
+void findPrograms(const ResolveContext &context, ProgramModel &model) { ProgramFinder(context, model).run(); }
 
 void findSequenceNumbers(const ResolveContext &context, ProgramModel &model) {
   const SyntaxTree &tree = context.tree;
@@ -90,7 +137,9 @@ ProgramId ProgramModel::programOf(BlockId block) const {
   const auto behind = std::upper_bound(programs.begin(), programs.end(), block,
                                        [](BlockId at, const Program &program) { return at < program.first; });
   const auto index = static_cast<std::size_t>(behind - programs.begin());
-  return ProgramId(index == 0 ? 0 : index - 1);
+  const ProgramId found(index == 0 ? 0 : index - 1);
+  const Program &program = programs[found];
+  return program.within && block >= program.last ? *program.within : found;
 }
 
 std::vector<std::uint32_t>::const_iterator ProgramModel::firstAtOrBehind(std::uint32_t number, BlockId block) const {

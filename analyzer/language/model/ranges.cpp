@@ -33,6 +33,10 @@ std::span<const LoneEnd> ProgramModel::loneEndsIn(BlockId first, BlockId last) c
   return between<LoneEnd>(loneEnds, &LoneEnd::block, first, last);
 }
 
+std::span<const OWordUse> ProgramModel::oWordsIn(BlockId first, BlockId last) const {
+  return between<OWordUse>(oWords.slice(OWordId(0), OWordId(oWords.size())), &OWordUse::block, first, last);
+}
+
 std::span<const Call> ProgramModel::callsIn(BlockId first, BlockId last) const {
   return between<Call>(calls.slice(CallId(0), CallId(calls.size())), &Call::block, first, last);
 }

@@ -69,6 +69,8 @@ void findVariableUses(const ResolveContext &context, ProgramModel &model) { Vari
 ProgramModel resolve(const SourceFile &source, const SyntaxTree &tree, const Dialect &dialect) {
   const ResolveContext context{source, tree, dialect};
   ProgramModel model;
+  if (dialect.grammar.oWords)
+    findOWords(context, model);
   findPrograms(context, model);
   findSequenceNumbers(context, model);
   model.byNumber = sortedByNumber(model.sequenceNumbers);
