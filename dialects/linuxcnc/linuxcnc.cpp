@@ -95,11 +95,13 @@ Grammar grammar() {
   Grammar grammar;
   grammar.conditionMayBeAnyValue = true;
   grammar.sequenceZero = true;
+  grammar.sequenceJumps = false;
+  grammar.percentEndsProgram = true;
   grammar.macroWithWords = true;
   grammar.oWords = true;
   grammar.namedParameters = true;
   grammar.semicolonComment = true;
-  grammar.doubleHash = true;
+  grammar.anyIndex = true;
   grammar.doubleStar = true;
   grammar.smallLetters = true;
   grammar.shortForms = false;

@@ -40,6 +40,8 @@ std::vector<Repeated> repeatedNumbers(ProgramId program, const FileContext &cont
 
 /// One finding for the program: numbers that start anew at each tool would give thousands.
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (!context.dialect.grammar.sequenceJumps)
+    return;
   const auto repeated = repeatedNumbers(program, context);
   if (repeated.empty())
     return;

@@ -27,7 +27,9 @@ void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileConte
        .span = end.span(),
        .labels = {{call.span, "called here", caller.file}},
        .notes = {"what the caller does behind the call is lost: restored modes, retracts, counters",
-                 "return with M99; raise an alarm by `#3000=` where the job must stop"}});
+                 call.kind == CallKind::OWord
+                     ? "a subroutine returns at its `endsub`"
+                     : "return with M99; raise an alarm by `#3000=` where the job must stop"}});
 }
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
@@ -35,12 +37,14 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   if (!caller)
     return;
   const Program &program = context.model.programs[id];
+  const BranchBlocks branches(context.model);
   std::optional<DeadBlocks> dead;
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     const Word *end = isRead(context.tree.blocks[block])
                           ? findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd)
                           : nullptr;
-    if (!end)
+    // Under an `if` of o-words it is the way to stop the job, as `#3000=` elsewhere.
+    if (!end || branches.contains(block))
       continue;
     if (!dead)
       dead.emplace(context, id);

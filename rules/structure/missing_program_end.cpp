@@ -8,12 +8,19 @@
 namespace feedhold::rules {
 namespace {
 
+bool isClosedByPercent(const FileContext &context, BlockId last) {
+  for (BlockId block = last.next(); block.index() < context.tree.blockCount(); block = block.next())
+    if (context.tree.blocks[block].has(Block::kPercent))
+      return true;
+  return false;
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
   if (!isNamed(program))
     return;
   const auto last = openEnd(context, id);
-  if (!last)
+  if (!last || (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)))
     return;
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
   reporter.report({.message = fmt::format("`{}` can run past its last block", toString(program.name)),

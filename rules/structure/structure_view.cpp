@@ -171,6 +171,20 @@ std::optional<BlockId> openEnd(const FileContext &context, ProgramId id) {
   return endless || callEnds ? std::nullopt : last;
 }
 
+BranchBlocks::BranchBlocks(const ProgramModel &model) {
+  for (const Construct &construct : model.constructs)
+    if (construct.kind == OWordKind::If && construct.closed) {
+      const BlockId end = model.oWords[construct.parts.back()].block;
+      reach_.emplace_back(model.oWords[construct.parts.front()].block,
+                          reach_.empty() ? end : std::max(reach_.back().second, end));
+    }
+}
+
+bool BranchBlocks::contains(BlockId block) const {
+  const auto behind = std::ranges::lower_bound(reach_, block, {}, &std::pair<BlockId, BlockId>::first);
+  return behind != reach_.begin() && block < std::prev(behind)->second;
+}
+
 bool isInside(const Loop &loop, BlockId block) {
   return loop.endBlock && loop.doBlock < block && block <= *loop.endBlock;
 }

@@ -55,6 +55,17 @@ private:
   std::vector<std::size_t> outer_; // for each loop the last one around its DO
 };
 
+/// Blocks between an `o100 if` and its `endif`, of one file.
+class BranchBlocks {
+public:
+  explicit BranchBlocks(const ProgramModel &model);
+  bool contains(BlockId block) const;
+
+private:
+  /// The head of each branch, and the farthest end of it and those before it.
+  std::vector<std::pair<BlockId, BlockId>> reach_;
+};
+
 /// A DO that follows a WHILE.
 bool hasCondition(const FileContext &context, const Loop &loop);
 

@@ -31,7 +31,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
     const auto start = firstUnintended(run, context);
-    if (!start)
+    if (!start || context.model.programOf(*start) != program)
       continue;
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
     const std::uint32_t last = context.source.lineOf(context.tree.blocks[run.last].begin);

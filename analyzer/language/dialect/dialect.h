@@ -280,13 +280,15 @@ struct Grammar {
   bool wordMayBeUnbracketed = false;   // `X#1+10`
   bool conditionalReturn = false;      // `[#1 LT 10] M99 P10`
   bool sequenceZero = false;           // N0 is a label
+  bool sequenceJumps = true;           // N is what jumps look for
+  bool percentEndsProgram = false;     // `%` ends a main program as M02 does
   bool macroWithWords = false;         // NC words and macro statements in one block
   bool fractionalVariable = false;     // `#30057.21`: a bit of a setting
   bool doNumberMayRepeatNested = false;
   bool oWords = false;                 // `o100 if [..]`, `o<name> call [1]`; control words without a label do not exist
   bool namedParameters = false;        // `#<name>`
   bool semicolonComment = false;       // `;` begins a comment that ends with the line
-  bool doubleHash = false;             // `##2`
+  bool anyIndex = false;               // `##2`, `#abs[#1]`: any value may stand behind `#`
   bool doubleStar = false;             // `**` raises to a power
   bool smallLetters = false;           // lower case is as good as upper case
   bool shortForms = true;              // `WH`, `GO`: two letters for a control word, a function or an operator
@@ -314,6 +316,7 @@ struct Behaviour {
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
   double equalTolerance = 0;          // EQ, NE, GE, LE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end
+  double peckClearance = 0.254;       // mm: how far above the last depth a peck begins (a parameter of most controls)
   Decimal leastIncrementMetric{1, 3}; // mm and degrees
   Decimal leastIncrementInch{1, 4};
 };

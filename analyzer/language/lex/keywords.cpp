@@ -118,15 +118,15 @@ KeywordMatch matchKeyword(std::string_view run, char next) {
   return {};
 }
 
-KeywordMatch matchOWord(std::string_view run) {
+std::optional<OWordKind> findOWord(std::string_view run) {
   static constexpr std::string_view kSpellings[] = {
 #define O_WORD(kind, spelling) spelling,
 #include "language/dialect/o_words.def"
   };
   for (std::size_t i = 0; i < std::size(kSpellings); ++i)
     if (run.size() == kSpellings[i].size() && startsWith(run, kSpellings[i]))
-      return {TokenKind::OWord, asByte(i), asByte(run.size()), false};
-  return {};
+      return static_cast<OWordKind>(i);
+  return std::nullopt;
 }
 
 } // namespace feedhold

@@ -3,6 +3,7 @@
 
 #include "language/lex/token.h"
 
+#include <optional>
 #include <string_view>
 
 namespace feedhold {
@@ -20,6 +21,6 @@ struct KeywordMatch {
 KeywordMatch matchKeyword(std::string_view run, char next);
 
 /// `sub`, `endif`: the o-word that the whole run is.
-KeywordMatch matchOWord(std::string_view run);
+std::optional<OWordKind> findOWord(std::string_view run);
 
 } // namespace feedhold

@@ -59,6 +59,7 @@ bool startsValue(char c) { return classOf(c) == ByteClass::Digit || c == '#' || 
 
 /// No keyword is longer; a longer run need not be read to its end to find one.
 constexpr std::uint32_t kLongestKeywordRun = 24;
+constexpr std::size_t kLongestOWord = 9; // ENDREPEAT
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -130,9 +131,10 @@ Token Lexer::letters(std::uint32_t begin) {
   const std::uint32_t end = afterLetters(begin, begin + kLongestKeywordRun);
   const std::uint32_t behind = afterBlanks(end);
   const std::string_view run = text_.substr(begin, end - begin);
-  KeywordMatch match = grammar_->oWords ? matchOWord(run) : KeywordMatch{};
-  if (match.kind == TokenKind::Other)
-    match = matchKeyword(run, at(behind));
+  if (grammar_->oWords)
+    if (const Token word = oWord(begin); word.kind == TokenKind::OWord)
+      return word;
+  KeywordMatch match = matchKeyword(run, at(behind));
   if (match.abbreviated && !grammar_->shortForms)
     match = {};
   // `GO TO 10`: the only keyword that people write in two.
@@ -148,6 +150,23 @@ Token Lexer::letters(std::uint32_t begin) {
   const KeywordMatch inside = matchKeyword(run.substr(1), at(behind));
   const bool valueIsFunction = inside.kind == TokenKind::Function && inside.length + 1u == run.size();
   return run.size() < 3 || valueIsFunction ? address() : make(TokenKind::Other, begin, afterLetters(end, size()));
+}
+
+/// `endsub`, `end sub`, `W H I L E`: the control takes out blanks before it reads.  All letters up to the next other
+/// sign are the o-word, or it is none.
+Token Lexer::oWord(std::uint32_t begin) {
+  std::string letters;
+  std::uint32_t end = begin;
+  for (std::uint32_t i = begin; isLetter(at(i)) && letters.size() <= kLongestOWord; i = afterBlanks(i + 1)) {
+    letters += text_[i];
+    end = i + 1;
+  }
+  const std::optional<OWordKind> kind = findOWord(letters);
+  if (!kind)
+    return {begin, end, TokenKind::Other, 0, false};
+  Token token = make(TokenKind::OWord, begin, end);
+  token.detail = static_cast<std::uint8_t>(*kind);
+  return token;
 }
 
 /// Digits and points; blanks inside belong to the number, because two numbers never stand side by side.

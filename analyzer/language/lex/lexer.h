@@ -45,6 +45,7 @@ public:
 
 private:
   Token letters(std::uint32_t begin);
+  Token oWord(std::uint32_t begin);
   Token number(std::uint32_t begin);
   Token comment(std::uint32_t begin);
   Token star(std::uint32_t begin);

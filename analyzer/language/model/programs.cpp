@@ -33,7 +33,8 @@ const Word *headerOf(const ResolveContext &context, BlockId block) {
 ProgramName nameFrom(const ResolveContext &context, const Word &word) {
   if (word.form() == WordForm::Name) {
     const std::string_view text = context.source.text(word.span());
-    return {std::nullopt, std::string(text.substr(1, text.size() - 2))};
+    const std::size_t open = text.find('<') + 1;
+    return {std::nullopt, std::string(text.substr(open, text.size() - open - 1))};
   }
   return {word.integer(), ""};
 }

@@ -47,6 +47,8 @@ private:
 
   void add(ExpressionId id, BlockId block) {
     const auto &node = tree_.expressions[id].node;
+    if (const auto *call = std::get_if<FunctionCall>(&node); call && call->function == FunctionKind::Exists)
+      dropArgument(*call);
     const bool isVariable = std::holds_alternative<NumberedVariable>(node) ||
                             std::holds_alternative<IndirectVariable>(node) ||
                             std::holds_alternative<NamedVariable>(node);
@@ -54,6 +56,13 @@ private:
       return;
     const bool written = std::find(targets_.begin(), targets_.end(), id.index()) != targets_.end();
     model_.variables.push_back({id, variableNumber(tree_, id), block, written});
+  }
+
+  /// `EXISTS[#<x>]` asks for the name, and does not read the variable; its operand stands just before it.
+  void dropArgument(const FunctionCall &call) {
+    const ExpressionId argument = unwrapped(tree_, call.arguments().front());
+    if (!model_.variables.empty() && model_.variables.back().expression == argument)
+      model_.variables.pop_back();
   }
 
   const SyntaxTree &tree_;

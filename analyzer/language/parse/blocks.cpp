@@ -105,7 +105,7 @@ void Parser::readItem() {
   }
 }
 
-/// `X12.5`, `:1000` (an O word), `M`.
+/// `X12.5`, `:1000` (an O word), `M`, `O<name>`.
 void Parser::readWord() {
   const Token head = token_;
   const char address = head.kind == TokenKind::Colon ? 'O' : head.letter();
@@ -113,6 +113,12 @@ void Parser::readWord() {
     extend(lowerCase_, head.span());
   headOfBlock_ = headOfBlock_ && address == 'N';
   advanceToValue();
+  if (grammar_.oWords && address == 'O' && at(TokenKind::Name)) {
+    const Span span{head.begin, token_.end};
+    advance();
+    tree_.words.add(Word('O', WordForm::Name, span, wordFlags_));
+    return;
+  }
   readWordValue(address, head.begin, wordFlags_);
 }
 

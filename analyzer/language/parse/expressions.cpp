@@ -223,9 +223,9 @@ ExpressionId Parser::variable() {
   }
   if (at(TokenKind::OpenBracket) && startsName(token_.end))
     return namedVariable(hash.begin, token_.end);
-  if (at(TokenKind::Hash) && !grammar_.doubleHash)
+  if (at(TokenKind::Hash) && !grammar_.anyIndex)
     issue(SyntaxIssueKind::DoubleHash, {hash.begin, token_.end}, {}, Broken::No);
-  else if (!at(TokenKind::OpenBracket) && !at(TokenKind::Hash))
+  else if (!at(TokenKind::OpenBracket) && !(grammar_.anyIndex ? startsOperand(token_) : at(TokenKind::Hash)))
     return brokenOperand();
   const ExpressionId index = operand();
   return addExpression(hash.begin, IndirectVariable{index});

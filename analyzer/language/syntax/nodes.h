@@ -24,7 +24,7 @@ using ExpressionId = Id<struct ExpressionTag>;
 enum class WordForm : std::uint8_t {
   Number,     // X12.5 X-3
   Expression, // X#1 X-[#2+1]
-  Name,       // <NAME> after O, M98, G65
+  Name,       // <NAME> after M98, G65; O<name>
   Missing,    // X alone
   Broken,     // X1.2.3: the text says more than a number
 };
