@@ -1,0 +1,221 @@
+#include "meaning/machine/concrete_reading.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace feedhold {
+
+namespace {
+
+constexpr double kLargestInteger = 9.0e15; // beyond it doubles have no fraction, and fewer than all integers
+
+// The interpreter of LinuxCNC computes angles in long double; doing so too makes both agree to the last bit.
+constexpr long double kDegree = std::numbers::pi_v<long double> / 180;
+
+/// Exact at the multiples of 90 degrees, where a program compares with 0 and 1.
+double sineOfDegrees(double angle) {
+  const double quarter = angle / 90;
+  if (std::floor(quarter) == quarter && std::fabs(quarter) < kLargestInteger) {
+    constexpr std::array kSines = {0.0, 1.0, 0.0, -1.0};
+    const double rest = quarter - 4 * std::floor(quarter / 4);
+    return kSines[static_cast<std::size_t>(rest)];
+  }
+  return static_cast<double>(std::sin(static_cast<long double>(angle) * kDegree));
+}
+
+double cosineOfDegrees(double angle) {
+  const double quarter = angle / 90;
+  if (std::floor(quarter) == quarter && std::fabs(quarter) < kLargestInteger)
+    return sineOfDegrees(angle + 90);
+  return static_cast<double>(std::cos(static_cast<long double>(angle) * kDegree));
+}
+
+double degrees(long double radians) { return static_cast<double>(radians / kDegree); }
+
+/// BCD: each group of four bits is a decimal digit.
+double binaryOfBcd(double value) {
+  auto digits = static_cast<std::uint64_t>(std::fabs(value));
+  double result = 0;
+  for (double weight = 1; digits != 0; digits >>= 4, weight *= 10)
+    result += weight * static_cast<double>(digits & 15U);
+  return result;
+}
+
+double bcdOfBinary(double value) {
+  auto rest = static_cast<std::uint64_t>(std::fabs(value));
+  double result = 0;
+  for (double weight = 1; rest != 0; rest /= 10, weight *= 16)
+    result += weight * static_cast<double>(rest % 10);
+  return result;
+}
+
+double valueOf(FunctionKind kind, double x) {
+  switch (kind) {
+  case FunctionKind::Sin:
+    return sineOfDegrees(x);
+  case FunctionKind::Cos:
+    return cosineOfDegrees(x);
+  case FunctionKind::Tan:
+    return static_cast<double>(std::tan(static_cast<long double>(x) * kDegree));
+  case FunctionKind::Asin:
+    return degrees(std::asin(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
+  case FunctionKind::Acos:
+    return degrees(std::acos(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
+  case FunctionKind::Sqrt:
+    return x < 0 ? 0 : std::sqrt(x);
+  case FunctionKind::Abs:
+    return std::fabs(x);
+  case FunctionKind::Ln:
+    return x <= 0 ? 0 : std::log(x);
+  case FunctionKind::Exp:
+    return std::exp(x);
+  case FunctionKind::Bin:
+    return binaryOfBcd(x);
+  case FunctionKind::Bcd:
+    return bcdOfBinary(x);
+  case FunctionKind::Atan: // the others are not functions of one number; the semantics has its own words for them
+  case FunctionKind::Round:
+  case FunctionKind::Fix:
+  case FunctionKind::Fup:
+  case FunctionKind::Pow:
+  case FunctionKind::Adp:
+  case FunctionKind::Prm:
+  case FunctionKind::Ax:
+  case FunctionKind::AxNumber:
+  case FunctionKind::Exists:
+    break;
+  }
+  return 0;
+}
+
+} // namespace
+
+std::optional<double> ConcreteReading::constantOf(const Value &value) const {
+  if (value.vacant || !std::isfinite(value.number))
+    return std::nullopt;
+  return value.number;
+}
+
+ConcreteValue ConcreteReading::remainder(const Value &a, const Value &b) const {
+  return Value::of(b.number == 0 ? 0 : std::fmod(a.number, b.number));
+}
+ConcreteValue ConcreteReading::fix(const Value &a) const { return Value::of(std::trunc(a.number)); }
+ConcreteValue ConcreteReading::fup(const Value &a) const {
+  return Value::of(a.number < 0 ? std::floor(a.number) : std::ceil(a.number));
+}
+ConcreteValue ConcreteReading::floor(const Value &a) const { return Value::of(std::floor(a.number)); }
+ConcreteValue ConcreteReading::ceiling(const Value &a) const { return Value::of(std::ceil(a.number)); }
+
+ConcreteValue ConcreteReading::roundTo(const Value &value, Decimal step) const {
+  const double size = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
+  const double steps = value.number * size;
+  if (!(std::fabs(steps) < kLargestInteger))
+    return asNumber(value);
+  return Value::of(std::round(steps) / size);
+}
+
+ConcreteValue ConcreteReading::function(FunctionKind kind, const Value &argument) const {
+  return Value::of(valueOf(kind, argument.number));
+}
+ConcreteValue ConcreteReading::atan2(const Value &y, const Value &x) const {
+  return Value::of(degrees(std::atan2(static_cast<long double>(y.number), static_cast<long double>(x.number))));
+}
+ConcreteValue ConcreteReading::power(const Value &base, const Value &exponent) const {
+  const double result = std::pow(base.number, exponent.number);
+  return Value::of(std::isnan(result) ? 0 : result);
+}
+ConcreteValue ConcreteReading::bitwise(OperatorKind op, const Value &a, const Value &b) const {
+  if (std::fabs(a.number) > kLargestInteger || std::fabs(b.number) > kLargestInteger)
+    return Value::of(0);
+  const auto left = static_cast<std::int64_t>(a.number);
+  const auto right = static_cast<std::int64_t>(b.number);
+  if (op == OperatorKind::And)
+    return Value::of(static_cast<double>(left & right));
+  return Value::of(static_cast<double>(op == OperatorKind::Or ? left | right : left ^ right));
+}
+
+bool ConcreteReading::compare(Relation relation, const Value &a, const Value &b) const {
+  switch (relation) {
+  case Relation::Equal:
+    return a.number == b.number;
+  case Relation::NotEqual:
+    return a.number != b.number;
+  case Relation::Greater:
+    return a.number > b.number;
+  case Relation::GreaterOrEqual:
+    return a.number >= b.number;
+  case Relation::Less:
+    return a.number < b.number;
+  case Relation::LessOrEqual:
+    return a.number <= b.number;
+  }
+  return false;
+}
+
+ConcreteValue ConcreteReading::numberOfCode(ModalCode code, const ModalGroup &group) const {
+  return Value::of(code < group.codes.size() ? group.codes[code]->tenths / 10.0 : 0);
+}
+
+ConcreteValue ConcreteReading::given(std::uint32_t variable) const {
+  if (const Value *value = given_.find(variable))
+    return *value;
+  if (variable >= kFirstNamedVariable)
+    return {};
+  const VariableRange *range = findVariable(*dialect_, variable);
+  return range && range->kind == VariableKind::System ? Value::of(0) : Value{};
+}
+
+ConcreteValue ConcreteReading::volatileRead(std::uint32_t variable) {
+  sawVolatile_ = true;
+  return asNumber(given(variable));
+}
+
+/// The offset tables are the operator's: without one the tool has no length.
+ConcreteValue ConcreteReading::toolLength(State &state, const Value &number) const {
+  (void)state;
+  (void)number;
+  return Value::of(0);
+}
+
+void ConcreteReading::alarm(bool truth, AlarmReport report) {
+  if (truth && stopped_.kind == Stop::None)
+    stopped_ = {Stop::ControlAlarm, report.kind, 0, report.place};
+}
+
+void ConcreteReading::userAlarm(const Value &number, Span place) {
+  if (stopped_.kind == Stop::None)
+    stopped_ = {Stop::UserAlarm, {}, number.number, place};
+}
+
+void ConcreteReading::move(const Move<Value> &move) {
+  if (stopped_.kind == Stop::None)
+    moves_.push_back(move);
+}
+
+MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
+                                         const std::array<double, kAxisCount> &start) {
+  MachineState<ConcreteReading> state;
+  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+    state.locals[local] = reading.given(local);
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    state.codes[group] = modes.powerOn(group).value_or(ConcreteReading::kNoCode);
+  const ConcreteValue zero = ConcreteValue::of(0);
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    state.position[axis] = ConcreteValue::of(start[axis]);
+  state.words.fill({});
+  state.shift.fill(zero);
+  state.local.fill(zero);
+  state.lengthOffset = zero;
+  state.cycle = {};
+  state.transform.scale.fill(ConcreteValue::of(1));
+  state.transform.scaleCentre.fill(zero);
+  state.transform.mirrorAt.fill({});
+  state.transform.angle = zero;
+  state.transform.centre.fill(zero);
+  state.transformed = false;
+  state.spindle = 0;
+  state.modalCallsUnknown = false;
+  return state;
+}
+
+} // namespace feedhold

@@ -1,0 +1,136 @@
+// ConcreteReading: programs read with the numbers of one run, in doubles.
+#pragma once
+
+#include "meaning/semantics/step.h"
+
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+struct ConcreteValue {
+  bool vacant = true;
+  double number = 0;
+  static ConcreteValue of(double number) { return {false, number}; }
+  friend bool operator==(const ConcreteValue &, const ConcreteValue &) = default;
+};
+
+/// What a run starts from and what it reads from outside: by number; others are vacant, or 0 for cells of the control.
+using GivenVariables = VariableMap<ConcreteValue>;
+
+/// Something that was not followed, and where.
+struct MachineNote {
+  std::string_view reason;
+  BlockId block;
+};
+
+class ConcreteReading {
+public:
+  using Value = ConcreteValue;
+  using Truth = bool;
+  /// Index in the group; kNoCode: none is known to be in force.
+  using ModalCode = std::uint8_t;
+  static constexpr ModalCode kNoCode = 0xff;
+  using State = MachineState<ConcreteReading>;
+
+  ConcreteReading(const Dialect &dialect, GivenVariables given) : dialect_(&dialect), given_(std::move(given)) {}
+
+  // ---- what happened, for the machine ----
+  enum class Stop : std::uint8_t { None, ControlAlarm, UserAlarm };
+  struct Stopped {
+    Stop kind = Stop::None;
+    AlarmKind alarm{};
+    double number = 0; // of `#3000=`
+    Span place;
+  };
+  const Stopped &stopped() const { return stopped_; }
+  std::vector<Move<Value>> takeMoves() { return std::exchange(moves_, {}); }
+  std::vector<std::string_view> takeNotes() { return std::exchange(notes_, {}); }
+  /// An input or a clock has been read since the last call.
+  bool takeVolatileReads() { return std::exchange(sawVolatile_, false); }
+  void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+
+  // ---- values ----
+  Value literal(Decimal value) const { return Value::of(value.toDouble()); }
+  Value number(double value) const { return Value::of(value); }
+  Value vacant() const { return {}; }
+  Value anything() const { return Value::of(0); }
+  Value anyNumber() const { return Value::of(0); }
+  Value asNumber(const Value &value) const { return Value::of(value.vacant ? 0 : value.number); }
+  bool isVacant(const Value &value) const { return value.vacant; }
+  std::optional<double> constantOf(const Value &value) const;
+  Value select(bool truth, const Value &first, const Value &second) const { return truth ? first : second; }
+  Value either(const Value &first, const Value &) const { return first; }
+
+  // ---- arithmetic ----
+  Value add(const Value &a, const Value &b) const { return Value::of(a.number + b.number); }
+  Value subtract(const Value &a, const Value &b) const { return Value::of(a.number - b.number); }
+  Value multiply(const Value &a, const Value &b) const { return Value::of(a.number * b.number); }
+  Value divide(const Value &a, const Value &b) const { return Value::of(b.number == 0 ? 0 : a.number / b.number); }
+  Value negate(const Value &a) const { return Value::of(-a.number); }
+  Value remainder(const Value &a, const Value &b) const;
+  Value fix(const Value &a) const;
+  Value fup(const Value &a) const;
+  Value floor(const Value &a) const;
+  Value ceiling(const Value &a) const;
+  Value roundTo(const Value &value, Decimal step) const;
+  Value function(FunctionKind kind, const Value &argument) const;
+  Value atan2(const Value &y, const Value &x) const;
+  Value power(const Value &base, const Value &exponent) const;
+  Value bitwise(OperatorKind op, const Value &a, const Value &b) const;
+
+  // ---- truths ----
+  bool truth(bool value) const { return value; }
+  bool compare(Relation relation, const Value &a, const Value &b) const;
+  bool both(bool a, bool b) const { return a && b; }
+  bool negation(bool a) const { return !a; }
+  bool mayBe(bool a) const { return a; }
+  bool unknownTruth() const { return true; }
+
+  // ---- modal codes ----
+  ModalCode code(std::uint8_t index) const { return index; }
+  ModalCode unknownCode() const { return kNoCode; }
+  bool isOneOf(ModalCode code, CodeMask mask) const { return code < 64 && ((mask >> code) & 1U) != 0; }
+  std::optional<std::uint8_t> onlyCode(ModalCode code) const {
+    return code == kNoCode ? std::nullopt : std::optional(code);
+  }
+  ModalCode selectCode(bool truth, ModalCode first, ModalCode second) const { return truth ? first : second; }
+  Value numberOfCode(ModalCode code, const ModalGroup &group) const;
+
+  // ---- variables ----
+  Value unwritten(const State &, std::uint32_t variable) const { return given(variable); }
+  Value given(std::uint32_t variable) const;
+  Value volatileRead(std::uint32_t variable);
+  Value toolLength(State &state, const Value &number) const;
+  Value readAnyOf(State &, const Value &) const { return {}; }         // the index is always one number
+  void writeAnyOf(State &, const Value &, const Value &) const {}      // likewise
+  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {} // they keep what they hold: a note says so
+  Value between(const Value &, const Value &end) const { return end; } // no signal comes
+  void join(State &state, bool truth, const State &second) const {
+    if (truth)
+      state = second;
+  }
+
+  // ---- what happens ----
+  void alarm(bool truth, AlarmReport report);
+  void userAlarm(const Value &number, Span place);
+  bool wantsMoves() const { return true; }
+  void move(const Move<Value> &move);
+  void notModelled(std::string_view reason, Span) { notes_.push_back(reason); }
+  void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
+  void evaluated(ExpressionId, const Value &) const {}
+
+private:
+  const Dialect *dialect_;
+  GivenVariables given_;
+  Stopped stopped_;
+  std::vector<Move<Value>> moves_;
+  std::vector<std::string_view> notes_;
+  bool sawVolatile_ = false;
+};
+
+/// The state in which a run starts: power-on codes, all variables as given, the tool at `start`.
+MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
+                                         const std::array<double, kAxisCount> &start);
+
+} // namespace feedhold

@@ -1,0 +1,66 @@
+// The concrete machine: runs a program on given values and records the tool path, or why the control stopped.
+#pragma once
+
+#include "meaning/machine/concrete_reading.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+struct RunOptions {
+  GivenVariables variables = {}; // arguments are the local variables; not listed: vacant
+  std::array<double, kAxisCount> start{};
+  std::uint64_t fuel = 10'000'000; // instructions
+  bool blockSkip = false;          // the operator's switch: blocks with `/` are passed over
+  /// Called before each instruction; null: nobody looks on.
+  std::function<void(Place, const MachineState<ConcreteReading> &, std::size_t depth)> trace = nullptr;
+};
+
+enum class RunEnd : std::uint8_t {
+  M02,
+  M30,
+  Returned,    // M99 of the program that was started
+  EndOfFile,   // no M02, M30 or M99 came
+  Alarm,       // of the control
+  UserAlarm,   // `#3000=`
+  Fuel,        // still running
+  Repeats,     // a state came back: it would run for ever
+  NotModelled, // something came that the machine does not follow and cannot go on behind
+};
+std::string_view nameOf(RunEnd end);
+
+/// A call that was open when the run ended; the innermost last.
+struct OpenCall {
+  Place place; // of the call
+};
+
+struct RecordedMove {
+  Move<ConcreteValue> move;
+  Place place;
+};
+
+struct RunNote {
+  std::string_view reason;
+  Place place;
+};
+
+struct RunResult {
+  RunEnd end = RunEnd::Fuel;
+  Place place{FileId(0), NodeId(0)}; // where it ended
+  AlarmKind alarm{};                 // of Alarm
+  double alarmNumber = 0;            // of UserAlarm
+  std::string alarmText;             // of UserAlarm: the comment
+  Span alarmSpan;                    // of both: the words that it comes from
+  std::vector<OpenCall> calls;
+  std::uint64_t steps = 0;
+  MachineState<ConcreteReading> state;
+  std::vector<RecordedMove> moves;
+  std::vector<RunNote> notes; // what was not followed, each once for a place
+};
+
+/// Starts at `entry` as if called with the given local variables.
+RunResult run(const ProgramSet &programs, Callee entry, const RunOptions &options);
+
+} // namespace feedhold

@@ -1,0 +1,161 @@
+// Calls: what a call passes, and what a modal call remembers.
+#pragma once
+
+#include "meaning/semantics/executed_words.h"
+
+namespace feedhold {
+
+/// What an engine has to do at a call node.
+enum class CallAction : std::uint8_t {
+  Enter,     // run the program, then go on behind the call
+  SetModal,  // G66: done, nothing is called now
+  EndModal,  // G67: done
+  Operation, // G65 H..: an operation of Macro A, not followed
+};
+
+template <typename R> struct CallRequest {
+  CallAction action = CallAction::Enter;
+  std::optional<Callee> callee; // absent: in none of the files, or its number is not one constant
+  bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
+  std::array<typename R::Value, kLocalVariables + 1> locals;
+  typename R::Value repeats;    // L
+};
+
+/// Reads the arguments.  SetModal and EndModal have been carried out when this returns.
+template <ValueAlgebra R> CallRequest<R> prepareCall(StepContext<R> &context, CallId call);
+
+/// The call of a modal macro after a movement: its locals are those of the level kept by G66.
+template <ValueAlgebra R>
+CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<typename R::Value> &modal);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <ValueAlgebra R> class CallReader {
+public:
+  using Value = typename R::Value;
+
+  CallReader(StepContext<R> &context, CallId id)
+      : context_(context), reading_(context.reading), id_(id), call_(context.file.model->calls[id]) {}
+
+  CallRequest<R> read() {
+    CallRequest<R> request;
+    request.repeats = reading_.number(1);
+    switch (call_.kind) {
+    case CallKind::ModalCancel:
+      return endModal(std::move(request));
+    case CallKind::MacroA:
+      request.action = CallAction::Operation;
+      return request;
+    case CallKind::Modal:
+    case CallKind::ModalEach:
+      request.action = CallAction::SetModal;
+      passArguments(request);
+      context_.state.modalCalls.push_back(
+          {context_.file.file.index(), id_.index(), request.locals});
+      return request;
+    case CallKind::Macro:
+    case CallKind::OWord:
+      passArguments(request);
+      break;
+    case CallKind::Code:
+      passCode(request);
+      break;
+    case CallKind::Subprogram:
+    case CallKind::Local:
+    case CallKind::External:
+      break;
+    }
+    request.callee = callee();
+    readRepeats(request);
+    return request;
+  }
+
+private:
+  CallRequest<R> endModal(CallRequest<R> request) {
+    request.action = CallAction::EndModal;
+    if (!context_.state.modalCalls.empty())
+      context_.state.modalCalls.pop_back();
+    return request;
+  }
+
+  void passArguments(CallRequest<R> &request) {
+    request.freshLocals = true;
+    request.locals.fill(reading_.vacant());
+    for (const Argument &argument : call_.arguments)
+      if (argument.role == ArgumentRole::Passed && argument.variable != 0)
+        request.locals[argument.variable] = argumentValue(context_.tree().words[argument.word]);
+    for (std::size_t i = 0; i < call_.values.size() && i + 1 < request.locals.size(); ++i)
+      request.locals[i + 1] = evaluate(context_, call_.values[i]);
+  }
+  /// Copied as it is: a vacant argument leaves its variable vacant, nothing is rounded.
+  Value argumentValue(const Word &word) {
+    if (word.form() == WordForm::Expression)
+      return evaluate(context_, word.expression());
+    if (word.form() == WordForm::Number)
+      return scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
+    return reading_.anything();
+  }
+  /// G and M codes of the machine's tables; T is handed over in #149.
+  void passCode(CallRequest<R> &request) {
+    const Word &code = context_.tree().words[call_.code];
+    const auto tenths = code.tenths();
+    const CodeCall *row = tenths ? findCodeCall(context_.dialect(), code.address(), *tenths) : nullptr;
+    if (code.address() == 'T' && code.isNumber())
+      context_.state.variables.set(kToolCallVariable, reading_.literal(code.number()));
+    if (row && row->isMacro)
+      passArguments(request);
+  }
+  static constexpr std::uint32_t kToolCallVariable = 149;
+
+  std::optional<Callee> callee() {
+    if (const auto known = context_.programs.callee(context_.file.file, id_))
+      return known;
+    if (!call_.programWord || !call_.callee.empty())
+      return std::nullopt;
+    const Word &word = context_.tree().words[*call_.programWord];
+    if (word.form() != WordForm::Expression)
+      return std::nullopt;
+    const Value value = reading_.roundTo(reading_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
+    const std::optional<double> number = reading_.constantOf(value);
+    if (!number || *number < 0 || *number > 1e9)
+      return std::nullopt;
+    return context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
+  }
+  void readRepeats(CallRequest<R> &request) {
+    if (call_.repeats) {
+      request.repeats = reading_.number(*call_.repeats);
+      return;
+    }
+    const Span code = context_.tree().words[call_.code].span();
+    if (call_.kind == CallKind::OWord)
+      return;
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (word.address() == 'L' && word.form() == WordForm::Expression && word.span().begin > code.begin)
+        request.repeats = reading_.roundTo(reading_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
+  }
+
+  StepContext<R> &context_;
+  R &reading_;
+  CallId id_;
+  const Call &call_;
+};
+
+} // namespace detail
+
+template <ValueAlgebra R> CallRequest<R> prepareCall(StepContext<R> &context, CallId call) {
+  return detail::CallReader<R>(context, call).read();
+}
+
+template <ValueAlgebra R>
+CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<typename R::Value> &modal) {
+  CallRequest<R> request;
+  request.freshLocals = true;
+  request.locals = modal.locals;
+  request.repeats = context.reading.number(1);
+  request.callee = context.programs.callee(FileId(modal.file), CallId(modal.call));
+  return request;
+}
+
+} // namespace feedhold

@@ -1,0 +1,39 @@
+// StepContext: what every part of the semantics needs: the reading, the state that it changes, and where it stands.
+#pragma once
+
+#include "meaning/cfg/program_set.h"
+#include "meaning/semantics/algebra.h"
+#include "meaning/semantics/modal_table.h"
+#include "meaning/semantics/state.h"
+
+namespace feedhold {
+
+template <ValueAlgebra R> struct StepContext {
+  R &reading;
+  MachineState<R> &state;
+  const ProgramSet &programs;
+  const ProgramFile &file;
+  const ModalTable &modes;
+  BlockId block;
+
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+
+  const SyntaxTree &tree() const { return *file.tree; }
+  const Dialect &dialect() const { return *file.dialect; }
+  const Behaviour &behaviour() const { return file.dialect->behaviour; }
+  Span place() const { return tree().blocks[block].span(); }
+
+  Truth either(Truth a, Truth b) const {
+    return reading.negation(reading.both(reading.negation(a), reading.negation(b)));
+  }
+  bool certain(Truth truth) const { return !reading.mayBe(reading.negation(truth)); }
+  Value zero() const { return reading.number(0); }
+  /// The modal state of a kind is one of these codes.  Without such a group: `without`.
+  Truth inForce(ModalKind kind, std::initializer_list<CodeAction> actions, Truth without) const {
+    const auto group = modes.groupOf(kind);
+    return group ? reading.isOneOf(state.codes[*group], modes.maskOf(kind, actions)) : without;
+  }
+};
+
+} // namespace feedhold

@@ -1,0 +1,204 @@
+// Cycles: the canned cycles G73 to G89 of machining centres, hole by hole.
+//
+// Motion: to the hole at the present level, to the R level, down to the bottom as the cycle says, back to the R level
+// (G99) or to the level at which the cycle began (G98).  Source: FANUC operator's manual, "canned cycle"; for LinuxCNC
+// its "G code reference", whose rows in Behaviour differ.
+#pragma once
+
+#include "meaning/semantics/targets.h"
+
+namespace feedhold {
+
+inline constexpr std::initializer_list<CodeAction> kDrillingCycles = {
+    CodeAction::CycleDrill,    CodeAction::CycleDwell,      CodeAction::CyclePeck,      CodeAction::CycleChipBreak,
+    CodeAction::CycleTap,      CodeAction::CycleTapLeft,    CodeAction::CycleBore,      CodeAction::CycleBoreStop,
+    CodeAction::CycleBackBore, CodeAction::CycleBoreManual, CodeAction::CycleBoreDwell, CodeAction::CycleFineBore};
+
+inline bool isDrillingCycle(CodeAction action) {
+  return std::find(kDrillingCycles.begin(), kDrillingCycles.end(), action) != kDrillingCycles.end();
+}
+
+/// A block with axis words while a cycle is active.
+template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words);
+
+/// No cycle is active any more.
+template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
+  const auto vacant = context.reading.vacant();
+  context.state.cycle = {vacant, vacant, vacant, vacant, vacant};
+}
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <ValueAlgebra R> class DrillingCycle {
+public:
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+  using Point = std::array<Value, kAxisCount>;
+
+  DrillingCycle(StepContext<R> &context, const ExecutedWords<R> &words, Plane plane)
+      : context_(context), reading_(context.reading), state_(context.state), cycle_(context.state.cycle),
+        words_(words), plane_(plane) {}
+
+  void run() {
+    learnLevels();
+    const std::optional<double> repeats = repeatCount();
+    if (!repeats)
+      return drillUnknownTimes();
+    if (*repeats < 0.5)
+      return; // K0 only stores the data
+    clearFirst();
+    for (double done = 0; done + 0.5 < *repeats; ++done)
+      drill();
+  }
+
+private:
+  static constexpr double kMostRepeats = 9999;
+  static constexpr double kMostFollowed = 64; // of a reading that only wants to know where it ends
+
+  void learnLevels() {
+    Value &level = state_.at(plane_.normal);
+    cycle_.initial = reading_.select(reading_.isVacant(cycle_.initial), level, reading_.asNumber(cycle_.initial));
+    const Truth absolute = isAbsolute(context_);
+    if (const auto *entry = words_.find('R'))
+      learn(cycle_.retract, *entry, absolute, cycle_.initial);
+    if (const auto *entry = words_.find(letterOf(plane_.normal)))
+      learn(cycle_.bottom, *entry, absolute, reading_.asNumber(cycle_.retract));
+    for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
+      if (const auto *entry = words_.find(letter))
+        *kept = reading_.select(entry->present, entry->value, *kept);
+  }
+  /// With G91 the level is a distance from `base`.
+  void learn(Value &level, const typename ExecutedWords<R>::Entry &entry, Truth absolute, const Value &base) {
+    const Value wanted = reading_.select(absolute, entry.value, reading_.add(base, entry.value));
+    level = reading_.select(entry.present, wanted, level);
+  }
+  std::optional<double> repeatCount() {
+    for (const char letter : {'L', 'K'}) {
+      if (letter == 'K' && !context_.behaviour().repeatsByK)
+        continue;
+      if (const auto *entry = words_.find(letter)) {
+        if (context_.certain(reading_.negation(entry->present)))
+          continue;
+        const std::optional<double> count = reading_.constantOf(reading_.asNumber(entry->value));
+        const double most = reading_.wantsMoves() ? kMostRepeats : kMostFollowed;
+        return count && *count <= most && context_.certain(entry->present) ? count : std::nullopt;
+      }
+    }
+    return 1;
+  }
+  void drillUnknownTimes() {
+    drill();
+    if (!context_.certain(isAbsolute(context_)))
+      for (const Axis axis : {plane_.first, plane_.second})
+        if (words_.find(letterOf(axis)))
+          state_.at(axis) = reading_.anyNumber();
+  }
+
+  Value retractLevel() { return reading_.asNumber(cycle_.retract); }
+  Value bottomLevel() { return reading_.asNumber(cycle_.bottom); }
+  Value returnLevel() {
+    const Truth toInitial = context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, reading_.truth(true));
+    return reading_.select(toInitial, cycle_.initial, retractLevel());
+  }
+
+  void clearFirst() {
+    if (!context_.behaviour().cycleClearsFirst)
+      return;
+    const Value retract = retractLevel();
+    Value &level = state_.at(plane_.normal);
+    const Truth below = reading_.compare(Relation::Less, level, retract);
+    if (!reading_.mayBe(below))
+      return;
+    go(MoveKind::Rapid, reading_.select(below, retract, level));
+    const Truth initialBelow = reading_.compare(Relation::Less, cycle_.initial, retract);
+    cycle_.initial = reading_.select(initialBelow, retract, cycle_.initial);
+  }
+
+  void drill() {
+    const Point start = state_.position;
+    Point target = targetOf(context_, words_);
+    target[indexOf(plane_.normal)] = start[indexOf(plane_.normal)];
+    state_.position = target;
+    tell(context_, MoveKind::Rapid, start);
+    go(MoveKind::Rapid, retractLevel());
+    if (reading_.wantsMoves())
+      stroke();
+    go(MoveKind::Rapid, returnLevel());
+  }
+  void go(MoveKind kind, const Value &level) {
+    const Point start = state_.position;
+    state_.at(plane_.normal) = level;
+    tell(context_, kind, start);
+  }
+
+  /// Down and, where the cycle feeds back, up to the R level.
+  void stroke() {
+    switch (kindOf()) {
+    case Kind::Straight:
+      return go(MoveKind::Feed, bottomLevel());
+    case Kind::FeedBack:
+      go(MoveKind::Feed, bottomLevel());
+      return go(MoveKind::Feed, retractLevel());
+    case Kind::Peck:
+      return pecks(retractLevel());
+    case Kind::ChipBreak:
+      return pecks(std::nullopt);
+    case Kind::NotFollowed:
+      go(MoveKind::Unfollowed, bottomLevel());
+      return reading_.notModelled("the way of this boring cycle", context_.place());
+    }
+  }
+  enum class Kind { Straight, FeedBack, Peck, ChipBreak, NotFollowed };
+  Kind kindOf() {
+    const auto is = [&](std::initializer_list<CodeAction> actions) {
+      return context_.certain(context_.inForce(ModalKind::Cycle, actions, reading_.truth(false)));
+    };
+    if (is({CodeAction::CyclePeck}))
+      return Kind::Peck;
+    if (is({CodeAction::CycleChipBreak}))
+      return Kind::ChipBreak;
+    if (is({CodeAction::CycleBore, CodeAction::CycleBoreDwell, CodeAction::CycleTap, CodeAction::CycleTapLeft}))
+      return Kind::FeedBack;
+    if (is({CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CycleBoreStop}))
+      return Kind::Straight;
+    return Kind::NotFollowed;
+  }
+  /// G83 goes back to the R level after each peck, G73 only by the clearance.
+  void pecks(std::optional<Value> backTo) {
+    const std::optional<double> depth = reading_.constantOf(reading_.asNumber(cycle_.peck));
+    const std::optional<double> top = reading_.constantOf(retractLevel());
+    const std::optional<double> bottom = reading_.constantOf(bottomLevel());
+    if (depth && top && bottom && *depth > 0 && (*top - *bottom) / *depth < kMostRepeats) {
+      const bool metric = context_.certain(isMetric(context_));
+      const double clearance = context_.behaviour().peckClearance / (metric ? 1 : 25.4);
+      for (double level = *top - *depth; level > *bottom; level -= *depth) {
+        go(MoveKind::Feed, reading_.number(level));
+        if (backTo)
+          go(MoveKind::Rapid, *backTo);
+        go(MoveKind::Rapid, reading_.number(level + clearance));
+      }
+    }
+    go(MoveKind::Feed, bottomLevel());
+  }
+
+  StepContext<R> &context_;
+  R &reading_;
+  MachineState<R> &state_;
+  CycleState<Value> &cycle_;
+  const ExecutedWords<R> &words_;
+  Plane plane_;
+};
+
+} // namespace detail
+
+template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words) {
+  const std::optional<Plane> plane = planeOf(context);
+  if (plane)
+    return detail::DrillingCycle<R>(context, words, *plane).run();
+  forgetPosition(context);
+  context.reading.notModelled("a canned cycle whose plane is not known", context.place());
+}
+
+} // namespace feedhold

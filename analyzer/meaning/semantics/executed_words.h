@@ -1,0 +1,235 @@
+// ExecutedWords: the words of a block as the control takes them: scaled, rounded, and dropped where vacant.
+#pragma once
+
+#include "meaning/cfg/block_words.h"
+#include "meaning/semantics/evaluate.h"
+
+#include <array>
+#include <vector>
+
+namespace feedhold {
+
+/// A G or M code of the block that the dialect's table has.
+struct CodeWord {
+  const Code *code;
+  char address;
+  Span span;
+};
+
+template <typename R> struct ExecutedWords {
+  struct Entry {
+    typename R::Truth present; // false: the value was vacant, the word counts as not written
+    typename R::Value value;
+    Span span;
+  };
+  std::vector<CodeWord> codes;
+
+  void clear() {
+    codes.clear();
+    entries.clear();
+    slots.fill(kNone);
+  }
+  const Entry *find(char letter) const {
+    const std::uint8_t slot = slots[static_cast<std::size_t>(letter - 'A')];
+    return slot == kNone ? nullptr : &entries[slot];
+  }
+  bool has(CodeAction action) const { return findCode(action) != nullptr; }
+  const CodeWord *findCode(CodeAction action) const {
+    for (const CodeWord &word : codes)
+      if (word.code->action == action)
+        return &word;
+    return nullptr;
+  }
+
+  static constexpr std::uint8_t kNone = 0xff;
+  std::vector<Entry> entries;
+  std::array<std::uint8_t, 26> slots{};
+};
+
+/// Fills `words`; codes that call, return or end are left out: they are nodes of their own.
+template <ValueAlgebra R>
+void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words);
+
+/// The least input increment of an address, in the units in force.
+template <ValueAlgebra R>
+typename R::Value roundedToIncrement(StepContext<R> &context, const AddressFormat &format,
+                                     const typename R::Value &value);
+
+/// A literal without decimal point is counted in increments or in units: parameter DPI.
+template <ValueAlgebra R>
+typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+inline bool takesIncrement(const AddressFormat &format, char address) {
+  return format.kind == AddressKind::Length || format.kind == AddressKind::Angle ||
+         (format.kind == AddressKind::Flexible && address != 'P');
+}
+
+template <ValueAlgebra R> typename R::Truth isMetric(StepContext<R> &context) {
+  return context.inForce(ModalKind::Units, {CodeAction::Metric}, context.reading.truth(true));
+}
+
+/// What depends on the units in force; angles have the metric increment.
+template <ValueAlgebra R, typename Make>
+typename R::Value byUnits(StepContext<R> &context, const AddressFormat &format, Make &&make) {
+  const Behaviour &behaviour = context.behaviour();
+  if (format.kind == AddressKind::Angle)
+    return make(behaviour.leastIncrementMetric);
+  const auto metric = isMetric(context);
+  if (context.certain(metric))
+    return make(behaviour.leastIncrementMetric);
+  if (!context.reading.mayBe(metric))
+    return make(behaviour.leastIncrementInch);
+  return context.reading.select(metric, make(behaviour.leastIncrementMetric), make(behaviour.leastIncrementInch));
+}
+
+template <ValueAlgebra R> class WordReader {
+public:
+  WordReader(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words)
+      : context_(context), reading_(context.reading), choice_(choice), words_(words) {}
+
+  void run() {
+    const BlockWords split(context_.tree(), *context_.file.model, context_.dialect(), context_.block);
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (split.belongsTo(word, choice_) && !word.has(Word::kComma))
+        read(word);
+  }
+
+private:
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+
+  void read(const Word &word) {
+    if (word.address() == 'G' || word.address() == 'M')
+      return readCode(word);
+    const AddressFormat &format = formatOf(context_.dialect(), word.address());
+    switch (word.form()) {
+    case WordForm::Number:
+      return add(word, reading_.truth(true),
+                 scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint)));
+    case WordForm::Expression:
+      return readExpression(word, format);
+    case WordForm::Missing:
+      reading_.alarm(reading_.truth(true), {AlarmKind::NoDataAfterAddress, word.span()});
+      return;
+    case WordForm::Name:
+      return;
+    case WordForm::Broken:
+      reading_.notModelled("a word that could not be read", word.span());
+      return add(word, reading_.unknownTruth(), reading_.anyNumber());
+    }
+  }
+
+  /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
+  void readExpression(const Word &word, const AddressFormat &format) {
+    const auto value = evaluate(context_, word.expression(), roundingOf(word.address(), format));
+    Truth present = reading_.negation(reading_.isVacant(value));
+    const Expression &expression = context_.tree().expressions[word.expression()];
+    if (const auto *negated = std::get_if<Negation>(&expression.node)) {
+      const Truth operandVacant = reading_.isVacant(evaluate(context_, negated->operand));
+      if (reading_.mayBe(operandVacant))
+        present = reading_.negation(reading_.both(operandVacant, reading_.unknownTruth()));
+    }
+    add(word, present, roundedToIncrement(context_, format, reading_.asNumber(value)));
+  }
+  RoundingUnit roundingOf(char address, const AddressFormat &format) const {
+    if (!takesIncrement(format, address))
+      return {};
+    const bool metric = context_.certain(isMetric(context_)) || format.kind == AddressKind::Angle;
+    return {metric ? context_.behaviour().leastIncrementMetric : context_.behaviour().leastIncrementInch};
+  }
+
+  void readCode(const Word &word) {
+    std::optional<std::uint16_t> tenths = word.tenths();
+    if (word.form() == WordForm::Expression)
+      tenths = computedCode(word);
+    else if (!tenths)
+      return reading_.notModelled("a code that could not be read", word.span());
+    if (!tenths)
+      return;
+    const Dialect &dialect = context_.dialect();
+    const Code *code = word.address() == 'G' ? findGCode(dialect, *tenths) : findMCode(dialect, *tenths);
+    if (code)
+      words_.codes.push_back({code, word.address(), word.span()});
+    else if (word.address() == 'G')
+      unknownCode(word);
+  }
+  std::optional<std::uint16_t> computedCode(const Word &word) {
+    const auto value = evaluate(context_, word.expression());
+    const std::optional<double> number = reading_.constantOf(reading_.roundTo(reading_.asNumber(value), Decimal(1, 1)));
+    if (number && *number >= 0 && *number < 6000 && !reading_.mayBe(reading_.isVacant(value)))
+      return static_cast<std::uint16_t>(*number * 10 + 0.5);
+    if (!context_.certain(reading_.isVacant(value)))
+      reading_.havoc(context_.state, "a code whose number is computed", word.span());
+    return std::nullopt;
+  }
+  /// Either an alarm, or a macro that the machine's parameters call.
+  void unknownCode(const Word &word) {
+    reading_.alarm(reading_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+    reading_.havoc(context_.state, "a G code that the table of the control does not have", word.span());
+  }
+
+  void add(const Word &word, Truth present, Value value) {
+    std::uint8_t &slot = words_.slots[static_cast<std::size_t>(word.address() - 'A')];
+    if (slot == ExecutedWords<R>::kNone) {
+      slot = static_cast<std::uint8_t>(words_.entries.size());
+      words_.entries.push_back({present, std::move(value), word.span()});
+      return;
+    }
+    auto &entry = words_.entries[slot]; // the later word wins
+    entry.value = reading_.select(present, value, entry.value);
+    entry.present = context_.either(present, entry.present);
+    entry.span = word.span();
+  }
+
+  StepContext<R> &context_;
+  R &reading_;
+  WordChoice choice_;
+  ExecutedWords<R> &words_;
+};
+
+} // namespace detail
+
+template <ValueAlgebra R>
+typename R::Value roundedToIncrement(StepContext<R> &context, const AddressFormat &format,
+                                     const typename R::Value &value) {
+  if (!context.behaviour().roundsWords)
+    return value;
+  switch (format.kind) {
+  case AddressKind::Length:
+  case AddressKind::Angle:
+    return detail::byUnits(context, format, [&](Decimal step) { return context.reading.roundTo(value, step); });
+  case AddressKind::Integer:
+    return context.reading.roundTo(value, Decimal(1, 0));
+  case AddressKind::None:
+  case AddressKind::Rate:
+  case AddressKind::Flexible:
+    return value;
+  }
+  return value;
+}
+
+template <ValueAlgebra R>
+typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point) {
+  const AddressFormat &format = formatOf(context.dialect(), address);
+  if (point || literal.isZero() || !detail::takesIncrement(format, address) ||
+      context.dialect().switches.dpi == Switch::On)
+    return context.reading.literal(literal);
+  const auto inIncrements = detail::byUnits(context, format, [&](Decimal step) {
+    return context.reading.literal(Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
+  });
+  if (context.dialect().switches.dpi == Switch::Off)
+    return inIncrements;
+  return context.reading.either(inIncrements, context.reading.literal(literal));
+}
+
+template <ValueAlgebra R>
+void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
+  words.clear();
+  detail::WordReader<R>(context, choice, words).run();
+}
+
+} // namespace feedhold

@@ -1,0 +1,380 @@
+// Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, dwell, shifts.
+#pragma once
+
+#include "meaning/semantics/cycles.h"
+#include "meaning/semantics/modes.h"
+
+namespace feedhold {
+
+/// What the block does with its axis words, after its modes have been applied.
+template <ValueAlgebra R> void applyMotion(StepContext<R> &context, const ExecutedWords<R> &words);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <ValueAlgebra R> class Motion {
+public:
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+  using Point = std::array<Value, kAxisCount>;
+
+  Motion(StepContext<R> &context, const ExecutedWords<R> &words)
+      : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
+
+  void run() {
+    if (const CodeWord *word = ownWords())
+      return consume(*word);
+    if (!hasAxisWords())
+      return;
+    const Truth cycle = cycleActive();
+    if (context_.certain(cycle))
+      return runCycle(context_, words_);
+    if (!reading_.mayBe(cycle))
+      return plain();
+    auto drilled = state_; // either: both are followed, and what they leave is joined
+    plain();
+    std::swap(state_, drilled);
+    runCycle(context_, words_);
+    reading_.join(state_, reading_.negation(cycle), drilled);
+  }
+
+private:
+  // ---- what takes the axis words ----
+
+  /// The code of the block, not modal, that takes the axis words for itself.
+  const CodeWord *ownWords() const {
+    for (const CodeWord &word : words_.codes)
+      if (word.address == 'G' && takesWords(word.code->action, word.code->role))
+        return &word;
+    return nullptr;
+  }
+  static bool takesWords(CodeAction action, CodeRole role) {
+    constexpr std::array kTaking = {
+        CodeAction::Dwell,        CodeAction::LocalShift,      CodeAction::CoordinateSet,   CodeAction::CoordinateSetOff,
+        CodeAction::MachineMove,  CodeAction::ReferenceReturn, CodeAction::SecondReference, CodeAction::ReferenceCheck,
+        CodeAction::Skip,         CodeAction::RotationOn,      CodeAction::ScalingOn,       CodeAction::MirrorOn,
+        CodeAction::MirrorOff,    CodeAction::Unmodelled,      CodeAction::OtherCycle,      CodeAction::TurningCycle,
+        CodeAction::SideCycle};
+    return role == CodeRole::DataSetting || std::find(kTaking.begin(), kTaking.end(), action) != kTaking.end();
+  }
+  void consume(const CodeWord &word) {
+    const CodeAction action = word.code->action;
+    if (action == CodeAction::Dwell)
+      dwell();
+    else if (action == CodeAction::LocalShift)
+      localShift();
+    else if (action == CodeAction::CoordinateSet)
+      coordinateSet();
+    else if (action == CodeAction::CoordinateSetOff)
+      coordinateSetOff();
+    else if (action == CodeAction::MachineMove)
+      machineMove();
+    else if (action == CodeAction::ReferenceReturn || action == CodeAction::SecondReference)
+      referenceReturn(word);
+    else if (action == CodeAction::Skip)
+      skip();
+    else if (action == CodeAction::TurningCycle) // ends where it starts
+      reading_.notModelled(word.code->meaning, word.span);
+    else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled)
+      unfollowed(word);
+    else if (word.code->role == CodeRole::DataSetting)
+      setData(word);
+  }
+  void unfollowed(const CodeWord &word) {
+    forgetPosition(context_);
+    reading_.notModelled(word.code->meaning, word.span);
+  }
+
+  // ---- targets ----
+
+  bool hasAxisWords() const {
+    for (const Axis axis : kAllAxes)
+      if (words_.find(letterOf(axis)))
+        return true;
+    return context_.dialect().machine == MachineKind::Turning && words_.find('H');
+  }
+  Truth cycleActive() {
+    const Truth none = reading_.truth(false);
+    const auto group = context_.modes.groupOf(ModalKind::Cycle);
+    if (!group)
+      return none;
+    return reading_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
+  }
+
+  void plain() {
+    const Point start = state_.position;
+    const Point target = targetOf(context_, words_);
+    state_.position = target;
+    const Truth arc = isArc();
+    if (reading_.mayBe(arc))
+      followArc(start, arc);
+    if (!context_.certain(arc) && reading_.wantsMoves())
+      tellLine(start);
+  }
+  Truth isArc() {
+    return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
+                            reading_.truth(false));
+  }
+  void tellLine(const Point &start) {
+    const auto isMotion = [&](CodeAction action) {
+      return context_.certain(context_.inForce(ModalKind::Motion, {action}, reading_.truth(false)));
+    };
+    const MoveKind kind = isMotion(CodeAction::Rapid)                                       ? MoveKind::Rapid
+                          : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
+                                                                                            : MoveKind::Unfollowed;
+    tell(context_, kind, start);
+  }
+
+  // ---- arcs ----
+
+  struct Arc {
+    Plane plane;
+    Value first, second; // centre
+    Truth byRadius;
+  };
+  void followArc(const Point &start, Truth arc) {
+    const std::optional<Plane> plane = planeOf(context_);
+    if (!plane)
+      return; // only the end point is known
+    const Truth byRadius = present('R');
+    const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
+    reading_.alarm(reading_.both(arc, reading_.negation(context_.either(byRadius, byCentre))),
+                   {AlarmKind::ArcWithoutCentre, context_.place()});
+    const Value first = centreOf(plane->firstCentre, plane->first, start);
+    const Value second = centreOf(plane->secondCentre, plane->second, start);
+    const Value difference = radiusDifference(*plane, start, first, second);
+    const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
+    reading_.alarm(reading_.both(reading_.both(arc, reading_.negation(byRadius)), differs),
+                   {AlarmKind::ArcRadius, context_.place()});
+    if (reading_.wantsMoves() && context_.certain(arc))
+      tellArc(start, {*plane, first, second, byRadius});
+  }
+  Truth present(char letter) const {
+    const auto *entry = words_.find(letter);
+    return entry ? entry->present : reading_.truth(false);
+  }
+  /// I, J, K are distances from the start point; absolute only where the control has that mode.
+  Value centreOf(char letter, Axis axis, const Point &start) {
+    const Value distance = distanceWord(letter);
+    const Value fromStart = reading_.add(start[indexOf(axis)], axis == Axis::X ? diameter(distance) : distance);
+    if (!context_.behaviour().arcDistanceModes)
+      return fromStart;
+    const Truth absolute = context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, reading_.truth(false));
+    return reading_.select(absolute, distance, fromStart);
+  }
+  Value distanceWord(char letter) {
+    const auto *entry = words_.find(letter);
+    return entry ? reading_.select(entry->present, entry->value, context_.zero()) : context_.zero();
+  }
+  /// On a lathe X is a diameter, I a radius.
+  Value diameter(const Value &radius) {
+    return context_.dialect().machine == MachineKind::Turning ? reading_.multiply(radius, reading_.number(2)) : radius;
+  }
+  Value asRadius(Axis axis, const Value &length) {
+    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
+               ? reading_.divide(length, reading_.number(2))
+               : length;
+  }
+  Value distance(const Plane &plane, const Point &point, const Value &first, const Value &second) {
+    const Value a = asRadius(plane.first, reading_.subtract(point[indexOf(plane.first)], first));
+    const Value b = asRadius(plane.second, reading_.subtract(point[indexOf(plane.second)], second));
+    return reading_.function(FunctionKind::Sqrt, reading_.add(reading_.multiply(a, a), reading_.multiply(b, b)));
+  }
+  Value radiusDifference(const Plane &plane, const Point &start, const Value &first, const Value &second) {
+    return reading_.function(FunctionKind::Abs, reading_.subtract(distance(plane, start, first, second),
+                                                                  distance(plane, state_.position, first, second)));
+  }
+  Value tolerance() {
+    const Value metric = reading_.number(context_.behaviour().arcTolerance);
+    return reading_.select(isMetric(context_), metric, reading_.number(context_.behaviour().arcTolerance / 25.4));
+  }
+
+  void tellArc(const Point &start, const Arc &arc) {
+    const bool clockwise = context_.certain(
+        context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, reading_.truth(false)));
+    Move<Value> move;
+    move.kind = clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
+    move.start = start;
+    move.end = state_.position;
+    move.plane = arc.plane;
+    const auto byRadius = centreFromRadius(arc.plane, start, clockwise);
+    move.firstCentre = reading_.select(arc.byRadius, byRadius.first, arc.first);
+    move.secondCentre = reading_.select(arc.byRadius, byRadius.second, arc.second);
+    move.turns = turnsOf();
+    move.feed = state_.word('F');
+    if (context_.certain(arc.byRadius) && sameInPlane(arc.plane, start))
+      move.kind = MoveKind::Feed; // no arc at all: 0 degrees
+    reading_.move(move);
+  }
+  std::uint32_t turnsOf() {
+    const auto *entry = context_.behaviour().arcDistanceModes ? words_.find('P') : nullptr;
+    const std::optional<double> turns = entry ? reading_.constantOf(entry->value) : std::nullopt;
+    return turns && *turns >= 1 && *turns < 1e6 ? static_cast<std::uint32_t>(*turns) : 1;
+  }
+  bool sameInPlane(const Plane &plane, const Point &start) {
+    const auto same = [&](Axis axis) {
+      return context_.certain(reading_.compare(Relation::Equal, start[indexOf(axis)], state_.at(axis)));
+    };
+    return same(plane.first) && same(plane.second);
+  }
+  /// The centre lies on the perpendicular through the middle of the chord; the sign of R chooses the longer arc.
+  std::pair<Value, Value> centreFromRadius(const Plane &plane, const Point &start, bool clockwise) {
+    const Value zero = context_.zero();
+    const auto *entry = words_.find('R');
+    if (!entry)
+      return {zero, zero};
+    const Value two = reading_.number(2);
+    const Value a = reading_.subtract(state_.at(plane.first), start[indexOf(plane.first)]);
+    const Value b = reading_.subtract(state_.at(plane.second), start[indexOf(plane.second)]);
+    const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
+    const Value heightSquare = reading_.subtract(reading_.multiply(entry->value, entry->value),
+                                                 reading_.divide(chordSquare, reading_.number(4)));
+    const Truth negative = reading_.compare(Relation::Less, heightSquare, zero);
+    const Value height = reading_.function(FunctionKind::Sqrt, reading_.select(negative, zero, heightSquare));
+    const Truth noChord = reading_.compare(Relation::Equal, chordSquare, zero);
+    const Value chord = reading_.function(FunctionKind::Sqrt, reading_.select(noChord, reading_.number(1), chordSquare));
+    const Truth longArc = reading_.compare(Relation::Less, entry->value, zero);
+    const Value side = reading_.select(longArc, reading_.number(clockwise ? 1 : -1), reading_.number(clockwise ? -1 : 1));
+    const Value ratio = reading_.multiply(side, reading_.divide(height, chord));
+    const Value first = reading_.subtract(reading_.add(start[indexOf(plane.first)], reading_.divide(a, two)),
+                                          reading_.multiply(ratio, b));
+    const Value second = reading_.add(reading_.add(start[indexOf(plane.second)], reading_.divide(b, two)),
+                                      reading_.multiply(ratio, a));
+    return {first, second};
+  }
+
+  // ---- codes that are not modal ----
+
+  void dwell() {
+    if (!reading_.wantsMoves())
+      return;
+    Move<Value> move;
+    move.kind = MoveKind::Dwell;
+    move.start = move.end = state_.position;
+    for (const char letter : {'X', 'U', 'P'})
+      if (const auto *entry = words_.find(letter))
+        move.feed = entry->value;
+    reading_.move(move);
+  }
+  /// G52: the named axes; the machine stands still.
+  void localShift() {
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        const Value before = originOf(context_, axis);
+        Value &shift = state_.local[indexOf(axis)];
+        shift = reading_.select(entry->present, entry->value, shift);
+        moveOrigin(context_, axis, before);
+      }
+  }
+  /// G92: the tool stands, from now on, at the named coordinates.
+  void coordinateSet() {
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        Value &position = state_.at(axis);
+        Value &shift = state_.shift[indexOf(axis)];
+        const Value target = reading_.select(entry->present, entry->value, position);
+        shift = reading_.add(shift, reading_.subtract(position, target));
+        position = target;
+      }
+  }
+  void coordinateSetOff() {
+    for (const Axis axis : kAllAxes) {
+      const Value before = originOf(context_, axis);
+      state_.shift[indexOf(axis)] = context_.zero();
+      moveOrigin(context_, axis, before);
+    }
+  }
+  void machineMove() {
+    const Point start = state_.position;
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        Value &position = state_.at(axis);
+        position = reading_.select(entry->present, reading_.subtract(entry->value, originOf(context_, axis)), position);
+      }
+    if (reading_.wantsMoves())
+      tellLine(start);
+  }
+  /// By way of the programmed point to the reference position, which is the machine's zero for G28.
+  void referenceReturn(const CodeWord &word) {
+    const Point start = state_.position;
+    state_.position = targetOf(context_, words_);
+    tell(context_, MoveKind::Rapid, start);
+    const Point between = state_.position;
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis)))
+        home(axis, entry->present, word.code->action);
+    for (const auto &[letter, axis] : kTurningIncrements)
+      if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
+        home(axis, entry->present, word.code->action);
+    tell(context_, MoveKind::Rapid, between);
+  }
+  void home(Axis axis, Truth present, CodeAction action) {
+    Value &position = state_.at(axis);
+    const Value reference = action == CodeAction::ReferenceReturn
+                                ? reading_.subtract(context_.zero(), originOf(context_, axis))
+                                : reading_.anyNumber();
+    position = reading_.select(present, reference, position);
+  }
+  /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
+  void skip() {
+    const Point start = state_.position;
+    const Point target = targetOf(context_, words_);
+    for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+      if (words_.find(kAxisLetters[axis]))
+        state_.position[axis] = reading_.between(start[axis], target[axis]);
+    for (const VariableRange &range : context_.dialect().variables)
+      if (range.role == VariableRole::SkipPosition)
+        for (std::uint32_t axis = 0; axis < kAxisCount && range.first + axis <= range.last; ++axis)
+          state_.variables.set(range.first + axis, state_.position[axis]);
+    tell(context_, MoveKind::Probe, start);
+  }
+
+  // ---- G10 ----
+
+  void setData(const CodeWord &word) {
+    const auto *kind = words_.find('L');
+    const std::optional<double> which = kind ? reading_.constantOf(kind->value) : std::nullopt;
+    if (which == 2.0)
+      return setWorkOffset(word);
+    if (which == 50.0 || which == 52.0)
+      return; // parameters of the machine
+    forgetStored(word);
+  }
+  void setWorkOffset(const CodeWord &word) {
+    const auto *system = words_.find('P');
+    const std::optional<double> number = system ? reading_.constantOf(system->value) : std::nullopt;
+    if (!number || *number < 0 || *number > 9)
+      return forgetStored(word);
+    const Truth absolute = context_.inForce(ModalKind::Distance, {CodeAction::Absolute}, reading_.truth(true));
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        const std::uint32_t variable = kFirstWorkOffset +
+                                       kWorkOffsetStride * static_cast<std::uint32_t>(*number) +
+                                       static_cast<std::uint32_t>(indexOf(axis));
+        const Value old = offsetVariable(context_, variable);
+        const Value wanted = reading_.select(absolute, entry->value, reading_.add(old, entry->value));
+        writeWorkOffset(context_, variable, reading_.select(entry->present, wanted, old));
+      }
+  }
+  void forgetStored(const CodeWord &word) {
+    for (const VariableRange &range : context_.dialect().variables)
+      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset)
+        reading_.forgetVariables(state_, range.first, range.last);
+    forgetPosition(context_);
+    reading_.notModelled("offsets set by G10", word.span);
+  }
+
+  StepContext<R> &context_;
+  R &reading_;
+  MachineState<R> &state_;
+  const ExecutedWords<R> &words_;
+};
+
+} // namespace detail
+
+template <ValueAlgebra R> void applyMotion(StepContext<R> &context, const ExecutedWords<R> &words) {
+  detail::Motion<R>(context, words).run();
+}
+
+} // namespace feedhold

@@ -1,0 +1,35 @@
+// Move: what the machine does with its axes, in terms that no control's codes show through: the canonical tool path.
+#pragma once
+
+#include "meaning/semantics/axes.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace feedhold {
+
+enum class MoveKind : std::uint8_t {
+  Rapid,
+  Feed,
+  ArcClockwise, // seen from the positive end of the plane's normal
+  ArcCounterclockwise,
+  Dwell,
+  Probe,       // towards a signal: may end anywhere on the way
+  Unfollowed,  // from here to there on a way that is not known
+};
+std::string_view nameOf(MoveKind kind);
+
+/// Coordinates are those of the active work coordinate system, in the units in force, without tool compensation.
+template <typename Value> struct Move {
+  MoveKind kind = MoveKind::Rapid;
+  std::array<Value, kAxisCount> start{};
+  std::array<Value, kAxisCount> end{};
+  Plane plane = kPlaneXY;   // of an arc
+  Value firstCentre{};      // of an arc: coordinates in its plane
+  Value secondCentre{};
+  std::uint32_t turns = 1;  // of an arc: a full circle more for each above 1
+  Value feed{};             // F in force; of Dwell: the time as programmed
+};
+
+} // namespace feedhold

@@ -1,0 +1,108 @@
+// MachineState: what the control and the machine hold between two instructions, for any reading of values.
+#pragma once
+
+#include "meaning/semantics/axes.h"
+#include "meaning/semantics/modal_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace feedhold {
+
+inline constexpr std::size_t kLocalVariables = 33;
+
+/// Variables that have been written or otherwise become known, by number; the others are as at the start of the run.
+template <typename Value> class VariableMap {
+public:
+  using Entry = std::pair<std::uint32_t, Value>;
+  const Value *find(std::uint32_t number) const {
+    const auto at = position(number);
+    return at != entries_.end() && at->first == number ? &at->second : nullptr;
+  }
+  void set(std::uint32_t number, Value value) {
+    const auto at = entries_.begin() + (position(number) - entries_.cbegin());
+    if (at != entries_.end() && at->first == number)
+      at->second = std::move(value);
+    else
+      entries_.insert(at, {number, std::move(value)});
+  }
+  void erase(std::uint32_t number) {
+    const auto at = position(number);
+    if (at != entries_.end() && at->first == number)
+      entries_.erase(at);
+  }
+  const std::vector<Entry> &entries() const { return entries_; }
+  std::vector<Entry> &entries() { return entries_; }
+
+private:
+  auto position(std::uint32_t number) const {
+    return std::lower_bound(entries_.begin(), entries_.end(), number,
+                            [](const Entry &entry, std::uint32_t key) { return entry.first < key; });
+  }
+  std::vector<Entry> entries_; // sorted by number
+};
+
+/// What a canned cycle remembers while it is active.  Z, R: levels along the normal of the plane, in work coordinates.
+template <typename Value> struct CycleState {
+  Value bottom;
+  Value retract;
+  Value initial; // level at which the cycle began: where G98 returns to
+  Value peck;    // Q
+  Value dwell;   // P
+};
+
+/// Mappings between programmed and work coordinates (G51.1, G51, G68, G16), in the order in which the control applies
+/// them: polar, scaling, mirror, rotation.
+template <typename Value> struct TransformState {
+  std::array<Value, kAxisCount> scale;        // 1: not scaled
+  std::array<Value, kAxisCount> scaleCentre;
+  std::array<Value, kAxisCount> mirrorAt;     // vacant: not mirrored
+  Value angle;                                // degrees, counterclockwise
+  std::array<Value, 2> centre;                // of the rotation, in the plane of G68
+};
+
+/// A macro that is called after each movement (G66) or at each block (G66.1).
+template <typename Value> struct ModalCallState {
+  std::uint32_t file; // of the block with G66
+  std::uint32_t call; // CallId in that file
+  std::array<Value, kLocalVariables + 1> locals; // kept from one call to the next
+};
+
+template <typename R> struct MachineState {
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+  using ModalCode = typename R::ModalCode;
+
+  std::array<Value, kLocalVariables + 1> locals; // of the present level; [0] is not used
+  VariableMap<Value> variables;                  // all others
+  /// Ranges of numbers, first and last, of which nothing is known but what `variables` has.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> forgotten;
+  std::array<ModalCode, kModalGroups> codes;
+  std::array<Value, kAxisCount> position; // end point of the last block: work coordinates, units in force
+  std::array<Value, 26> words;            // F, S, T, D, H, M .. in force, by letter; vacant: none yet
+  std::array<Value, kAxisCount> shift;    // of G92
+  std::array<Value, kAxisCount> local;    // of G52
+  Value lengthOffset;                     // of G43, along Z
+  CycleState<Value> cycle;
+  TransformState<Value> transform;
+  Truth transformed;  // a mapping beside those at the start of the run is or may be in force
+  ModalCode spindle;  // index into kSpindleActions
+  std::vector<ModalCallState<Value>> modalCalls; // innermost last
+  Truth modalCallsUnknown;                       // there may be others than those
+  std::vector<std::pair<std::uint8_t, Truth>> enteredLoops; // by number of the DO
+  std::vector<Value> counters;                              // by CounterId
+
+  Value &word(char letter) { return words[static_cast<std::size_t>(letter - 'A')]; }
+  const Value &word(char letter) const { return words[static_cast<std::size_t>(letter - 'A')]; }
+  Value &at(Axis axis) { return position[indexOf(axis)]; }
+  const Value &at(Axis axis) const { return position[indexOf(axis)]; }
+};
+
+/// The states of the spindle: MachineState::spindle is an index of these.
+inline constexpr std::array kSpindleActions = {CodeAction::SpindleStop, CodeAction::SpindleClockwise,
+                                               CodeAction::SpindleCounterclockwise};
+
+} // namespace feedhold

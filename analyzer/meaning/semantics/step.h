@@ -1,0 +1,161 @@
+// Step: what one instruction does to the state.  Where control goes next is the engine's to decide; it asks the
+// functions below for the conditions.
+#pragma once
+
+#include "meaning/semantics/calls.h"
+#include "meaning/semantics/motion.h"
+
+namespace feedhold {
+
+/// Instructions that have one successor.  `words` is scratch memory that a run keeps.  The others (tests, jumps, calls,
+/// returns, ends) change nothing here.
+template <ValueAlgebra R>
+void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words);
+
+/// Whether the block that has just been executed moved an axis: a modal macro is called then.
+template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words);
+
+/// The truth of a Test; either where the condition did not parse.
+template <ValueAlgebra R> typename R::Truth conditionOf(StepContext<R> &context, const Test &test);
+
+/// The truth of a CountDown; the counter has been counted down in the cases where it holds.
+template <ValueAlgebra R> typename R::Truth countDown(StepContext<R> &context, const CountDown &count);
+
+/// The number that a computed GOTO looks for, rounded; alarms for numbers that no block has are the engine's.
+template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, const JumpTo &jump);
+
+/// P of an M99; absent without one.  The value of `return [..]` has been stored when this returns.
+template <ValueAlgebra R>
+std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId target, typename R::Value value) {
+  R &reading = context.reading;
+  const Expression &expression = context.tree().expressions[target];
+  if (const auto *numbered = std::get_if<NumberedVariable>(&expression.node)) {
+    const auto number = numbered->number.asInteger();
+    if (number && *number >= 0 && *number < kFirstNamedVariable)
+      return writeVariable(context, static_cast<std::uint32_t>(*number), std::move(value), expression.span);
+  } else if (const auto *indirect = std::get_if<IndirectVariable>(&expression.node)) {
+    const auto index = evaluate(context, indirect->index);
+    if (const auto number = variableAt(context, index, expression.span))
+      return writeVariable(context, *number, std::move(value), expression.span);
+    return reading.writeAnyOf(context.state, reading.asNumber(index), value);
+  } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
+    if (const auto number = context.programs.variableOf(context.file.file, named->name))
+      return writeVariable(context, *number, std::move(value), expression.span);
+  }
+  reading.havoc(context.state, "an assignment whose target is not known", expression.span);
+}
+
+/// All right sides are read before the first assignment takes place.
+template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &assign) {
+  const SyntaxTree &tree = context.tree();
+  std::vector<typename R::Value> values;
+  const auto assignmentAt = [&](std::uint32_t i) {
+    return std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
+  };
+  for (std::uint32_t i = 0; i < assign.count; ++i)
+    if (const Assignment *assignment = assignmentAt(i))
+      values.push_back(evaluate(context, assignment->value));
+  auto value = values.begin();
+  for (std::uint32_t i = 0; i < assign.count; ++i)
+    if (const Assignment *assignment = assignmentAt(i))
+      store(context, assignment->target, std::move(*value++));
+}
+
+template <ValueAlgebra R> typename R::Truth &enteredLoop(MachineState<R> &state, std::uint8_t number,
+                                                         typename R::Truth initial) {
+  for (auto &[loop, entered] : state.enteredLoops)
+    if (loop == number)
+      return entered;
+  return state.enteredLoops.emplace_back(number, initial).second;
+}
+
+template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
+  readWords(context, choice, words);
+  applyModes(context, words);
+  applyMotion(context, words);
+}
+
+template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCount &start) {
+  auto &counters = context.state.counters;
+  if (counters.size() <= start.counter.index())
+    counters.resize(start.counter.index() + 1, context.zero());
+  const auto times = context.reading.asNumber(evaluate(context, start.times));
+  counters[start.counter.index()] = context.reading.roundTo(times, Decimal(1, 0));
+}
+
+} // namespace detail
+
+template <ValueAlgebra R>
+void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
+  R &reading = context.reading;
+  if (const auto *execute = std::get_if<ExecuteWords>(&instruction))
+    return detail::executeWords(context, execute->which, words);
+  if (const auto *assign = std::get_if<Assign>(&instruction))
+    return detail::assign(context, *assign);
+  if (const auto *enter = std::get_if<EnterLoop>(&instruction))
+    detail::enteredLoop(context.state, enter->number, reading.truth(true)) = reading.truth(true);
+  else if (const auto *into = std::get_if<JumpIntoLoop>(&instruction))
+    detail::enteredLoop(context.state, into->number, reading.truth(false)) = reading.truth(false);
+  else if (const auto *require = std::get_if<RequireLoop>(&instruction))
+    reading.alarm(reading.negation(detail::enteredLoop(context.state, require->number, reading.truth(true))),
+                  {AlarmKind::MissingDo, context.place()});
+  else if (const auto *start = std::get_if<StartCount>(&instruction))
+    detail::startCount(context, *start);
+  else if (const auto *stop = std::get_if<StopWithAlarm>(&instruction))
+    reading.alarm(reading.truth(true), {stop->alarm, context.place()});
+  else if (const auto *havoc = std::get_if<Havoc>(&instruction))
+    reading.havoc(context.state, havoc->reason, context.place());
+}
+
+template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words) {
+  auto moves = context.reading.truth(false);
+  for (const CodeWord &word : words.codes)
+    if (word.code->action == CodeAction::Dwell || word.code->action == CodeAction::LocalShift ||
+        word.code->action == CodeAction::CoordinateSet || word.code->role == CodeRole::DataSetting)
+      return moves;
+  for (const Axis axis : kAllAxes)
+    if (const auto *entry = words.find(letterOf(axis)))
+      moves = context.either(moves, entry->present);
+  return moves;
+}
+
+template <ValueAlgebra R> typename R::Truth conditionOf(StepContext<R> &context, const Test &test) {
+  return test.condition ? evaluateCondition(context, *test.condition) : context.reading.unknownTruth();
+}
+
+template <ValueAlgebra R> typename R::Truth countDown(StepContext<R> &context, const CountDown &count) {
+  R &reading = context.reading;
+  auto &counters = context.state.counters;
+  if (counters.size() <= count.counter.index())
+    counters.resize(count.counter.index() + 1, context.zero());
+  auto &left = counters[count.counter.index()];
+  const auto goesOn = reading.compare(Relation::Greater, left, context.zero());
+  left = reading.select(goesOn, reading.subtract(left, reading.number(1)), left);
+  return goesOn;
+}
+
+template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, const JumpTo &jump) {
+  return context.reading.roundTo(context.reading.asNumber(evaluate(context, jump.target)), Decimal(1, 0));
+}
+
+template <ValueAlgebra R>
+std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from) {
+  R &reading = context.reading;
+  if (from.value)
+    if (const auto number = context.programs.variableNamed("_value"))
+      context.state.variables.set(*number, reading.asNumber(evaluate(context, *from.value)));
+  if (!from.target)
+    return std::nullopt;
+  const Word &word = context.tree().words[*from.target];
+  if (word.form() == WordForm::Expression)
+    return reading.roundTo(reading.asNumber(evaluate(context, word.expression())), Decimal(1, 0));
+  return word.isNumber() ? reading.literal(word.number()) : reading.anyNumber();
+}
+
+} // namespace feedhold

@@ -1,0 +1,106 @@
+// Targets: where the axis words of a block point to, under G90 and G91, polar coordinates and the mappings in force.
+#pragma once
+
+#include "meaning/semantics/executed_words.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+/// Incremental words of lathes without G90 and G91.
+inline constexpr std::array<std::pair<char, Axis>, 4> kTurningIncrements = {
+    {{'U', Axis::X}, {'V', Axis::Y}, {'W', Axis::Z}, {'H', Axis::C}}};
+
+/// The end point that the axis words name, in work coordinates; axes without a word stay where they are.
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);
+
+/// Tells the reading of a movement from `start` to the present position.
+template <ValueAlgebra R>
+void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
+
+/// What a word adds to, or puts in place of, a coordinate.
+template <ValueAlgebra R>
+typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords<R>::Entry &entry,
+                           const typename R::Value &from);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <ValueAlgebra R> typename R::Truth isAbsolute(StepContext<R> &context) {
+  return context.inForce(ModalKind::Distance, {CodeAction::Absolute}, context.reading.truth(true));
+}
+
+/// G16: the first axis of the plane is a radius, the second an angle, about the zero point of the program.
+template <ValueAlgebra R>
+void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words, std::array<typename R::Value, kAxisCount> &target) {
+  R &reading = context.reading;
+  const auto polar = context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false));
+  const auto off = context.inForce(ModalKind::Polar, {CodeAction::PolarOff}, reading.truth(true));
+  if (!context.certain(polar) && !context.certain(off) && !reading.mayBe(polar))
+    return;
+  if (!context.certain(polar))
+    return; // as at the start of the run: coordinates are those of the program
+  const std::optional<Plane> plane = planeOf(context);
+  if (!plane)
+    return forgetPosition(context);
+  const auto *radius = words.find(letterOf(plane->first));
+  const auto *angle = words.find(letterOf(plane->second));
+  auto &first = target[indexOf(plane->first)];
+  auto &second = target[indexOf(plane->second)];
+  if (!radius || !angle || !context.certain(isAbsolute(context))) {
+    if (radius || angle)
+      first = second = reading.anyNumber();
+    return;
+  }
+  first = reading.multiply(radius->value, reading.function(FunctionKind::Cos, angle->value));
+  second = reading.multiply(radius->value, reading.function(FunctionKind::Sin, angle->value));
+}
+
+} // namespace detail
+
+template <ValueAlgebra R>
+typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords<R>::Entry &entry,
+                           const typename R::Value &from) {
+  R &reading = context.reading;
+  const auto absolute = detail::isAbsolute(context);
+  if (context.certain(absolute) && context.certain(entry.present))
+    return entry.value;
+  const auto moved = reading.select(absolute, entry.value, reading.add(from, entry.value));
+  return reading.select(entry.present, moved, from);
+}
+
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &reading = context.reading;
+  auto target = toProgrammed(context, context.state.position);
+  const bool incrementsByLetter = context.dialect().machine == MachineKind::Turning &&
+                                  !context.modes.groupOf(ModalKind::Distance);
+  for (const Axis axis : kAllAxes)
+    if (const auto *entry = words.find(letterOf(axis)))
+      if (!incrementsByLetter || (axis != Axis::U && axis != Axis::V && axis != Axis::W))
+        target[indexOf(axis)] = targetOn(context, *entry, target[indexOf(axis)]);
+  if (incrementsByLetter)
+    for (const auto &[letter, axis] : kTurningIncrements)
+      if (const auto *entry = words.find(letter)) {
+        auto &coordinate = target[indexOf(axis)];
+        coordinate = reading.select(entry->present, reading.add(coordinate, entry->value), coordinate);
+      }
+  detail::fromPolar(context, words, target);
+  return toWork(context, std::move(target));
+}
+
+template <ValueAlgebra R>
+void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start) {
+  if (!context.reading.wantsMoves())
+    return;
+  Move<typename R::Value> move;
+  move.kind = kind;
+  move.start = start;
+  move.end = context.state.position;
+  move.feed = context.state.word('F');
+  context.reading.move(move);
+}
+
+} // namespace feedhold

@@ -1,0 +1,170 @@
+// Reading and writing variables, system variables included.
+#pragma once
+
+#include "meaning/semantics/coordinates.h"
+
+#include <cmath>
+
+namespace feedhold {
+
+/// The value of variable `number` (not yet asked whether it is vacant).
+template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context, std::uint32_t number, Span place);
+template <ValueAlgebra R>
+void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place);
+
+/// The variable that an index value names: rounded to the nearest; absent when it is not one constant.
+template <ValueAlgebra R>
+std::optional<std::uint32_t> variableAt(StepContext<R> &context, const typename R::Value &index, Span place) {
+  R &reading = context.reading;
+  const auto number = reading.asNumber(index);
+  reading.alarm(reading.compare(Relation::Less, number, reading.number(-0.5)),
+                {AlarmKind::VariableNotAvailable, place});
+  const std::optional<double> constant = reading.constantOf(number);
+  if (!constant || *constant < -0.5 || *constant > 1e9)
+    return std::nullopt;
+  return static_cast<std::uint32_t>(std::floor(*constant + 0.5));
+}
+
+namespace detail {
+
+/// The letter of the word that a modal-word variable holds (the number of #4101..#4130 less 4100).
+constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
+  switch (offset) {
+  case 2:
+    return 'B';
+  case 7:
+    return 'D';
+  case 9:
+    return 'F';
+  case 11:
+    return 'H';
+  case 13:
+    return 'M';
+  case 19:
+    return 'S';
+  case 20:
+    return 'T';
+  default:
+    return std::nullopt;
+  }
+}
+
+template <ValueAlgebra R> typename R::Value storedValue(StepContext<R> &context, std::uint32_t number) {
+  const auto *value = context.state.variables.find(number);
+  return value ? *value : context.reading.unwritten(context.state, number);
+}
+
+template <ValueAlgebra R>
+typename R::Value readPosition(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
+  const std::uint32_t axis = number - range.first;
+  if (axis >= kAxisCount)
+    return context.reading.anyNumber();
+  if (range.role != VariableRole::MachinePosition)
+    return context.state.position[axis];
+  return context.reading.add(context.state.position[axis], originOf(context, kAllAxes[axis]));
+}
+
+template <ValueAlgebra R>
+typename R::Value readSystem(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
+  R &reading = context.reading;
+  switch (range.role) {
+  case VariableRole::Plain:
+  case VariableRole::Stored:
+  case VariableRole::WorkOffset:
+  case VariableRole::SkipPosition:
+    return storedValue(context, number);
+  case VariableRole::Volatile:
+  case VariableRole::Alarm:
+  case VariableRole::MessageStop:
+    return reading.volatileRead(number);
+  case VariableRole::ModalCode: {
+    const std::uint32_t group = number - range.first + 1;
+    return group < kModalGroups ? reading.numberOfCode(context.state.codes[group], context.modes.group(group))
+                                : reading.anyNumber();
+  }
+  case VariableRole::ModalWord: {
+    const std::optional<char> letter = letterOfModalWord(number - range.first + 1);
+    return letter ? context.state.word(*letter) : reading.volatileRead(number);
+  }
+  case VariableRole::BlockEndPosition:
+  case VariableRole::MachinePosition:
+  case VariableRole::WorkPosition:
+    return readPosition(context, range, number);
+  case VariableRole::Pi:
+    return reading.number(3.14159265358979323846);
+  case VariableRole::EulersNumber:
+    return reading.number(2.71828182845904523536);
+  }
+  return reading.anything();
+}
+
+template <ValueAlgebra R>
+typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
+  R &reading = context.reading;
+  if (number == kVacantVariable)
+    return reading.vacant();
+  if (number >= kFirstNamedVariable)
+    return storedValue(context, number);
+  const VariableRange *range = findVariable(context.dialect(), number);
+  if (!range) {
+    reading.alarm(reading.truth(true), {AlarmKind::VariableNotAvailable, place});
+    return reading.anything();
+  }
+  if (range->kind == VariableKind::Local && number <= kLocalVariables)
+    return context.state.locals[number];
+  if (range->kind == VariableKind::Vacant)
+    return reading.vacant();
+  if (range->access == VariableAccess::WriteOnly)
+    reading.alarm(reading.truth(true), {AlarmKind::ReadProtected, place});
+  return readSystem(context, *range, number);
+}
+
+/// A work offset in force is changed: the machine stands still, its work coordinates change.
+template <ValueAlgebra R>
+void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typename R::Value &value) {
+  const std::uint32_t axis = (number - kFirstWorkOffset) % kWorkOffsetStride;
+  if (axis >= kAxisCount)
+    return context.state.variables.set(number, value);
+  const auto before = originOf(context, kAllAxes[axis]);
+  context.state.variables.set(number, value);
+  moveOrigin(context, kAllAxes[axis], before);
+}
+
+} // namespace detail
+
+template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context, std::uint32_t number, Span place) {
+  const auto value = detail::readAsStored(context, number, place);
+  if (context.behaviour().variablesMayBeVacant)
+    return value;
+  if (number >= kFirstNamedVariable)
+    context.reading.alarm(context.reading.isVacant(value), {AlarmKind::VariableNotAvailable, place});
+  return context.reading.asNumber(value);
+}
+
+template <ValueAlgebra R>
+void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
+  R &reading = context.reading;
+  if (number >= kFirstNamedVariable)
+    return context.state.variables.set(number, std::move(value));
+  const VariableRange *range = findVariable(context.dialect(), number);
+  if (!range) {
+    reading.alarm(reading.truth(true), {AlarmKind::VariableNotAvailable, place});
+    return;
+  }
+  if (range->access == VariableAccess::ReadOnly) {
+    reading.alarm(reading.truth(true), {AlarmKind::WriteProtected, place});
+    return;
+  }
+  if (range->kind == VariableKind::Local && number <= kLocalVariables) {
+    context.state.locals[number] = std::move(value);
+    return;
+  }
+  if (range->role == VariableRole::Alarm)
+    return reading.userAlarm(value, place);
+  if (range->role == VariableRole::WorkOffset)
+    return detail::writeWorkOffset(context, number, value);
+  if (range->role != VariableRole::MessageStop && range->role != VariableRole::Volatile)
+    context.state.variables.set(number, std::move(value));
+}
+
+} // namespace feedhold
