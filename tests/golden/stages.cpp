@@ -6,6 +6,7 @@
 #include "findings/session/session.h"
 #include "language/lex/lexer.h"
 #include "language/parse/parse.h"
+#include "meaning/cfg/cfg.h"
 #include "rules/registry.h"
 #include "surface/sink/sink.h"
 
@@ -33,6 +34,12 @@ std::string tree(const SourceFile &source, const Dialect &dialect) { return dump
 std::string model(const SourceFile &source, const Dialect &dialect) {
   const SyntaxTree syntax = parse(source, dialect);
   return dump(resolve(source, syntax, dialect), syntax, source);
+}
+
+std::string cfg(const SourceFile &source, const Dialect &dialect) {
+  const SyntaxTree syntax = parse(source, dialect);
+  const ProgramModel programs = resolve(source, syntax, dialect);
+  return dump(lower(source, syntax, programs, dialect), syntax, source, programs);
 }
 
 /// Text for each file, under the file's name when there are several.
@@ -133,6 +140,8 @@ std::optional<std::string> runStage(std::string_view stage, const Input &input) 
     return dumps(input, tree);
   if (stage == "model")
     return dumps(input, model);
+  if (stage == "cfg")
+    return dumps(input, cfg);
   if (stage == "findings")
     return report(input, Format::Text);
   if (stage == "fixed")

@@ -19,7 +19,8 @@ namespace feedhold {
 using NodeId = Id<struct NodeTag>;
 using CounterId = Id<struct CounterTag>;
 
-/// Nothing happens: the entry of a program, a place that only jumps lead to.
+/// Nothing happens: the entry of a program, a GOTO, an END that leads back, a statement that changes nothing followed
+/// here (DPRNT, SETVN).
 struct Pass {};
 
 /// A `/` or `/n`: the operator's switch decides, at any time.  Next: the block is executed.
@@ -30,12 +31,12 @@ struct BlockSkip {
 
 /// Which words of the block: all but those that the other choices name.
 enum class WordChoice : std::uint8_t {
-  Always,       // not under a condition, not behind a `/` in mid-block
-  WithSkipped,  // Always and those behind a `/` in mid-block
+  Always,         // not under a condition, not behind a `/` in mid-block
+  WithSkipped,    // Always and those behind a `/` in mid-block
   UnderCondition, // the words of `IF [..] THEN S900`, `[..] M99`
 };
-/// The NC words of the block: modal codes, offsets, motion, dwell, spindle.  Arguments of calls, N and O do not count,
-/// nor do the codes that are nodes of their own (calls, returns, ends).
+/// The NC words of the block that BlockWords (block_words.h) gives to the choice: modal codes, offsets, motion, dwell,
+/// spindle.
 struct ExecuteWords {
   WordChoice which;
 };
@@ -52,7 +53,7 @@ struct Test {
   NodeId taken;
 };
 
-/// GOTO to a computed number: searches the program.  Targets: Cfg::labelsOf(program).
+/// GOTO to a computed number: searches the program.  Targets: labelsOf(.., block of the node).
 struct JumpTo {
   ExpressionId target;
 };
@@ -107,15 +108,16 @@ struct Havoc {
   std::string_view reason;
 };
 
-using Instruction = std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop,
-                                 RequireLoop, StartCount, CountDown, CallProgram, ReturnFromProgram, EndProgram,
-                                 StopWithAlarm, Havoc>;
+using Instruction =
+    std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop, RequireLoop, StartCount,
+                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc>;
 
 struct Node {
   BlockId block;
   NodeId next; // itself when nothing follows (EndProgram, ReturnFromProgram, StopWithAlarm, JumpTo)
   Instruction instruction;
 };
+static_assert(sizeof(Node) <= 32, "a program of a million blocks has a million nodes");
 
 /// Where a jump to a sequence number arrives.
 struct LabelNode {
@@ -123,11 +125,23 @@ struct LabelNode {
   NodeId node;
 };
 
+/// The way to a label for jumps that lead into a loop from outside: a JumpIntoLoop node.  The gates of one label stand
+/// together, outer loops first, each leading to the next and the last one to the label.
+struct LoopGate {
+  BlockId label;
+  NodeId node;
+  BlockId doBlock;
+  BlockId endBlock;
+  /// A jump from there does not enter the loop: it is inside.
+  bool holds(BlockId block) const { return doBlock < block && block <= endBlock; }
+};
+
 class Cfg {
 public:
   Store<Node, NodeId> nodes;
   std::vector<NodeId> entries;   // by ProgramId
-  std::vector<NodeId> blockNode; // by BlockId: the first node of the block
+  std::vector<NodeId> blockNode; // by BlockId: the first node of the block, or of the next one that has a node
+  std::vector<LoopGate> gates;   // by label
   std::size_t counters = 0;
 
   NodeId entryOf(ProgramId program) const { return entries[program.index()]; }
@@ -138,14 +152,28 @@ public:
 /// has its return; a return has none (see ProgramSet).
 template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId node, Visit &&visit);
 
-/// The labels of a program by number; of several with one number, all, in order of the text.
-std::vector<LabelNode> labelsOf(const Cfg &cfg, const ProgramModel &model, ProgramId program);
+/// Where a jump to the block arrives: at its node, or at the gate of a loop that the jump enters.
+NodeId arrival(const Cfg &cfg, BlockId label, BlockId from);
 
-/// Where a search for N `number` from a block arrives: forward, then from the top of the program.
+/// The labels of the program in which `from` stands, in order of the text, as a jump from there finds them.  Of several
+/// with one number the search decides: findLabel.
+std::vector<LabelNode> labelsOf(const Cfg &cfg, const ProgramModel &model, BlockId from);
+
+/// Where a search for N `number` from a block of the program arrives: forward, then from the top of the program.
 std::optional<NodeId> findLabel(const Cfg &cfg, const ProgramModel &model, ProgramId program, std::uint32_t number,
                                 BlockId from);
 
-/// Never fails: what did not parse is a Havoc.
+/// The sequence numbers to which an `M99 P` of any program may return.
+struct ReturnTargets {
+  std::vector<std::uint32_t> numbers; // sorted
+  bool any = false;                   // one of them is computed
+};
+ReturnTargets returnTargets(std::span<const ProgramModel *const> models);
+
+/// Never fails: what did not parse is a Havoc.  `returns`: of all programs that the file may call.
+Cfg lower(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect,
+          const ReturnTargets &returns);
+/// For a file that calls no other.
 Cfg lower(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect);
 
 /// One line for each node: what golden cases compare.
@@ -164,8 +192,8 @@ template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramMod
   else if (const auto *count = std::get_if<CountDown>(&node.instruction))
     visit(count->taken);
   else if (std::holds_alternative<JumpTo>(node.instruction))
-    for (const LabelNode &label : labelsOf(cfg, model, model.programOf(node.block)))
-      visit(label.node);
+    for (const SequenceNumber &label : model.sequenceNumbersOf(model.programOf(node.block)))
+      visit(arrival(cfg, label.block, node.block));
 }
 
 } // namespace feedhold

@@ -4,14 +4,13 @@
 #include "language/model/call_graph.h"
 #include "meaning/cfg/cfg.h"
 
-#include <memory>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace feedhold {
 
-/// One file of a run, from its text to its graph.  The parts outlive the set.
+/// One file of a run, from its text to its graph.  The parts outlive the set; `file` is the place in the list.
 struct ProgramFile {
   FileId file;
   const SourceFile *source;
@@ -49,23 +48,32 @@ public:
   const CallGraph &callGraph() const { return callGraph_; }
   const Node &node(Place place) const { return file(place.file).cfg.nodes[place.node]; }
 
-  /// Absent when the program is in none of the files, or its number is computed.
+  /// Absent when the program is in none of the files, its number is computed, its start (Q of M98, P of M97) is missing
+  /// or not known, or the call transfers no control (G67, Macro A).
   std::optional<Callee> callee(FileId file, CallId call) const;
   /// As callee, for a number that is known only when the call is made.
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
 
-  /// The number of the variable that a name stands for: a system variable of the dialect, one named by SETVN, or one of
-  /// the names from kFirstNamedVariable on.  Absent: the control does not know it.
+  /// The number of the variable that a name stands for: a system variable of the dialect, one named by SETVN in any of
+  /// the files, or, where the control has named parameters, one of the names from kFirstNamedVariable on.  Absent: no
+  /// program of the set gives the name a meaning; a control may have been told it before.
   std::optional<std::uint32_t> variableOf(FileId file, Span name) const;
+  /// The same for a name in its canonical spelling; absent when no program writes it.
+  std::optional<std::uint32_t> variableNamed(std::string_view canonical) const;
   /// `#<depth>` for numbers from kFirstNamedVariable on, else `#101`.
   std::string nameOfVariable(std::uint32_t variable) const;
   /// A named variable that every program sees (`#<_depth>`).
   bool isGlobalName(std::uint32_t variable) const;
 
 private:
+  void findNames(const ProgramFile &file);
+  std::optional<Callee> entryOf(std::optional<ProgramRef> program) const;
+  std::optional<Callee> localCallee(FileId file, const Call &call) const;
+
   std::vector<ProgramFile> files_;
   CallGraph callGraph_;
-  std::vector<std::string> names_; // sorted; canonical spelling
+  std::vector<std::string> names_;                                  // sorted; canonical spelling
+  std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };
 
 } // namespace feedhold

@@ -4,6 +4,7 @@
 
 #include "meaning/cfg/cfg.h"
 
+#include <optional>
 #include <vector>
 
 namespace feedhold {
@@ -20,16 +21,24 @@ public:
   /// kUnreachable for those that are not.
   std::uint32_t positionOf(NodeId node) const;
   bool isHead(NodeId node) const;
-  /// The head of the innermost component that holds the node; the node itself when it is in none.
+  /// The head of the innermost component that holds the node; the node itself when it is a head or in none.
   NodeId headOf(NodeId node) const;
+  /// The head of the innermost component that holds the node and begins before it.
+  std::optional<NodeId> headAround(NodeId node) const;
   /// How many components hold the node.
   std::uint32_t depthOf(NodeId node) const;
+  /// The position behind the last node of the component that the head begins.
+  std::uint32_t endOf(NodeId head) const;
 
 private:
+  enum class Head : std::uint8_t { No, Yes };
+  void append(NodeId node, std::optional<NodeId> around, Head head);
+
   std::vector<NodeId> order_;
-  NodeId first_;                         // lowest node that is reachable; the vectors below start with it
+  NodeId first_;                         // entry of the program; positions_ starts with it
   std::vector<std::uint32_t> positions_; // by node
-  std::vector<std::uint32_t> heads_;     // by position: the position of the head
+  std::vector<std::uint32_t> arounds_;   // by position: the position of the head around it
+  std::vector<std::uint32_t> ends_;      // by position of a head: behind its component; of others behind themselves
   std::vector<bool> isHead_;             // by position
   std::vector<std::uint32_t> depths_;    // by position
 };

@@ -24,5 +24,6 @@ Command addDialectsCommand(CLI::App &parent);
 Command addTokensCommand(CLI::App &parent);
 Command addTreeCommand(CLI::App &parent);
 Command addModelCommand(CLI::App &parent);
+Command addCfgCommand(CLI::App &parent);
 
 } // namespace feedhold

@@ -1,4 +1,4 @@
-// What `tokens`, `tree` and `model` have in common: one file and its dialect.
+// What `tokens`, `tree`, `model` and `cfg` have in common: one file and its dialect.
 #pragma once
 
 #include "base/source/source_file.h"

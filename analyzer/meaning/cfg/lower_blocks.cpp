@@ -1,0 +1,237 @@
+// Lowering of blocks: words, calls, returns and ends.  Order: block skip, words, statements, calls, return or end.
+#include "meaning/cfg/lowering.h"
+
+#include "base/support/text.h"
+#include "language/model/block_facts.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+void Lowering::block(BlockId id) {
+  cfg_.blockNode[id.index()] = end();
+  const Block &block = tree_.blocks[id];
+  const bool tapeMark = block.has(Block::kPercent) && tree_.wordsOf(id).empty();
+  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && !block.has(Block::kBroken)))
+    return;
+  block_ = id;
+  if (!isPlain(id)) {
+    wholeBlock(id);
+    return;
+  }
+  const std::span<const Word> all = tree_.wordsOf(id);
+  const bool data = block.has(Block::kData);
+  const bool acts = std::any_of(all.begin(), all.end(), [&](const Word &word) {
+    return data || word.has(Word::kComma) || (word.address() != 'N' && word.address() != 'O' && word.address() != '<');
+  });
+  if (acts)
+    emit(ExecuteWords{WordChoice::Always});
+}
+
+/// Nothing but words of which none calls, jumps, returns or ends: nearly every block that is not of a macro.
+bool Lowering::isPlain(BlockId id) {
+  while (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block < id)
+    ++nextCall_;
+  while (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block < id)
+    ++nextJump_;
+  const Block &block = tree_.blocks[id];
+  constexpr std::uint16_t kSpecial = Block::kSkip | Block::kBroken | Block::kSkipInside;
+  if ((block.flags & kSpecial) != 0 || block.firstStatement != tree_.blocks[id.next()].firstStatement)
+    return false;
+  if (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block == id)
+    return false;
+  if (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block == id)
+    return false;
+  for (const Word &word : tree_.wordsOf(id)) {
+    const Code *code = word.address() == 'M' ? codeOf(word, dialect_) : nullptr;
+    if (code && (code->role == CodeRole::Return || code->role == CodeRole::ProgramEnd))
+      return false;
+  }
+  return true;
+}
+
+void Lowering::wholeBlock(BlockId id) {
+  const Block &head = tree_.blocks[id];
+  const BlockWords blockWords(tree_, model_, dialect_, id);
+  std::optional<NodeId> skip;
+  if (head.has(Block::kSkip))
+    skip = emit(BlockSkip{head.skipLevel, end()});
+  if (head.has(Block::kBroken)) {
+    brokenBlock(blockWords);
+  } else {
+    words(blockWords);
+    statements();
+    calls(blockWords);
+    contour();
+    ending(blockWords);
+  }
+  closeSkip(skip);
+  if (skip)
+    leaveOutDo(*skip);
+}
+
+/// The control stops with an alarm at what it cannot read, or else it may do anything; jumps, loops and ends that could
+/// be read may or may not take place.
+void Lowering::brokenBlock(const BlockWords &words) {
+  emit(Havoc{"a block that could not be read"});
+  flowStatements();
+  if (!words.ending())
+    return;
+  const NodeId maybe = emitTest(std::nullopt);
+  leave(words);
+  setNext(maybe, end());
+}
+
+/// With a `/` in mid-block: the words before it, or all.
+void Lowering::words(const BlockWords &words) {
+  bool always = false;
+  bool skipped = false;
+  for (const Word &word : tree_.wordsOf(block_)) {
+    const bool free = words.belongsTo(word, WordChoice::Always);
+    always = always || free;
+    skipped = skipped || (!free && words.belongsTo(word, WordChoice::WithSkipped));
+  }
+  if (!skipped) {
+    if (always)
+      emit(ExecuteWords{WordChoice::Always});
+    return;
+  }
+  const NodeId skip = emit(BlockSkip{levelOf(innerSkip()), end()});
+  const NodeId all = emit(ExecuteWords{WordChoice::WithSkipped});
+  closeSkip(skip);
+  if (always)
+    emit(ExecuteWords{WordChoice::Always});
+  setNext(all, end());
+}
+
+void Lowering::calls(const BlockWords &words) {
+  for (const Call &each : words.calls()) {
+    const Word &code = tree_.words[each.code];
+    if (code.has(Word::kAfterThen))
+      continue;
+    const std::optional<NodeId> skip = openInnerSkip(code.span());
+    call(each);
+    closeSkip(skip);
+  }
+}
+
+void Lowering::call(const Call &call) {
+  if (call.kind == CallKind::MacroA) {
+    operationOfMacroA(call);
+    return;
+  }
+  const auto index = static_cast<std::size_t>(&call - &model_.calls[CallId(0)]);
+  emit(CallProgram{CallId(index)});
+}
+
+/// H80 jumps, H81 to H86 jump on a comparison; the others compute and are left to the reading of the call.
+void Lowering::operationOfMacroA(const Call &call) {
+  const auto index = static_cast<std::size_t>(&call - &model_.calls[CallId(0)]);
+  const Word *operation = findWord(tree_, block_, 'H');
+  const Word *target = findWord(tree_, block_, 'P');
+  const std::uint32_t number = operation ? operation->integer().value_or(0) : 0;
+  if (number < 80 || number > 86 || !target) {
+    emit(CallProgram{CallId(index)});
+    return;
+  }
+  const std::optional<NodeId> test = number > 80 ? std::optional(emitTest(std::nullopt)) : std::nullopt;
+  Jump jump{JumpKind::Goto, call.caller, block_, target->span(), target->span(), {}, {}, {}};
+  if (target->isNumber())
+    jump.number = target->number();
+  else if (target->form() == WordForm::Expression)
+    jump.computed = target->expression();
+  if (const std::optional<std::uint32_t> label = targetNumber(jump))
+    jump.target = findSequence(model_, jump.program, *label, block_);
+  goTo(jump);
+  if (test)
+    setNext(*test, end());
+}
+
+/// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.  They
+/// are computed all the same, so that both ways are taken: over them, and through them as if they were read.
+void Lowering::contour() {
+  std::optional<BlockId> first;
+  std::optional<BlockId> last;
+  for (const Jump &jump : model_.jumpsIn(block_, block_.next())) {
+    if (jump.kind == JumpKind::ContourFrom)
+      first = jump.target;
+    if (jump.kind == JumpKind::ContourTo)
+      last = jump.target;
+  }
+  if (!first || !last || *last < *first)
+    return;
+  const bool computes = tree_.blocks[*first].firstStatement != tree_.blocks[last->next()].firstStatement;
+  if (computes)
+    emit(Havoc{"a contour with macro statements"});
+  if (*first > block_) {
+    const NodeId test = emitTest(std::nullopt);
+    openJumps_.push_back({test, Edge::Taken, last->next()});
+  }
+}
+
+void Lowering::ending(const BlockWords &words) {
+  if (!words.ending() || words.ending()->has(Word::kAfterThen))
+    return;
+  const std::optional<NodeId> skip = openInnerSkip(words.ending()->span());
+  leave(words);
+  closeSkip(skip);
+}
+
+void Lowering::leave(const BlockWords &words) {
+  if (!words.endingReturns()) {
+    emitLast(EndProgram{words.ending()->tenths() == 20 ? ProgramEnd::M02 : ProgramEnd::M30});
+    return;
+  }
+  const Word *target = findWord(tree_, block_, 'P');
+  emitLast(ReturnFromProgram{target ? std::optional(tree_.idOf(*target)) : std::nullopt, std::nullopt});
+}
+
+/// `IF [..] THEN S900`, `[..] M99 P10`.
+void Lowering::wordsUnderCondition(std::optional<ExpressionId> condition) {
+  const BlockWords words(tree_, model_, dialect_, block_);
+  const NodeId test = emitTest(condition);
+  const std::span<const Word> all = tree_.wordsOf(block_);
+  if (std::any_of(all.begin(), all.end(),
+                  [&](const Word &word) { return words.belongsTo(word, WordChoice::UnderCondition); }))
+    emit(ExecuteWords{WordChoice::UnderCondition});
+  for (const Call &each : words.calls())
+    if (tree_.words[each.code].has(Word::kAfterThen))
+      call(each);
+  if (words.ending() && words.ending()->has(Word::kAfterThen))
+    leave(words);
+  setNext(test, end());
+}
+
+/// What stands behind a `/` in mid-block: there the operator's switch decides.
+std::optional<NodeId> Lowering::openInnerSkip(Span part) {
+  if (!tree_.blocks[block_].has(Block::kSkipInside))
+    return std::nullopt;
+  const Span slash = innerSkip();
+  return part.begin > slash.begin ? std::optional(emit(BlockSkip{levelOf(slash), end()})) : std::nullopt;
+}
+
+void Lowering::closeSkip(std::optional<NodeId> skip) {
+  if (skip)
+    std::get<BlockSkip>(cfg_.nodes[*skip].instruction).skipped = end();
+}
+
+/// The first `/` that does not stand at the head of the block.
+Span Lowering::innerSkip() const {
+  const Block &block = tree_.blocks[block_];
+  std::uint32_t head = block.end;
+  for (const Word &word : tree_.wordsOf(block_))
+    if (word.address() != 'N')
+      head = std::min(head, word.span().begin);
+  for (const Statement &statement : tree_.statementsOf(block_))
+    head = std::min(head, statement.span.begin);
+  const auto first = std::upper_bound(tree_.skips.begin(), tree_.skips.end(), head,
+                                      [](std::uint32_t at, Span skip) { return at < skip.begin; });
+  return first == tree_.skips.end() ? Span{block.end, block.end} : *first;
+}
+
+std::uint8_t Lowering::levelOf(Span slash) const {
+  const std::string_view text = source_.text(slash);
+  return text.size() > 1 && isDigit(text.back()) ? static_cast<std::uint8_t>(text.back() - '0') : 1;
+}
+
+} // namespace feedhold

@@ -1,0 +1,148 @@
+// Programs of a run: calls and names resolved over all files.
+#include "meaning/cfg/program_set.h"
+
+#include "base/support/check.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+/// The names of `SETVN 500[ABC,DEF]` with the variables that they name.
+void addNamesOf(const ProgramFile &file, const NameVariables &statement,
+                std::vector<std::pair<std::string, std::uint32_t>> &named) {
+  const std::optional<Decimal> first = statement.first ? literalValue(*file.tree, *statement.first) : std::nullopt;
+  const std::optional<std::int64_t> number = first ? first->asInteger() : std::nullopt;
+  if (!number || *number < 0 || *number >= kFirstNamedVariable)
+    return;
+  std::string_view rest = file.source->text(statement.names);
+  for (auto variable = static_cast<std::uint32_t>(*number); !rest.empty(); ++variable) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    if (std::string name = comparedName(rest.substr(0, comma)); !name.empty())
+      named.emplace_back(std::move(name), variable);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+}
+
+std::optional<std::uint32_t> systemVariableOf(const Dialect &dialect, std::string_view name) {
+  for (const VariableRange &range : dialect.variables)
+    if (!range.name.empty() && range.first == range.last && comparedName(range.name) == name)
+      return range.first;
+  return std::nullopt;
+}
+
+/// The block behind which a search for a sequence number begins at the head of the program.
+BlockId lastBlockOf(const Program &program) {
+  return BlockId(std::max(program.last.index(), program.first.index() + 1) - 1);
+}
+
+} // namespace
+
+ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph)
+    : files_(std::move(files)), callGraph_(std::move(callGraph)) {
+  std::vector<const ProgramModel *> models;
+  for (const ProgramFile &each : files_)
+    models.push_back(each.model);
+  const ReturnTargets returns = returnTargets(models);
+  for (ProgramFile &each : files_) {
+    FEEDHOLD_CHECK(each.file.index() == static_cast<std::size_t>(&each - files_.data()), "files are numbered in order");
+    each.cfg = lower(*each.source, *each.tree, *each.model, *each.dialect, returns);
+    findNames(each);
+  }
+  const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
+  std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
+  std::sort(names_.begin(), names_.end());
+  names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+}
+
+void ProgramSet::findNames(const ProgramFile &file) {
+  for (const Statement &statement : file.tree->statements)
+    if (const auto *naming = std::get_if<NameVariables>(&statement.node))
+      addNamesOf(file, *naming, namedNumbers_);
+  if (!file.dialect->grammar.namedParameters)
+    return;
+  for (const Expression &expression : file.tree->expressions)
+    if (const auto *named = std::get_if<NamedVariable>(&expression.node))
+      names_.push_back(comparedName(file.source->text(named->name)));
+}
+
+std::optional<Callee> ProgramSet::callee(FileId id, CallId callId) const {
+  const ProgramFile &from = file(id);
+  const Call &call = from.model->calls[callId];
+  switch (call.kind) {
+  case CallKind::MacroA:
+  case CallKind::ModalCancel:
+  case CallKind::External: return std::nullopt;
+  case CallKind::Local: return localCallee(id, call);
+  case CallKind::Macro:
+  case CallKind::Modal:
+  case CallKind::ModalEach:
+  case CallKind::Code:
+  case CallKind::OWord: return entryOf(callGraph_.callee(id, call));
+  case CallKind::Subprogram: break;
+  }
+  const std::optional<Callee> program = entryOf(callGraph_.callee(id, call));
+  const std::span<const Jump> jumps = from.model->jumpsIn(call.block, call.block.next());
+  const auto start =
+      std::find_if(jumps.begin(), jumps.end(), [](const Jump &each) { return each.kind == JumpKind::CallAt; });
+  if (!program || start == jumps.end())
+    return program;
+  // Where the parameter is not known, nor is the start.
+  const std::optional<std::uint32_t> number = targetNumber(*start);
+  if (!number || from.dialect->switches.sqc != Switch::On)
+    return std::nullopt;
+  const ProgramFile &to = file(program->file);
+  const std::optional<NodeId> label =
+      findLabel(to.cfg, *to.model, program->program, *number, lastBlockOf(to.model->programs[program->program]));
+  return label ? std::optional(Callee{program->file, *label, program->program}) : std::nullopt;
+}
+
+std::optional<Callee> ProgramSet::calleeOf(FileId caller, std::uint32_t programNumber) const {
+  Call call{CallKind::Macro, ProgramId(0), BlockId(0), WordId(0), std::nullopt, {}, std::nullopt, {}};
+  call.callee.number = programNumber;
+  return entryOf(callGraph_.callee(caller, call));
+}
+
+std::optional<Callee> ProgramSet::entryOf(std::optional<ProgramRef> program) const {
+  if (!program)
+    return std::nullopt;
+  return Callee{program->file, file(program->file).cfg.entryOf(program->program), program->program};
+}
+
+std::optional<Callee> ProgramSet::localCallee(FileId id, const Call &call) const {
+  const ProgramFile &from = file(id);
+  for (const Jump &jump : from.model->jumpsIn(call.block, call.block.next()))
+    if (jump.kind == JumpKind::LocalCall && jump.target)
+      return Callee{id, arrival(from.cfg, *jump.target, call.block), call.caller};
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> ProgramSet::variableOf(FileId id, Span span) const {
+  const ProgramFile &from = file(id);
+  const std::string name = comparedName(from.source->text(span));
+  if (const std::optional<std::uint32_t> system = systemVariableOf(*from.dialect, name))
+    return system;
+  const auto number = std::lower_bound(namedNumbers_.begin(), namedNumbers_.end(), name,
+                                       [](const auto &each, const std::string &wanted) { return each.first < wanted; });
+  if (number != namedNumbers_.end() && number->first == name)
+    return number->second;
+  const auto known = std::lower_bound(names_.begin(), names_.end(), name);
+  if (known == names_.end() || *known != name || !from.dialect->grammar.namedParameters)
+    return std::nullopt;
+  return kFirstNamedVariable + static_cast<std::uint32_t>(known - names_.begin());
+}
+
+std::string ProgramSet::nameOfVariable(std::uint32_t variable) const {
+  if (variable < kFirstNamedVariable)
+    return "#" + std::to_string(variable);
+  FEEDHOLD_CHECK(variable - kFirstNamedVariable < names_.size(), "a named variable of another set");
+  return "#<" + names_[variable - kFirstNamedVariable] + ">";
+}
+
+bool ProgramSet::isGlobalName(std::uint32_t variable) const {
+  return variable >= kFirstNamedVariable && variable - kFirstNamedVariable < names_.size() &&
+         names_[variable - kFirstNamedVariable].starts_with('_');
+}
+
+} // namespace feedhold
