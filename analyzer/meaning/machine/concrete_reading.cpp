@@ -152,8 +152,9 @@ bool ConcreteReading::compare(Relation relation, const Value &a, const Value &b)
   return false;
 }
 
-ConcreteValue ConcreteReading::numberOfCode(ModalCode code, const ModalGroup &group) const {
-  return Value::of(code < group.codes.size() ? group.codes[code]->tenths / 10.0 : 0);
+ConcreteValue ConcreteReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
+  const auto &codes = modes.group(group).codes;
+  return Value::of(code < codes.size() ? codes[code]->tenths / 10.0 : 0);
 }
 
 ConcreteValue ConcreteReading::given(std::uint32_t variable) const {

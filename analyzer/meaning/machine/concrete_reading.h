@@ -95,7 +95,10 @@ public:
     return code == kNoCode ? std::nullopt : std::optional(code);
   }
   ModalCode selectCode(bool truth, ModalCode first, ModalCode second) const { return truth ? first : second; }
-  Value numberOfCode(ModalCode code, const ModalGroup &group) const;
+  Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const;
+  std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &, const ModalTable &) const {
+    return std::nullopt; // a number is one number here
+  }
 
   // ---- variables ----
   Value unwritten(const State &, std::uint32_t variable) const { return given(variable); }

@@ -83,8 +83,12 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   /// The index of the code when it can be only one.
   { reading.onlyCode(code) } -> std::same_as<std::optional<std::uint8_t>>;
   { reading.selectCode(truth, code, code) } -> std::same_as<typename R::ModalCode>;
-  /// The number of the code as #4001 reads it (54.1).
-  { reading.numberOfCode(code, std::declval<const ModalGroup &>()) } -> std::same_as<typename R::Value>;
+  /// The number of the code as #4001 reads it (54.1); of group `std::uint8_t`.
+  { reading.numberOfCode(code, std::declval<const ModalTable &>(), std::uint8_t{}) } -> std::same_as<typename R::Value>;
+  /// The group and the code that a number names, when it may be several numbers; absent when they are of no one group.
+  {
+    reading.codeFrom(value, std::declval<const ModalTable &>())
+  } -> std::same_as<std::optional<std::pair<std::uint8_t, typename R::ModalCode>>>;
 
   // ---- what a variable holds that no write of this run has reached ----
   { reading.unwritten(state, variable) } -> std::same_as<typename R::Value>;

@@ -13,9 +13,6 @@ inline constexpr std::uint32_t kWorkOffsetStride = 20;
 /// Machine coordinate of the zero point of the program on an axis: work offsets, G52, G92 and tool length together.
 template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Axis axis);
 
-/// The zero point on an axis was at `before`; the machine has not moved, so its work coordinate changes.
-template <ValueAlgebra R> void moveOrigin(StepContext<R> &context, Axis axis, const typename R::Value &before);
-
 /// The zero points of all axes, to be given to moveOrigins when they have changed.
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context);
 template <ValueAlgebra R>
@@ -125,12 +122,6 @@ template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Ax
       origin, detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
 }
 
-template <ValueAlgebra R> void moveOrigin(StepContext<R> &context, Axis axis, const typename R::Value &before) {
-  R &reading = context.reading;
-  auto &coordinate = context.state.at(axis);
-  coordinate = reading.add(coordinate, reading.subtract(before, originOf(context, axis)));
-}
-
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context) {
   std::array<typename R::Value, kAxisCount> origins;
   for (const Axis axis : kAllAxes)
@@ -140,8 +131,11 @@ template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(St
 
 template <ValueAlgebra R>
 void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kAxisCount> &before) {
-  for (const Axis axis : kAllAxes)
-    moveOrigin(context, axis, before[indexOf(axis)]);
+  R &reading = context.reading;
+  for (const Axis axis : kAllAxes) {
+    auto &coordinate = context.state.at(axis);
+    coordinate = reading.add(coordinate, reading.subtract(before[indexOf(axis)], originOf(context, axis)));
+  }
 }
 
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context) {

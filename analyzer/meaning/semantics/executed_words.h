@@ -23,9 +23,12 @@ template <typename R> struct ExecutedWords {
     Span span;
   };
   std::vector<CodeWord> codes;
+  /// Groups whose code comes from a variable that can hold several.
+  std::vector<std::pair<std::uint8_t, typename R::ModalCode>> computed;
 
   void clear() {
     codes.clear();
+    computed.clear();
     entries.clear();
     slots.fill(kNone);
   }
@@ -162,7 +165,11 @@ private:
     const std::optional<double> number = reading_.constantOf(reading_.roundTo(reading_.asNumber(value), Decimal(1, 1)));
     if (number && *number >= 0 && *number < 6000 && !reading_.mayBe(reading_.isVacant(value)))
       return static_cast<std::uint16_t>(*number * 10 + 0.5);
-    if (!context_.certain(reading_.isVacant(value)))
+    if (context_.certain(reading_.isVacant(value)))
+      return std::nullopt;
+    if (const auto code = word.address() == 'G' ? reading_.codeFrom(value, context_.modes) : std::nullopt)
+      words_.computed.push_back(*code);
+    else
       reading_.havoc(context_.state, "a code whose number is computed", word.span());
     return std::nullopt;
   }

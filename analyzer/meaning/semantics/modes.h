@@ -23,7 +23,7 @@ public:
       : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
 
   void run() {
-    if (!words_.codes.empty())
+    if (!words_.codes.empty() || !words_.computed.empty())
       codes();
     modalWords();
   }
@@ -31,18 +31,18 @@ public:
 private:
   void codes() {
     switchUnits();
-    const bool shifts = changesOrigin();
+    const bool shifts = changesWorkOffset();
     const auto before = shifts ? originsOf(context_) : std::array<Value, kAxisCount>{};
     const bool maps = changesMapping();
     if (maps)
       leaveUnknownMappings();
     for (const CodeWord &word : words_.codes)
       enter(word);
+    computedCodes();
     cancelCycle();
-    if (shifts) {
-      length();
+    if (shifts)
       moveOrigins(context_, before);
-    }
+    length();
     if (maps)
       mappings();
   }
@@ -64,6 +64,16 @@ private:
     for (std::size_t i = 0; i < kSpindleActions.size(); ++i)
       if (action == kSpindleActions[i])
         state_.spindle = reading_.code(static_cast<std::uint8_t>(i));
+  }
+  /// `G#1` where #1 holds what #4003 said: the mode is restored.
+  void computedCodes() {
+    for (const auto &[group, code] : words_.computed) {
+      state_.codes[group] = code;
+      for (const ModalKind kind : {ModalKind::Units, ModalKind::WorkOffset, ModalKind::Length, ModalKind::Scaling,
+                                   ModalKind::Mirror, ModalKind::Rotation, ModalKind::Cycle})
+        if (context_.modes.groupOf(kind) == group)
+          forgetPosition(context_);
+    }
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
 
@@ -127,11 +137,10 @@ private:
 
   // ---- zero points ----
 
-  bool changesOrigin() const {
+  bool changesWorkOffset() const {
     for (const CodeWord &word : words_.codes) {
       const CodeAction action = word.code->action;
-      if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus || action == CodeAction::LengthOff ||
-          action == CodeAction::ExtendedWorkOffset || (action == CodeAction::WorkOffset && !inForceAlready(word)))
+      if (action == CodeAction::ExtendedWorkOffset || (action == CodeAction::WorkOffset && !inForceAlready(word)))
         return true;
     }
     return false;
@@ -141,14 +150,20 @@ private:
     return index && word.code->action == CodeAction::WorkOffset &&
            reading_.onlyCode(state_.codes[word.code->group]) == index;
   }
-  /// The program's coordinates do not change with the length of the tool, the machine's do: the position in the program
-  /// stays, the zero point moves.
+  /// The tip of the tool gets another coordinate while the machine stands still.
   void length() {
-    for (const CodeWord &word : words_.codes)
-      if (word.code->action == CodeAction::LengthOff)
-        state_.lengthOffset = context_.zero();
-      else if (word.code->action == CodeAction::LengthPlus || word.code->action == CodeAction::LengthMinus)
-        state_.lengthOffset = reading_.toolLength(state_, wordOr('H', state_.word('H')));
+    for (const CodeWord &word : words_.codes) {
+      const CodeAction action = word.code->action;
+      if (action == CodeAction::LengthOff)
+        setLength(context_.zero());
+      else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
+        setLength(reading_.toolLength(state_, wordOr('H', state_.word('H'))));
+    }
+  }
+  void setLength(const Value &length) {
+    const Value moved = reading_.subtract(state_.lengthOffset, length);
+    state_.lengthOffset = length;
+    state_.at(Axis::Z) = reading_.add(state_.at(Axis::Z), moved);
   }
   Value wordOr(char letter, const Value &otherwise) const {
     const auto *entry = words_.find(letter);

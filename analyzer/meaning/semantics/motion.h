@@ -261,10 +261,10 @@ private:
   void localShift() {
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
-        const Value before = originOf(context_, axis);
         Value &shift = state_.local[indexOf(axis)];
-        shift = reading_.select(entry->present, entry->value, shift);
-        moveOrigin(context_, axis, before);
+        const Value wanted = reading_.select(entry->present, entry->value, shift);
+        state_.at(axis) = reading_.add(state_.at(axis), reading_.subtract(shift, wanted));
+        shift = wanted;
       }
   }
   /// G92: the tool stands, from now on, at the named coordinates.
@@ -280,9 +280,9 @@ private:
   }
   void coordinateSetOff() {
     for (const Axis axis : kAllAxes) {
-      const Value before = originOf(context_, axis);
-      state_.shift[indexOf(axis)] = context_.zero();
-      moveOrigin(context_, axis, before);
+      Value &shift = state_.shift[indexOf(axis)];
+      state_.at(axis) = reading_.add(state_.at(axis), shift);
+      shift = context_.zero();
     }
   }
   void machineMove() {

@@ -79,8 +79,9 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
     return reading.volatileRead(number);
   case VariableRole::ModalCode: {
     const std::uint32_t group = number - range.first + 1;
-    return group < kModalGroups ? reading.numberOfCode(context.state.codes[group], context.modes.group(group))
-                                : reading.anyNumber();
+    return group < kModalGroups
+               ? reading.numberOfCode(context.state.codes[group], context.modes, static_cast<std::uint8_t>(group))
+               : reading.anyNumber();
   }
   case VariableRole::ModalWord: {
     const std::optional<char> letter = letterOfModalWord(number - range.first + 1);
@@ -122,12 +123,19 @@ typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Sp
 /// A work offset in force is changed: the machine stands still, its work coordinates change.
 template <ValueAlgebra R>
 void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typename R::Value &value) {
+  R &reading = context.reading;
   const std::uint32_t axis = (number - kFirstWorkOffset) % kWorkOffsetStride;
-  if (axis >= kAxisCount)
-    return context.state.variables.set(number, value);
-  const auto before = originOf(context, kAllAxes[axis]);
+  const std::uint32_t written = (number - kFirstWorkOffset) / kWorkOffsetStride; // 0: external
+  const auto moved = reading.subtract(offsetVariable(context, number), reading.asNumber(value));
   context.state.variables.set(number, value);
-  moveOrigin(context, kAllAxes[axis], before);
+  if (axis >= kAxisCount)
+    return;
+  auto &coordinate = context.state.position[axis];
+  const std::optional<std::uint32_t> inForce = workOffsetInForce(context);
+  if (written == 0 || inForce == written - 1)
+    coordinate = reading.add(coordinate, moved);
+  else if (!inForce)
+    coordinate = reading.anyNumber();
 }
 
 } // namespace detail
