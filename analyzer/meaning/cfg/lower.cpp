@@ -23,6 +23,7 @@ Cfg Lowering::run() {
   cfg_.blockNode.assign(blocks, NodeId(0));
   cfg_.entries.reserve(model_.programs.size());
   loopNodes_.resize(model_.loops.size());
+  constructNodes_.resize(model_.constructs.size());
   for (std::size_t i = 0; i < model_.programs.size(); ++i)
     program(ProgramId(i));
   return std::move(cfg_);
@@ -57,6 +58,7 @@ void Lowering::program(ProgramId id) {
   const NodeId last = emitLast(EndProgram{ProgramEnd::EndOfFile});
   for (; at < program.last; at = at.next())
     cfg_.blockNode[at.index()] = last;
+  closeOpenConstructs(id);
   addGates(entrances);
   mendJumps(id, last);
 }

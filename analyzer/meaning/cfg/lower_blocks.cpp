@@ -106,6 +106,10 @@ void Lowering::words(const BlockWords &words) {
 
 void Lowering::calls(const BlockWords &words) {
   for (const Call &each : words.calls()) {
+    if (each.kind == CallKind::OWord) {
+      call(each);
+      continue;
+    }
     const Word &code = tree_.words[each.code];
     if (code.has(Word::kAfterThen))
       continue;
@@ -195,7 +199,7 @@ void Lowering::wordsUnderCondition(std::optional<ExpressionId> condition) {
                   [&](const Word &word) { return words.belongsTo(word, WordChoice::UnderCondition); }))
     emit(ExecuteWords{WordChoice::UnderCondition});
   for (const Call &each : words.calls())
-    if (tree_.words[each.code].has(Word::kAfterThen))
+    if (each.kind != CallKind::OWord && tree_.words[each.code].has(Word::kAfterThen))
       call(each);
   if (words.ending() && words.ending()->has(Word::kAfterThen))
     leave(words);

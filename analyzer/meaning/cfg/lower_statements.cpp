@@ -39,7 +39,8 @@ void Lowering::flowStatements() {
     const bool leads = jumps || (branch && branch->action != IfAction::Statement) ||
                        std::holds_alternative<Else>(each.node) || std::holds_alternative<ElseIf>(each.node) ||
                        std::holds_alternative<EndIf>(each.node) || std::holds_alternative<While>(each.node) ||
-                       std::holds_alternative<Do>(each.node) || std::holds_alternative<End>(each.node);
+                       std::holds_alternative<Do>(each.node) || std::holds_alternative<End>(each.node) ||
+                       std::holds_alternative<OWord>(each.node);
     if (!leads)
       continue;
     const std::optional<NodeId> maybe = jumps ? std::optional(emitTest(std::nullopt)) : std::nullopt;
@@ -63,7 +64,7 @@ void Lowering::statement(StatementId id) {
       [&](const Do &) { doStatement(id); }, [&](const End &) { endStatement(id); },
       [&](const NameVariables &) { emit(Pass{}); },
       [&](const ConditionalWords &words) { wordsUnderCondition(words.condition); },
-      [&](const Print &) { emit(Pass{}); }, [&](const OWord &) { emit(Havoc{"an o-word"}); },
+      [&](const Print &) { emit(Pass{}); }, [&](const OWord &oWord) { oWordStatement(id, oWord); },
       [&](const BrokenStatement &) { emit(Havoc{"a statement that could not be read"}); });
 }
 

@@ -1,6 +1,6 @@
 // Lowering: builds the graph block by block, in order of the text.  A node leads to the next one unless told otherwise;
 // jumps ahead are mended when the program is read.  One file for each part: lower.cpp (files and programs),
-// lower_blocks.cpp (words, calls, returns), lower_statements.cpp, lower_loops.cpp.
+// lower_blocks.cpp (words, calls, returns), lower_statements.cpp, lower_loops.cpp, lower_o_words.cpp.
 #pragma once
 
 #include "meaning/cfg/block_words.h"
@@ -71,6 +71,17 @@ private:
   void enter(std::size_t loop);
   void leaveOutDo(NodeId skip);
 
+  // lower_o_words.cpp
+  struct ConstructNodes;
+  void oWordStatement(StatementId id, const OWord &oWord);
+  void partOfConstruct(OWordKind kind, ConstructId id, std::optional<ExpressionId> value);
+  void nextBranch(ConstructNodes &nodes, OWordKind kind, std::optional<ExpressionId> value);
+  void startRepeat(ConstructNodes &nodes, std::optional<ExpressionId> times);
+  void leaveBody(ConstructNodes &nodes, OWordKind kind, OWordKind loop);
+  void closeConstruct(ConstructNodes &nodes);
+  void resolve(std::vector<NodeId> &nodes);
+  void closeOpenConstructs(ProgramId id);
+
   // nodes
   NodeId end() const { return NodeId(cfg_.nodes.size()); }
   NodeId emit(Instruction instruction) {
@@ -116,6 +127,15 @@ private:
     NodeId first;
   };
   std::vector<OpenIf> openIfs_;
+
+  /// The same for the o-words of one label.
+  struct ConstructNodes {
+    std::optional<NodeId> head;      // of a loop: to which its end leads back
+    std::optional<NodeId> whenFalse; // leads to the next branch, or behind the end
+    std::vector<NodeId> ends;        // ends of branches, and breaks: lead behind the end
+    std::vector<NodeId> continues;   // lead to the end
+  };
+  std::vector<ConstructNodes> constructNodes_; // by ConstructId
 };
 
 } // namespace feedhold
