@@ -28,8 +28,8 @@ inline constexpr std::array kHaasVariables = {
 consteval std::array<Code, 20> haasWorkCoordinates() {
   std::array<Code, 20> codes{};
   for (std::uint16_t i = 0; i < 20; ++i)
-    codes[i] = {static_cast<std::uint16_t>((110 + i) * 10), 12, CodeRole::Plain,
-                CodeAction::ExtendedWorkOffset, "additional work coordinate system"};
+    codes[i] = {static_cast<std::uint16_t>((110 + i) * 10), 12, CodeRole::Plain, CodeAction::ExtendedWorkOffset,
+                "additional work coordinate system"};
   return codes;
 }
 inline constexpr std::array kHaasWorkCoordinates = haasWorkCoordinates();
@@ -74,6 +74,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.thenMayBeOmitted = true;
   dialect.grammar.conditionalReturn = true;
   dialect.grammar.sequenceZero = true;
+  dialect.behaviour.returnTargetIsLocal = true;
   dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
   dialect.switches.ccv = Switch::On; // global variables survive power-off
   dialect.switches.v15 = Switch::On; // geometry stands before wear

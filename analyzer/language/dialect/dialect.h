@@ -59,6 +59,7 @@ enum class CodeRole : std::uint8_t {
   Return,          // M99
   ProgramEnd,      // M02 M30
   ProgramStop,     // M00 M01
+  JumpOnInput,     // M96 P Q of controls that have it: jumps to N P while input Q is off
 };
 
 /// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  None: nothing that a
@@ -313,6 +314,7 @@ struct Behaviour {
   bool assignsAfterReading = false;   // all assignments of a line take place after the whole line is read
   bool arcDistanceModes = false;      // G90.1 and G91.1 exist
   bool cycleClearsFirst = false;      // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool returnTargetIsLocal = false;   // `M99 P` jumps within its own program, also in a subprogram
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
   double equalTolerance = 0;          // EQ, NE, GE, LE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end

@@ -37,7 +37,8 @@ std::optional<CallKind> kindOf(const Word &word, const Dialect &dialect) {
   case CodeRole::Contour:
   case CodeRole::Return:
   case CodeRole::ProgramEnd:
-  case CodeRole::ProgramStop: return std::nullopt;
+  case CodeRole::ProgramStop:
+  case CodeRole::JumpOnInput: return std::nullopt;
   }
   return std::nullopt;
 }

@@ -148,9 +148,17 @@ public:
   NodeId nodeOf(BlockId block) const { return blockNode[block.index()]; }
 };
 
+/// A program that is called returns to its caller; one that the operator starts goes on at its head, or at the target
+/// of its `M99 P`.
+enum class ProgramUse : std::uint8_t { Called, Started };
+
 /// Calls visit(NodeId) for each successor inside the graph, next first.  A JumpTo has all labels of its program; a call
-/// has its return; a return has none (see ProgramSet).
-template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId node, Visit &&visit);
+/// has its return; the return of a called program has none (see ProgramSet).
+template <typename Visit>
+void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId node, ProgramUse use, Visit &&visit);
+
+/// Where a return of a started program leads.
+std::vector<NodeId> returnsWithin(const Cfg &cfg, const ProgramModel &model, NodeId from);
 
 /// Where a jump to the block arrives: at its node, or at the gate of a loop that the jump enters.
 NodeId arrival(const Cfg &cfg, BlockId label, BlockId from);
@@ -181,19 +189,24 @@ std::string dump(const Cfg &cfg, const SyntaxTree &tree, const SourceFile &sourc
 
 // ---- template -----------------------------------------------------------------------------------------------------
 
-template <typename Visit> void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId id, Visit &&visit) {
+template <typename Visit>
+void forEachSuccessor(const Cfg &cfg, const ProgramModel &model, NodeId id, ProgramUse use, Visit &&visit) {
   const Node &node = cfg.nodes[id];
   if (node.next != id)
     visit(node.next);
-  if (const auto *skip = std::get_if<BlockSkip>(&node.instruction))
+  if (const auto *skip = std::get_if<BlockSkip>(&node.instruction)) {
     visit(skip->skipped);
-  else if (const auto *test = std::get_if<Test>(&node.instruction))
+  } else if (const auto *test = std::get_if<Test>(&node.instruction)) {
     visit(test->taken);
-  else if (const auto *count = std::get_if<CountDown>(&node.instruction))
+  } else if (const auto *count = std::get_if<CountDown>(&node.instruction)) {
     visit(count->taken);
-  else if (std::holds_alternative<JumpTo>(node.instruction))
+  } else if (std::holds_alternative<JumpTo>(node.instruction)) {
     for (const SequenceNumber &label : model.sequenceNumbersOf(model.programOf(node.block)))
       visit(arrival(cfg, label.block, node.block));
+  } else if (use == ProgramUse::Started && std::holds_alternative<ReturnFromProgram>(node.instruction)) {
+    for (const NodeId target : returnsWithin(cfg, model, id))
+      visit(target);
+  }
 }
 
 } // namespace feedhold

@@ -27,6 +27,24 @@ std::optional<NodeId> findLabel(const Cfg &cfg, const ProgramModel &model, Progr
   return block ? std::optional(arrival(cfg, *block, from)) : std::nullopt;
 }
 
+std::vector<NodeId> returnsWithin(const Cfg &cfg, const ProgramModel &model, NodeId from) {
+  const Node &node = cfg.nodes[from];
+  const ProgramId program = model.programOf(node.block);
+  if (!std::get<ReturnFromProgram>(node.instruction).target)
+    return {cfg.entryOf(program)};
+  std::vector<NodeId> targets;
+  for (const Jump &jump : model.jumpsIn(node.block, node.block.next())) {
+    if (jump.kind != JumpKind::ReturnTo)
+      continue;
+    if (jump.target)
+      targets.push_back(arrival(cfg, *jump.target, node.block));
+    else if (jump.computed)
+      for (const LabelNode &label : labelsOf(cfg, model, node.block))
+        targets.push_back(label.node);
+  }
+  return targets;
+}
+
 ReturnTargets returnTargets(std::span<const ProgramModel *const> models) {
   ReturnTargets targets;
   for (const ProgramModel *model : models)

@@ -83,12 +83,17 @@ void Lowering::addGates(const std::vector<LoopEntrance> &entrances) {
 
 void Lowering::mendJumps(ProgramId id, NodeId last) {
   for (const OpenJump &jump : openJumps_) {
-    Node &node = cfg_.nodes[jump.node];
-    const NodeId target = jump.target < model_.programs[id].last ? arrival(cfg_, jump.target, node.block) : last;
-    if (jump.edge == Edge::Next)
-      node.next = target;
-    else
-      std::get<Test>(node.instruction).taken = target;
+    block_ = cfg_.nodes[jump.node].block;
+    const NodeId target = jump.target < model_.programs[id].last ? arrival(cfg_, jump.target, block_) : last;
+    if (jump.edge == Edge::Taken) {
+      std::get<Test>(cfg_.nodes[jump.node].instruction).taken = target;
+      continue;
+    }
+    setNext(jump.node, target);
+    if (target == jump.node) { // `N10 GOTO 10`: a node that leads to itself would be an end
+      setNext(jump.node, end());
+      setNext(emit(Pass{}), jump.node);
+    }
   }
   openJumps_.clear();
 }

@@ -44,7 +44,8 @@ bool Lowering::isPlain(BlockId id) {
     return false;
   for (const Word &word : tree_.wordsOf(id)) {
     const Code *code = word.address() == 'M' ? codeOf(word, dialect_) : nullptr;
-    if (code && (code->role == CodeRole::Return || code->role == CodeRole::ProgramEnd))
+    if (code &&
+        (code->role == CodeRole::Return || code->role == CodeRole::ProgramEnd || code->role == CodeRole::JumpOnInput))
       return false;
   }
   return true;
@@ -63,11 +64,11 @@ void Lowering::wholeBlock(BlockId id) {
     statements();
     calls(blockWords);
     contour();
+    jumpOnInput();
     ending(blockWords);
   }
   closeSkip(skip);
-  if (skip)
-    leaveOutDo(*skip);
+  leaveOutDo(skip);
 }
 
 /// The control stops with an alarm at what it cannot read, or else it may do anything; jumps, loops and ends that could
@@ -134,21 +135,36 @@ void Lowering::operationOfMacroA(const Call &call) {
   const Word *operation = findWord(tree_, block_, 'H');
   const Word *target = findWord(tree_, block_, 'P');
   const std::uint32_t number = operation ? operation->integer().value_or(0) : 0;
-  if (number < 80 || number > 86 || !target) {
+  if (number < 80 || number > 86 || !target)
     emit(CallProgram{CallId(index)});
-    return;
-  }
-  const std::optional<NodeId> test = number > 80 ? std::optional(emitTest(std::nullopt)) : std::nullopt;
-  Jump jump{JumpKind::Goto, call.caller, block_, target->span(), target->span(), {}, {}, {}};
-  if (target->isNumber())
-    jump.number = target->number();
-  else if (target->form() == WordForm::Expression)
-    jump.computed = target->expression();
+  else if (number == 80)
+    goTo(jumpTo(*target));
+  else
+    mayGoTo(jumpTo(*target));
+}
+
+/// `M96 P10 Q5`: the input is the machine's.
+void Lowering::jumpOnInput() {
+  const Word *target = findWord(tree_, block_, 'P');
+  if (target && findCode(tree_, block_, dialect_, CodeRole::JumpOnInput))
+    mayGoTo(jumpTo(*target));
+}
+
+Jump Lowering::jumpTo(const Word &target) const {
+  Jump jump{JumpKind::Goto, model_.programOf(block_), block_, target.span(), target.span(), {}, {}, {}};
+  if (target.isNumber())
+    jump.number = target.number();
+  else if (target.form() == WordForm::Expression)
+    jump.computed = target.expression();
   if (const std::optional<std::uint32_t> label = targetNumber(jump))
     jump.target = findSequence(model_, jump.program, *label, block_);
+  return jump;
+}
+
+void Lowering::mayGoTo(const Jump &jump) {
+  const NodeId test = emitTest(std::nullopt);
   goTo(jump);
-  if (test)
-    setNext(*test, end());
+  setNext(test, end());
 }
 
 /// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.  They
@@ -187,6 +203,10 @@ void Lowering::leave(const BlockWords &words) {
     return;
   }
   const Word *target = findWord(tree_, block_, 'P');
+  if (target && dialect_.behaviour.returnTargetIsLocal) {
+    goTo(jumpTo(*target));
+    return;
+  }
   emitLast(ReturnFromProgram{target ? std::optional(tree_.idOf(*target)) : std::nullopt, std::nullopt});
 }
 

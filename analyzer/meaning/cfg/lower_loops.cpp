@@ -89,22 +89,25 @@ void Lowering::sortEnds(ProgramId id) {
     if (loop.endStatement)
       loopEnds_.push_back({*loop.endStatement, index});
     constexpr std::uint16_t kSkipped = Block::kSkip | Block::kSkipInside;
-    if ((tree_.blocks[loop.doBlock].flags & kSkipped) != 0)
+    const bool repeats = usableNumber(loop.number, dialect_) && loop.endBlock;
+    if (repeats && (tree_.blocks[loop.doBlock].flags & kSkipped) != 0)
       loopNodes_[index].isEntered = true;
   }
   std::sort(loopEnds_.begin(), loopEnds_.end());
 }
 
 /// `/WHILE [..] DO1`: when the block is skipped, the loop is entered past its DO.
-void Lowering::leaveOutDo(NodeId skip) {
+void Lowering::leaveOutDo(std::optional<NodeId> skip) {
+  const NodeId lastOfDo(end().index() - 1);
+  if (!skip || cfg_.nodes[lastOfDo].next != end())
+    return;
   for (const Loop &loop : model_.loopsIn(block_, block_.next())) {
-    const auto index = static_cast<std::size_t>(&loop - model_.loops.data());
-    if (!loopNodes_[index].isEntered || !loopNodes_[index].head)
+    const LoopNodes &nodes = loopNodes_[static_cast<std::size_t>(&loop - model_.loops.data())];
+    if (!nodes.isEntered || !nodes.head)
       continue;
-    const NodeId lastOfDo(end().index() - 1);
     const NodeId gate = emit(JumpIntoLoop{static_cast<std::uint8_t>(*loop.number)});
     setNext(lastOfDo, gate.next());
-    std::get<BlockSkip>(cfg_.nodes[skip].instruction).skipped = gate;
+    std::get<BlockSkip>(cfg_.nodes[*skip].instruction).skipped = gate;
     return;
   }
 }

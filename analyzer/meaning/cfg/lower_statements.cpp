@@ -26,6 +26,7 @@ void Lowering::statements() {
       statement(tree_.idOf(all[i]));
     }
     closeSkip(skip);
+    leaveOutDo(skip);
   }
 }
 

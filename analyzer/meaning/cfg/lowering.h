@@ -36,6 +36,9 @@ private:
   void calls(const BlockWords &words);
   void call(const Call &call);
   void operationOfMacroA(const Call &call);
+  void jumpOnInput();
+  Jump jumpTo(const Word &target) const;
+  void mayGoTo(const Jump &jump);
   void contour();
   void ending(const BlockWords &words);
   void leave(const BlockWords &words);
@@ -69,7 +72,7 @@ private:
   void sortEnds(ProgramId id);
   bool beginsLoop(std::optional<std::size_t> loop);
   void enter(std::size_t loop);
-  void leaveOutDo(NodeId skip);
+  void leaveOutDo(std::optional<NodeId> skip);
 
   // lower_o_words.cpp
   struct ConstructNodes;

@@ -63,8 +63,8 @@ struct Edge {
 /// What a depth-first search finds.  Nodes are numbered in the order in which it meets them; the entry is 0.
 class Search {
 public:
-  Search(const Cfg &cfg, const ProgramModel &model, NodeId first, std::size_t size)
-      : cfg_(cfg), model_(model), first_(first), numbers_(size, kNone) {}
+  Search(const Cfg &cfg, const ProgramModel &model, ProgramUse use, NodeId first, std::size_t size)
+      : cfg_(cfg), model_(model), use_(use), first_(first), numbers_(size, kNone) {}
 
   void run(NodeId entry);
 
@@ -85,6 +85,7 @@ private:
 
   const Cfg &cfg_;
   const ProgramModel &model_;
+  ProgramUse use_;
   NodeId first_;
   std::vector<std::uint32_t> numbers_; // by node, from first_ on
   std::vector<bool> isLeft_;           // by number
@@ -118,7 +119,7 @@ void Search::enter(NodeId node) {
   isLeft_.push_back(false);
   leftInto_.add();
   path_.push_back({number, successors_.size()});
-  forEachSuccessor(cfg_, model_, node, [&](NodeId successor) { successors_.push_back(successor); });
+  forEachSuccessor(cfg_, model_, node, use_, [&](NodeId successor) { successors_.push_back(successor); });
 }
 
 void Search::follow(std::uint32_t from, NodeId to) {
@@ -164,11 +165,11 @@ std::vector<std::uint32_t> loopsAround(const Search &search) {
 
 } // namespace
 
-Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry) : first_(entry) {
+Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use) : first_(entry) {
   const auto behind = std::upper_bound(cfg.entries.begin(), cfg.entries.end(), entry);
   first_ = behind == cfg.entries.begin() ? NodeId(0) : *std::prev(behind);
   const std::size_t last = behind == cfg.entries.end() ? cfg.nodes.size() : behind->index();
-  Search search(cfg, model, first_, last - first_.index());
+  Search search(cfg, model, use, first_, last - first_.index());
   search.run(entry);
   const std::vector<std::uint32_t> around = loopsAround(search);
 

@@ -13,7 +13,7 @@ class Wto {
 public:
   /// Of the nodes that can be reached from `entry`, calls taken as going on to their return.  Iterative: a program of a
   /// million blocks does not overflow the stack.
-  Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry);
+  Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use = ProgramUse::Called);
 
   static constexpr std::uint32_t kUnreachable = 0xffffffff;
   /// The reachable nodes, in order.
