@@ -14,6 +14,8 @@ class CodeSet {
 public:
   static constexpr std::size_t kMostCodes = 64;
 
+  /// As at entry.
+  constexpr CodeSet() : CodeSet(0, AtEntry::Possible) {}
   static constexpr CodeSet atEntry() { return CodeSet(0, AtEntry::Possible); }
   static constexpr CodeSet of(std::size_t index) { return CodeSet(bitOf(index), AtEntry::Impossible); }
 

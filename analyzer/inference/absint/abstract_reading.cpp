@@ -1,0 +1,324 @@
+#include "inference/absint/abstract_reading.h"
+
+#include "inference/absint/abstract_state.h"
+
+#include <cmath>
+
+namespace feedhold {
+
+namespace {
+
+// Inside the class the name is another function's.
+CodeSet joined(const CodeSet &a, const CodeSet &b) { return join(a, b); }
+
+const AbstractNumber kNoNumber = AbstractNumber::constant(0.0);
+
+/// The number that a value is; semantics asks only where it is one (a vacant one counts as 0).
+const AbstractNumber &numberOf(const AbstractValue &value) { return value.mayBeNumber() ? value.number() : kNoNumber; }
+
+AbstractValue valueOf(const AbstractNumber &number) {
+  const AbstractValue value = AbstractValue::number(number);
+  if (number.grid().isConstant())
+    return value.withOrigin(Origin{kZeroSymbol, number.grid().offset()});
+  return value;
+}
+AbstractValue valueOf(const std::optional<AbstractNumber> &number) {
+  return valueOf(number.value_or(kNoNumber)); // no case is left: the alarm before it has said so
+}
+
+/// The origin of a value moved by a constant distance.
+std::optional<Origin> moved(const AbstractValue &value, const Grid &distance,
+                            std::optional<Rational> (*move)(const Rational &, const Rational &)) {
+  if (!value.origin() || !distance.isConstant() || !value.isNumber())
+    return std::nullopt;
+  const std::optional<Rational> offset = move(value.origin()->offset, distance.offset());
+  return offset ? std::optional(Origin{value.origin()->symbol, *offset}) : std::nullopt;
+}
+
+std::optional<AbstractNumber> functionOf(FunctionKind kind, const AbstractNumber &x) {
+  switch (kind) {
+  case FunctionKind::Sin:
+    return sin(x);
+  case FunctionKind::Cos:
+    return cos(x);
+  case FunctionKind::Tan:
+    return tan(x);
+  case FunctionKind::Asin:
+    return asin(x);
+  case FunctionKind::Acos:
+    return acos(x);
+  case FunctionKind::Sqrt:
+    return sqrt(x);
+  case FunctionKind::Abs:
+    return absolute(x);
+  case FunctionKind::Ln:
+    return ln(x);
+  case FunctionKind::Exp:
+    return exp(x);
+  case FunctionKind::Bin:
+  case FunctionKind::Bcd:
+    return AbstractNumber::integersIn({0, INFINITY});
+  case FunctionKind::Atan: // the others are not functions of one number; the semantics has its own words for them
+  case FunctionKind::Round:
+  case FunctionKind::Fix:
+  case FunctionKind::Fup:
+  case FunctionKind::Pow:
+  case FunctionKind::Adp:
+  case FunctionKind::Prm:
+  case FunctionKind::Ax:
+  case FunctionKind::AxNumber:
+  case FunctionKind::Exists:
+    break;
+  }
+  return AbstractNumber::any();
+}
+
+/// Copies and distances: two values of one symbol whose offsets differ are apart by that much.  The readings in exact
+/// numbers and in doubles may drift apart by roundings, so a distance below this share of the values decides nothing.
+constexpr double kDrift = 1e-9;
+
+std::optional<double> distanceOf(const AbstractValue &a, const AbstractValue &b) {
+  if (!a.origin() || !b.origin() || a.origin()->symbol != b.origin()->symbol || !a.isNumber() || !b.isNumber())
+    return std::nullopt;
+  const std::optional<Rational> distance = subtract(a.origin()->offset, b.origin()->offset);
+  if (!distance)
+    return std::nullopt;
+  const double apart = distance->toDouble();
+  const Interval &range = a.number().interval();
+  const double size = std::max({std::fabs(range.lo), std::fabs(range.hi), std::fabs(apart)});
+  return std::isfinite(size) && std::fabs(apart) > kDrift * size ? std::optional(apart) : std::nullopt;
+}
+
+} // namespace
+
+AbstractValue AbstractReading::withSymbol(Value value) {
+  return value.origin() ? value : value.withOrigin(Origin{freshSymbol(), Rational()});
+}
+
+// ---- values --------------------------------------------------------------------------------------------------------
+
+AbstractValue AbstractReading::literal(Decimal value) const { return valueOf(AbstractNumber::constant(value)); }
+AbstractValue AbstractReading::number(double value) const { return valueOf(AbstractNumber::constant(value)); }
+
+AbstractValue AbstractReading::asNumber(const Value &value) const {
+  if (value.isNumber())
+    return value;
+  if (value.isVacant())
+    return number(0);
+  return valueOf(feedhold::join(value.number(), AbstractNumber::constant(0.0)));
+}
+
+std::optional<double> AbstractReading::constantOf(const Value &value) const {
+  return value.isNumber() ? value.number().constantValue() : std::nullopt;
+}
+
+AbstractValue AbstractReading::select(Truth truth, const Value &first, const Value &second) const {
+  if (truth == Truth::True)
+    return first;
+  return truth == Truth::False ? second : feedhold::join(first, second);
+}
+AbstractValue AbstractReading::either(const Value &first, const Value &second) const {
+  return feedhold::join(first, second);
+}
+
+// ---- arithmetic ----------------------------------------------------------------------------------------------------
+
+AbstractValue AbstractReading::add(const Value &a, const Value &b) const {
+  const AbstractNumber &left = numberOf(a);
+  const AbstractNumber &right = numberOf(b);
+  const AbstractValue sum = valueOf(feedhold::add(left, right));
+  if (sum.origin())
+    return sum;
+  if (const auto origin = moved(a, right.grid(), feedhold::add))
+    return sum.withOrigin(origin);
+  return sum.withOrigin(moved(b, left.grid(), feedhold::add));
+}
+AbstractValue AbstractReading::subtract(const Value &a, const Value &b) const {
+  if (a.origin() && a.origin() == b.origin() && a.isNumber() && b.isNumber())
+    return number(0);
+  const AbstractValue difference = valueOf(feedhold::subtract(numberOf(a), numberOf(b)));
+  return difference.origin() ? difference
+                             : difference.withOrigin(moved(a, numberOf(b).grid(), feedhold::subtract));
+}
+AbstractValue AbstractReading::multiply(const Value &a, const Value &b) const {
+  return valueOf(feedhold::multiply(numberOf(a), numberOf(b)));
+}
+AbstractValue AbstractReading::divide(const Value &a, const Value &b) const {
+  return valueOf(feedhold::divide(numberOf(a), numberOf(b)));
+}
+AbstractValue AbstractReading::negate(const Value &a) const { return valueOf(feedhold::negate(numberOf(a))); }
+AbstractValue AbstractReading::remainder(const Value &a, const Value &b) const {
+  return valueOf(remainderTruncated(numberOf(a), numberOf(b)));
+}
+AbstractValue AbstractReading::fix(const Value &a) const { return valueOf(feedhold::fix(numberOf(a))); }
+AbstractValue AbstractReading::fup(const Value &a) const { return valueOf(feedhold::fup(numberOf(a))); }
+AbstractValue AbstractReading::floor(const Value &a) const { return valueOf(floorOf(numberOf(a))); }
+AbstractValue AbstractReading::ceiling(const Value &a) const { return valueOf(ceilOf(numberOf(a))); }
+
+AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
+  const AbstractNumber &number = numberOf(value);
+  const std::optional<Rational> size = Rational::fromDecimal(step);
+  if (!size)
+    return valueOf(number);
+  if (number.isExact() && leq(number.grid(), Grid::of(*size, Rational())) && value.isNumber())
+    return value; // a multiple of the step already
+  if (step.scale() == 0 && step.mantissa() == 1)
+    return valueOf(feedhold::round(number));
+  const AbstractNumber unit = AbstractNumber::constant(step);
+  const auto steps = feedhold::divide(number, unit);
+  return steps ? valueOf(feedhold::multiply(feedhold::round(*steps), unit)) : valueOf(number);
+}
+
+AbstractValue AbstractReading::function(FunctionKind kind, const Value &argument) const {
+  return valueOf(functionOf(kind, numberOf(argument)));
+}
+AbstractValue AbstractReading::atan2(const Value &y, const Value &x) const {
+  return valueOf(atan2Degrees(numberOf(y), numberOf(x)));
+}
+AbstractValue AbstractReading::power(const Value &base, const Value &exponent) const {
+  return valueOf(pow(numberOf(base), numberOf(exponent)));
+}
+
+/// AND of non-negative numbers is at most either of them, OR and XOR are below the next power of two.
+AbstractValue AbstractReading::bitwise(OperatorKind op, const Value &a, const Value &b) const {
+  const Interval left = numberOf(a).interval();
+  const Interval right = numberOf(b).interval();
+  if (left.lo < 0 || right.lo < 0)
+    return valueOf(AbstractNumber::integersIn({-INFINITY, INFINITY}));
+  if (op == OperatorKind::And)
+    return valueOf(AbstractNumber::integersIn({0, std::min(left.hi, right.hi)}));
+  const double most = std::max(left.hi, right.hi);
+  return valueOf(AbstractNumber::integersIn(
+      {0, std::isfinite(most) ? std::exp2(std::ceil(std::log2(most + 1) + 1e-9)) : INFINITY}));
+}
+
+AbstractValue AbstractReading::between(const Value &start, const Value &end) const {
+  const Interval from = numberOf(start).interval();
+  const Interval to = numberOf(end).interval();
+  return valueOf(AbstractNumber::inInterval({std::min(from.lo, to.lo), std::max(from.hi, to.hi)}));
+}
+
+Truth AbstractReading::compare(Relation relation, const Value &a, const Value &b) const {
+  if (const auto apart = distanceOf(a, b)) {
+    const bool above = *apart > 0;
+    switch (relation) {
+    case Relation::Equal:
+      return Truth::False;
+    case Relation::NotEqual:
+      return Truth::True;
+    case Relation::Greater:
+    case Relation::GreaterOrEqual:
+      return truthOf(above);
+    case Relation::Less:
+    case Relation::LessOrEqual:
+      return truthOf(!above);
+    }
+  }
+  const AbstractNumber &left = numberOf(a);
+  const AbstractNumber &right = numberOf(b);
+  switch (relation) {
+  case Relation::Equal:
+    return isEqual(left, right);
+  case Relation::NotEqual:
+    return feedhold::negate(isEqual(left, right));
+  case Relation::Greater:
+    return isLess(right, left);
+  case Relation::GreaterOrEqual:
+    return isAtMost(right, left);
+  case Relation::Less:
+    return isLess(left, right);
+  case Relation::LessOrEqual:
+    return isAtMost(left, right);
+  }
+  return Truth::Maybe;
+}
+
+// ---- modal codes ---------------------------------------------------------------------------------------------------
+
+CodeSet AbstractReading::unknownCode() const {
+  static const CodeSet kAny = [] {
+    CodeSet any = CodeSet::atEntry();
+    for (std::size_t i = 0; i < CodeSet::kMostCodes; ++i)
+      any = joined(any, CodeSet::of(i));
+    return any;
+  }();
+  return kAny;
+}
+
+Truth AbstractReading::isOneOf(ModalCode code, CodeMask mask) const {
+  if (code.mayBeAtEntry())
+    return mask == 0 ? Truth::False : Truth::Maybe;
+  return truthOfOutcomes((code.codes() & mask) != 0, (code.codes() & ~mask) != 0);
+}
+
+std::optional<std::uint8_t> AbstractReading::onlyCode(ModalCode code) const {
+  if (!code.isSingle() || code.codes() == 0)
+    return std::nullopt;
+  return static_cast<std::uint8_t>(std::countr_zero(code.codes()));
+}
+
+CodeSet AbstractReading::selectCode(Truth truth, ModalCode first, ModalCode second) const {
+  if (truth == Truth::True)
+    return first;
+  return truth == Truth::False ? second : joined(first, second);
+}
+
+AbstractValue AbstractReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
+  std::optional<AbstractNumber> number;
+  const auto &codes = modes.group(group).codes;
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (code.mayBe(i)) {
+      const AbstractNumber one = AbstractNumber::constant(Decimal(codes[i]->tenths, 1));
+      number = number ? feedhold::join(*number, one) : one;
+    }
+  const AbstractValue value = valueOf(number.value_or(AbstractNumber::any()));
+  const bool atEntry = code == CodeSet::atEntry();
+  return atEntry ? value.withOrigin(Origin{kModalSymbols + group, Rational()}) : value;
+}
+
+std::optional<std::pair<std::uint8_t, CodeSet>> AbstractReading::codeFrom(const Value &value,
+                                                                         const ModalTable &modes) const {
+  const auto &origin = value.origin();
+  if (origin && origin->offset.isZero() && value.isNumber() && origin->symbol >= kModalSymbols &&
+      origin->symbol < kModalSymbols + kModalGroups)
+    return std::pair{static_cast<std::uint8_t>(origin->symbol - kModalSymbols), CodeSet::atEntry()};
+  std::optional<std::pair<std::uint8_t, CodeSet>> found;
+  for (const double number : numberOf(value).set().values()) {
+    const Code *code =
+        number < 0 || number > 6000 ? nullptr : findGCode(*dialect_, static_cast<std::uint16_t>(number * 10 + 0.5));
+    const auto index = code ? modes.indexOf(*code) : std::nullopt;
+    if (!index || (found && found->first != code->group))
+      return std::nullopt;
+    const CodeSet one = CodeSet::of(*index);
+    found = std::pair{code->group, found ? joined(found->second, one) : one};
+  }
+  return value.mayBeVacant() ? std::nullopt : found;
+}
+
+// ---- what happens --------------------------------------------------------------------------------------------------
+
+void AbstractReading::alarm(Truth truth, const AlarmReport &report) {
+  if (!mayBeTrue(truth) || stopped_)
+    return;
+  if (observer_)
+    observer_->alarm(truth, report);
+  stopped_ = truth == Truth::True;
+}
+
+void AbstractReading::userAlarm(const Value &number, Span place) {
+  if (observer_ && !stopped_)
+    observer_->userAlarm(number, place);
+  stopped_ = true;
+}
+
+void AbstractReading::move(const Move<Value> &move) {
+  if (observer_ && !stopped_)
+    observer_->move(move);
+}
+
+void AbstractReading::notModelled(std::string_view reason, Span place) {
+  if (observer_ && !stopped_)
+    observer_->notModelled(reason, place);
+}
+
+} // namespace feedhold

@@ -1,0 +1,137 @@
+// AbstractReading: programs read with all the values that are possible at once.
+//
+// Values are AbstractValue.  Each carries the symbol that it is a copy of, or at a known distance from: that is how the
+// analysis knows that `#10 = #1 + 17` stays true around a loop.  A condition that may hold and may not is Maybe; the
+// semantics then joins both sides.
+#pragma once
+
+#include "inference/domain/code_set.h"
+#include "inference/domain/value.h"
+#include "meaning/semantics/step.h"
+
+#include <string_view>
+
+namespace feedhold {
+
+class AbstractReading;
+using AbstractState = MachineState<AbstractReading>;
+
+/// Symbols: what was there at the entry of the analysed program, and values that were fixed later.
+inline constexpr std::uint32_t kZeroSymbol = 0; // constants are distances from it
+constexpr std::uint32_t symbolOfVariable(std::uint32_t variable) { return variable; } // #0 is no variable
+inline constexpr std::uint32_t kPositionSymbols = 0x90000000;
+constexpr std::uint32_t symbolOfPosition(std::size_t axis) {
+  return kPositionSymbols + static_cast<std::uint32_t>(axis);
+}
+inline constexpr std::uint32_t kModalSymbols = 0x90000100;
+inline constexpr std::uint32_t kWordSymbols = 0x90000200;
+inline constexpr std::uint32_t kFirstFreshSymbol = 0x90001000;
+constexpr bool isEntrySymbol(std::uint32_t symbol) { return symbol < kFirstFreshSymbol; }
+
+/// Told of what happens in the steps of an analysis, when it has come to its end.
+class StepObserver {
+public:
+  virtual ~StepObserver() = default;
+  virtual void alarm(Truth, const AlarmReport &) {}
+  virtual void userAlarm(const AbstractValue &, Span) {}
+  virtual void move(const Move<AbstractValue> &) {}
+  virtual void notModelled(std::string_view, Span) {}
+  virtual void evaluated(ExpressionId, const AbstractValue &) {}
+};
+
+class AbstractReading {
+public:
+  using Value = AbstractValue;
+  using Truth = feedhold::Truth;
+  using ModalCode = CodeSet;
+  using State = AbstractState;
+
+  explicit AbstractReading(const Dialect &dialect) : dialect_(&dialect) {}
+
+  // ---- for the engine ----
+  void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+  void observe(StepObserver *observer) { observer_ = observer; }
+  StepObserver *observer() const { return observer_; }
+  /// Every run has stopped in the step: nothing goes on from here.
+  bool stopped() const { return stopped_; }
+  void start() { stopped_ = false; }
+  /// A symbol of which nothing is known yet but that it is one value.
+  std::uint32_t freshSymbol() { return nextSymbol_++; }
+  Value withSymbol(Value value);
+
+  // ---- values ----
+  Value literal(Decimal value) const;
+  Value number(double value) const;
+  Value vacant() const { return AbstractValue::vacant(); }
+  Value anything() { return AbstractValue::any(); }
+  Value anyNumber() { return AbstractValue::anyNumber(); }
+  Value asNumber(const Value &value) const;
+  Truth isVacant(const Value &value) const { return truthOfOutcomes(value.mayBeVacant(), value.mayBeNumber()); }
+  std::optional<double> constantOf(const Value &value) const;
+  Value select(Truth truth, const Value &first, const Value &second) const;
+  Value either(const Value &first, const Value &second) const;
+
+  // ---- arithmetic ----
+  Value add(const Value &a, const Value &b) const;
+  Value subtract(const Value &a, const Value &b) const;
+  Value multiply(const Value &a, const Value &b) const;
+  Value divide(const Value &a, const Value &b) const;
+  Value negate(const Value &a) const;
+  Value remainder(const Value &a, const Value &b) const;
+  Value fix(const Value &a) const;
+  Value fup(const Value &a) const;
+  Value floor(const Value &a) const;
+  Value ceiling(const Value &a) const;
+  Value roundTo(const Value &value, Decimal step) const;
+  Value function(FunctionKind kind, const Value &argument) const;
+  Value atan2(const Value &y, const Value &x) const;
+  Value power(const Value &base, const Value &exponent) const;
+  Value bitwise(OperatorKind op, const Value &a, const Value &b) const;
+
+  // ---- truths ----
+  Truth truth(bool value) const { return truthOf(value); }
+  Truth compare(Relation relation, const Value &a, const Value &b) const;
+  Truth both(Truth a, Truth b) const { return conjunction(a, b); }
+  Truth negation(Truth a) const { return feedhold::negate(a); }
+  bool mayBe(Truth a) const { return mayBeTrue(a); }
+  Truth unknownTruth() const { return Truth::Maybe; }
+
+  // ---- modal codes ----
+  ModalCode code(std::uint8_t index) const { return CodeSet::of(index); }
+  ModalCode unknownCode() const;
+  Truth isOneOf(ModalCode code, CodeMask mask) const;
+  std::optional<std::uint8_t> onlyCode(ModalCode code) const;
+  ModalCode selectCode(Truth truth, ModalCode first, ModalCode second) const;
+  Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const;
+  std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &value, const ModalTable &modes) const;
+
+  // ---- variables ----
+  Value unwritten(const State &state, std::uint32_t variable) const;
+  Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
+  Value toolLength(const State &, const Value &) const { return AbstractValue::anyNumber(); }
+  Value readAnyOf(State &state, const Value &index);
+  void writeAnyOf(State &state, const Value &index, const Value &value);
+  void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
+  Value between(const Value &start, const Value &end) const;
+  void join(State &state, Truth truth, const State &second);
+
+  // ---- what happens ----
+  void alarm(Truth truth, const AlarmReport &report);
+  void userAlarm(const Value &number, Span place);
+  bool wantsMoves() const { return observer_ != nullptr; }
+  void move(const Move<Value> &move);
+  void notModelled(std::string_view reason, Span place);
+  void havoc(State &state, std::string_view reason, Span place);
+  void evaluated(ExpressionId expression, const Value &value) {
+    if (observer_)
+      observer_->evaluated(expression, value);
+  }
+
+private:
+  const Dialect *dialect_;
+  StepObserver *observer_ = nullptr;
+  std::uint32_t nextSymbol_ = kFirstFreshSymbol;
+  bool stopped_ = false;
+};
+
+} // namespace feedhold

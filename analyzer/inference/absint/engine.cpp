@@ -1,0 +1,198 @@
+#include "inference/absint/engine.h"
+
+#include "inference/absint/propagation.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+constexpr std::size_t kMostThresholds = 128;
+
+/// The constants of a program: where bounds tend to come to rest.
+std::vector<double> thresholdsOf(const ProgramFile &file, ProgramId program) {
+  const Program &range = file.model->programs[program];
+  const std::uint32_t begin = file.tree->blocks[range.first].begin;
+  const std::uint32_t end = file.tree->blocks[range.last].begin;
+  std::vector<double> thresholds{-1, 0, 1};
+  for (const Expression &expression : file.tree->expressions)
+    if (const auto *literal = std::get_if<NumberLiteral>(&expression.node))
+      if (begin <= expression.span.begin && expression.span.end <= end && thresholds.size() < 4 * kMostThresholds) {
+        thresholds.push_back(literal->value.toDouble());
+        thresholds.push_back(-literal->value.toDouble());
+      }
+  std::sort(thresholds.begin(), thresholds.end());
+  thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
+  if (thresholds.size() > kMostThresholds)
+    thresholds.resize(kMostThresholds);
+  return thresholds;
+}
+
+std::vector<bool> joinsOf(const ProgramFile &file, const Wto &wto, ProgramUse use) {
+  std::vector<std::uint8_t> ways(wto.order().size(), 0);
+  for (const NodeId node : wto.order())
+    forEachSuccessor(file.cfg, *file.model, node, use, [&](NodeId next) {
+      const std::uint32_t position = wto.positionOf(next);
+      if (position != Wto::kUnreachable && ways[position] < 2)
+        ++ways[position];
+    });
+  std::vector<bool> joins(ways.size());
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    joins[i] = ways[i] > 1;
+  return joins;
+}
+
+std::pair<std::uint32_t, std::uint32_t> keyOf(Callee entry) { return {entry.file.index(), entry.entry.index()}; }
+
+} // namespace
+
+Engine::Engine(const ProgramSet &programs, AnalysisOptions options)
+    : programs_(programs), options_(options), reading_(*programs.file(FileId(0)).dialect) {
+  for (std::size_t i = 0; i < programs.size(); ++i)
+    modes_.push_back(std::make_unique<ModalTable>(*programs.file(FileId(i)).dialect));
+}
+
+const ProgramFacts &Engine::factsOf(Callee entry) {
+  auto &facts = facts_[keyOf(entry)];
+  if (!facts) {
+    const ProgramFile &file = programs_.file(entry.file);
+    Wto wto(file.cfg, *file.model, entry.entry, ProgramUse::Started);
+    std::vector<bool> joins = joinsOf(file, wto, ProgramUse::Started);
+    facts = std::make_unique<ProgramFacts>(ProgramFacts{
+        entry, &file, std::move(wto), std::move(joins),
+        partitionBy(file, entry.program, *modes_[entry.file.index()]), thresholdsOf(file, entry.program)});
+  }
+  return *facts;
+}
+
+bool Engine::isOpen(Callee entry) const {
+  return std::any_of(open_.begin(), open_.end(), [&](const Callee &other) { return keyOf(other) == keyOf(entry); });
+}
+
+bool Engine::spend() {
+  if (++spent_ > options_.budget && !gaveUp_)
+    gaveUp_ = "the programs are too involved to be followed within the budget";
+  return !gaveUp_;
+}
+
+void Engine::solve(const ProgramFacts &facts, Summary &summary) {
+  open_.push_back(facts.entry);
+  reading_.useDialect(*facts.file->dialect);
+  Propagation(*this, facts, summary, Propagation::Pass::Ascend).run();
+  constexpr int kNarrowings = 2;
+  for (int i = 0; i < kNarrowings && !summary.heads.empty() && !gaveUp_; ++i) {
+    const auto before = summary.heads;
+    Propagation collect(*this, facts, summary, Propagation::Pass::Collect);
+    collect.run();
+    for (auto &[position, states] : summary.heads)
+      if (const auto found = collect.arrived().find(position); found != collect.arrived().end())
+        states = states.narrowedBy(reading_, found->second);
+    // What has been narrowed is kept only if it is still a fixpoint.
+    Propagation check(*this, facts, summary, Propagation::Pass::Collect);
+    check.run();
+    const bool holds = std::all_of(check.arrived().begin(), check.arrived().end(), [&](const auto &arrived) {
+      return arrived.second.within(reading_, summary.heads.at(arrived.first));
+    });
+    if (!holds) {
+      summary.heads = before;
+      break;
+    }
+  }
+  if (!summary.heads.empty()) { // the exits of the ascent are those of passing states: once more, from what holds now
+    summary.exits.clear();
+    Propagation(*this, facts, summary, Propagation::Pass::Collect).run();
+  }
+  open_.pop_back();
+}
+
+Summary &Engine::summaryOf(Callee entry, const AbstractState &state) {
+  const ProgramFacts &facts = factsOf(entry);
+  auto &known = summaries_[keyOf(entry)];
+  for (const auto &summary : known)
+    if (leq(reading_, state, summary->entry))
+      return *summary;
+  AbstractState wanted = state;
+  if (known.size() >= kMostContexts)
+    wanted = widen(reading_, known.back()->entry, state, facts.thresholds);
+  auto summary = std::make_unique<Summary>();
+  summary->entry = std::move(wanted);
+  solve(facts, *summary);
+  auto &now = summaries_[keyOf(entry)]; // solving may have added some
+  now.push_back(std::move(summary));
+  return *now.back();
+}
+
+/// Without loops and calls one pass tells all.
+bool Engine::isStraight(const ProgramFacts &facts) const {
+  return std::none_of(facts.wto.order().begin(), facts.wto.order().end(), [&](NodeId node) {
+    return facts.wto.isHead(node) || std::holds_alternative<CallProgram>(facts.file->cfg.nodes[node].instruction);
+  });
+}
+
+void Engine::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
+  const ProgramFacts &facts = factsOf(entry);
+  reading_.useDialect(*facts.file->dialect);
+  Summary straight;
+  straight.entry = state;
+  Summary &summary = isStraight(facts) ? straight : summaryOf(entry, state);
+  visitor_ = &visitor;
+  reading_.observe(&visitor);
+  open_.push_back(entry);
+  Propagation(*this, facts, summary, Propagation::Pass::Walk).run();
+  open_.pop_back();
+  reading_.observe(nullptr);
+  visitor_ = nullptr;
+}
+
+// ---- symbols of summaries ------------------------------------------------------------------------------------------
+
+AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
+                         AbstractState entry) {
+  align(reading, summaryEntry, entry);
+  std::map<std::uint32_t, Origin> meaning; // symbol of the summary: what it is in the caller
+  std::vector<const AbstractValue *> theirs;
+  forEachValue(summaryEntry, [&](const AbstractValue &value) { theirs.push_back(&value); });
+  std::size_t at = 0;
+  forEachValue(entry, [&](const AbstractValue &mine) {
+    const AbstractValue &value = *theirs[at++];
+    if (!value.origin() || !mine.origin() || value.origin()->symbol == kZeroSymbol)
+      return;
+    if (const auto offset = subtract(mine.origin()->offset, value.origin()->offset))
+      meaning.emplace(value.origin()->symbol, Origin{mine.origin()->symbol, *offset});
+  });
+  meaning.emplace(kZeroSymbol, Origin{kZeroSymbol, Rational()});
+  forEachValue(exit, [&](AbstractValue &value) {
+    if (!value.origin())
+      return;
+    std::optional<Origin> origin;
+    if (const auto found = meaning.find(value.origin()->symbol); found != meaning.end()) {
+      if (const auto offset = add(found->second.offset, value.origin()->offset))
+        origin = Origin{found->second.symbol, *offset};
+    } else if (isEntrySymbol(value.origin()->symbol)) {
+      origin = value.origin(); // a cell that neither state has written
+    }
+    value = value.withOrigin(origin);
+  });
+  return exit;
+}
+
+// ---- Analysis ------------------------------------------------------------------------------------------------------
+
+struct Analysis::Impl {
+  Engine engine;
+};
+
+Analysis::Analysis(const ProgramSet &programs, AnalysisOptions options)
+    : impl_(std::make_unique<Impl>(Impl{Engine(programs, options)})) {}
+Analysis::~Analysis() = default;
+
+AbstractReading &Analysis::reading() { return impl_->engine.reading(); }
+std::optional<std::string_view> Analysis::gaveUp() const { return impl_->engine.gaveUp(); }
+
+void Analysis::walk(Callee entry, AnalysisVisitor &visitor) { walk(entry, entryState(reading()), visitor); }
+void Analysis::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
+  impl_->engine.walk(entry, state, visitor);
+}
+
+} // namespace feedhold

@@ -1,0 +1,78 @@
+// Engine: the fixpoint of one program after another, and the summaries of those that are called.
+#pragma once
+
+#include "inference/absint/analysis.h"
+#include "inference/absint/partitions.h"
+#include "meaning/cfg/wto.h"
+
+#include <map>
+#include <optional>
+#include <set>
+
+namespace feedhold {
+
+/// What the engine needs to know of a program, whatever the state: made once.
+struct ProgramFacts {
+  Callee entry;
+  const ProgramFile *file;
+  Wto wto;
+  std::vector<bool> isJoin; // by position: several ways lead here
+  PartitionBy by;
+  std::vector<double> thresholds; // constants of the program, ascending
+};
+
+/// A state in which a program is left.
+struct Exit {
+  std::optional<AbstractValue> target; // P of M99
+  AbstractState state;
+};
+
+/// One analysis of a program in one entry state.
+struct Summary {
+  AbstractState entry;
+  std::map<std::uint32_t, Partitions> heads; // by position
+  std::set<std::uint32_t> forcedHeads;       // reached by an `M99 P` from elsewhere
+  std::vector<Exit> exits;                   // one without target, the others by target
+  bool walked = false;
+};
+
+class Engine {
+public:
+  Engine(const ProgramSet &programs, AnalysisOptions options);
+
+  AbstractReading &reading() { return reading_; }
+  void walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor);
+  std::optional<std::string_view> gaveUp() const { return gaveUp_; }
+
+private:
+  friend class Propagation;
+
+  const ProgramFacts &factsOf(Callee entry);
+  /// The summary of a call in this state: an old one that covers it, or a new one.
+  Summary &summaryOf(Callee entry, const AbstractState &state);
+  void solve(const ProgramFacts &facts, Summary &summary);
+  bool isOpen(Callee entry) const;
+  bool isStraight(const ProgramFacts &facts) const;
+  /// False when the budget is used up.
+  bool spend();
+
+  static constexpr std::size_t kMostContexts = 12;
+
+  const ProgramSet &programs_;
+  AnalysisOptions options_;
+  AbstractReading reading_;
+  std::vector<std::unique_ptr<ModalTable>> modes_; // by file
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<ProgramFacts>> facts_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::unique_ptr<Summary>>> summaries_;
+  std::vector<Callee> open_; // programs whose analysis has not come to its end: the chain of calls
+  AnalysisVisitor *visitor_ = nullptr;
+  std::vector<Place> calls_; // of the walk
+  std::uint64_t spent_ = 0;
+  std::optional<std::string_view> gaveUp_;
+};
+
+/// The state in a caller when a summary has been made for a state that covers its own: symbols get their names there.
+AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
+                         AbstractState entry);
+
+} // namespace feedhold

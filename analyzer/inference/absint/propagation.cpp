@@ -1,0 +1,287 @@
+#include "inference/absint/propagation.h"
+
+#include <cmath>
+
+namespace feedhold {
+
+namespace {
+
+constexpr int kPassesBeforeWidening = 3;
+
+/// The operands that must not be zero once the value has been computed.
+void collectDivisors(const SyntaxTree &tree, ExpressionId root, std::vector<ExpressionId> &divisors) {
+  for (const ExpressionId id : subexpressions(tree, root))
+    if (const auto *operation = std::get_if<BinaryOperation>(&tree.expressions[id].node))
+      if (operation->op == OperatorKind::Divide)
+        divisors.push_back(operation->right);
+}
+
+bool mentions(const SyntaxTree &tree, ExpressionId root, std::optional<std::uint32_t> variable) {
+  for (const ExpressionId id : subexpressions(tree, root)) {
+    const auto &node = tree.expressions[id].node;
+    if (std::holds_alternative<IndirectVariable>(node) || std::holds_alternative<NamedVariable>(node))
+      return true;
+    if (variableNumber(tree, id) == variable && variable)
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+Propagation::Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Pass pass)
+    : engine_(engine), facts_(facts), summary_(summary), pass_(pass), reading_(engine.reading_),
+      modes_(*engine.modes_[facts.entry.file.index()]) {}
+
+AbstractContext Propagation::contextAt(NodeId node, AbstractState &state) {
+  return {reading_, state, engine_.programs_, *facts_.file, modes_, nodeAt(node).block};
+}
+
+/// Places that the order does not know (an `M99 P` from elsewhere leads there) stand behind all others.
+std::uint32_t Propagation::positionOf(NodeId node) const {
+  const std::uint32_t position = facts_.wto.positionOf(node);
+  return position == Wto::kUnreachable ? static_cast<std::uint32_t>(facts_.wto.order().size()) + node.index()
+                                       : position;
+}
+
+bool Propagation::isHead(std::uint32_t position) const {
+  if (position >= facts_.wto.order().size())
+    return true;
+  return facts_.wto.isHead(facts_.wto.order()[position]) || summary_.forcedHeads.contains(position);
+}
+
+bool Propagation::isCut(NodeId node) const {
+  const std::uint32_t position = positionOf(node);
+  return position >= facts_.wto.order().size() || facts_.isJoin[position] || isHead(position);
+}
+
+void Propagation::run() {
+  deliver(facts_.entry.entry, summary_.entry);
+  while (!pending_.empty() && !engine_.gaveUp_) {
+    auto first = pending_.begin();
+    const std::uint32_t position = first->first;
+    Partitions states = std::move(first->second);
+    pending_.erase(first);
+    process(position, std::move(states));
+    if (std::exchange(startAgain_, false))
+      restart();
+  }
+}
+
+void Propagation::restart() {
+  pending_.clear();
+  visits_.clear();
+  summary_.heads.clear();
+  summary_.exits.clear();
+  deliver(facts_.entry.entry, summary_.entry);
+}
+
+void Propagation::deliver(NodeId node, AbstractState state) {
+  const std::uint64_t key = keyOf(facts_.by, reading_, state);
+  pending_[positionOf(node)].add(reading_, key, std::move(state));
+}
+
+void Propagation::process(std::uint32_t position, Partitions states) {
+  const std::size_t known = facts_.wto.order().size();
+  const NodeId node = position < known ? facts_.wto.order()[position] : NodeId(position - known);
+  if (isHead(position)) {
+    if (pass_ == Pass::Ascend) {
+      const bool widening = ++visits_[position] > kPassesBeforeWidening;
+      if (!summary_.heads[position].grow(reading_, states, widening, facts_.thresholds))
+        return;
+      states = summary_.heads[position];
+    } else {
+      Partitions &arrived = arrived_[position];
+      for (const Partitions::Part &part : states.parts())
+        arrived.add(reading_, part.key, part.state);
+      if (!passed_.insert(position).second)
+        return;
+      states = summary_.heads[position];
+    }
+  }
+  for (Partitions::Part &part : states.parts())
+    follow(node, std::move(part.state));
+}
+
+/// Straight on until a place where ways meet; side ways are put aside and followed afterwards.
+void Propagation::follow(NodeId node, AbstractState state) {
+  work_.push_back({node, std::move(state)});
+  while (!work_.empty() && !engine_.gaveUp_) {
+    Work next = std::move(work_.back());
+    work_.pop_back();
+    followOne(std::move(next));
+  }
+}
+
+void Propagation::followOne(Work work) {
+  NodeId node = work.node;
+  AbstractState &state = work.state;
+  while (engine_.spend() && execute(node, state)) {
+    const NodeId next = nodeAt(node).next;
+    if (next == node)
+      return;
+    if (isCut(next))
+      return deliver(next, std::move(state));
+    node = next;
+  }
+}
+
+void Propagation::go(NodeId node, AbstractState state) {
+  if (isCut(node))
+    deliver(node, std::move(state));
+  else
+    work_.push_back({node, std::move(state)});
+}
+
+bool Propagation::execute(NodeId node, AbstractState &state) {
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->visit(placeOf(node), state, engine_.calls_);
+  reading_.start();
+  return match(
+      nodeAt(node).instruction,
+      [&](const BlockSkip &skip) {
+        go(skip.skipped, state);
+        return true;
+      },
+      [&](const Test &condition) { return test(node, condition, state); },
+      [&](const JumpTo &target) { return jump(node, target, state); },
+      [&](const CountDown &counting) { return count(node, counting, state); },
+      [&](const CallProgram &calling) { return call(node, calling, state); },
+      [&](const ReturnFromProgram &from) { return leave(node, from, state); },
+      [&](const EndProgram &) { return end(node, state); }, [&](const auto &) { return straight(node, state); });
+}
+
+bool Propagation::straight(NodeId node, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const Instruction &instruction = nodeAt(node).instruction;
+  step(context, instruction, words_);
+  if (reading_.stopped()) {
+    if (pass_ == Pass::Walk)
+      engine_.visitor_->ended(placeOf(node), PathEnd::Alarm, state);
+    return false;
+  }
+  if (std::holds_alternative<Assign>(instruction))
+    refineByAlarms(node, state);
+  else if (std::holds_alternative<ExecuteWords>(instruction) && !modalCalls(node, state))
+    return false;
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->left(placeOf(node), state);
+  return true;
+}
+
+/// A division that has been carried out had a divisor; and every value that has been stored gets a symbol, so that
+/// copies of it are known as such.
+void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const SyntaxTree &tree = context.tree();
+  const auto &assign = std::get<Assign>(nodeAt(node).instruction);
+  for (std::uint32_t i = 0; i < assign.count; ++i) {
+    const auto *assignment =
+        std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
+    if (!assignment)
+      continue;
+    const auto target = variableNumber(tree, assignment->target);
+    std::vector<ExpressionId> divisors;
+    collectDivisors(tree, assignment->value, divisors);
+    for (const ExpressionId divisor : divisors)
+      if (target && !mentions(tree, divisor, target))
+        assumeDiffers(context, divisor, 0);
+    if (!target)
+      continue;
+    if (*target <= kLocalVariables)
+      state.locals[*target] = reading_.withSymbol(state.locals[*target]);
+    else if (const AbstractValue *value = state.variables.find(*target); value && !value->origin())
+      state.variables.set(*target, reading_.withSymbol(*value));
+  }
+}
+
+bool Propagation::test(NodeId node, const Test &condition, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const Truth truth = conditionOf(context, condition);
+  if (reading_.stopped())
+    return false;
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->branch(placeOf(node), truth);
+  if (mayBeTrue(truth)) {
+    AbstractState taken = state;
+    AbstractContext there = contextAt(node, taken);
+    if (!condition.condition || assume(there, *condition.condition, Holds::Yes))
+      go(condition.taken, std::move(taken));
+  }
+  return mayBeFalse(truth) && (!condition.condition || assume(context, *condition.condition, Holds::No));
+}
+
+bool Propagation::count(NodeId node, const CountDown &counting, AbstractState &state) {
+  const AbstractState before = state;
+  AbstractContext context = contextAt(node, state);
+  const Truth goesOn = countDown(context, counting);
+  if (mayBeTrue(goesOn)) {
+    AbstractState taken = state;
+    if (auto &left = taken.counters[counting.counter.index()]; left.isNumber())
+      if (const auto number = meetAtLeast(left.number(), 0))
+        left = AbstractValue::number(*number);
+    go(counting.taken, std::move(taken));
+  }
+  if (mayBeFalse(goesOn))
+    state = before;
+  return mayBeFalse(goesOn);
+}
+
+bool Propagation::jump(NodeId node, const JumpTo &target, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const AbstractValue number = jumpTarget(context, target);
+  if (reading_.stopped())
+    return false;
+  const BlockId from = nodeAt(node).block;
+  std::set<std::uint32_t> reached;
+  for (const LabelNode &label : labelsOf(facts_.file->cfg, *facts_.file->model, from)) {
+    if (!mayBeTrue(isEqual(number.number(), AbstractNumber::constant(static_cast<double>(label.number)))) ||
+        !reached.insert(label.number).second)
+      continue;
+    const auto place =
+        findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
+    AbstractState there = state;
+    AbstractContext arriving = contextAt(node, there);
+    if (place && assumeEqual(arriving, target.target, label.number))
+      go(*place, std::move(there));
+  }
+  const auto values = number.number().set().values();
+  const bool allFound = !values.empty() && std::all_of(values.begin(), values.end(), [&](double value) {
+    return value >= 0 && value < 1e9 && reached.contains(static_cast<std::uint32_t>(value));
+  });
+  reading_.alarm(reached.empty() ? Truth::True : allFound ? Truth::False : Truth::Maybe,
+                 {AlarmKind::SequenceNotFound, context.place()});
+  return false;
+}
+
+bool Propagation::leave(NodeId node, const ReturnFromProgram &from, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const std::optional<AbstractValue> target = returnTarget(context, from);
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->ended(placeOf(node), PathEnd::Returns, state);
+  if (target && engine_.open_.size() <= 1) // started by the operator: M99 P stays in the program
+    for (const NodeId label : returnsWithin(facts_.file->cfg, *facts_.file->model, node))
+      go(label, state);
+  addExit(target, std::move(state));
+  return false;
+}
+
+void Propagation::addExit(std::optional<AbstractValue> target, AbstractState state) {
+  if (pass_ == Pass::Walk)
+    return;
+  for (Exit &exit : summary_.exits)
+    if (exit.target.has_value() == target.has_value() &&
+        (!target || (leq(*exit.target, *target) && leq(*target, *exit.target)))) {
+      exit.state = join(reading_, std::move(exit.state), std::move(state));
+      return;
+    }
+  summary_.exits.push_back({std::move(target), std::move(state)});
+}
+
+bool Propagation::end(NodeId node, const AbstractState &state) {
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->ended(placeOf(node), PathEnd::Ends, state);
+  return false;
+}
+
+} // namespace feedhold

@@ -1,0 +1,77 @@
+// Propagation: one pass of states through a program, in weak topological order.
+#pragma once
+
+#include "inference/absint/engine.h"
+#include "inference/absint/refine.h"
+
+namespace feedhold {
+
+class Propagation {
+public:
+  enum class Pass : std::uint8_t {
+    Ascend,  // heads grow until nothing changes
+    Collect, // heads stay; what arrives at them is kept apart, for narrowing and checking
+    Walk,    // heads stay; the visitor is told
+  };
+
+  Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Pass pass);
+  void run();
+  /// What has arrived at the heads, of Collect.
+  const std::map<std::uint32_t, Partitions> &arrived() const { return arrived_; }
+
+private:
+  struct Work {
+    NodeId node;
+    AbstractState state;
+  };
+
+  AbstractContext contextAt(NodeId node, AbstractState &state);
+  const Node &nodeAt(NodeId node) const { return facts_.file->cfg.nodes[node]; }
+  Place placeOf(NodeId node) const { return {facts_.entry.file, node}; }
+  std::uint32_t positionOf(NodeId node) const;
+  bool isHead(std::uint32_t position) const;
+  bool isCut(NodeId node) const;
+
+  void restart();
+  void process(std::uint32_t position, Partitions states);
+  void follow(NodeId node, AbstractState state);
+  void followOne(Work work);
+  void deliver(NodeId node, AbstractState state);
+  void go(NodeId node, AbstractState state);
+
+  /// Each leaves in `state` what goes on to the next node; false when nothing does.
+  bool execute(NodeId node, AbstractState &state);
+  bool straight(NodeId node, AbstractState &state);
+  bool test(NodeId node, const Test &test, AbstractState &state);
+  bool jump(NodeId node, const JumpTo &jump, AbstractState &state);
+  bool count(NodeId node, const CountDown &count, AbstractState &state);
+  bool call(NodeId node, const CallProgram &call, AbstractState &state);
+  bool leave(NodeId node, const ReturnFromProgram &from, AbstractState &state);
+  bool end(NodeId node, const AbstractState &state);
+
+  bool modalCalls(NodeId node, AbstractState &state);
+  std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  std::optional<AbstractState> once(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
+  void addExit(std::optional<AbstractValue> target, AbstractState state);
+  void unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
+                   std::string_view reason);
+  void refineByAlarms(NodeId node, AbstractState &state);
+
+  Engine &engine_;
+  const ProgramFacts &facts_;
+  Summary &summary_;
+  Pass pass_;
+  AbstractReading &reading_;
+  const ModalTable &modes_;
+  ExecutedWords<AbstractReading> words_;
+  std::map<std::uint32_t, Partitions> pending_; // by position
+  std::map<std::uint32_t, Partitions> arrived_;
+  std::map<std::uint32_t, int> visits_; // of heads
+  std::set<std::uint32_t> passed_;      // heads that have been gone through in this pass
+  std::vector<Work> work_;
+  bool startAgain_ = false; // a new head has been found: what has passed it was not kept
+};
+
+} // namespace feedhold

@@ -1,0 +1,186 @@
+// Calls: entering the programs that a block calls, or that a modal call calls after a movement.
+#include "inference/absint/propagation.h"
+
+namespace feedhold {
+
+namespace {
+
+constexpr double kMostUnrolled = 4;
+
+} // namespace
+
+bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &state) {
+  AbstractContext context = contextAt(node, state);
+  const CallRequest<AbstractReading> request = prepareCall(context, calling.call);
+  if (reading_.stopped())
+    return false;
+  if (pass_ == Pass::Walk)
+    engine_.visitor_->called(placeOf(node), request);
+  switch (request.action) {
+  case CallAction::SetModal:
+  case CallAction::EndModal:
+    return true;
+  case CallAction::Operation:
+    reading_.havoc(state, "an operation of Macro A", context.place());
+    return true;
+  case CallAction::Enter:
+    break;
+  }
+  auto after = enter(node, request, state);
+  if (!after)
+    return false;
+  state = std::move(*after);
+  return true;
+}
+
+/// A call of what is not known may do anything to what the called program sees.
+void Propagation::unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
+                              std::string_view reason) {
+  const auto locals = state.locals;
+  reading_.havoc(state, reason, contextAt(node, state).place());
+  if (request.freshLocals)
+    state.locals = locals;
+}
+
+std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractReading> &request,
+                                                AbstractState state) {
+  if (!request.callee) {
+    unknownCall(node, request, state, "a program that is not among these files");
+    return state;
+  }
+  const Dialect &dialect = *facts_.file->dialect;
+  if (engine_.open_.size() > dialect.limits.totalCallDepth) {
+    reading_.alarm(Truth::True, {AlarmKind::SubprogramNesting, contextAt(node, state).place()});
+    return std::nullopt;
+  }
+  if (engine_.isOpen(*request.callee)) {
+    unknownCall(node, request, state, "a program that calls itself");
+    return state;
+  }
+  return repeated(node, request, std::move(state));
+}
+
+std::optional<AbstractState> Propagation::repeated(NodeId node, const CallRequest<AbstractReading> &request,
+                                                   AbstractState state) {
+  const std::optional<double> times = reading_.constantOf(request.repeats);
+  if (times && *times < 0.5)
+    return state;
+  auto after = once(node, request, state);
+  if (!after || times == 1.0)
+    return after;
+  // Whether the second pass starts with the arguments or with what the first has left differs by control: with either.
+  const auto next = [&](const AbstractState &from) {
+    CallRequest<AbstractReading> again = request;
+    for (AbstractValue &local : again.locals)
+      local = AbstractValue::any();
+    return once(node, again, from);
+  };
+  if (times && *times <= kMostUnrolled) {
+    for (double pass = 2; pass < *times + 0.5 && after; ++pass)
+      after = next(*after);
+    return after;
+  }
+  AbstractState all = std::move(*after);
+  for (int pass = 0; !engine_.gaveUp_; ++pass) {
+    const auto more = next(all);
+    if (!more || leq(reading_, *more, all))
+      break;
+    all = pass < 2 ? join(reading_, std::move(all), *more) : widen(reading_, std::move(all), *more, facts_.thresholds);
+  }
+  return times ? all : join(reading_, std::move(all), state);
+}
+
+std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<AbstractReading> &request,
+                                               AbstractState state) {
+  const auto callerLocals = state.locals;
+  const auto callerLoops = state.enteredLoops;
+  const auto callerCounters = state.counters;
+  if (request.freshLocals)
+    state.locals = request.locals;
+  state.enteredLoops.clear();
+  state.counters.clear();
+  StepObserver *observer = reading_.observer();
+  reading_.observe(nullptr);
+  Summary &summary = engine_.summaryOf(*request.callee, state);
+  reading_.observe(observer);
+  if (pass_ == Pass::Walk && !summary.walked) {
+    summary.walked = true;
+    engine_.calls_.push_back(placeOf(node));
+    engine_.open_.push_back(*request.callee);
+    reading_.useDialect(*engine_.programs_.file(request.callee->file).dialect);
+    Propagation(engine_, engine_.factsOf(*request.callee), summary, Pass::Walk).run();
+    engine_.open_.pop_back();
+    engine_.calls_.pop_back();
+  }
+  reading_.useDialect(*facts_.file->dialect);
+  reading_.start();
+  std::optional<AbstractState> behind;
+  for (const Exit &exit : summary.exits) {
+    AbstractState left = translated(reading_, exit.state, summary.entry, state);
+    if (request.freshLocals)
+      left.locals = callerLocals;
+    left.enteredLoops = callerLoops;
+    left.counters = callerCounters;
+    if (exit.target)
+      returnTo(node, *exit.target, left);
+    else
+      behind = behind ? join(reading_, std::move(*behind), std::move(left)) : std::move(left);
+  }
+  return behind;
+}
+
+/// M99 P: the program goes on at a sequence number of its own.
+void Propagation::returnTo(NodeId node, const AbstractValue &target, const AbstractState &state) {
+  const BlockId from = nodeAt(node).block;
+  std::set<std::uint32_t> reached;
+  for (const LabelNode &label : labelsOf(facts_.file->cfg, *facts_.file->model, from)) {
+    if (!mayBeTrue(isEqual(target.number(), AbstractNumber::constant(static_cast<double>(label.number)))) ||
+        !reached.insert(label.number).second)
+      continue;
+    const auto place = findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
+    if (!place)
+      continue;
+    if (pass_ == Pass::Ascend && !isHead(positionOf(*place))) {
+      summary_.forcedHeads.insert(positionOf(*place));
+      startAgain_ = true;
+    }
+    deliver(*place, state);
+  }
+  AbstractState copy = state;
+  reading_.alarm(reached.empty() ? Truth::True : Truth::Maybe,
+                 {AlarmKind::SequenceNotFound, contextAt(node, copy).place()});
+  reading_.start();
+}
+
+bool Propagation::modalCalls(NodeId node, AbstractState &state) {
+  if (state.modalCalls.empty() && state.modalCallsUnknown == Truth::False)
+    return true;
+  AbstractContext context = contextAt(node, state);
+  const Truth moves = movesAxis(context, words_);
+  if (moves == Truth::False)
+    return true;
+  AbstractState before = state;
+  if (state.modalCalls.empty() || mayBeTrue(state.modalCallsUnknown)) {
+    CallRequest<AbstractReading> unknown;
+    unknown.freshLocals = true;
+    unknownCall(node, unknown, state, "a modal call that may be active");
+  } else {
+    const std::size_t last = state.modalCalls.size() - 1;
+    const CallRequest<AbstractReading> request = prepareModalCall(context, state.modalCalls[last]);
+    auto after = enter(node, request, state);
+    if (!after) { // the block behind is reached only if nothing has moved
+      state = std::move(before);
+      return moves == Truth::Maybe;
+    }
+    state = std::move(*after);
+    // What the macro leaves in its variables is there at the next call.
+    if (last < state.modalCalls.size())
+      for (AbstractValue &local : state.modalCalls[last].locals)
+        local = AbstractValue::any();
+  }
+  if (moves == Truth::Maybe)
+    state = join(reading_, std::move(state), std::move(before));
+  return true;
+}
+
+} // namespace feedhold

@@ -1,0 +1,19 @@
+// Refine: what a condition says of the variables in it.
+#pragma once
+
+#include "inference/absint/abstract_reading.h"
+
+namespace feedhold {
+
+using AbstractContext = StepContext<AbstractReading>;
+
+/// Cuts the state down to the runs in which the condition holds, or does not; false when there is none.  What it says
+/// of one variable is carried over to those at a known distance.
+enum class Holds : std::uint8_t { No, Yes };
+bool assume(AbstractContext &context, ExpressionId condition, Holds holds);
+
+/// The expression has this value.
+bool assumeEqual(AbstractContext &context, ExpressionId expression, double value);
+bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value);
+
+} // namespace feedhold
