@@ -127,8 +127,12 @@ std::optional<std::uint32_t> ProgramSet::variableOf(FileId id, Span span) const 
                                        [](const auto &each, const std::string &wanted) { return each.first < wanted; });
   if (number != namedNumbers_.end() && number->first == name)
     return number->second;
-  const auto known = std::lower_bound(names_.begin(), names_.end(), name);
-  if (known == names_.end() || *known != name || !from.dialect->grammar.namedParameters)
+  return from.dialect->grammar.namedParameters ? variableNamed(name) : std::nullopt;
+}
+
+std::optional<std::uint32_t> ProgramSet::variableNamed(std::string_view canonical) const {
+  const auto known = std::lower_bound(names_.begin(), names_.end(), canonical);
+  if (known == names_.end() || *known != canonical)
     return std::nullopt;
   return kFirstNamedVariable + static_cast<std::uint32_t>(known - names_.begin());
 }
