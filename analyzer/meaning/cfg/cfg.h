@@ -171,6 +171,11 @@ std::vector<LabelNode> labelsOf(const Cfg &cfg, const ProgramModel &model, Block
 std::optional<NodeId> findLabel(const Cfg &cfg, const ProgramModel &model, ProgramId program, std::uint32_t number,
                                 BlockId from);
 
+/// How many edges the computed jumps of a program have: each leads to every label.  Beyond kMostComputedEdges an
+/// analysis of all paths says so and leaves the program alone.
+std::uint64_t computedEdges(const Cfg &cfg, const ProgramModel &model, ProgramId program);
+inline constexpr std::uint64_t kMostComputedEdges = 4'000'000;
+
 /// The sequence numbers to which an `M99 P` of any program may return.
 struct ReturnTargets {
   std::vector<std::uint32_t> numbers; // sorted

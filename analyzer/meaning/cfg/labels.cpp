@@ -45,6 +45,18 @@ std::vector<NodeId> returnsWithin(const Cfg &cfg, const ProgramModel &model, Nod
   return targets;
 }
 
+std::uint64_t computedEdges(const Cfg &cfg, const ProgramModel &model, ProgramId program) {
+  const NodeId first = cfg.entryOf(program);
+  const NodeId last =
+      program.next().index() < cfg.entries.size() ? cfg.entryOf(program.next()) : NodeId(cfg.nodes.size());
+  const std::span<const Node> own = cfg.nodes.slice(first, last);
+  const auto computed = std::count_if(own.begin(), own.end(), [](const Node &node) {
+    const auto *back = std::get_if<ReturnFromProgram>(&node.instruction);
+    return (back && back->target) || std::holds_alternative<JumpTo>(node.instruction);
+  });
+  return static_cast<std::uint64_t>(computed) * model.sequenceNumbersOf(program).size();
+}
+
 ReturnTargets returnTargets(std::span<const ProgramModel *const> models) {
   ReturnTargets targets;
   for (const ProgramModel *model : models)
