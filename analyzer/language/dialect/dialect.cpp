@@ -16,14 +16,6 @@ const Code *findCode(std::span<const Code> codes, std::uint16_t tenths) {
   return found != codes.end() && found->tenths == tenths ? &*found : nullptr;
 }
 
-std::string_view meaningOf(AlarmKind kind) {
-  static constexpr std::string_view kMeanings[] = {
-#define ALARM(kind, meaning) meaning,
-#include "language/dialect/alarms.def"
-  };
-  return kMeanings[static_cast<std::size_t>(kind)];
-}
-
 } // namespace
 
 const AddressFormat &formatOf(const Dialect &dialect, char address) {
@@ -60,6 +52,14 @@ int precedenceOf(const Dialect &dialect, OperatorKind op) {
 bool raisesAlarm(const Dialect &dialect, std::uint32_t number) {
   const VariableRange *range = findVariable(dialect, number);
   return range != nullptr && range->role == VariableRole::Alarm;
+}
+
+std::string_view meaningOf(AlarmKind kind) {
+  static constexpr std::string_view kMeanings[] = {
+#define ALARM(kind, meaning) meaning,
+#include "language/dialect/alarms.def"
+  };
+  return kMeanings[static_cast<std::size_t>(kind)];
 }
 
 std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind kind) {

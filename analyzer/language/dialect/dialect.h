@@ -370,6 +370,8 @@ const Function *findFunction(const Dialect &dialect, FunctionKind kind);
 int precedenceOf(const Dialect &dialect, OperatorKind op);
 /// Whether writing the variable stops the program: #3000, where the control has it.
 bool raisesAlarm(const Dialect &dialect, std::uint32_t number);
+/// "divided by zero".
+std::string_view meaningOf(AlarmKind kind);
 /// The control's number for an alarm; absent where it is not known.
 std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind kind);
 /// "stops with PS0112 (divided by zero)", or without a number where it is not known.

@@ -51,28 +51,17 @@ double bcdOfBinary(double value) {
 
 double valueOf(FunctionKind kind, double x) {
   switch (kind) {
-  case FunctionKind::Sin:
-    return sineOfDegrees(x);
-  case FunctionKind::Cos:
-    return cosineOfDegrees(x);
-  case FunctionKind::Tan:
-    return static_cast<double>(std::tan(static_cast<long double>(x) * kDegree));
-  case FunctionKind::Asin:
-    return degrees(std::asin(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
-  case FunctionKind::Acos:
-    return degrees(std::acos(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
-  case FunctionKind::Sqrt:
-    return x < 0 ? 0 : std::sqrt(x);
-  case FunctionKind::Abs:
-    return std::fabs(x);
-  case FunctionKind::Ln:
-    return x <= 0 ? 0 : std::log(x);
-  case FunctionKind::Exp:
-    return std::exp(x);
-  case FunctionKind::Bin:
-    return binaryOfBcd(x);
-  case FunctionKind::Bcd:
-    return bcdOfBinary(x);
+  case FunctionKind::Sin: return sineOfDegrees(x);
+  case FunctionKind::Cos: return cosineOfDegrees(x);
+  case FunctionKind::Tan: return static_cast<double>(std::tan(static_cast<long double>(x) * kDegree));
+  case FunctionKind::Asin: return degrees(std::asin(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
+  case FunctionKind::Acos: return degrees(std::acos(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
+  case FunctionKind::Sqrt: return x < 0 ? 0 : std::sqrt(x);
+  case FunctionKind::Abs: return std::fabs(x);
+  case FunctionKind::Ln: return x <= 0 ? 0 : std::log(x);
+  case FunctionKind::Exp: return std::exp(x);
+  case FunctionKind::Bin: return binaryOfBcd(x);
+  case FunctionKind::Bcd: return bcdOfBinary(x);
   case FunctionKind::Atan: // the others are not functions of one number; the semantics has its own words for them
   case FunctionKind::Round:
   case FunctionKind::Fix:
@@ -82,8 +71,7 @@ double valueOf(FunctionKind kind, double x) {
   case FunctionKind::Prm:
   case FunctionKind::Ax:
   case FunctionKind::AxNumber:
-  case FunctionKind::Exists:
-    break;
+  case FunctionKind::Exists: break;
   }
   return 0;
 }
@@ -136,18 +124,12 @@ ConcreteValue ConcreteReading::bitwise(OperatorKind op, const Value &a, const Va
 
 bool ConcreteReading::compare(Relation relation, const Value &a, const Value &b) const {
   switch (relation) {
-  case Relation::Equal:
-    return a.number == b.number;
-  case Relation::NotEqual:
-    return a.number != b.number;
-  case Relation::Greater:
-    return a.number > b.number;
-  case Relation::GreaterOrEqual:
-    return a.number >= b.number;
-  case Relation::Less:
-    return a.number < b.number;
-  case Relation::LessOrEqual:
-    return a.number <= b.number;
+  case Relation::Equal: return a.number == b.number;
+  case Relation::NotEqual: return a.number != b.number;
+  case Relation::Greater: return a.number > b.number;
+  case Relation::GreaterOrEqual: return a.number >= b.number;
+  case Relation::Less: return a.number < b.number;
+  case Relation::LessOrEqual: return a.number <= b.number;
   }
   return false;
 }
@@ -164,6 +146,11 @@ ConcreteValue ConcreteReading::given(std::uint32_t variable) const {
     return {};
   const VariableRange *range = findVariable(*dialect_, variable);
   return range && range->kind == VariableKind::System ? Value::of(0) : Value{};
+}
+
+bool ConcreteReading::isLocal(std::uint32_t variable) const {
+  const VariableRange *range = variable <= kLocalVariables ? findVariable(*dialect_, variable) : nullptr;
+  return range && range->kind == VariableKind::Local;
 }
 
 ConcreteValue ConcreteReading::volatileRead(std::uint32_t variable) {
@@ -196,8 +183,11 @@ void ConcreteReading::move(const Move<Value> &move) {
 MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
                                          const std::array<double, kAxisCount> &start) {
   MachineState<ConcreteReading> state;
-  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
-    state.locals[local] = reading.given(local);
+  for (const auto &[variable, value] : reading.allGiven())
+    if (reading.isLocal(variable))
+      state.locals[variable] = value;
+    else
+      state.variables.set(variable, value);
   for (std::size_t group = 0; group < kModalGroups; ++group)
     state.codes[group] = modes.powerOn(group).value_or(ConcreteReading::kNoCode);
   const ConcreteValue zero = ConcreteValue::of(0);

@@ -3,6 +3,7 @@
 
 #include "meaning/semantics/step.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,6 @@ public:
   std::vector<std::string_view> takeNotes() { return std::exchange(notes_, {}); }
   /// An input or a clock has been read since the last call.
   bool takeVolatileReads() { return std::exchange(sawVolatile_, false); }
-  void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
 
   // ---- values ----
   Value literal(Decimal value) const { return Value::of(value.toDouble()); }
@@ -103,6 +103,8 @@ public:
   // ---- variables ----
   Value unwritten(const State &, std::uint32_t variable) const { return given(variable); }
   Value given(std::uint32_t variable) const;
+  std::span<const GivenVariables::Entry> allGiven() const { return given_.entries(); }
+  bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
   Value toolLength(State &state, const Value &number) const;
   Value readAnyOf(State &, const Value &) const { return {}; }         // the index is always one number

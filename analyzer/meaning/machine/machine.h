@@ -9,20 +9,32 @@
 
 namespace feedhold {
 
+/// What a run looks like just before an instruction.
+struct RunMoment {
+  Place place;
+  const MachineState<ConcreteReading> &state;
+  std::size_t depth; // calls that are open
+  std::size_t moves; // recorded so far
+};
+
+/// The operator's switch: blocks with a `/` are executed or passed over.
+enum class BlockSkipSwitch : std::uint8_t { Off, On };
+
 struct RunOptions {
   GivenVariables variables = {}; // arguments are the local variables; not listed: vacant
   std::array<double, kAxisCount> start{};
-  std::uint64_t fuel = 10'000'000; // instructions
-  bool blockSkip = false;          // the operator's switch: blocks with `/` are passed over
+  std::uint64_t fuel = 10'000'000;   // instructions
+  std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
+  BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   /// Called before each instruction; null: nobody looks on.
-  std::function<void(Place, const MachineState<ConcreteReading> &, std::size_t depth)> trace = nullptr;
+  std::function<void(const RunMoment &)> trace = nullptr;
 };
 
 enum class RunEnd : std::uint8_t {
   M02,
   M30,
   Returned,    // M99 of the program that was started
-  EndOfFile,   // no M02, M30 or M99 came
+  EndOfFile,   // no M02, M30 or M99 came, on a control that takes this for an end
   Alarm,       // of the control
   UserAlarm,   // `#3000=`
   Fuel,        // still running
@@ -31,13 +43,18 @@ enum class RunEnd : std::uint8_t {
 };
 std::string_view nameOf(RunEnd end);
 
-/// A call that was open when the run ended; the innermost last.
+/// A call that was open when the run ended.
 struct OpenCall {
   Place place; // of the call
+  Callee callee;
 };
+
+/// What the numbers of a move are counted in; the time of a dwell is not.
+enum class LengthUnit : std::uint8_t { Millimetre, Inch };
 
 struct RecordedMove {
   Move<ConcreteValue> move;
+  LengthUnit unit;
   Place place;
 };
 
@@ -53,8 +70,8 @@ struct RunResult {
   double alarmNumber = 0;            // of UserAlarm
   std::string alarmText;             // of UserAlarm: the comment
   Span alarmSpan;                    // of both: the words that it comes from
-  std::vector<OpenCall> calls;
-  std::uint64_t steps = 0;
+  std::vector<OpenCall> calls;       // the innermost last
+  std::uint64_t steps = 0;           // instructions executed
   MachineState<ConcreteReading> state;
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes; // what was not followed, each once for a place

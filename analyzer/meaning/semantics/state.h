@@ -36,6 +36,7 @@ public:
   }
   const std::vector<Entry> &entries() const { return entries_; }
   std::vector<Entry> &entries() { return entries_; }
+  friend bool operator==(const VariableMap &, const VariableMap &) = default;
 
 private:
   auto position(std::uint32_t number) const {
@@ -52,6 +53,7 @@ template <typename Value> struct CycleState {
   Value initial; // level at which the cycle began: where G98 returns to
   Value peck;    // Q
   Value dwell;   // P
+  friend bool operator==(const CycleState &, const CycleState &) = default;
 };
 
 /// Mappings between programmed and work coordinates (G51.1, G51, G68, G16), in the order in which the control applies
@@ -62,6 +64,7 @@ template <typename Value> struct TransformState {
   std::array<Value, kAxisCount> mirrorAt;     // vacant: not mirrored
   Value angle;                                // degrees, counterclockwise
   std::array<Value, 2> centre;                // of the rotation, in the plane of G68
+  friend bool operator==(const TransformState &, const TransformState &) = default;
 };
 
 /// A macro that is called after each movement (G66) or at each block (G66.1).
@@ -69,6 +72,7 @@ template <typename Value> struct ModalCallState {
   std::uint32_t file; // of the block with G66
   std::uint32_t call; // CallId in that file
   std::array<Value, kLocalVariables + 1> locals; // kept from one call to the next
+  friend bool operator==(const ModalCallState &, const ModalCallState &) = default;
 };
 
 template <typename R> struct MachineState {
@@ -99,6 +103,7 @@ template <typename R> struct MachineState {
   const Value &word(char letter) const { return words[static_cast<std::size_t>(letter - 'A')]; }
   Value &at(Axis axis) { return position[indexOf(axis)]; }
   const Value &at(Axis axis) const { return position[indexOf(axis)]; }
+  friend bool operator==(const MachineState &, const MachineState &) = default;
 };
 
 /// The states of the spindle: MachineState::spindle is an index of these.

@@ -18,6 +18,7 @@ struct Command {
 };
 
 Command addCheckCommand(CLI::App &parent);
+Command addRunCommand(CLI::App &parent);
 Command addExplainCommand(CLI::App &parent);
 Command addRulesCommand(CLI::App &parent);
 Command addDialectsCommand(CLI::App &parent);

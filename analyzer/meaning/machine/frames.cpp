@@ -1,0 +1,18 @@
+#include "meaning/machine/frames.h"
+
+namespace feedhold {
+
+bool RepeatWatch::comesBack(Place place, const MachineState<ConcreteReading> &state, const std::vector<Frame> &frames,
+                            Outside outside) {
+  if (outside == Outside::Read)
+    kept_.reset();
+  if (kept_ && kept_->place == place && kept_->frames == frames && kept_->state == state)
+    return true;
+  if (++visits_ < next_)
+    return false;
+  next_ *= 2;
+  kept_ = std::make_unique<const Kept>(Kept{place, state, frames});
+  return false;
+}
+
+} // namespace feedhold
