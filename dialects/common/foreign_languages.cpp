@@ -23,6 +23,12 @@ constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaLabel, 4},
     LanguageHint{TextSignal::OkumaFile, 30},
 };
+/// O-words alone are LinuxCNC's, which is read.
+constexpr std::array kPlanet = {
+    LanguageHint{TextSignal::OWord, 30},
+    LanguageHint{TextSignal::AngleName, 30},
+    LanguageHint{TextSignal::PlanetMark, 40},
+};
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},
     LanguageHint{TextSignal::SyntecControl, 12},
@@ -57,6 +63,8 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"Sinumerik", "only a program in ISO dialect mode (`G291`) can be read, with `--dialect`",
                     kSinumerik},
     ForeignLanguage{"Okuma user task", "OSP programs have named labels and variables, which are not read", kOkuma},
+    ForeignLanguage{"RS274NGC of PlanetCNC or grblHAL",
+                    "only LinuxCNC's RS274NGC is read; `--dialect linuxcnc` does so where the two agree", kPlanet},
     ForeignLanguage{"Syntec MACRO", "a program without `%@MACRO` is in ISO mode and can be read", kSyntec},
     ForeignLanguage{"Fagor 8055", "statements in parentheses would be taken for comments", kFagor},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not read", kDollar},

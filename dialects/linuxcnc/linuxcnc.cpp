@@ -88,6 +88,7 @@ Limits limits() {
   limits.lastSequenceNumber = 99999999;
   limits.lastProgramNumber = 99999999;
   limits.literalDigits = 255;
+  limits.mCodes = 4;
   return limits;
 }
 

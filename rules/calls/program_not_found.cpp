@@ -17,14 +17,14 @@ void check(const FileContext &context, const Reporter &reporter) {
     return;
   std::set<std::string> seen;
   for (const Call &call : context.model.calls) {
-    if (!namesProgram(call.kind) || call.kind == CallKind::External || call.callee.empty() ||
-        context.callGraph.callee(context.file, call))
+    const bool names = (namesProgram(call.kind) && call.kind != CallKind::External) || call.kind == CallKind::OWord;
+    if (!names || call.callee.empty() || context.callGraph.callee(context.file, call))
       continue;
     const std::string name = toString(call.callee);
     if (!seen.insert(name).second)
       continue;
     reporter.report({.message = fmt::format("`{}` is in none of the files", name),
-                     .span = wordOf(context, *call.programWord).span(),
+                     .span = call.programWord ? wordOf(context, *call.programWord).span() : call.span,
                      .notes = {fmt::format("when it is not on the machine either, the control {}",
                                            stopsWith(context.dialect, AlarmKind::ProgramNotFound))}});
   }

@@ -23,6 +23,12 @@ void reportPair(const Word &first, const Word &second, const FileContext &contex
 
 bool isCode(const Word &word) { return word.address() == 'G' && !word.has(Word::kAfterSkip); }
 
+/// G80 before a motion, where both are of one group: the motion holds.
+bool maySupersede(const Code &code, const Dialect &dialect) {
+  const Code *rapid = findGCode(dialect, 0);
+  return code.action == CodeAction::CycleOff && rapid && rapid->group == code.group;
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto words = context.tree.wordsOf(block);
   if (words.size() < 2 || std::count_if(words.begin(), words.end(), isCode) < 2)
@@ -30,7 +36,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   std::array<const Word *, 256> ofGroup{};
   for (const Word &word : words) {
     const Code *code = isCode(word) ? codeOf(word, context.dialect) : nullptr;
-    if (!code || code->group == 0)
+    if (!code || code->group == 0 || maySupersede(*code, context.dialect))
       continue;
     const Word *&first = ofGroup[code->group];
     if (first && first->tenths() != word.tenths())

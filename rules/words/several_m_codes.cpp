@@ -20,17 +20,17 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     last = &word;
     ++count;
   }
-  constexpr std::size_t kMostEver = 3;
+  const std::size_t mostEver = context.dialect.limits.mCodes;
   const Switch setting = context.dialect.switches.m3b;
-  if (count < 2 || (setting == Switch::On && count <= kMostEver) || passesArguments(context, block))
+  if (count < 2 || (setting == Switch::On && count <= mostEver) || passesArguments(context, block))
     return;
-  const bool sure = setting == Switch::Off || count > kMostEver;
+  const bool sure = setting == Switch::Off || count > mostEver;
   reporter.report({.message = fmt::format("{} M codes in one block", count),
                    .span = last->span(),
                    .labels = {{first->span(), "the first"}},
-                   .notes = {count > kMostEver ? "no setting of the control takes more than three"
-                             : sure            ? "the control takes the last one only (parameter 3404#7, M3B, is off)"
-                                    : "with parameter 3404#7 (M3B) off the control takes the last one only"}},
+                   .notes = {count > mostEver ? fmt::format("no setting of the control takes more than {}", mostEver)
+                             : sure           ? "the control takes the last one only (parameter 3404#7, M3B, is off)"
+                                              : "with parameter 3404#7 (M3B) off the control takes the last one only"}},
                   sure ? Severity::Warning : Severity::Info);
 }
 

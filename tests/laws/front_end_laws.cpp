@@ -134,5 +134,47 @@ RC_GTEST_PROP(Model, LetsJumpsEndAtTheirNumber, ()) {
   }
 }
 
+// ---- o-words -----------------------------------------------------------------------------------------------------
+
+const Dialect &oWordDialect() { return *findDialect(allDialects(), "linuxcnc"); }
+
+RC_GTEST_PROP(OWords, PrintBack, ()) {
+  const std::string text = join(*oWordPieces(), *rc::gen::element<std::string>("", " "), "\n");
+  expectNothingLost(text, oWordDialect());
+  expectNothingLost(*mutated(text), oWordDialect());
+}
+
+RC_GTEST_PROP(OWords, ReadTheSameWithAndWithoutBlanks, ()) {
+  const ProgramPieces program = *oWordPieces();
+  const std::string dense = meaningOf(parsed(join(program, "", "\n"), oWordDialect()));
+  RC_ASSERT(meaningOf(parsed(join(program, " ", "\n"), oWordDialect())) == dense);
+}
+
+void expectConstructsInOrder(const ProgramModel &model) {
+  for (const Construct &construct : model.constructs) {
+    RC_ASSERT(model.oWords[construct.parts.front()].kind == construct.kind);
+    for (std::size_t i = 1; i < construct.parts.size(); ++i) {
+      RC_ASSERT(construct.parts[i - 1] < construct.parts[i]);
+      RC_ASSERT(model.oWords[construct.parts[i]].label == model.oWords[construct.parts[0]].label);
+      RC_ASSERT(model.oWords[construct.parts[i]].program == model.oWords[construct.parts[0]].program);
+    }
+  }
+}
+
+RC_GTEST_PROP(OWords, BelongToOneConstructAndOneProgram, ()) {
+  const Dialect &dialect = oWordDialect();
+  const SourceFile source = SourceFile::fromText("law.ngc", *mutated(join(*oWordPieces(), "", "\n")));
+  const SyntaxTree tree = parse(source, dialect);
+  const ProgramModel model = resolve(source, tree, dialect);
+  expectConstructsInOrder(model);
+  for (const OWordUse &use : model.oWords)
+    RC_ASSERT(model.programOf(use.block) == use.program);
+  for (const Program &program : model.programs)
+    if (program.within) {
+      RC_ASSERT(model.programs[*program.within].first <= program.first);
+      RC_ASSERT(program.last <= model.programs[*program.within].last);
+    }
+}
+
 } // namespace
 } // namespace feedhold::laws

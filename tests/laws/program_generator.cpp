@@ -135,7 +135,79 @@ BlockPieces block() {
   return pieces;
 }
 
+// ---- o-words -----------------------------------------------------------------------------------------------------
+
+std::string label() { return *element<std::string>("1", "2", "100", "<a>", "<b c>"); }
+
+BlockPieces oWord(const std::string &of, const std::string &word) { return {"o", of, word}; }
+
+BlockPieces oWordWithValue(const std::string &of, const std::string &word) {
+  BlockPieces pieces = oWord(of, word);
+  append(pieces, bracketed(2));
+  return pieces;
+}
+
+BlockPieces oWordCall() {
+  BlockPieces pieces = oWord(label(), "call");
+  for (int count = *inRange(0, 3); count > 0; --count)
+    append(pieces, bracketed(1));
+  return pieces;
+}
+
+BlockPieces plainOWordBlock() {
+  switch (*inRange(0, 5)) {
+  case 0: return oWordCall();
+  case 1: return words();
+  case 2: return oWord(label(), *element<std::string>("break", "continue", "return", "else"));
+  case 3: {
+    BlockPieces pieces{"#", *element<std::string>("<a>", "<_b>", "7"), "="};
+    append(pieces, bracketed(2));
+    return pieces;
+  }
+  default: return {"g1", "x1", *element<std::string>("; up", "(TEXT)", ";")};
+  }
+}
+
+void appendConstruct(ProgramPieces &program, int depth) {
+  const std::string of = label();
+  const int kind = *inRange(0, depth > 0 ? 5 : 1);
+  const auto body = [&] {
+    for (int count = *inRange(0, 3); count > 0; --count)
+      appendConstruct(program, depth - 1);
+  };
+  if (kind == 0) {
+    program.push_back(plainOWordBlock());
+    return;
+  }
+  if (kind == 3) {
+    program.push_back(oWord(of, "do"));
+    body();
+    program.push_back(oWordWithValue(of, "while"));
+    return;
+  }
+  const std::string name = kind == 1 ? "if" : kind == 2 ? "while" : "repeat";
+  program.push_back(oWordWithValue(of, name));
+  body();
+  program.push_back(oWord(of, "end" + name));
+}
+
 } // namespace
+
+rc::Gen<ProgramPieces> oWordPieces() {
+  return rc::gen::exec([] {
+    ProgramPieces program;
+    for (int subs = *inRange(0, 3); subs > 0; --subs) {
+      const std::string of = label();
+      program.push_back(oWord(of, "sub"));
+      appendConstruct(program, 2);
+      program.push_back(oWord(of, "endsub"));
+    }
+    for (int count = *inRange(0, 4); count > 0; --count)
+      appendConstruct(program, 2);
+    program.push_back({"m2"});
+    return program;
+  });
+}
 
 rc::Gen<ProgramPieces> programPieces() {
   return rc::gen::exec([] {

@@ -15,6 +15,9 @@ using ProgramPieces = std::vector<BlockPieces>;
 /// Blocks that a control accepts: words, assignments, conditions, loops, calls, comments.
 rc::Gen<ProgramPieces> programPieces();
 
+/// The same for controls with o-words: subroutines, branches, loops, calls, named parameters.
+rc::Gen<ProgramPieces> oWordPieces();
+
 std::string join(const ProgramPieces &program, std::string_view between, std::string_view endOfBlock);
 
 /// `text` with some bytes removed, doubled, or replaced by others that programs are made of.

@@ -70,13 +70,17 @@ std::size_t commentLength(std::string_view text) {
 }
 
 CommentLanguage scanComment(std::string_view comment, TextScan &scan) {
-  static constexpr std::string_view kRsComments[] = {"DEBUG,",  "MSG,",      "PRINT,", "DLG,", "DLGNAME,",
-                                                     "DLGSHOW", "PROBEOPEN", "ABORT,", "LOG,"};
+  static constexpr std::string_view kRsComments[] = {"DEBUG,", "PRINT,", "PROBEOPEN", "ABORT,", "LOG,"};
+  static constexpr std::string_view kDialogs[] = {"DLG,", "DLGNAME,", "DLGNEW", "DLGSHOW"};
   const std::size_t inner = comment.size() > 1 && comment.back() == ')' ? comment.size() - 2 : comment.size() - 1;
   const std::string_view text = trimmed(comment.substr(1, inner));
   countNames(text, scan);
   if (beginsWithAny(text, kRsComments)) {
     count(TextSignal::RsComment, scan);
+    return CommentLanguage::Foreign;
+  }
+  if (beginsWithAny(text, kDialogs)) {
+    count(TextSignal::PlanetMark, scan);
     return CommentLanguage::Foreign;
   }
   if (isFagorStatement(text)) {

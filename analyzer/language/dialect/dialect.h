@@ -232,6 +232,7 @@ struct Limits {
   std::uint32_t lastAlarmNumber = 200;
   std::uint8_t alarmMessageLength = 26;
   std::uint8_t ijkSets = 10;
+  std::uint8_t mCodes = 3;             // in a block, where a setting allows several
   std::uint8_t programNameLength = 32; // of `<NAME>`
 };
 

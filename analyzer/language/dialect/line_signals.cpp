@@ -300,6 +300,8 @@ void LineScanner::scanHash() {
     count(TextSignal::AngleName);
     hasWord_ = true;
     const std::size_t end = line_.find('>', at_);
+    if (line_.substr(at_, end == std::string_view::npos ? end : end - at_).find('|') != std::string_view::npos)
+      count(TextSignal::PlanetMark);
     at_ = end == std::string_view::npos ? line_.size() : end + 1;
   } else if (next == '[' || next == '#') {
     hasWord_ = true;

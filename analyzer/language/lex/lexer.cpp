@@ -126,14 +126,16 @@ Token Lexer::letters(std::uint32_t begin) {
     return token;
   };
   const char second = at(begin + 1);
-  if (startsValue(second) || !isLetter(second))
+  if (startsValue(second))
+    return address();
+  if (grammar_->oWords)
+    if (const Token word = oWord(begin); word.kind == TokenKind::OWord)
+      return word;
+  if (!isLetter(second))
     return address();
   const std::uint32_t end = afterLetters(begin, begin + kLongestKeywordRun);
   const std::uint32_t behind = afterBlanks(end);
   const std::string_view run = text_.substr(begin, end - begin);
-  if (grammar_->oWords)
-    if (const Token word = oWord(begin); word.kind == TokenKind::OWord)
-      return word;
   KeywordMatch match = matchKeyword(run, at(behind));
   if (match.abbreviated && !grammar_->shortForms)
     match = {};

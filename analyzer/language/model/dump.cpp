@@ -63,7 +63,8 @@ private:
   }
 
   std::string named(const OWordUse &use) const {
-    return fmt::format("o{} {}", use.label.empty() ? "?" : use.label, toLower(spellingOf(use.kind)));
+    const std::string label = use.label.empty() ? "o?" : toString({std::nullopt, use.label, true});
+    return fmt::format("{} {}", label, toLower(spellingOf(use.kind)));
   }
 
   void construct(const Construct &construct) {

@@ -11,6 +11,9 @@ struct ResolveContext {
   const Dialect &dialect;
 };
 
+/// The word that names a program: an O word, or a `<NAME>`, at the head of a block; null for other blocks.  A lone `:`
+/// at the end of a block is a mistyped `;`.
+const Word *headerOf(const ResolveContext &context, BlockId block);
 /// Pairs the o-words; OWordUse::program is filled in by findPrograms.
 void findOWords(const ResolveContext &context, ProgramModel &model);
 void findPrograms(const ResolveContext &context, ProgramModel &model);

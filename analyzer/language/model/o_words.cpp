@@ -18,6 +18,8 @@ public:
       const BlockId block(i);
       if (tree.blocks[block].has(Block::kAfterEnd) || tree.blocks[block].has(Block::kLeader))
         continue;
+      if (headerOf(context_, block))
+        leaveSubroutine();
       for (const Statement &statement : tree.statementsOf(block))
         if (const auto *oWord = std::get_if<OWord>(&statement.node))
           add(*oWord, block, tree.idOf(statement));
@@ -42,8 +44,7 @@ private:
     case OWordKind::EndSub:
       if (sub_ && labelOf(*sub_) == use.label)
         close(*sub_, id, use);
-      open_.clear();
-      sub_.reset();
+      leaveSubroutine();
       return;
     case OWordKind::Return: use.construct = sub_; return;
     case OWordKind::Call: return;
@@ -70,6 +71,11 @@ private:
         use.construct = loop;
       return;
     }
+  }
+
+  void leaveSubroutine() {
+    open_.clear();
+    sub_.reset();
   }
 
   ConstructId begin(OWordId id, OWordUse &use) {

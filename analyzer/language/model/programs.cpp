@@ -15,10 +15,6 @@ std::string toString(const ProgramName &name) {
   return name.text.empty() ? "" : "<" + name.text + ">";
 }
 
-namespace {
-
-/// The word that names a program: an O word, or a `<NAME>`, at the head of a block.  A lone `:` at the end of a block
-/// is a mistyped `;`.
 const Word *headerOf(const ResolveContext &context, BlockId block) {
   const auto words = context.tree.wordsOf(block);
   if (words.empty())
@@ -26,9 +22,12 @@ const Word *headerOf(const ResolveContext &context, BlockId block) {
   const Word &first = words.front();
   const auto statements = context.tree.statementsOf(block);
   const bool atHead = statements.empty() || first.span().begin < statements.front().span.begin;
-  const bool names = (first.address() == 'O' || first.address() == '<') && !first.has(Word::kComma);
+  const bool lone = first.address() == '<' && !context.dialect.grammar.oWords;
+  const bool names = (first.address() == 'O' || lone) && !first.has(Word::kComma);
   return atHead && names ? &first : nullptr;
 }
+
+namespace {
 
 ProgramName nameFrom(const ResolveContext &context, const Word &word) {
   if (word.form() == WordForm::Name) {
@@ -57,7 +56,9 @@ public:
       const BlockId id(i);
       const Block &block = tree.blocks[id];
       const Word *header = isRead(block) ? headerOf(context_, id) : nullptr;
-      const bool nameless = !outer_ && isRead(block) && !block.has(Block::kPercent) && !isEmpty(tree, id);
+      const bool hasOWord = next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id;
+      const bool says = hasOWord || (!block.has(Block::kPercent) && !isEmpty(tree, id));
+      const bool nameless = !outer_ && isRead(block) && says;
       if (header || nameless)
         addProgram(header ? nameFrom(context_, *header) : ProgramName{}, header ? header->span() : block.span(), id);
       while (next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id)

@@ -21,9 +21,9 @@ Places placesOf(OWordKind kind) {
   case OWordKind::Repeat: return {1, 1};
   case OWordKind::Call: return {0, kAnyNumber};
   case OWordKind::Return:
+  case OWordKind::Else: // it is read, and means nothing
   case OWordKind::EndSub: return {0, 1};
   case OWordKind::Sub:
-  case OWordKind::Else:
   case OWordKind::EndIf:
   case OWordKind::EndWhile:
   case OWordKind::Do:
@@ -53,9 +53,15 @@ bool Parser::atOWord() const {
   return label.kind == TokenKind::Hash || label.kind == TokenKind::OpenBracket;
 }
 
+/// Alone in its block: before it only N and a block skip, behind it comments.
 StatementId Parser::oWordStatement() {
   const std::uint32_t begin = token_.begin;
+  const bool atHead = headOfBlock_;
+  if (!atHead)
+    issue(SyntaxIssueKind::UnexpectedText, token_.span(), {}, Broken::Yes);
   advance();
+  if (!atHead)
+    return addStatement(begin, BrokenStatement{});
   OWord oWord{OWordKind::Sub, token_.span(), std::nullopt, 0, 0};
   if (at(TokenKind::Number) || at(TokenKind::Name)) {
     advance();
@@ -71,6 +77,8 @@ StatementId Parser::oWordStatement() {
   oWord.kind = keyword.oWord();
   advance();
   readOWordArguments(oWord, keyword);
+  if (!atEnd() && !at(TokenKind::Comment))
+    issue(SyntaxIssueKind::UnexpectedText, token_.span(), {}, Broken::Yes);
   return addStatement(begin, oWord);
 }
 
