@@ -143,6 +143,16 @@ std::optional<Rational> gcd(const Rational &left, const Rational &right) {
                              Wide{left.denominator()} / shared * right.denominator());
 }
 
+bool differByMultiple(const Rational &left, const Rational &right, const Rational &step) {
+  if (left == right || step.isZero())
+    return left == right;
+  const Wide numerator = Wide{left.numerator()} * right.denominator() - Wide{right.numerator()} * left.denominator();
+  const Wide denominator = Wide{left.denominator()} * right.denominator();
+  const Wide divisor = greatestCommonDivisor(numerator, denominator);
+  // (n/d) / (p/q) = n q / (d p) is whole when d divides q and p divides n, both fractions being in lowest terms.
+  return step.denominator() % (denominator / divisor) == 0 && numerator / divisor % step.numerator() == 0;
+}
+
 std::int64_t floor(const Rational &value) {
   const std::int64_t towardsZero = truncate(value);
   return value.isNegative() && !value.isInteger() ? towardsZero - 1 : towardsZero;

@@ -53,6 +53,8 @@ std::optional<Rational> divide(const Rational &left, const Rational &right);
 std::optional<Rational> negate(const Rational &value);
 /// The largest g >= 0 of which both are integer multiples; 0 when both are 0.
 std::optional<Rational> gcd(const Rational &left, const Rational &right);
+/// left - right is step * n for a whole n; holds for fractions of any size.
+bool differByMultiple(const Rational &left, const Rational &right, const Rational &step);
 /// The largest integer that is not above the value.
 std::int64_t floor(const Rational &value);
 /// Towards zero.

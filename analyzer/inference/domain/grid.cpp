@@ -20,13 +20,6 @@ std::optional<Rational> scaled(const std::optional<Rational> &value, std::int64_
   return value ? multiply(*value, Rational(times)) : std::nullopt;
 }
 
-Truth isMultiple(const Rational &value, const Rational &step) {
-  if (step.isZero())
-    return truthOf(value.isZero());
-  const auto ratio = divide(value, step);
-  return ratio ? truthOf(ratio->isInteger()) : Truth::Maybe;
-}
-
 /// The inverse of value modulo modulus, for coprime values (extended Euclid).
 std::int64_t inverseModulo(std::int64_t value, std::int64_t modulus) {
   std::int64_t rest = value % modulus, lastRest = modulus;
@@ -65,7 +58,8 @@ std::optional<Grid> meetOfSteps(const Grid &left, const Grid &right) {
   const auto shift = scaled(left.step(), steps->numerator() % modulus);
   const auto offset = shift ? add(left.offset(), *shift) : std::nullopt;
   const auto step = scaled(left.step(), modulus);
-  return offset && step ? Grid::of(*step, *offset) : left;
+  const Grid both = gridOf(step, offset);
+  return both.isAny() ? left : both;
 }
 
 } // namespace
@@ -82,13 +76,13 @@ Grid Grid::of(const Rational &step, const Rational &offset) {
   return rest ? Grid(*rest, *size) : any();
 }
 
-Truth Grid::membership(const Rational &value) const {
+bool Grid::excludes(double value) const {
   if (isAny_)
-    return Truth::True;
-  if (step_.isZero())
-    return truthOf(value == offset_);
-  const auto distance = feedhold::subtract(value, offset_);
-  return distance ? isMultiple(*distance, step_) : Truth::Maybe;
+    return false;
+  if (const auto exact = Rational::fromDouble(value))
+    return !contains(*exact);
+  // A double below 1 that is no fraction of 64 bits has a power of two in its denominator that no member can have.
+  return std::abs(value) < 1;
 }
 
 bool Grid::contains(double value, double tolerance) const {
@@ -118,7 +112,7 @@ std::optional<Rational> Grid::atOrAbove(const Rational &bound) const {
 bool leq(const Grid &left, const Grid &right) {
   if (right.isAny())
     return true;
-  return !left.isAny() && isMultiple(left.step(), right.step()) == Truth::True && right.contains(left.offset());
+  return !left.isAny() && differByMultiple(left.step(), Rational(), right.step()) && right.contains(left.offset());
 }
 
 Grid join(const Grid &left, const Grid &right) {
@@ -127,7 +121,9 @@ Grid join(const Grid &left, const Grid &right) {
   if (left == right)
     return left;
   const auto distance = subtract(left.offset(), right.offset());
-  return gridOf(gcdOf(gcd(left.step(), right.step()), distance), left.offset());
+  const auto step = gcdOf(gcd(left.step(), right.step()), distance);
+  const Grid grid = gridOf(step, left.offset());
+  return grid.isAny() ? gridOf(step, right.offset()) : grid;
 }
 
 std::optional<Grid> meet(const Grid &left, const Grid &right) {
@@ -136,9 +132,9 @@ std::optional<Grid> meet(const Grid &left, const Grid &right) {
   if (right.isAny())
     return left;
   if (left.isConstant())
-    return right.excludes(left.offset()) ? std::nullopt : std::optional(left);
+    return right.contains(left.offset()) ? std::optional(left) : std::nullopt;
   if (right.isConstant())
-    return left.excludes(right.offset()) ? std::nullopt : std::optional(right);
+    return left.contains(right.offset()) ? std::optional(right) : std::nullopt;
   return meetOfSteps(left, right);
 }
 

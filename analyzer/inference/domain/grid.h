@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/support/rational.h"
-#include "base/support/truth.h"
 
 #include <optional>
 
@@ -27,9 +26,9 @@ public:
   /// Meaningless for any().
   constexpr const Rational &step() const { return step_; }
   constexpr const Rational &offset() const { return offset_; }
-  /// Not `contains` nor `excludes` where the distance does not fit.
-  bool contains(const Rational &value) const { return membership(value) == Truth::True; }
-  bool excludes(const Rational &value) const { return membership(value) == Truth::False; }
+  bool contains(const Rational &value) const { return isAny_ || differByMultiple(value, offset_, step_); }
+  /// The exact value of the double is no member; false where that cannot be told.
+  bool excludes(double value) const;
   /// A member is within the tolerance.
   bool contains(double value, double tolerance) const;
 
@@ -40,7 +39,6 @@ public:
   friend bool operator==(const Grid &, const Grid &) = default;
 
 private:
-  Truth membership(const Rational &value) const;
   constexpr Grid(const Rational &offset, const Rational &step) : offset_(offset), step_(step), isAny_(false) {}
 
   Rational offset_;

@@ -14,11 +14,6 @@ NumberParts partsOf(const AbstractNumber &value) {
   return {value.interval(), value.grid(), value.set(), value.isExact() ? Exactness::Exact : Exactness::Rounded};
 }
 
-bool excludes(const Grid &grid, double value) {
-  const auto exact = Rational::fromDouble(value);
-  return exact && grid.excludes(*exact);
-}
-
 /// Of two numbers of the same exactness.
 std::optional<AbstractNumber> meetOfAlike(const NumberParts &left, const NumberParts &right, const Interval &interval) {
   const auto grid = meet(left.grid, right.grid);
@@ -34,7 +29,7 @@ std::optional<AbstractNumber> meetOfMixed(const NumberParts &exact, const Number
                                           const Interval &interval) {
   const auto common = meet(exact.set, rounded.set);
   const bool isReal = meet(exact.grid, rounded.grid).has_value();
-  const bool isComputed = common && common->filter([&](double value) { return !excludes(exact.grid, value); });
+  const bool isComputed = common && common->filter([&](double value) { return !exact.grid.excludes(value); });
   if (!isReal && !isComputed)
     return std::nullopt;
   return NumberParts{interval, exact.grid, exact.set, Exactness::Exact}.reduced();
@@ -69,6 +64,22 @@ std::optional<AbstractNumber> withoutEnd(const AbstractNumber &value, const Rati
   else
     parts.interval.hi = Interval::of(*next).hi;
   return parts.reduced();
+}
+
+/// Every member is known, and on the grid.
+bool isOn(const Grid &grid, const FiniteSet &set) {
+  return !set.isMany() && std::ranges::all_of(set.values(), [&](double value) {
+    const auto exact = Rational::fromDouble(value);
+    return exact && grid.contains(*exact);
+  });
+}
+
+std::partial_ordering compare(const Rational &value, double bound) {
+  if (const auto exact = Rational::fromDouble(bound))
+    return value <=> *exact;
+  // Such a bound is infinite, or far from what fractions hold.
+  return static_cast<long double>(value.numerator()) / static_cast<long double>(value.denominator()) <=>
+         static_cast<long double>(bound);
 }
 
 enum class Relation { Equal, Less, AtMost };
@@ -156,18 +167,22 @@ std::optional<double> AbstractNumber::constantValue() const {
 }
 
 bool AbstractNumber::contains(double value) const {
-  return interval_.contains(value) && set_.contains(value) && !(isExact() && excludes(grid_, value));
+  return interval_.contains(value) && set_.contains(value) && !(isExact() && grid_.excludes(value));
 }
 
 bool AbstractNumber::containsExactly(const Rational &value) const {
-  const Interval near = Interval::of(value);
-  if (!meet(interval_, near) || grid_.excludes(value))
+  if (compare(value, interval_.lo) < 0 || compare(value, interval_.hi) > 0 || !grid_.contains(value))
     return false;
+  const Interval near = Interval::of(value);
   return !isExact() || set_.isMany() || (near.isConstant() && set_.contains(near.lo));
 }
 
 bool leq(const AbstractNumber &left, const AbstractNumber &right) {
-  return leq(left.interval(), right.interval()) && leq(left.grid(), right.grid()) && leq(left.set(), right.set()) &&
+  const bool isOnGrid = leq(left.grid(), right.grid()) || (left.isExact() && isOn(right.grid(), left.set()));
+  // Members outside of the interval, as a reading in which nothing is left may have, do not count.
+  const auto computed = left.set().filter([&](double value) { return left.interval().contains(value); });
+  const bool isInSet = !computed || leq(*computed, right.set());
+  return isOnGrid && isInSet && leq(left.interval(), right.interval()) &&
          (left.isExact() || !right.isExact() || right.isInterval());
 }
 

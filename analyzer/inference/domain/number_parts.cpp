@@ -39,17 +39,20 @@ Ends endsOn(const Grid &grid, const Interval &interval) {
   return {lo ? grid.atOrAbove(*lo) : std::nullopt, hi ? grid.atOrBelow(*hi) : std::nullopt};
 }
 
-/// The members of a grid between two of them, when there are few and doubles hold them.
-FiniteSet membersBetween(const Grid &grid, const Rational &lo, const Rational &hi) {
+/// The members of a grid inside the interval, which are at most a few between the ends; many when doubles do not hold
+/// one of them, absent when there is none.
+std::optional<FiniteSet> membersBetween(const Grid &grid, const Rational &lo, const Rational &hi,
+                                        const Interval &interval) {
   std::array<double, FiniteSet::kMost> values{};
   std::size_t count = 0;
   for (std::optional<Rational> at = lo; at && *at <= hi; at = add(*at, grid.step())) {
     const double value = at->toDouble();
     if (count == values.size() || Rational::fromDouble(value) != at)
       return FiniteSet::many();
-    values[count++] = value;
+    if (interval.contains(value))
+      values[count++] = value;
   }
-  return FiniteSet::of(std::span(values).first(count)).value_or(FiniteSet::many());
+  return FiniteSet::of(std::span(values).first(count));
 }
 
 bool isFew(const Rational &lo, const Rational &hi, const Rational &step) {
@@ -74,15 +77,10 @@ AbstractNumber ofSet(const FiniteSet &set) {
   return NumberParts{{set.values().front(), set.values().back()}, gridOf(set), set, Exactness::Exact}.asGiven();
 }
 
-bool excludes(const Grid &grid, double value) {
-  const auto exact = Rational::fromDouble(value);
-  return exact && grid.excludes(*exact);
-}
-
 /// Both readings have the one value of a point, whatever rounding came before.
 std::optional<AbstractNumber> reducedPoint(const NumberParts &parts) {
   const double value = parts.interval.lo;
-  const bool notReal = excludes(parts.grid, value);
+  const bool notReal = parts.grid.excludes(value);
   const bool notComputed = !parts.set.contains(value);
   const bool isEmpty = parts.exactness == Exactness::Exact ? notReal || notComputed : notReal && notComputed;
   if (isEmpty)
@@ -92,7 +90,7 @@ std::optional<AbstractNumber> reducedPoint(const NumberParts &parts) {
 
 std::optional<AbstractNumber> reducedSet(const NumberParts &parts) {
   const auto set =
-      parts.set.filter([&](double value) { return parts.interval.contains(value) && !excludes(parts.grid, value); });
+      parts.set.filter([&](double value) { return parts.interval.contains(value) && !parts.grid.excludes(value); });
   if (!set)
     return std::nullopt;
   const Interval hull{set->values().front(), set->values().back()};
@@ -118,9 +116,11 @@ std::optional<AbstractNumber> reducedGrid(const NumberParts &parts) {
   if (ends.hi)
     tight.interval.hi = std::min(tight.interval.hi, Interval::of(*ends.hi).hi);
   if (ends.lo && ends.hi && isFew(*ends.lo, *ends.hi, parts.grid.step())) {
-    const FiniteSet members = membersBetween(parts.grid, *ends.lo, *ends.hi);
-    if (!members.isMany())
-      return ofSet(members);
+    const auto members = membersBetween(parts.grid, *ends.lo, *ends.hi, parts.interval);
+    if (!members)
+      return std::nullopt;
+    if (!members->isMany())
+      return ofSet(*members);
   }
   return tight.asGiven();
 }
