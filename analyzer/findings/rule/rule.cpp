@@ -31,6 +31,8 @@ std::string_view nameOf(Category category) {
   case Category::Call: return "call";
   case Category::Comment: return "comment";
   case Category::Suppression: return "suppression";
+  case Category::Flow: return "flow";
+  case Category::Motion: return "motion";
   }
   FEEDHOLD_UNREACHABLE("a category without a name");
 }

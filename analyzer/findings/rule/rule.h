@@ -6,10 +6,12 @@
 
 #include "base/diag/diagnostic.h"
 #include "base/source/source_file.h"
+#include "inference/absint/flow_facts.h"
 #include "language/model/block_facts.h"
 #include "language/model/call_graph.h"
 #include "language/model/model.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +19,7 @@
 
 namespace feedhold {
 
-enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression };
+enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression, Flow, Motion };
 std::string_view nameOf(Category category);
 
 struct RuleInfo {
@@ -35,6 +37,7 @@ struct FileContext {
   const SyntaxTree &tree;
   const ProgramModel &model;
   const CallGraph &callGraph;
+  const ProgramSet *programs = nullptr; // when some rule asks for the flow
 
   std::string_view text(Span span) const { return source.text(span); }
   /// "`#510`": program text for a message, blanks at the ends cut, a long one shortened.
@@ -84,6 +87,13 @@ template <typename... Kinds> consteval NodeSet nodeSet() {
       (bitOf(std::in_place_type<Kinds>, static_cast<decltype(Expression::node) *>(nullptr)) | ...));
 }
 
+/// A rule that looks on while a program is analysed, and reports at the end.  It is asked only about analyses that came
+/// to their end.
+class FlowRule : public FlowWatch {
+public:
+  virtual void report(const FlowFacts &, const FileContext &, const Reporter &) = 0;
+};
+
 /// What a rule wants to be called for.  A null pointer: nothing.
 struct RuleHooks {
   void (*issue)(const SyntaxIssue &, const FileContext &, const Reporter &) = nullptr;
@@ -100,6 +110,11 @@ struct RuleHooks {
   void (*call)(CallId, const FileContext &, const Reporter &) = nullptr;
   void (*variable)(const VariableUse &, const FileContext &, const Reporter &) = nullptr;
   void (*comment)(const Comment &, BlockId, const FileContext &, const Reporter &) = nullptr;
+  /// Once for each program of the file, when its analysis has come to its end.
+  void (*flow)(const FlowFacts &, const FileContext &, const Reporter &) = nullptr;
+  /// The same for a rule that has to look on.
+  std::unique_ptr<FlowRule> (*watch)(ProgramId, const FileContext &) = nullptr;
+  bool asksFlow() const { return flow != nullptr || watch != nullptr; }
 };
 
 struct Rule {

@@ -36,6 +36,8 @@ struct HookLists {
   Listeners<decltype(RuleHooks::call)> call;
   Listeners<decltype(RuleHooks::variable)> variable;
   Listeners<decltype(RuleHooks::comment)> comment;
+  Listeners<decltype(RuleHooks::flow)> flow;
+  Listeners<decltype(RuleHooks::watch)> watch;
 };
 
 std::size_t slotOf(char address) { return static_cast<std::size_t>(address & 0x7f); }
@@ -67,6 +69,8 @@ HookLists gather(std::span<const Rule *const> rules, std::span<RuleFindings> sin
     addIfAsked(lists.call, hooks.call, reporter);
     addIfAsked(lists.variable, hooks.variable, reporter);
     addIfAsked(lists.comment, hooks.comment, reporter);
+    addIfAsked(lists.flow, hooks.flow, reporter);
+    addIfAsked(lists.watch, hooks.watch, reporter);
   }
   return lists;
 }
@@ -141,6 +145,27 @@ void visitModel(const HookLists &lists, const FileContext &context) {
       tell(lists.variable, context, use);
 }
 
+/// One analysis for each program, all rules looking on.
+void visitFlow(const HookLists &lists, const FileContext &context) {
+  if (context.programs == nullptr || (lists.flow.empty() && lists.watch.empty()))
+    return;
+  for (std::size_t i = 0; i < context.model.programs.size(); ++i) {
+    const ProgramId program(i);
+    std::vector<std::unique_ptr<FlowRule>> watching;
+    std::vector<FlowWatch *> watches;
+    for (const auto &listener : lists.watch) {
+      watching.push_back(listener.hook(program, context));
+      watches.push_back(watching.back().get());
+    }
+    const FlowFacts facts = collectFacts(*context.programs, context.file, program, watches);
+    if (!facts.isComplete())
+      continue;
+    tell(lists.flow, context, facts);
+    for (std::size_t k = 0; k < watching.size(); ++k)
+      watching[k]->report(facts, context, lists.watch[k].reporter);
+  }
+}
+
 } // namespace
 
 bool comesBefore(const RawFinding &a, const RawFinding &b) {
@@ -175,6 +200,7 @@ std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileC
   tell(lists.file, context);
   Walk(lists, context).run();
   visitModel(lists, context);
+  visitFlow(lists, context);
   return joined(std::move(sinks));
 }
 

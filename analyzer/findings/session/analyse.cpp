@@ -18,7 +18,8 @@ namespace feedhold {
 
 namespace {
 
-/// The tree goes as soon as the rules of its file have run; the model stays, since the call graph looks at it.
+/// Without rules that ask for the flow the tree goes as soon as the rules of its file have run; the model stays, since
+/// the call graph looks at it.
 struct Read {
   std::unique_ptr<const SyntaxTree> tree;
   std::unique_ptr<const ProgramModel> model;
@@ -100,6 +101,23 @@ std::vector<Finding> refuse(const WorkItem &item) {
   return {std::move(result)};
 }
 
+bool anyAsksFlow(std::span<const WorkItem> items) {
+  return std::any_of(items.begin(), items.end(), [](const WorkItem &item) {
+    return item.foreign == nullptr && std::any_of(item.profile->rules.begin(), item.profile->rules.end(),
+                                                  [](const Rule *rule) { return rule->hooks.asksFlow(); });
+  });
+}
+
+/// A file in another language is there without programs, so that files keep their numbers.
+ProgramSet programsOf(std::span<const WorkItem> items, const std::vector<Read> &reads, const CallGraph &callGraph,
+                      unsigned jobs) {
+  std::vector<ProgramFile> files;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    files.push_back({FileId(i), &items[i].source, reads[i].tree.get(), reads[i].model.get(),
+                     &items[i].profile->dialect});
+  return ProgramSet(std::move(files), callGraph, jobs);
+}
+
 } // namespace
 
 std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
@@ -110,6 +128,9 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
       reads[i] = read(items[i]);
   });
   const CallGraph callGraph = joinModels(items, reads);
+  std::optional<ProgramSet> programs;
+  if (anyAsksFlow(items))
+    programs.emplace(programsOf(items, reads, callGraph, options.jobs));
 
   std::vector<std::vector<Finding>> findings(items.size());
   std::atomic<std::size_t> done{0};
@@ -119,9 +140,11 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
       findings[i] = refuse(item);
     } else {
       const FileContext context{FileId(i),      item.source,     item.profile->dialect,
-                                *reads[i].tree, *reads[i].model, callGraph};
+                                *reads[i].tree, *reads[i].model, callGraph,
+                                programs ? &*programs : nullptr};
       findings[i] = findingsOf(context, *item.profile, rules);
-      reads[i].tree.reset();
+      if (!programs)
+        reads[i].tree.reset();
     }
     if (options.progress)
       options.progress(++done, items.size());

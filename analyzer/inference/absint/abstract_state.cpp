@@ -256,17 +256,6 @@ AbstractState widen(AbstractReading &reading, AbstractState old, AbstractState n
   });
 }
 
-AbstractState narrow(AbstractReading &reading, AbstractState old, AbstractState next) {
-  align(reading, old, next);
-  const std::vector<AbstractValue *> left = valuesOf(old);
-  const std::vector<AbstractValue *> right = valuesOf(next);
-  if (left.size() != right.size())
-    return old;
-  for (std::size_t i = 0; i < left.size(); ++i)
-    *left[i] = narrow(*left[i], *right[i]).withOrigin(left[i]->origin());
-  return old;
-}
-
 // ---- the reading's operations on whole states ----------------------------------------------------------------------
 
 void AbstractReading::join(State &state, Truth truth, const State &second) {

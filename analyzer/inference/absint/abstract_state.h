@@ -27,8 +27,6 @@ AbstractState join(AbstractReading &reading, AbstractState a, AbstractState b);
 /// `thresholds` ascend.
 AbstractState widen(AbstractReading &reading, AbstractState old, AbstractState next,
                     std::span<const double> thresholds);
-/// `next` is not above `old`.
-AbstractState narrow(AbstractReading &reading, AbstractState old, AbstractState next);
 
 // ---- template -----------------------------------------------------------------------------------------------------
 

@@ -120,13 +120,13 @@ bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, bool
   return changed;
 }
 
-Partitions Partitions::narrowedBy(AbstractReading &reading, const Partitions &incoming) const {
+Partitions Partitions::narrowedBy(const AbstractReading &reading, const Partitions &incoming) const {
   Partitions result = *this;
   if (incoming.merged_ != merged_)
     return result;
   for (Part &part : result.parts_)
     if (const Part *next = incoming.find(part.key); next && leq(reading, next->state, part.state))
-      part.state = narrow(reading, std::move(part.state), next->state);
+      part.state = next->state;
   return result;
 }
 

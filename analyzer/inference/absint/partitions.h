@@ -38,8 +38,8 @@ public:
   void add(AbstractReading &reading, std::uint64_t key, AbstractState state);
   /// Old states that grow are widened, new ones are taken as they are; true when anything has changed.
   bool grow(AbstractReading &reading, const Partitions &incoming, bool widening, std::span<const double> thresholds);
-  /// Part by part; parts without counterpart stay.
-  Partitions narrowedBy(AbstractReading &reading, const Partitions &incoming) const;
+  /// What has arrived in place of what was assumed, part by part, where it says more.
+  Partitions narrowedBy(const AbstractReading &reading, const Partitions &incoming) const;
   /// Every state is within one of `other` of its key.
   bool within(const AbstractReading &reading, const Partitions &other) const;
 

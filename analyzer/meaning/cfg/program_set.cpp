@@ -2,6 +2,7 @@
 #include "meaning/cfg/program_set.h"
 
 #include "base/support/check.h"
+#include "base/support/parallel.h"
 
 #include <algorithm>
 
@@ -39,17 +40,22 @@ BlockId lastBlockOf(const Program &program) {
 
 } // namespace
 
-ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph)
+ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsigned jobs)
     : files_(std::move(files)), callGraph_(std::move(callGraph)) {
   std::vector<const ProgramModel *> models;
-  for (const ProgramFile &each : files_)
-    models.push_back(each.model);
-  const ReturnTargets returns = returnTargets(models);
-  for (ProgramFile &each : files_) {
+  for (const ProgramFile &each : files_) {
     FEEDHOLD_CHECK(each.file.index() == static_cast<std::size_t>(&each - files_.data()), "files are numbered in order");
-    each.cfg = lower(*each.source, *each.tree, *each.model, *each.dialect, returns);
-    findNames(each);
+    if (each.model)
+      models.push_back(each.model);
   }
+  const ReturnTargets returns = returnTargets(models);
+  parallelFor(files_.size(), jobs, [&](std::size_t i) {
+    if (ProgramFile &each = files_[i]; each.model)
+      each.cfg = lower(*each.source, *each.tree, *each.model, *each.dialect, returns);
+  });
+  for (const ProgramFile &each : files_)
+    if (each.model)
+      findNames(each);
   const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
   std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
   std::sort(names_.begin(), names_.end());

@@ -41,7 +41,7 @@ inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
 class ProgramSet {
 public:
   /// Lowers the files; the call graph is over the same files.
-  ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph);
+  ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsigned jobs = 1);
 
   const ProgramFile &file(FileId file) const { return files_[file.index()]; }
   std::size_t size() const { return files_.size(); }

@@ -26,5 +26,6 @@ Command addTokensCommand(CLI::App &parent);
 Command addTreeCommand(CLI::App &parent);
 Command addModelCommand(CLI::App &parent);
 Command addCfgCommand(CLI::App &parent);
+Command addRangesCommand(CLI::App &parent);
 
 } // namespace feedhold

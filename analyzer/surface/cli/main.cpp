@@ -14,7 +14,8 @@ int run(int argc, char **argv) {
   app.require_subcommand(1);
   const std::vector<Command> commands = {addCheckCommand(app), addRunCommand(app),      addExplainCommand(app),
                                          addRulesCommand(app), addDialectsCommand(app), addTokensCommand(app),
-                                         addTreeCommand(app),  addModelCommand(app),    addCfgCommand(app)};
+                                         addTreeCommand(app),  addModelCommand(app),    addCfgCommand(app),
+                                         addRangesCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

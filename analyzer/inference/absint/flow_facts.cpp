@@ -1,0 +1,188 @@
+#include "inference/absint/flow_facts.h"
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+/// The nodes of a program stand together: up to the entry of the next one.
+std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
+  const std::size_t first = file.cfg.entryOf(program).index();
+  std::size_t end = file.cfg.nodes.size();
+  for (const NodeId entry : file.cfg.entries)
+    if (entry.index() > first)
+      end = std::min<std::size_t>(end, entry.index());
+  return end - first;
+}
+
+/// So much work that a program in use never needs it, so little that a hostile one ends soon.
+std::uint64_t budgetFor(const ProgramFile &file) { return 300'000 + 10 * file.cfg.nodes.size(); }
+
+} // namespace
+
+FlowFacts::FlowFacts(const ProgramSet &set, FileId file_, ProgramId program_)
+    : programs(set), file(set.file(file_)), program(program_), modes(*file.dialect),
+      first_(file.cfg.entryOf(program_).index()), reached_(nodesOf(file, program_)) {}
+
+std::optional<Truth> FlowFacts::truthOf(NodeId test) const {
+  const auto found = truths_.find(test.index());
+  return found == truths_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const AbstractValue *FlowFacts::valueOf(ExpressionId expression) const {
+  const auto found = values_.find(expression.index());
+  return found == values_.end() ? nullptr : &found->second;
+}
+
+/// Fills in the facts while the analysis tells what it sees.
+class FactCollector : public AnalysisVisitor {
+public:
+  FactCollector(FlowFacts &facts, AbstractReading &reading, std::span<FlowWatch *const> watches)
+      : facts_(facts), reading_(reading), watches_(watches) {}
+
+  void visit(Place place, const AbstractState &state, std::span<const Place> calls) override {
+    place_ = place;
+    outer_ = calls.empty() ? std::nullopt : std::optional(calls.front().node);
+    if (outer_ || !holds(place.node))
+      return;
+    facts_.reached_[place.node.index() - facts_.first_] = true;
+    for (FlowWatch *watch : watches_)
+      watch->before(place.node, state);
+  }
+  void left(Place place, const AbstractState &state) override {
+    if (!outer_)
+      for (FlowWatch *watch : watches_)
+        watch->after(place.node, state);
+  }
+  void move(const Move<AbstractValue> &move) override {
+    if (!outer_)
+      for (FlowWatch *watch : watches_)
+        watch->move(place_.node, move);
+  }
+  void branch(Place place, Truth truth) override {
+    if (outer_)
+      return;
+    const auto [found, isNew] = facts_.truths_.emplace(place.node.index(), truth);
+    if (!isNew)
+      found->second = join(found->second, truth);
+  }
+  void alarm(Truth truth, const AlarmReport &report) override {
+    if (outer_)
+      return;
+    const bool always = truth == Truth::True;
+    for (AlarmFact &fact : facts_.alarms_)
+      if (fact.place == report.place && fact.kind == report.kind) {
+        fact.always = fact.always && always;
+        return;
+      }
+    facts_.alarms_.push_back({report.kind, report.place, place_.node, always});
+  }
+  void userAlarm(const AbstractValue &number, Span place) override {
+    if (outer_)
+      return;
+    for (UserAlarmFact &fact : facts_.userAlarms_)
+      if (fact.place == place) {
+        fact.number = join(fact.number, number);
+        return;
+      }
+    facts_.userAlarms_.push_back({place, place_.node, number});
+  }
+  void notModelled(std::string_view reason, Span) override {
+    const NodeId node = outer_.value_or(place_.node);
+    for (const NotModelledFact &fact : facts_.notModelled_)
+      if (fact.node == node && fact.reason == reason)
+        return;
+    facts_.notModelled_.push_back({node, reason});
+  }
+  void evaluated(ExpressionId expression, const AbstractValue &value) override {
+    if (outer_)
+      return noteVacantRead(expression, value);
+    const auto [found, isNew] = facts_.values_.emplace(expression.index(), value);
+    if (!isNew)
+      found->second = join(found->second, value);
+  }
+  void ended(Place place, PathEnd end, const AbstractState &state) override {
+    if (outer_)
+      return;
+    for (FlowWatch *watch : watches_)
+      watch->ended(place.node, end, state);
+    for (ExitFact &fact : facts_.exits_)
+      if (fact.node == place.node) {
+        fact.state = join(reading_, std::move(fact.state), state);
+        return;
+      }
+    facts_.exits_.push_back({place.node, end, state});
+  }
+  void called(Place place, const CallRequest<AbstractReading> &request) override {
+    if (outer_)
+      return;
+    const auto *instruction = std::get_if<CallProgram>(&facts_.node(place.node).instruction);
+    if (!instruction)
+      return;
+    for (CallFact &fact : facts_.calls_)
+      if (fact.node == place.node) {
+        for (std::size_t i = 0; i < fact.request.locals.size(); ++i)
+          fact.request.locals[i] = join(fact.request.locals[i], request.locals[i]);
+        fact.request.repeats = join(fact.request.repeats, request.repeats);
+        return;
+      }
+    facts_.calls_.push_back({place.node, instruction->call, request});
+  }
+
+  void finish(bool complete) {
+    facts_.complete_ = complete;
+    // Read as a vacant variable in one state, and as a number in another: that is not always.
+    std::erase_if(facts_.vacantReads_, [&](const VacantReadInCall &read) {
+      return readAsNumber_.contains({read.read.file.index(), read.expression.index()});
+    });
+    const auto byPlace = [](const auto &a, const auto &b) { return a.place < b.place; };
+    std::stable_sort(facts_.alarms_.begin(), facts_.alarms_.end(), byPlace);
+    const auto byNode = [](const auto &a, const auto &b) { return a.node < b.node; };
+    std::stable_sort(facts_.exits_.begin(), facts_.exits_.end(), byNode);
+    std::stable_sort(facts_.calls_.begin(), facts_.calls_.end(), byNode);
+  }
+
+private:
+  bool holds(NodeId node) const {
+    return node.index() >= facts_.first_ && node.index() - facts_.first_ < facts_.reached_.size();
+  }
+  void noteVacantRead(ExpressionId expression, const AbstractValue &value) {
+    const ProgramFile &file = facts_.programs.file(place_.file);
+    const auto variable = variableNumber(*file.tree, expression);
+    if (!variable || *variable == 0 || *variable > kLocalVariables)
+      return;
+    const std::pair key{place_.file.index(), expression.index()};
+    if (!value.isVacant()) {
+      readAsNumber_.insert(key);
+      return;
+    }
+    if (readAsVacant_.insert(key).second)
+      facts_.vacantReads_.push_back({*outer_, place_, expression, *variable});
+  }
+
+  FlowFacts &facts_;
+  AbstractReading &reading_;
+  std::span<FlowWatch *const> watches_;
+  Place place_{FileId(0), NodeId(0)};
+  std::optional<NodeId> outer_; // the call of this program through which the present place is reached
+  std::set<std::pair<std::uint32_t, std::uint32_t>> readAsVacant_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> readAsNumber_;
+};
+
+// A called program with as many computed jumps is costly, but bounded by the budget.
+FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program,
+                       std::span<FlowWatch *const> watches) {
+  FlowFacts facts(programs, file, program);
+  if (computedEdges(facts.file.cfg, *facts.file.model, program) > kMostComputedEdges) {
+    facts.complete_ = false;
+    return facts;
+  }
+  Analysis analysis(programs, {.budget = budgetFor(facts.file)});
+  FactCollector collector(facts, analysis.reading(), watches);
+  analysis.walk({file, facts.entry(), program}, collector);
+  collector.finish(!analysis.gaveUp().has_value());
+  return facts;
+}
+
+} // namespace feedhold
