@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -36,6 +38,9 @@ Wide greatestCommonDivisor(Wide left, Wide right) {
 
 class RationalMaker {
 public:
+  /// In lowest terms already.
+  static Rational reduced(std::int64_t numerator, std::int64_t denominator) { return Rational(numerator, denominator); }
+
   /// The fraction in lowest terms, if it fits.
   static std::optional<Rational> make(Wide numerator, Wide denominator) {
     if (denominator == 0)
@@ -43,6 +48,13 @@ public:
     if (denominator < 0) {
       numerator = -numerator;
       denominator = -denominator;
+    }
+    const bool isNarrow = numerator <= kMost && numerator >= kLeast && denominator <= kMost;
+    if (isNarrow && denominator != 1) { // most are, and 128-bit divisions are slow
+      const auto narrowNumerator = static_cast<std::int64_t>(numerator);
+      const auto narrowDenominator = static_cast<std::int64_t>(denominator);
+      const std::int64_t divisor = std::gcd(narrowNumerator, narrowDenominator);
+      return Rational(narrowNumerator / divisor, narrowDenominator / divisor);
     }
     if (denominator != 1) {
       const Wide divisor = greatestCommonDivisor(numerator, denominator);
@@ -69,10 +81,17 @@ std::optional<Rational> Rational::fromDecimal(const Decimal &value) {
     return Rational();
   if (scale > kLargestScale)
     return std::nullopt;
-  std::int64_t power = 1;
-  for (int i = 0; i < scale; ++i)
-    power *= 10;
-  return RationalMaker::make(mantissa, power);
+  // A power of ten has the factors 2 and 5 alone: this is the hot path of literals, and a gcd would be slow.
+  const int twos = std::min(scale, std::countr_zero(static_cast<std::uint64_t>(mantissa)));
+  mantissa >>= twos;
+  std::int64_t power = std::int64_t{1} << (scale - twos);
+  for (int fives = scale; fives > 0; --fives) {
+    if (mantissa % 5 == 0)
+      mantissa /= 5;
+    else
+      power *= 5;
+  }
+  return RationalMaker::reduced(mantissa, power);
 }
 
 std::optional<Rational> Rational::fromDouble(double value) {
@@ -85,13 +104,15 @@ std::optional<Rational> Rational::fromDouble(double value) {
   constexpr int kDigits = std::numeric_limits<double>::digits;
   auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), kDigits));
   exponent -= kDigits;
-  for (; mantissa % 2 == 0; ++exponent)
-    mantissa /= 2;
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+  mantissa >>= zeros;
+  exponent += zeros;
   constexpr int kMostBits = 62;
   if (exponent > kMostBits || exponent < -kMostBits)
     return std::nullopt;
-  const Wide power = Wide{1} << std::abs(exponent);
-  return exponent >= 0 ? RationalMaker::make(mantissa * power, 1) : RationalMaker::make(mantissa, power);
+  if (exponent < 0)
+    return RationalMaker::reduced(mantissa, std::int64_t{1} << -exponent);
+  return RationalMaker::make(Wide{mantissa} * (Wide{1} << exponent), 1);
 }
 
 double Rational::toDouble() const {

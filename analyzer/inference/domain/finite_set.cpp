@@ -63,9 +63,9 @@ std::optional<FiniteSet> meet(const FiniteSet &left, const FiniteSet &right) {
 }
 
 FiniteSet widen(const FiniteSet &old, const FiniteSet &next) {
-  // Each member more costs a round of the loop: a loop that sets a flag to one of a few values keeps them, and one
-  // that counts does not count long.
-  constexpr std::size_t kMostInLoops = 4;
+  // Each member more costs a round of the loop: a flag that a loop sets keeps its two values, and a counter becomes
+  // a range in the second round.
+  constexpr std::size_t kMostInLoops = 2;
   const FiniteSet both = join(old, next);
   return both == old || both.values().size() <= kMostInLoops ? both : FiniteSet::many();
 }

@@ -80,7 +80,7 @@ private:
 bool leq(const FiniteSet &left, const FiniteSet &right);
 FiniteSet join(const FiniteSet &left, const FiniteSet &right);
 std::optional<FiniteSet> meet(const FiniteSet &left, const FiniteSet &right);
-/// A few members more are kept; then there are many.
+/// Two values stay two; then there are many.
 FiniteSet widen(const FiniteSet &old, const FiniteSet &next);
 
 } // namespace feedhold

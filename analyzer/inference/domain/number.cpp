@@ -2,6 +2,7 @@
 #include "inference/domain/number.h"
 
 #include "inference/domain/number_parts.h"
+#include "inference/domain/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,14 +137,14 @@ Truth compare(Relation relation, const AbstractNumber &left, const AbstractNumbe
 } // namespace
 
 AbstractNumber AbstractNumber::constant(const Decimal &value) {
+  constexpr std::int64_t kExactIntegers = std::int64_t{1} << 53;
   const double rounded = value.toDouble();
-  const auto exact = Rational::fromDecimal(value);
-  if (exact && exact->isDyadic() && Rational::fromDouble(rounded) == exact)
-    return NumberParts{Interval::constant(rounded), Grid::constant(*exact), FiniteSet::constant(rounded),
-                       Exactness::Exact}
-        .asGiven();
-  return NumberParts{Interval::of(value), exact ? Grid::constant(*exact) : Grid::any(), FiniteSet::constant(rounded),
-                     Exactness::Rounded}
+  const auto real = Rational::fromDecimal(value);
+  const FiniteSet set = FiniteSet::constant(rounded);
+  if (real && real->isDyadic() && real->numerator() <= kExactIntegers && real->numerator() >= -kExactIntegers)
+    return NumberParts{Interval::constant(rounded), Grid::constant(*real), set, Exactness::Exact}.asGiven();
+  const rounding::Bounds bounds = rounding::around(rounded);
+  return NumberParts{{bounds.down, bounds.up}, real ? Grid::constant(*real) : Grid::any(), set, Exactness::Rounded}
       .asGiven();
 }
 

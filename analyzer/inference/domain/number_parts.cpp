@@ -80,12 +80,16 @@ AbstractNumber ofSet(const FiniteSet &set) {
 /// Both readings have the one value of a point, whatever rounding came before.
 std::optional<AbstractNumber> reducedPoint(const NumberParts &parts) {
   const double value = parts.interval.lo;
+  const FiniteSet point = FiniteSet::constant(value);
+  if (parts.exactness == Exactness::Exact && parts.grid.isConstant() && parts.set == point &&
+      parts.grid.offset().toDouble() == value)
+    return parts.asGiven(); // the sum of two constants comes this way
   const bool notReal = parts.grid.excludes(value);
   const bool notComputed = !parts.set.contains(value);
   const bool isEmpty = parts.exactness == Exactness::Exact ? notReal || notComputed : notReal && notComputed;
   if (isEmpty)
     return std::nullopt;
-  return ofSet(FiniteSet::constant(value));
+  return ofSet(point);
 }
 
 std::optional<AbstractNumber> reducedSet(const NumberParts &parts) {
@@ -94,12 +98,30 @@ std::optional<AbstractNumber> reducedSet(const NumberParts &parts) {
   if (!set)
     return std::nullopt;
   const Interval hull{set->values().front(), set->values().back()};
-  if (*set != parts.set)
+  if (*set != parts.set || hull != parts.interval)
     return ofSet(*set);
   return NumberParts{hull, parts.grid.isAny() ? gridOf(*set) : parts.grid, *set, Exactness::Exact}.asGiven();
 }
 
+/// The whole numbers in the interval, without the detour over fractions.
+std::optional<AbstractNumber> reducedWhole(const NumberParts &parts) {
+  NumberParts tight = parts;
+  tight.interval = {std::ceil(parts.interval.lo) + 0.0, std::floor(parts.interval.hi)};
+  if (tight.interval.lo > tight.interval.hi)
+    return std::nullopt;
+  std::array<double, FiniteSet::kMost> values{};
+  std::size_t count = 0;
+  for (double value = tight.interval.lo; count < values.size() && value <= tight.interval.hi; ++value)
+    values[count++] = value;
+  // The loop also ends where adding 1 changes nothing any more.
+  if (count == 0 || values[count - 1] != tight.interval.hi)
+    return tight.asGiven();
+  return ofSet(*FiniteSet::of(std::span(values).first(count)));
+}
+
 std::optional<AbstractNumber> reducedGrid(const NumberParts &parts) {
+  if (parts.grid == Grid::integers())
+    return reducedWhole(parts);
   NumberParts tight = parts;
   if (parts.grid.isConstant()) {
     const auto within = meet(parts.interval, Interval::of(parts.grid.offset()));
