@@ -2,6 +2,7 @@
 
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 namespace feedhold {
 
@@ -88,11 +89,19 @@ bool flagsLeq(const AbstractState &a, const AbstractState &b) {
          covers(b.forgotten, a.forgotten);
 }
 
-std::vector<AbstractValue *> valuesOf(AbstractState &state) {
-  std::vector<AbstractValue *> values;
+/// The values of a state, which is constant or not.
+template <typename State> auto valuesOf(State &state) {
+  using Value = std::conditional_t<std::is_const_v<State>, const AbstractValue, AbstractValue>;
+  std::vector<Value *> values;
   values.reserve(160 + state.variables.entries().size());
-  forEachValue(state, [&](AbstractValue &value) { values.push_back(&value); });
+  forEachValue(state, [&](Value &value) { values.push_back(&value); });
   return values;
+}
+
+bool isAligned(const AbstractState &a, const AbstractState &b) {
+  return a.counters.size() == b.counters.size() &&
+         std::equal(a.variables.entries().begin(), a.variables.entries().end(), b.variables.entries().begin(),
+                    b.variables.entries().end(), [](const auto &x, const auto &y) { return x.first == y.first; });
 }
 
 /// Values that keep their distance in both states get one new symbol (a labelled union-find, after Lesbre and Lemerre,
@@ -147,10 +156,43 @@ AbstractState combined(AbstractReading &reading, AbstractState a, AbstractState 
   const std::vector<AbstractValue *> right = valuesOf(b);
   CommonOrigins origins(reading);
   for (std::size_t i = 0; i < left.size(); ++i) {
+    if (*left[i] == *right[i])
+      continue;
     const std::optional<Origin> origin = origins.of(*left[i], *right[i]);
     *left[i] = combine(*left[i], *right[i]).withOrigin(origin);
   }
   return a;
+}
+
+/// A symbol of the right state is one value of the left state, wherever it stands.
+class SymbolMeaning {
+public:
+  bool agrees(const Origin &left, const Origin &right) {
+    if (isEntrySymbol(right.symbol))
+      return left == right;
+    const std::optional<Rational> offset = subtract(left.offset, right.offset);
+    if (!offset)
+      return false;
+    const Origin zero{left.symbol, *offset};
+    const auto [known, isNew] = meaning_.emplace(right.symbol, zero);
+    return isNew || known->second == zero;
+  }
+
+private:
+  std::unordered_map<std::uint32_t, Origin> meaning_;
+};
+
+bool valuesLeq(const AbstractState &a, const AbstractState &b) {
+  const std::vector<const AbstractValue *> left = valuesOf(a);
+  const std::vector<const AbstractValue *> right = valuesOf(b);
+  SymbolMeaning meaning;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (*left[i] != *right[i] && !leq(*left[i], *right[i]))
+      return false;
+    if (right[i]->origin() && (!left[i]->origin() || !meaning.agrees(*left[i]->origin(), *right[i]->origin())))
+      return false;
+  }
+  return true;
 }
 
 } // namespace
@@ -197,51 +239,28 @@ void align(const AbstractReading &reading, AbstractState &a, AbstractState &b) {
       if (!to.variables.find(number))
         to.variables.set(number, reading.unwritten(to, number));
   };
-  const auto sameNumbers = [](const auto &x, const auto &y) { return x.first == y.first; };
-  if (!std::equal(a.variables.entries().begin(), a.variables.entries().end(), b.variables.entries().begin(),
-                  b.variables.entries().end(), sameNumbers)) {
-    complete(a, b);
-    complete(b, a);
-  }
+  if (isAligned(a, b))
+    return;
+  complete(a, b);
+  complete(b, a);
   const std::size_t counters = std::max(a.counters.size(), b.counters.size());
   a.counters.resize(counters, reading.number(0));
   b.counters.resize(counters, reading.number(0));
 }
 
-bool leq(const AbstractReading &reading, AbstractState a, AbstractState b) {
+bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b) {
   if (!flagsLeq(a, b))
     return false;
-  align(reading, a, b);
-  if (!sameCalls(a, b)) {
-    a.modalCalls.clear();
-    b.modalCalls.clear();
+  if (isAligned(a, b) && sameCalls(a, b))
+    return valuesLeq(a, b);
+  AbstractState left = a;
+  AbstractState right = b;
+  align(reading, left, right);
+  if (!sameCalls(left, right)) {
+    left.modalCalls.clear();
+    right.modalCalls.clear();
   }
-  const std::vector<AbstractValue *> left = valuesOf(a);
-  const std::vector<AbstractValue *> right = valuesOf(b);
-  // A symbol of b is the same one value of a everywhere.
-  std::map<std::uint32_t, Origin> meaning;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (!leq(*left[i], *right[i]))
-      return false;
-    if (!right[i]->origin())
-      continue;
-    const Origin &wanted = *right[i]->origin();
-    if (!left[i]->origin())
-      return false;
-    if (isEntrySymbol(wanted.symbol)) {
-      if (*left[i]->origin() != wanted)
-        return false;
-      continue;
-    }
-    const std::optional<Rational> offset = subtract(left[i]->origin()->offset, wanted.offset);
-    if (!offset)
-      return false;
-    const Origin zero{left[i]->origin()->symbol, *offset};
-    const auto [known, isNew] = meaning.emplace(wanted.symbol, zero);
-    if (!isNew && known->second != zero)
-      return false;
-  }
-  return true;
+  return valuesLeq(left, right);
 }
 
 AbstractState join(AbstractReading &reading, AbstractState a, AbstractState b) {

@@ -19,7 +19,7 @@ template <typename State, typename Visit> void forEachValue(State &state, Visit 
 void align(const AbstractReading &reading, AbstractState &a, AbstractState &b);
 
 /// Every run that `a` describes is described by `b`.  Symbols other than those of the entry may have other names.
-bool leq(const AbstractReading &reading, AbstractState a, AbstractState b);
+bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b);
 
 /// Distances that hold in both hold in the join.
 AbstractState join(AbstractReading &reading, AbstractState a, AbstractState b);

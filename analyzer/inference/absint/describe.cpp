@@ -94,7 +94,7 @@ private:
   }
   std::string entryName(std::uint32_t symbol) const {
     if (symbol >= kWordSymbols)
-      return fmt::format("{} at entry", static_cast<char>('A' + (symbol - kWordSymbols)));
+      return fmt::format("{} at entry", kModalWords[symbol - kWordSymbols]);
     if (symbol >= kModalSymbols)
       return fmt::format("group {} at entry", symbol - kModalSymbols);
     if (symbol >= kPositionSymbols)

@@ -80,30 +80,43 @@ void Engine::solve(const ProgramFacts &facts, Summary &summary) {
   open_.push_back(facts.entry);
   reading_.useDialect(*facts.file->dialect);
   Propagation(*this, facts, summary, Propagation::Pass::Ascend).run();
+  if (!summary.heads.empty())
+    descend(facts, summary);
+  open_.pop_back();
+}
+
+/// Each pass checks what the one before has narrowed, and leaves the exits of the states that hold.
+void Engine::descend(const ProgramFacts &facts, Summary &summary) {
   constexpr int kNarrowings = 2;
-  for (int i = 0; i < kNarrowings && !summary.heads.empty() && !gaveUp_; ++i) {
-    const auto before = summary.heads;
-    Propagation collect(*this, facts, summary, Propagation::Pass::Collect);
-    collect.run();
-    for (auto &[position, states] : summary.heads)
-      if (const auto found = collect.arrived().find(position); found != collect.arrived().end())
-        states = states.narrowedBy(reading_, found->second);
-    // What has been narrowed is kept only if it is still a fixpoint.
-    Propagation check(*this, facts, summary, Propagation::Pass::Collect);
-    check.run();
-    const bool holds = std::all_of(check.arrived().begin(), check.arrived().end(), [&](const auto &arrived) {
-      return arrived.second.within(reading_, summary.heads.at(arrived.first));
+  const auto collect = [&] {
+    summary.exits.clear();
+    Propagation pass(*this, facts, summary, Propagation::Pass::Collect);
+    pass.run();
+    return pass.arrived();
+  };
+  auto held = summary.heads; // the last states that are known to be a fixpoint
+  for (int round = 0; !gaveUp_; ++round) {
+    const auto arrived = collect();
+    const bool holds = std::all_of(arrived.begin(), arrived.end(), [&](const auto &states) {
+      return states.second.within(reading_, summary.heads.at(states.first));
     });
     if (!holds) {
-      summary.heads = before;
-      break;
+      summary.heads = std::move(held);
+      collect();
+      return;
+    }
+    held = summary.heads;
+    bool narrower = false;
+    for (auto &[position, states] : summary.heads)
+      if (const auto found = arrived.find(position); found != arrived.end()) {
+        states = states.narrowedBy(reading_, found->second);
+        narrower = narrower || !held.at(position).within(reading_, states);
+      }
+    if (!narrower || round == kNarrowings) {
+      summary.heads = std::move(held);
+      return;
     }
   }
-  if (!summary.heads.empty()) { // the exits of the ascent are those of passing states: once more, from what holds now
-    summary.exits.clear();
-    Propagation(*this, facts, summary, Propagation::Pass::Collect).run();
-  }
-  open_.pop_back();
 }
 
 Summary &Engine::summaryOf(Callee entry, const AbstractState &state) {

@@ -51,6 +51,7 @@ private:
   /// The summary of a call in this state: an old one that covers it, or a new one.
   Summary &summaryOf(Callee entry, const AbstractState &state);
   void solve(const ProgramFacts &facts, Summary &summary);
+  void descend(const ProgramFacts &facts, Summary &summary);
   bool isOpen(Callee entry) const;
   bool isStraight(const ProgramFacts &facts) const;
   /// False when the budget is used up.

@@ -126,8 +126,25 @@ private:
         converted(state_.local[indexOf(axis)]);
       }
     converted(state_.lengthOffset);
+    rescaleStored(to, factor, already);
     for (Value *level : {&state_.cycle.bottom, &state_.cycle.retract, &state_.cycle.initial, &state_.cycle.peck})
       *level = reading_.select(reading_.isVacant(*level), *level, convertedCopy(*level, to, factor, already));
+  }
+  /// Offsets and positions in variables are read in the units in force.
+  void rescaleStored(CodeAction to, const Value &factor, Truth already) {
+    constexpr std::array kLengths = {VariableRole::WorkOffset, VariableRole::SetOffset, VariableRole::Reference,
+                                     VariableRole::SecondReference, VariableRole::SkipPosition};
+    for (const VariableRange &range : context_.dialect().variables) {
+      if (std::find(kLengths.begin(), kLengths.end(), range.role) == kLengths.end())
+        continue;
+      std::vector<std::pair<std::uint32_t, Value>> known;
+      for (const auto &[variable, value] : state_.variables.entries())
+        if (range.first <= variable && variable <= range.last)
+          known.emplace_back(variable, convertedCopy(value, to, factor, already));
+      reading_.forgetVariables(state_, range.first, range.last);
+      for (auto &[variable, value] : known)
+        state_.variables.set(variable, std::move(value));
+    }
   }
   Value convertedCopy(const Value &level, CodeAction to, const Value &factor, Truth already) {
     const Value length = reading_.asNumber(level);
@@ -156,6 +173,8 @@ private:
       const CodeAction action = word.code->action;
       if (action == CodeAction::LengthOff)
         setLength(context_.zero());
+      else if (action == CodeAction::LengthGiven)
+        setLength(wordOr('Z', state_.lengthOffset));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
         setLength(reading_.toolLength(state_, wordOr('H', state_.word('H'))));
     }
@@ -223,8 +242,8 @@ private:
   Truth anyMapping() {
     Truth any = reading_.negation(reading_.compare(Relation::Equal, state_.transform.angle, context_.zero()));
     for (const Axis axis : kAllAxes) {
-      const Truth scaled =
-          reading_.negation(reading_.compare(Relation::Equal, state_.transform.scale[indexOf(axis)], reading_.number(1)));
+      const Truth scaled = reading_.negation(
+          reading_.compare(Relation::Equal, state_.transform.scale[indexOf(axis)], reading_.number(1)));
       const Truth mirrored = reading_.negation(reading_.isVacant(state_.transform.mirrorAt[indexOf(axis)]));
       any = context_.either(any, context_.either(scaled, mirrored));
     }
@@ -270,7 +289,7 @@ private:
   // ---- words that stay in force ----
 
   void modalWords() {
-    for (const char letter : {'F', 'S', 'T', 'D', 'H', 'E', 'B'})
+    for (const char letter : kModalWords)
       if (const auto *entry = words_.find(letter)) {
         Value &kept = state_.word(letter);
         kept = reading_.select(entry->present, entry->value, kept);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,9 @@ template <typename Value> struct ModalCallState {
   friend bool operator==(const ModalCallState &, const ModalCallState &) = default;
 };
 
+/// The addresses whose last word stays in force (#4102 to #4120).
+inline constexpr std::string_view kModalWords = "FSTDHEB";
+
 template <typename R> struct MachineState {
   using Value = typename R::Value;
   using Truth = typename R::Truth;
@@ -86,7 +90,7 @@ template <typename R> struct MachineState {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> forgotten;
   std::array<ModalCode, kModalGroups> codes;
   std::array<Value, kAxisCount> position; // end point of the last block: work coordinates, units in force
-  std::array<Value, 26> words;            // F, S, T, D, H, M .. in force, by letter; vacant: none yet
+  std::array<Value, kModalWords.size()> words; // in force; vacant: none yet
   std::array<Value, kAxisCount> shift;    // of G92
   std::array<Value, kAxisCount> local;    // of G52
   Value lengthOffset;                     // of G43, along Z
@@ -99,8 +103,8 @@ template <typename R> struct MachineState {
   std::vector<std::pair<std::uint8_t, Truth>> enteredLoops; // by number of the DO
   std::vector<Value> counters;                              // by CounterId
 
-  Value &word(char letter) { return words[static_cast<std::size_t>(letter - 'A')]; }
-  const Value &word(char letter) const { return words[static_cast<std::size_t>(letter - 'A')]; }
+  Value &word(char letter) { return words[kModalWords.find(letter)]; }
+  const Value &word(char letter) const { return words[kModalWords.find(letter)]; }
   Value &at(Axis axis) { return position[indexOf(axis)]; }
   const Value &at(Axis axis) const { return position[indexOf(axis)]; }
   friend bool operator==(const MachineState &, const MachineState &) = default;

@@ -27,7 +27,8 @@ std::optional<std::uint32_t> variableAt(StepContext<R> &context, const typename 
 
 namespace detail {
 
-/// The letter of the word that a modal-word variable holds (the number of #4101..#4130 less 4100).
+/// The letter of the word that a modal-word variable holds (the number of #4101..#4130 less 4100); absent for M, N, O
+/// and the like, which are not followed.
 constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
   switch (offset) {
   case 2:
@@ -38,8 +39,6 @@ constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
     return 'F';
   case 11:
     return 'H';
-  case 13:
-    return 'M';
   case 19:
     return 'S';
   case 20:
@@ -71,6 +70,9 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::Plain:
   case VariableRole::Stored:
   case VariableRole::WorkOffset:
+  case VariableRole::SetOffset:
+  case VariableRole::Reference:
+  case VariableRole::SecondReference:
   case VariableRole::SkipPosition:
     return storedValue(context, number);
   case VariableRole::Volatile:
