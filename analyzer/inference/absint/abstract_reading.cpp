@@ -303,6 +303,7 @@ void AbstractReading::alarm(Truth truth, const AlarmReport &report) {
   if (observer_)
     observer_->alarm(truth, report);
   stopped_ = truth == Truth::True;
+  mayHaveDividedByZero_ = mayHaveDividedByZero_ || report.kind == AlarmKind::DivideByZero;
 }
 
 void AbstractReading::userAlarm(const Value &number, Span place) {

@@ -54,7 +54,9 @@ public:
   StepObserver *observer() const { return observer_; }
   /// Every run has stopped in the step: nothing goes on from here.
   bool stopped() const { return stopped_; }
-  void start() { stopped_ = false; }
+  void start() { stopped_ = mayHaveDividedByZero_ = false; }
+  /// A divisor of the step may have been zero: in the runs that went on it was not.
+  bool mayHaveDividedByZero() const { return mayHaveDividedByZero_; }
   /// A symbol of which nothing is known yet but that it is one value.
   std::uint32_t freshSymbol() { return nextSymbol_++; }
   Value withSymbol(Value value);
@@ -132,6 +134,7 @@ private:
   StepObserver *observer_ = nullptr;
   std::uint32_t nextSymbol_ = kFirstFreshSymbol;
   bool stopped_ = false;
+  bool mayHaveDividedByZero_ = false;
 };
 
 } // namespace feedhold

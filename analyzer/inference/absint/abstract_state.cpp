@@ -195,6 +195,16 @@ bool valuesLeq(const AbstractState &a, const AbstractState &b) {
   return true;
 }
 
+/// Positions are told under the mappings that are in force now, whatever they are.
+void noMapping(const AbstractReading &reading, AbstractState &state) {
+  state.transform.scale.fill(reading.number(1));
+  state.transform.scaleCentre.fill(reading.number(0));
+  state.transform.mirrorAt.fill(AbstractValue::vacant());
+  state.transform.angle = reading.number(0);
+  state.transform.centre.fill(reading.number(0));
+  state.transformed = Truth::False;
+}
+
 } // namespace
 
 AbstractState entryState(AbstractReading &reading) {
@@ -217,12 +227,7 @@ AbstractState entryState(AbstractReading &reading) {
   state.lengthOffset = reading.withSymbol(AbstractValue::anyNumber());
   const AbstractValue any = AbstractValue::any();
   state.cycle = {any, any, any, any, any};
-  state.transform.scale.fill(reading.number(1));
-  state.transform.scaleCentre.fill(reading.number(0));
-  state.transform.mirrorAt.fill(AbstractValue::vacant());
-  state.transform.angle = reading.number(0);
-  state.transform.centre.fill(reading.number(0));
-  state.transformed = Truth::False;
+  noMapping(reading, state);
   state.spindle = CodeSet::atEntry();
   state.modalCallsUnknown = Truth::False;
   return state;
@@ -298,15 +303,11 @@ void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
   for (auto *numbers : {&state.position, &state.shift, &state.local})
     numbers->fill(AbstractValue::anyNumber());
   state.lengthOffset = AbstractValue::anyNumber();
-  state.transform.scale.fill(AbstractValue::anyNumber());
-  state.transform.scaleCentre.fill(AbstractValue::anyNumber());
-  state.transform.angle = AbstractValue::anyNumber();
-  state.transform.centre.fill(AbstractValue::anyNumber());
+  noMapping(*this, state); // positions are unknown: they may as well be told under whatever mapping is in force now
   for (AbstractValue &counter : state.counters)
     counter = AbstractValue::anyNumber();
   state.codes.fill(unknownCode());
   state.spindle = unknownCode();
-  state.transformed = Truth::Maybe;
   state.modalCallsUnknown = Truth::Maybe;
   for (auto &loop : state.enteredLoops)
     loop.second = Truth::Maybe;

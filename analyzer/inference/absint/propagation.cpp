@@ -148,7 +148,7 @@ bool Propagation::execute(NodeId node, AbstractState &state) {
       [&](const CountDown &counting) { return count(node, counting, state); },
       [&](const CallProgram &calling) { return call(node, calling, state); },
       [&](const ReturnFromProgram &from) { return leave(node, from, state); },
-      [&](const EndProgram &) { return end(node, state); }, [&](const auto &) { return straight(node, state); });
+      [&](const EndProgram &ending) { return end(node, ending, state); }, [&](const auto &) { return straight(node, state); });
 }
 
 bool Propagation::straight(NodeId node, AbstractState &state) {
@@ -175,6 +175,7 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const SyntaxTree &tree = context.tree();
   const auto &assign = std::get<Assign>(nodeAt(node).instruction);
+  const bool mayHaveDivided = reading_.mayHaveDividedByZero();
   for (std::uint32_t i = 0; i < assign.count; ++i) {
     const auto *assignment =
         std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
@@ -182,7 +183,8 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
       continue;
     const auto target = variableNumber(tree, assignment->target);
     std::vector<ExpressionId> divisors;
-    collectDivisors(tree, assignment->value, divisors);
+    if (mayHaveDivided)
+      collectDivisors(tree, assignment->value, divisors);
     for (const ExpressionId divisor : divisors)
       if (target && !mentions(tree, divisor, target))
         assumeDiffers(context, divisor, 0);
@@ -278,7 +280,9 @@ void Propagation::addExit(std::optional<AbstractValue> target, AbstractState sta
   summary_.exits.push_back({std::move(target), std::move(state)});
 }
 
-bool Propagation::end(NodeId node, const AbstractState &state) {
+bool Propagation::end(NodeId node, const EndProgram &ending, AbstractState &state) {
+  if (ending.end == ProgramEnd::EndOfFile && alarmNumber(*facts_.file->dialect, AlarmKind::EndOfRecord))
+    reading_.alarm(Truth::True, {AlarmKind::EndOfRecord, contextAt(node, state).place()});
   if (pass_ == Pass::Walk)
     engine_.visitor_->ended(placeOf(node), PathEnd::Ends, state);
   return false;

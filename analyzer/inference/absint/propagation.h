@@ -47,7 +47,7 @@ private:
   bool count(NodeId node, const CountDown &count, AbstractState &state);
   bool call(NodeId node, const CallProgram &call, AbstractState &state);
   bool leave(NodeId node, const ReturnFromProgram &from, AbstractState &state);
-  bool end(NodeId node, const AbstractState &state);
+  bool end(NodeId node, const EndProgram &ending, AbstractState &state);
 
   bool modalCalls(NodeId node, AbstractState &state);
   std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
