@@ -142,18 +142,23 @@ private:
 };
 
 template <typename Combine>
-AbstractState combined(AbstractReading &reading, AbstractState a, AbstractState b, Combine &&combine) {
-  align(reading, a, b);
+void combineInto(AbstractReading &reading, AbstractState &a, const AbstractState &unaligned, Combine &&combine) {
+  std::optional<AbstractState> copy; // states are large: only one that has to change is copied
+  if (!isAligned(a, unaligned) || !sameCalls(a, unaligned)) {
+    copy = unaligned;
+    align(reading, a, *copy);
+    if (!sameCalls(a, *copy)) {
+      a.modalCalls.clear();
+      copy->modalCalls.clear();
+      a.modalCallsUnknown = Truth::Maybe;
+    }
+  }
+  const AbstractState &b = copy ? *copy : unaligned;
   joinFlags(a, b);
   for (const auto &range : b.forgotten)
     forget(a.forgotten, range);
-  if (!sameCalls(a, b)) {
-    a.modalCalls.clear();
-    b.modalCalls.clear();
-    a.modalCallsUnknown = Truth::Maybe;
-  }
   const std::vector<AbstractValue *> left = valuesOf(a);
-  const std::vector<AbstractValue *> right = valuesOf(b);
+  const std::vector<const AbstractValue *> right = valuesOf(b);
   CommonOrigins origins(reading);
   for (std::size_t i = 0; i < left.size(); ++i) {
     if (*left[i] == *right[i])
@@ -161,7 +166,6 @@ AbstractState combined(AbstractReading &reading, AbstractState a, AbstractState 
     const std::optional<Origin> origin = origins.of(*left[i], *right[i]);
     *left[i] = combine(*left[i], *right[i]).withOrigin(origin);
   }
-  return a;
 }
 
 /// A symbol of the right state is one value of the left state, wherever it stands.
@@ -268,14 +272,13 @@ bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractS
   return valuesLeq(left, right);
 }
 
-AbstractState join(AbstractReading &reading, AbstractState a, AbstractState b) {
-  return combined(reading, std::move(a), std::move(b),
-                  [](const AbstractValue &x, const AbstractValue &y) { return join(x, y); });
+void joinInto(AbstractReading &reading, AbstractState &state, const AbstractState &other) {
+  combineInto(reading, state, other, [](const AbstractValue &x, const AbstractValue &y) { return join(x, y); });
 }
 
-AbstractState widen(AbstractReading &reading, AbstractState old, AbstractState next,
-                    std::span<const double> thresholds) {
-  return combined(reading, std::move(old), std::move(next), [&](const AbstractValue &x, const AbstractValue &y) {
+void widenInto(AbstractReading &reading, AbstractState &old, const AbstractState &next,
+               std::span<const double> thresholds) {
+  combineInto(reading, old, next, [&](const AbstractValue &x, const AbstractValue &y) {
     return widen(x, join(x, y), thresholds);
   });
 }
@@ -286,7 +289,7 @@ void AbstractReading::join(State &state, Truth truth, const State &second) {
   if (truth == Truth::True)
     state = second;
   else if (truth == Truth::Maybe)
-    state = feedhold::join(*this, std::move(state), second);
+    joinInto(*this, state, second);
 }
 
 void AbstractReading::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {

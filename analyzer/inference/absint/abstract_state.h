@@ -22,11 +22,11 @@ void align(const AbstractReading &reading, AbstractState &a, AbstractState &b);
 bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b);
 
 /// Distances that hold in both hold in the join.
-AbstractState join(AbstractReading &reading, AbstractState a, AbstractState b);
+void joinInto(AbstractReading &reading, AbstractState &state, const AbstractState &other);
 
 /// `thresholds` ascend.
-AbstractState widen(AbstractReading &reading, AbstractState old, AbstractState next,
-                    std::span<const double> thresholds);
+void widenInto(AbstractReading &reading, AbstractState &old, const AbstractState &next,
+               std::span<const double> thresholds);
 
 // ---- template -----------------------------------------------------------------------------------------------------
 

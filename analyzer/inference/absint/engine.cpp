@@ -125,9 +125,9 @@ Summary &Engine::summaryOf(Callee entry, const AbstractState &state) {
   for (const auto &summary : known)
     if (leq(reading_, state, summary->entry))
       return *summary;
-  AbstractState wanted = state;
+  AbstractState wanted = known.size() >= kMostContexts ? known.back()->entry : state;
   if (known.size() >= kMostContexts)
-    wanted = widen(reading_, known.back()->entry, state, facts.thresholds);
+    widenInto(reading_, wanted, state, facts.thresholds);
   auto summary = std::make_unique<Summary>();
   summary->entry = std::move(wanted);
   solve(facts, *summary);

@@ -109,7 +109,7 @@ public:
       watch->ended(place.node, end, state);
     for (ExitFact &fact : facts_.exits_)
       if (fact.node == place.node) {
-        fact.state = join(reading_, std::move(fact.state), state);
+        joinInto(reading_, fact.state, state);
         return;
       }
     facts_.exits_.push_back({place.node, end, state});

@@ -84,7 +84,7 @@ Partitions::Part *Partitions::find(std::uint64_t key) {
 
 void Partitions::merge(AbstractReading &reading) {
   while (parts_.size() > 1) {
-    parts_.front().state = join(reading, std::move(parts_.front().state), std::move(parts_.back().state));
+    joinInto(reading, parts_.front().state, parts_.back().state);
     parts_.pop_back();
   }
   merged_ = true;
@@ -92,7 +92,7 @@ void Partitions::merge(AbstractReading &reading) {
 
 void Partitions::add(AbstractReading &reading, std::uint64_t key, AbstractState state) {
   if (Part *part = find(key)) {
-    part->state = join(reading, std::move(part->state), std::move(state));
+    joinInto(reading, part->state, state);
     return;
   }
   const auto place = std::find_if(parts_.begin(), parts_.end(), [&](const Part &part) { return part.key > key; });
@@ -110,8 +110,10 @@ bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, bool
       add(reading, next.key, next.state);
       changed = true;
     } else if (!leq(reading, next.state, old->state)) {
-      old->state = widening ? widen(reading, std::move(old->state), next.state, thresholds)
-                            : join(reading, std::move(old->state), next.state);
+      if (widening)
+        widenInto(reading, old->state, next.state, thresholds);
+      else
+        joinInto(reading, old->state, next.state);
       changed = true;
     }
   }

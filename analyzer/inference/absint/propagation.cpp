@@ -274,7 +274,7 @@ void Propagation::addExit(std::optional<AbstractValue> target, AbstractState sta
   for (Exit &exit : summary_.exits)
     if (exit.target.has_value() == target.has_value() &&
         (!target || (leq(*exit.target, *target) && leq(*target, *exit.target)))) {
-      exit.state = join(reading_, std::move(exit.state), std::move(state));
+      joinInto(reading_, exit.state, state);
       return;
     }
   summary_.exits.push_back({std::move(target), std::move(state)});

@@ -53,6 +53,7 @@ private:
   std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
   std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
   std::optional<AbstractState> once(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  void addTo(std::optional<AbstractState> &all, AbstractState state);
   void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
   void addExit(std::optional<AbstractValue> target, AbstractState state);
   void unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,

@@ -85,9 +85,14 @@ std::optional<AbstractState> Propagation::repeated(NodeId node, const CallReques
     const auto more = next(all);
     if (!more || leq(reading_, *more, all))
       break;
-    all = pass < 2 ? join(reading_, std::move(all), *more) : widen(reading_, std::move(all), *more, facts_.thresholds);
+    if (pass < 2)
+      joinInto(reading_, all, *more);
+    else
+      widenInto(reading_, all, *more, facts_.thresholds);
   }
-  return times ? all : join(reading_, std::move(all), state);
+  if (!times)
+    joinInto(reading_, all, state);
+  return all;
 }
 
 std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<AbstractReading> &request,
@@ -124,9 +129,16 @@ std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<Ab
     if (exit.target)
       returnTo(node, *exit.target, left);
     else
-      behind = behind ? join(reading_, std::move(*behind), std::move(left)) : std::move(left);
+      addTo(behind, std::move(left));
   }
   return behind;
+}
+
+void Propagation::addTo(std::optional<AbstractState> &all, AbstractState state) {
+  if (all)
+    joinInto(reading_, *all, state);
+  else
+    all = std::move(state);
 }
 
 /// M99 P: the program goes on at a sequence number of its own.
@@ -179,7 +191,7 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
         local = AbstractValue::any();
   }
   if (moves == Truth::Maybe)
-    state = join(reading_, std::move(state), std::move(before));
+    joinInto(reading_, state, before);
   return true;
 }
 

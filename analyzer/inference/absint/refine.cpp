@@ -132,7 +132,7 @@ private:
     std::swap(state_, first);
     const bool rightPossible = conditionOrValue(operation.right, holds);
     if (leftPossible && rightPossible)
-      state_ = join(context_.reading, std::move(state_), std::move(first));
+      joinInto(context_.reading, state_, first);
     else if (leftPossible)
       state_ = std::move(first);
     return leftPossible || rightPossible;
