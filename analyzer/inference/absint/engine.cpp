@@ -16,12 +16,14 @@ std::vector<double> thresholdsOf(const ProgramFile &file, ProgramId program) {
   const std::uint32_t begin = file.tree->blocks[range.first].begin;
   const std::uint32_t end = file.tree->blocks[range.last].begin;
   std::vector<double> thresholds{-1, 0, 1};
-  for (const Expression &expression : file.tree->expressions)
-    if (const auto *literal = std::get_if<NumberLiteral>(&expression.node))
-      if (begin <= expression.span.begin && expression.span.end <= end && thresholds.size() < 4 * kMostThresholds) {
-        thresholds.push_back(literal->value.toDouble());
-        thresholds.push_back(-literal->value.toDouble());
-      }
+  // Expressions stand in the order of the blocks.
+  const auto first = std::partition_point(file.tree->expressions.begin(), file.tree->expressions.end(),
+                                          [&](const Expression &expression) { return expression.span.begin < begin; });
+  for (auto at = first; at != file.tree->expressions.end() && at->span.begin < end; ++at)
+    if (const auto *literal = std::get_if<NumberLiteral>(&at->node); literal && thresholds.size() < 4 * kMostThresholds) {
+      thresholds.push_back(literal->value.toDouble());
+      thresholds.push_back(-literal->value.toDouble());
+    }
   std::sort(thresholds.begin(), thresholds.end());
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
   if (thresholds.size() > kMostThresholds)
@@ -48,9 +50,13 @@ std::pair<std::uint32_t, std::uint32_t> keyOf(Callee entry) { return {entry.file
 } // namespace
 
 Engine::Engine(const ProgramSet &programs, AnalysisOptions options)
-    : programs_(programs), options_(options), reading_(*programs.file(FileId(0)).dialect) {
-  for (std::size_t i = 0; i < programs.size(); ++i)
-    modes_.push_back(std::make_unique<ModalTable>(*programs.file(FileId(i)).dialect));
+    : programs_(programs), options_(options), reading_(*programs.file(FileId(0)).dialect) {}
+
+const ModalTable &Engine::modesOf(FileId file) {
+  auto &modes = modes_[file.index()];
+  if (!modes)
+    modes = std::make_unique<ModalTable>(*programs_.file(file).dialect);
+  return *modes;
 }
 
 const ProgramFacts &Engine::factsOf(Callee entry) {
@@ -61,7 +67,7 @@ const ProgramFacts &Engine::factsOf(Callee entry) {
     std::vector<bool> joins = joinsOf(file, wto, ProgramUse::Started);
     facts = std::make_unique<ProgramFacts>(ProgramFacts{
         entry, &file, std::move(wto), std::move(joins),
-        partitionBy(file, entry.program, *modes_[entry.file.index()]), thresholdsOf(file, entry.program)});
+        partitionBy(file, entry.program, modesOf(entry.file)), thresholdsOf(file, entry.program)});
   }
   return *facts;
 }

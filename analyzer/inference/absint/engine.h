@@ -47,6 +47,7 @@ public:
 private:
   friend class Propagation;
 
+  const ModalTable &modesOf(FileId file);
   const ProgramFacts &factsOf(Callee entry);
   /// The summary of a call in this state: an old one that covers it, or a new one.
   Summary &summaryOf(Callee entry, const AbstractState &state);
@@ -62,7 +63,7 @@ private:
   const ProgramSet &programs_;
   AnalysisOptions options_;
   AbstractReading reading_;
-  std::vector<std::unique_ptr<ModalTable>> modes_; // by file
+  std::map<std::size_t, std::unique_ptr<ModalTable>> modes_; // by file, of those that have been asked for
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<ProgramFacts>> facts_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::unique_ptr<Summary>>> summaries_;
   std::vector<Callee> open_; // programs whose analysis has not come to its end: the chain of calls

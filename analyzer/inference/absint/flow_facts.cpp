@@ -9,7 +9,12 @@ namespace {
 /// The nodes of a program stand together: up to the entry of the next one.
 std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
   const std::size_t first = file.cfg.entryOf(program).index();
-  std::size_t end = file.cfg.nodes.size();
+  const std::size_t next = program.index() + 1;
+  if (next == file.cfg.entries.size())
+    return file.cfg.nodes.size() - first;
+  if (file.cfg.entries[next].index() > first && !file.model->programs[ProgramId(next)].within)
+    return file.cfg.entries[next].index() - first;
+  std::size_t end = file.cfg.nodes.size(); // subroutines stand behind the program around them
   for (const NodeId entry : file.cfg.entries)
     if (entry.index() > first)
       end = std::min<std::size_t>(end, entry.index());

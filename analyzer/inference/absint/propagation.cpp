@@ -31,7 +31,7 @@ bool mentions(const SyntaxTree &tree, ExpressionId root, std::optional<std::uint
 
 Propagation::Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Pass pass)
     : engine_(engine), facts_(facts), summary_(summary), pass_(pass), reading_(engine.reading_),
-      modes_(*engine.modes_[facts.entry.file.index()]) {}
+      modes_(engine.modesOf(facts.entry.file)) {}
 
 AbstractContext Propagation::contextAt(NodeId node, AbstractState &state) {
   return {reading_, state, engine_.programs_, *facts_.file, modes_, nodeAt(node).block};
