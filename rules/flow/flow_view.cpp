@@ -1,0 +1,414 @@
+// Variables in the text of a program, and calls that share them.
+#include "rules/flow/flow_view.h"
+
+#include "base/support/match.h"
+#include "meaning/cfg/block_words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// Goes through the expressions of one block and says what becomes of each variable.
+class ReadCollector {
+public:
+  ReadCollector(const ProgramFile &file, BlockId block) : tree_(*file.tree), file_(file), block_(block) {}
+
+  std::vector<Read> run() {
+    for (const Statement &statement : tree_.statementsOf(block_))
+      addStatement(statement);
+    for (const Word &word : tree_.wordsOf(block_))
+      if (word.form() == WordForm::Expression)
+        add(word.expression(), isArgument(word) ? ReadUse::Argument : ReadUse::Word);
+    return std::move(reads_);
+  }
+  std::vector<Read> run(ExpressionId root, ReadUse use) {
+    add(root, use);
+    return std::move(reads_);
+  }
+
+private:
+  void addStatement(const Statement &statement) {
+    if (const auto *assignment = std::get_if<Assignment>(&statement.node)) {
+      if (const auto *indirect = as<IndirectVariable>(tree_, unwrapped(tree_, assignment->target)))
+        add(indirect->index, ReadUse::Other);
+      add(assignment->value, ReadUse::Copied);
+    } else if (const auto condition = conditionOf(statement)) {
+      add(*condition, ReadUse::Other);
+    } else if (const auto *jump = std::get_if<Goto>(&statement.node)) {
+      if (jump->target)
+        add(*jump->target, ReadUse::Other);
+    } else if (const auto *print = std::get_if<Print>(&statement.node)) {
+      for (ExpressionId id = print->firstVariable; id < print->lastVariable; id = id.next())
+        add(id, ReadUse::Other);
+    } else if (const auto *oWord = std::get_if<OWord>(&statement.node)) {
+      for (const ExpressionId argument : tree_.argumentsOf(*oWord))
+        add(argument, oWord->kind == OWordKind::Call ? ReadUse::Argument : ReadUse::Other);
+    } else if (const auto *lone = std::get_if<LoneExpression>(&statement.node)) {
+      add(lone->expression, ReadUse::Other);
+    }
+  }
+  bool isArgument(const Word &word) const {
+    for (const Call &call : file_.model->callsIn(block_, block_.next()))
+      if (takesArguments(call, tree_, *file_.dialect) && tree_.idOf(word) > call.code)
+        return true;
+    return false;
+  }
+  void add(ExpressionId id, ReadUse use) {
+    const Expression &expression = tree_.expressions[id];
+    match(
+        expression.node, [](const NumberLiteral &) {}, [](const BrokenExpression &) {},
+        [&](const NumberedVariable &) {
+          reads_.push_back({id, variableNumber(tree_, id), use, block_});
+        },
+        [&](const NamedVariable &) {
+          reads_.push_back({id, std::nullopt, use, block_});
+        },
+        [&](const IndirectVariable &variable) {
+          reads_.push_back({id, std::nullopt, use, block_});
+          add(variable.index, ReadUse::Other);
+        },
+        [&](const Negation &negation) { add(negation.operand, ReadUse::Computed); },
+        [&](const Identity &identity) { add(identity.operand, use); },
+        [&](const Bracketed &bracketed) { add(bracketed.inner, use); },
+        [&](const BinaryOperation &operation) {
+          add(operation.left, useIn(operation.op));
+          add(operation.right, useIn(operation.op));
+        },
+        [&](const FunctionCall &call) {
+          for (const ExpressionId argument : call.arguments())
+            add(argument, ReadUse::Computed);
+        });
+  }
+  static ReadUse useIn(OperatorKind op) {
+    if (op == OperatorKind::Equal || op == OperatorKind::NotEqual)
+      return ReadUse::Equality;
+    return isRelation(op) ? ReadUse::Ordering : ReadUse::Computed;
+  }
+
+  const SyntaxTree &tree_;
+  const ProgramFile &file_;
+  BlockId block_;
+  std::vector<Read> reads_;
+};
+
+/// The index of `#[..]` may be the number of a local variable: unless a constant that is added leads beyond them.
+bool mayNameLocal(const SyntaxTree &tree, ExpressionId index) {
+  const auto parts = subexpressions(tree, index);
+  return std::ranges::none_of(parts, [&](ExpressionId part) {
+    const auto value = literalValue(tree, part);
+    return value && *value > Decimal(kLocalVariables, 0);
+  });
+}
+
+bool mayWrite(const ProgramFile &file, const VariableUse &use, std::uint32_t variable) {
+  if (!use.write || use.number)
+    return use.write && use.number == variable;
+  const auto *indirect = as<IndirectVariable>(*file.tree, use.expression);
+  return indirect && (!isLocal(file, variable) || mayNameLocal(*file.tree, indirect->index));
+}
+
+/// Programs that work on the local variables of one: itself and what it reaches by M98.  Absent: that cannot be told.
+std::optional<std::vector<ProgramRef>> sharersOf(const ProgramSet &programs, ProgramRef start) {
+  std::vector<ProgramRef> found{start};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const ProgramRef here = found[i];
+    const ProgramFile &file = programs.file(here.file);
+    for (const Call &call : file.model->callsOf(here.program)) {
+      if (call.kind != CallKind::Subprogram && call.kind != CallKind::Local && call.kind != CallKind::External)
+        continue;
+      const auto callee = programs.callGraph().callee(here.file, call);
+      if (!callee)
+        return std::nullopt;
+      if (std::ranges::find(found, *callee) == found.end())
+        found.push_back(*callee);
+    }
+  }
+  return found;
+}
+
+bool hasBroken(const ProgramFile &file, ProgramId program) {
+  return std::ranges::any_of(blocksOf(file, program),
+                             [&](BlockId block) { return file.tree->blocks[block].has(Block::kBroken); });
+}
+
+} // namespace
+
+std::vector<Read> readsOf(const ProgramFile &file, BlockId block) { return ReadCollector(file, block).run(); }
+
+std::vector<Read> readsOf(const ProgramFile &file, ProgramId program) {
+  std::vector<Read> all;
+  std::optional<BlockId> last;
+  for (const VariableUse &use : file.model->variablesOf(program)) {
+    if (last == use.block)
+      continue;
+    last = use.block;
+    const auto reads = readsOf(file, use.block);
+    all.insert(all.end(), reads.begin(), reads.end());
+  }
+  return all;
+}
+
+std::vector<Read> readsIn(const ProgramFile &file, ExpressionId root, BlockId block) {
+  return ReadCollector(file, block).run(root, ReadUse::Other);
+}
+
+bool isLocal(const ProgramFile &file, std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*file.dialect, variable);
+  return range && range->kind == VariableKind::Local && variable <= kLocalVariables;
+}
+
+std::optional<char> letterOfArgument(const Dialect &dialect, std::uint32_t variable) {
+  const auto found = std::ranges::find(dialect.argumentVariables, variable);
+  if (variable == 0 || found == dialect.argumentVariables.end())
+    return std::nullopt;
+  return static_cast<char>('A' + (found - dialect.argumentVariables.begin()));
+}
+
+std::string describeVariable(const Dialect &dialect, std::uint32_t variable) {
+  const auto letter = letterOfArgument(dialect, variable);
+  return letter ? fmt::format("`#{}` ({})", variable, *letter) : fmt::format("`#{}`", variable);
+}
+
+bool isMainProgram(const FlowFacts &facts) {
+  const ProgramFile &file = facts.file;
+  if (file.model->programs[facts.program].returns || !file.dialect->behaviour.variablesMayBeVacant ||
+      facts.programs.callGraph().isCalled({file.file, facts.program}))
+    return false;
+  return std::ranges::any_of(facts.exits(), [&](const ExitFact &exit) {
+    const auto *end = std::get_if<EndProgram>(&facts.node(exit.node).instruction);
+    return end && end->end != ProgramEnd::EndOfFile;
+  });
+}
+
+bool isCalledAsSubprogram(const FlowFacts &facts) {
+  const auto callers = facts.programs.callGraph().callers({facts.file.file, facts.program});
+  return std::ranges::any_of(callers, [&](const CallGraph::Caller &caller) {
+    const CallKind kind = facts.programs.file(caller.file).model->calls[caller.call].kind;
+    return kind == CallKind::Subprogram || kind == CallKind::Local || kind == CallKind::External;
+  });
+}
+
+bool maySet(const FlowFacts &facts, std::uint32_t variable) {
+  const auto sharers = sharersOf(facts.programs, {facts.file.file, facts.program});
+  if (!sharers)
+    return true;
+  return std::ranges::any_of(*sharers, [&](const ProgramRef &program) {
+    const ProgramFile &file = facts.programs.file(program.file);
+    return hasBroken(file, program.program) ||
+           std::ranges::any_of(file.model->variablesOf(program.program),
+                               [&](const VariableUse &use) { return mayWrite(file, use, variable); });
+  });
+}
+
+bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
+  std::optional<BlockId> last;
+  for (const VariableUse &use : file.model->variablesOf(program)) {
+    if (use.number != variable || use.write || last == use.block)
+      continue;
+    last = use.block;
+    for (const Read &read : readsOf(file, use.block))
+      if (read.number == variable && (read.use == ReadUse::Equality || read.use == ReadUse::Ordering))
+        return true;
+    for (const Statement &statement : file.tree->statementsOf(use.block))
+      if (const auto condition = conditionOf(statement))
+        if (file.tree->expressions[*condition].span.contains(file.tree->expressions[use.expression].span))
+          return true;
+  }
+  return false;
+}
+
+bool isTestedForVacancy(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
+  std::optional<BlockId> last;
+  for (const VariableUse &use : file.model->variablesOf(program)) {
+    if (use.number != variable || use.write || last == use.block)
+      continue;
+    last = use.block;
+    for (const Read &read : readsOf(file, use.block))
+      if (read.number == variable && read.use == ReadUse::Equality)
+        return true;
+  }
+  return false;
+}
+
+bool isNeverSet(const FlowFacts &facts, std::uint32_t variable) {
+  return variable != kVacantVariable && isLocal(facts.file, variable) && isMainProgram(facts) &&
+         !maySet(facts, variable);
+}
+
+std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, const AbstractValue &value) {
+  if (!value.origin() || !value.origin()->offset.isZero() || value.origin()->symbol == kZeroSymbol ||
+      !isEntrySymbol(value.origin()->symbol) || !isLocal(facts.file, value.origin()->symbol))
+    return std::nullopt;
+  return value.origin()->symbol;
+}
+
+std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block) {
+  const SyntaxTree &tree = *file.tree;
+  std::vector<ExpressionId> all;
+  const auto add = [&](ExpressionId root) {
+    const auto parts = subexpressions(tree, root);
+    all.insert(all.end(), parts.begin(), parts.end());
+  };
+  for (const Statement &statement : tree.statementsOf(block)) {
+    if (const auto *assignment = std::get_if<Assignment>(&statement.node)) {
+      add(assignment->target);
+      add(assignment->value);
+    }
+    if (const auto condition = conditionOf(statement))
+      add(*condition);
+  }
+  for (const Word &word : tree.wordsOf(block))
+    if (word.form() == WordForm::Expression)
+      add(word.expression());
+  return all;
+}
+
+std::optional<ExpressionId> expressionAt(const FlowFacts &facts, BlockId block, Span span) {
+  for (const ExpressionId id : expressionsOf(facts.file, block))
+    if (facts.file.tree->expressions[id].span == span)
+      return id;
+  return std::nullopt;
+}
+
+std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program) {
+  std::vector<BlockId> blocks;
+  for (BlockId block = file.model->programs[program].first; block < file.model->programs[program].last;
+       block = block.next())
+    blocks.push_back(block);
+  return blocks;
+}
+
+std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node) {
+  std::vector<Assignment> found;
+  const auto *assign = std::get_if<Assign>(&facts.node(node).instruction);
+  for (std::uint32_t i = 0; assign && i < assign->count; ++i)
+    if (const auto *assignment =
+            std::get_if<Assignment>(&facts.file.tree->statements[StatementId(assign->first.index() + i)].node))
+      found.push_back(*assignment);
+  return found;
+}
+
+std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId expression) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const Span wanted = tree.expressions[expression].span;
+  const auto holds = [&](ExpressionId id) { return tree.expressions[id].span.contains(wanted); };
+  std::optional<NodeId> other;
+  for (NodeId node = facts.file.cfg.nodeOf(block); node < facts.end() && facts.node(node).block == block;
+       node = node.next()) {
+    const auto assignments = assignmentsOf(facts, node);
+    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+    if (std::ranges::any_of(assignments, [&](const Assignment &a) { return holds(a.target) || holds(a.value); }) ||
+        (test && test->condition && holds(*test->condition)))
+      return facts.isReached(node) ? std::optional(node) : std::nullopt;
+    if (assignments.empty() && !test && !other && facts.isReached(node))
+      other = node;
+  }
+  return other;
+}
+
+// ---- UnsetPaths ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+bool mayAssign(const FlowFacts &facts, const Assignment &assignment, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const ExpressionId target = unwrapped(tree, assignment.target);
+  if (const auto number = variableNumber(tree, target))
+    return *number == variable;
+  const auto *indirect = as<IndirectVariable>(tree, target);
+  return indirect && (!isLocal(facts.file, variable) || mayNameLocal(tree, indirect->index));
+}
+
+bool maySetAt(const FlowFacts &facts, NodeId node, std::uint32_t variable) {
+  const auto assignments = assignmentsOf(facts, node);
+  if (std::ranges::any_of(assignments, [&](const Assignment &a) { return mayAssign(facts, a, variable); }))
+    return true;
+  if (std::holds_alternative<Havoc>(facts.node(node).instruction))
+    return true;
+  const auto *call = std::get_if<CallProgram>(&facts.node(node).instruction);
+  if (!call)
+    return false;
+  const CallKind kind = facts.file.model->calls[call->call].kind;
+  return kind == CallKind::Subprogram || kind == CallKind::Local || kind == CallKind::External;
+}
+
+} // namespace
+
+UnsetPaths::UnsetPaths(const FlowFacts &facts, std::uint32_t variable)
+    : facts_(facts), sets_(facts.end().index() - facts.entry().index()), reached_(sets_.size()) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    sets_[node.index() - facts.entry().index()] = facts.isReached(node) && maySetAt(facts, node, variable);
+  walk();
+}
+
+template <typename Visit> void UnsetPaths::forEachNext(NodeId node, Visit &&visit) const {
+  forEachSuccessor(facts_.file.cfg, *facts_.file.model, node, ProgramUse::Called, [&](NodeId next) {
+    if (next >= facts_.entry() && next < facts_.end() && facts_.isReached(next))
+      visit(next);
+  });
+}
+
+void UnsetPaths::walk() {
+  const std::size_t first = facts_.entry().index();
+  const auto isWhile = [&](NodeId node) {
+    const auto statements = facts_.file.tree->statementsOf(facts_.node(node).block);
+    return std::holds_alternative<Test>(facts_.node(node).instruction) &&
+           std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+  };
+  // Whether a node is left on all its ways: a WHILE that was not come to from inside leads into its body only.
+  std::vector<bool> leftFully(reached_.size());
+  std::vector<std::pair<NodeId, bool>> open{{facts_.entry(), true}};
+  reached_[0] = true;
+  while (!open.empty()) {
+    const auto [node, fully] = open.back();
+    open.pop_back();
+    if (sets_[node.index() - first])
+      continue;
+    NodeId bodyFirst = node;
+    if (!fully) // the body stands directly behind the WHILE
+      forEachNext(node, [&](NodeId next) {
+        if (bodyFirst == node || next < bodyFirst)
+          bodyFirst = next;
+      });
+    forEachNext(node, [&](NodeId next) {
+      if (!fully && next != bodyFirst)
+        return;
+      const bool nextFully = !isWhile(next) || node > next;
+      const std::size_t at = next.index() - first;
+      if (reached_[at] && (leftFully[at] || !nextFully))
+        return;
+      reached_[at] = true;
+      leftFully[at] = leftFully[at] || nextFully;
+      open.emplace_back(next, nextFully);
+    });
+  }
+}
+
+bool UnsetPaths::isFirstUse(NodeId use) const {
+  const std::size_t first = facts_.entry().index();
+  std::vector<bool> seen(reached_.size());
+  std::vector<NodeId> open;
+  const auto goOn = [&](NodeId node) {
+    forEachNext(node, [&](NodeId next) {
+      if (!seen[next.index() - first]) {
+        seen[next.index() - first] = true;
+        open.push_back(next);
+      }
+    });
+  };
+  for (NodeId node = facts_.entry(); node < facts_.end(); node = node.next())
+    if (sets(node) && node != use)
+      goOn(node);
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    if (node == use)
+      return false;
+    goOn(node);
+  }
+  return true;
+}
+
+} // namespace feedhold::rules

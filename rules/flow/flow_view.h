@@ -1,0 +1,94 @@
+// How rules look at what a program does with its variables: who reads them, how, who sets them, and how it is started.
+#pragma once
+
+#include "findings/rule/flow_way.h"
+#include "rules/expressions/expression_view.h"
+
+#include <optional>
+#include <vector>
+
+namespace feedhold::rules {
+
+/// What becomes of the value of a variable that is read.
+enum class ReadUse : std::uint8_t {
+  Equality, // an operand of EQ or NE: vacant is told from 0
+  Ordering, // an operand of GT, GE, LT, LE: vacant counts as 0
+  Computed, // an operand of arithmetic or a function: vacant counts as 0
+  Copied,   // the whole right side of an assignment: vacancy is copied
+  Word,     // the whole value of a word: with a vacant variable the word counts as not written
+  Argument, // the whole value of an argument of a call: a vacant one is not passed
+  Other,    // the number of a jump or loop, an index, what is printed
+};
+
+struct Read {
+  ExpressionId expression; // NumberedVariable, IndirectVariable or NamedVariable
+  std::optional<std::uint32_t> number;
+  ReadUse use;
+  BlockId block;
+};
+
+/// What the block reads, its statements first.
+std::vector<Read> readsOf(const ProgramFile &file, BlockId block);
+/// What a program reads, in order of the text.
+std::vector<Read> readsOf(const ProgramFile &file, ProgramId program);
+/// What an expression reads.
+std::vector<Read> readsIn(const ProgramFile &file, ExpressionId root, BlockId block);
+
+bool isLocal(const ProgramFile &file, std::uint32_t variable);
+/// The letter that passes a local variable by argument assignment I.
+std::optional<char> letterOfArgument(const Dialect &dialect, std::uint32_t variable);
+/// "`#18` (R)", or "`#30`" for one without a letter.
+std::string describeVariable(const Dialect &dialect, std::uint32_t variable);
+
+/// A program that the operator starts, and that starts with vacant local variables: no M99 in it, nobody calls it, and
+/// it comes to M02 or M30.
+bool isMainProgram(const FlowFacts &facts);
+/// Some M98 reaches the program: it works on the local variables of its callers.
+bool isCalledAsSubprogram(const FlowFacts &facts);
+
+/// Some assignment in the text of the program may set the variable, or some subprogram that shares its local variables
+/// may.  Where that cannot be told: true.
+bool maySet(const FlowFacts &facts, std::uint32_t variable);
+/// Some read in a condition of the program.
+bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable);
+/// Some EQ or NE in the program.
+bool isTestedForVacancy(const ProgramFile &file, ProgramId program, std::uint32_t variable);
+
+/// A local variable that is vacant wherever this program reads it, since nothing ever sets it.
+bool isNeverSet(const FlowFacts &facts, std::uint32_t variable);
+/// The value is what some local variable held when the program was started: its number.
+std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, const AbstractValue &value);
+
+/// All expressions of a block with their parts.
+std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block);
+/// The first expression in the block that covers exactly the span.
+std::optional<ExpressionId> expressionAt(const FlowFacts &facts, BlockId block, Span span);
+/// The blocks of the program.
+std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program);
+
+/// What a node assigns: targets with the values.
+std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node);
+/// The node that evaluates an expression of the block; absent when it is not reached.
+std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId expression);
+
+/// Where a local variable may still be as it was when the program was started.  Where a subprogram or an assignment to
+/// a computed number may set it, it counts as set.  A loop is taken to run at least once.
+class UnsetPaths {
+public:
+  UnsetPaths(const FlowFacts &facts, std::uint32_t variable);
+
+  bool reach(NodeId node) const { return reached_[node.index() - facts_.entry().index()]; }
+  /// Only where it reaches the node: no way on which it is set leads there that has not passed the node before.
+  bool isFirstUse(NodeId node) const;
+  bool sets(NodeId node) const { return sets_[node.index() - facts_.entry().index()]; }
+
+private:
+  void walk();
+  template <typename Visit> void forEachNext(NodeId node, Visit &&visit) const;
+
+  const FlowFacts &facts_;
+  std::vector<bool> sets_;
+  std::vector<bool> reached_;
+};
+
+} // namespace feedhold::rules

@@ -1,0 +1,69 @@
+// possibly-unset-variable: `#31` is set under conditions, and used where none of them need hold.
+#include "rules/flow/flow_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// A larger graph than any that a person wrote.
+constexpr std::size_t kMostNodes = 20'000;
+
+/// Nothing but the program itself can have set the variable before: it is a main program, or no letter passes it.
+bool startsVacant(const FlowFacts &facts, bool isMain, std::uint32_t variable) {
+  if (variable == kVacantVariable || !isLocal(facts.file, variable))
+    return false;
+  return isMain || (!letterOfArgument(*facts.file.dialect, variable) && !isCalledAsSubprogram(facts));
+}
+
+/// Where it is set, and the variable is not only carried on from pass to pass.
+std::optional<Span> firstSetting(const FlowFacts &facts, const UnsetPaths &paths) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    if (paths.sets(node))
+      return facts.file.tree->blocks[facts.node(node).block].span();
+  return std::nullopt;
+}
+
+void checkRead(const Read &read, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const auto node = nodeOf(facts, read.block, read.expression);
+  const UnsetPaths paths(facts, *read.number);
+  const auto setting = firstSetting(facts, paths);
+  if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
+    return;
+  const Span span = context.tree.expressions[read.expression].span;
+  reporter.report({.message = fmt::format("{} is not set on every way that leads here", context.quoted(span)),
+                   .span = span,
+                   .labels = {{*setting, "set here"}},
+                   .way = wayFromEntry(facts, *node, [&](NodeId each) { return paths.sets(each); }),
+                   .notes = {"where it is not, it is vacant: arithmetic takes it for 0, and a word with it counts as "
+                             "not written"}});
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const bool isMain = isMainProgram(facts);
+  const bool returns = facts.file.model->programs[facts.program].returns;
+  if ((!isMain && !returns) || facts.end().index() - facts.entry().index() > kMostNodes)
+    return;
+  std::vector<std::uint32_t> done;
+  for (const Read &read : readsOf(facts.file, facts.program)) {
+    if (!read.number || read.use == ReadUse::Equality || std::ranges::find(done, *read.number) != done.end() ||
+        !startsVacant(facts, isMain, *read.number))
+      continue;
+    const AbstractValue *value = facts.valueOf(read.expression);
+    if (!value || !value->mayBeVacant() || !maySet(facts, *read.number))
+      continue;
+    done.push_back(*read.number);
+    if (!isTestedForVacancy(facts.file, facts.program, *read.number))
+      checkRead(read, facts, context, reporter);
+  }
+}
+
+} // namespace
+
+extern const Rule possiblyUnsetVariable;
+const Rule possiblyUnsetVariable{.info = {"possibly-unset-variable", Category::Flow, Severity::Warning,
+                                          "Reports a local variable that is not set on every way to its use."},
+                                 .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,44 @@
+// unguarded-division: `#26/#17` where nothing asks whether Q was passed.
+#include "rules/flow/flow_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  std::vector<std::uint32_t> done;
+  if (isMainProgram(facts))
+    return; // never set at all: another rule's
+  for (const AlarmFact &alarm : facts.alarms()) {
+    if (alarm.kind != AlarmKind::DivideByZero || alarm.always)
+      continue;
+    const BlockId block = facts.node(alarm.node).block;
+    const auto divisor = expressionAt(facts, block, alarm.place);
+    const AbstractValue *value = divisor ? facts.valueOf(*divisor) : nullptr;
+    const auto argument = value ? argumentBehind(facts, *value) : std::nullopt;
+    const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
+    if (!argument || !variable || isTested(facts.file, facts.program, *argument) ||
+        isTested(facts.file, facts.program, *variable) || std::ranges::find(done, *argument) != done.end())
+      continue;
+    done.push_back(*argument);
+    reporter.report(
+        {.message = fmt::format("nothing makes sure that {} is not 0", describeVariable(context.dialect, *argument)),
+         .span = alarm.place,
+         .label = "divides by it",
+         .notes = {
+             fmt::format("without the argument, or with 0, the control {}",
+                         stopsWith(context.dialect, AlarmKind::DivideByZero)),
+             fmt::format("ask `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program", *argument, *argument)}});
+  }
+}
+
+} // namespace
+
+extern const Rule unguardedDivision;
+const Rule unguardedDivision{.info = {"unguarded-division", Category::Flow, Severity::Warning,
+                                      "Reports a division by an argument that nothing tests."},
+                             .hooks = {.flow = check}};
+
+} // namespace feedhold::rules
