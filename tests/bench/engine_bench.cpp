@@ -69,10 +69,28 @@ void checking(benchmark::State &state, InputKind kind) {
     const SyntaxTree tree = parse(source, dialect());
     const ProgramModel model = resolve(source, tree, dialect());
     const CallGraph graph({{FileId(0), "", "bench", &model}});
-    findings = runRules(rules, {FileId(0), source, dialect(), tree, model, graph}).size();
+    const ProgramSet programs({{FileId(0), &source, &tree, &model, &dialect()}}, graph);
+    findings = runRules(rules, {FileId(0), source, dialect(), tree, model, graph, &programs}).size();
   }
   countThroughput(state, source);
   state.counters["findings"] = static_cast<double>(findings);
+}
+
+/// Graph and analysis of all programs of a file, on one thread.
+void analysing(benchmark::State &state, InputKind kind) {
+  const SourceFile &source = input(kind);
+  const SyntaxTree tree = parse(source, dialect());
+  const ProgramModel model = resolve(source, tree, dialect());
+  const CallGraph graph({{FileId(0), "", "bench", &model}});
+  std::size_t incomplete = 0;
+  for (auto _ : state) {
+    incomplete = 0;
+    const ProgramSet programs({{FileId(0), &source, &tree, &model, &dialect()}}, graph);
+    for (std::size_t i = 0; i < model.programs.size(); ++i)
+      incomplete += collectFacts(programs, FileId(0), ProgramId(i), {}).isComplete() ? 0 : 1;
+  }
+  countThroughput(state, source);
+  state.counters["incomplete"] = static_cast<double>(incomplete);
 }
 
 #define FEEDHOLD_BENCH(stage)                                                                                          \
@@ -82,6 +100,7 @@ FEEDHOLD_BENCH(lexing);
 FEEDHOLD_BENCH(lexingAndParsing);
 FEEDHOLD_BENCH(resolving);
 FEEDHOLD_BENCH(checking);
+FEEDHOLD_BENCH(analysing);
 
 } // namespace
 } // namespace feedhold::bench

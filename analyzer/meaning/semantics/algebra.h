@@ -27,11 +27,10 @@ struct AlarmReport {
   Span place;
 };
 
+/// Values: vacant, or a number.
 template <typename R>
-concept ValueAlgebra = requires(R reading, const typename R::Value value, const typename R::Truth truth,
-                                const typename R::ModalCode code, MachineState<R> &state, Decimal decimal, double number,
-                                std::uint32_t variable, ExpressionId expression, Span place) {
-  // ---- values: vacant, or a number ----
+concept HasValues = requires(R reading, const typename R::Value value, const typename R::Truth truth, Decimal decimal,
+                             double number) {
   { reading.literal(decimal) } -> std::same_as<typename R::Value>;
   { reading.number(number) } -> std::same_as<typename R::Value>;
   { reading.vacant() } -> std::same_as<typename R::Value>;
@@ -46,8 +45,13 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   { reading.select(truth, value, value) } -> std::same_as<typename R::Value>;
   /// The control's settings are not known: one of the two.
   { reading.either(value, value) } -> std::same_as<typename R::Value>;
+  /// The place between two values where a signal stops a movement.
+  { reading.between(value, value) } -> std::same_as<typename R::Value>;
+};
 
-  // ---- arithmetic on numbers; divisors are not zero, arguments lie in the domain (the semantics has seen to it) ----
+/// Of numbers; divisors are not zero, arguments lie in the domain: the semantics has seen to it.
+template <typename R>
+concept HasArithmetic = requires(R reading, const typename R::Value value, Decimal decimal) {
   { reading.add(value, value) } -> std::same_as<typename R::Value>;
   { reading.subtract(value, value) } -> std::same_as<typename R::Value>;
   { reading.multiply(value, value) } -> std::same_as<typename R::Value>;
@@ -66,8 +70,10 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   { reading.atan2(value, value) } -> std::same_as<typename R::Value>;
   { reading.power(value, value) } -> std::same_as<typename R::Value>;
   { reading.bitwise(OperatorKind::And, value, value) } -> std::same_as<typename R::Value>;
+};
 
-  // ---- truths ----
+template <typename R>
+concept HasTruths = requires(R reading, const typename R::Value value, const typename R::Truth truth) {
   { reading.truth(true) } -> std::same_as<typename R::Truth>;
   { reading.compare(Relation::Equal, value, value) } -> std::same_as<typename R::Truth>;
   { reading.both(truth, truth) } -> std::same_as<typename R::Truth>;
@@ -75,8 +81,12 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   { reading.mayBe(truth) } -> std::same_as<bool>;
   /// Either of the two, undetermined.
   { reading.unknownTruth() } -> std::same_as<typename R::Truth>;
+};
 
-  // ---- modal codes of one group ----
+/// Modal codes of one group.
+template <typename R>
+concept HasModalCodes = requires(R reading, const typename R::Value value, const typename R::Truth truth,
+                                 const typename R::ModalCode code, const ModalTable &modes) {
   { reading.code(std::uint8_t{}) } -> std::same_as<typename R::ModalCode>;
   { reading.unknownCode() } -> std::same_as<typename R::ModalCode>;
   { reading.isOneOf(code, CodeMask{}) } -> std::same_as<typename R::Truth>;
@@ -84,13 +94,15 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   { reading.onlyCode(code) } -> std::same_as<std::optional<std::uint8_t>>;
   { reading.selectCode(truth, code, code) } -> std::same_as<typename R::ModalCode>;
   /// The number of the code as #4001 reads it (54.1); of group `std::uint8_t`.
-  { reading.numberOfCode(code, std::declval<const ModalTable &>(), std::uint8_t{}) } -> std::same_as<typename R::Value>;
+  { reading.numberOfCode(code, modes, std::uint8_t{}) } -> std::same_as<typename R::Value>;
   /// The group and the code that a number names, when it may be several numbers; absent when they are of no one group.
-  {
-    reading.codeFrom(value, std::declval<const ModalTable &>())
-  } -> std::same_as<std::optional<std::pair<std::uint8_t, typename R::ModalCode>>>;
+  { reading.codeFrom(value, modes) } -> std::same_as<std::optional<std::pair<std::uint8_t, typename R::ModalCode>>>;
+};
 
-  // ---- what a variable holds that no write of this run has reached ----
+template <typename R>
+concept HasVariables = requires(R reading, const typename R::Value value, const typename R::Truth truth,
+                                MachineState<R> &state, std::uint32_t variable) {
+  /// What a variable holds that no write of this run has reached.
   { reading.unwritten(state, variable) } -> std::same_as<typename R::Value>;
   /// A cell that may change between two reads: an input, a clock.
   { reading.volatileRead(variable) } -> std::same_as<typename R::Value>;
@@ -99,27 +111,34 @@ concept ValueAlgebra = requires(R reading, const typename R::Value value, const 
   /// A variable whose number is not one constant.
   { reading.readAnyOf(state, value) } -> std::same_as<typename R::Value>;
   reading.writeAnyOf(state, value, value);
+  /// Nothing is known any more of the variables of a range of numbers.
+  reading.forgetVariables(state, variable, variable);
+  /// Two states into the first: `second` where the truth holds, else the first.
+  reading.join(state, truth, state);
+};
 
-  // ---- what happens ----
+/// What happens in a step, told to the reading.
+template <typename R>
+concept HearsEffects = requires(R reading, const typename R::Value value, const typename R::Truth truth,
+                                MachineState<R> &state, ExpressionId expression, Span place,
+                                const Move<typename R::Value> &move) {
   /// The control stops when `truth` holds; the run goes on in the other cases.
   reading.alarm(truth, AlarmReport{});
-  /// Whether moves are to be told at all; a reading that does not listen saves the work.
-  { reading.wantsMoves() } -> std::same_as<bool>;
   /// `#3000=`: stops always.
   reading.userAlarm(value, place);
-  reading.move(std::declval<const Move<typename R::Value> &>());
+  /// Whether moves are to be told at all; a reading that does not listen saves the work.
+  { reading.wantsMoves() } -> std::same_as<bool>;
+  reading.move(move);
   /// Something is not modelled; what it may have changed has been made unknown.
   reading.notModelled(std::string_view(), place);
   /// Anything may have happened to the whole state.
   reading.havoc(state, std::string_view(), place);
-  /// Two states into the first: `second` where the truth holds, else the first.
-  reading.join(state, truth, state);
-  /// Nothing is known any more of the variables of a range of numbers.
-  reading.forgetVariables(state, variable, variable);
-  /// The place between two values where a signal stops a movement.
-  { reading.between(value, value) } -> std::same_as<typename R::Value>;
   /// An expression has been evaluated.
   reading.evaluated(expression, value);
 };
+
+template <typename R>
+concept ValueAlgebra = HasValues<R> && HasArithmetic<R> && HasTruths<R> && HasModalCodes<R> && HasVariables<R> &&
+                       HearsEffects<R>;
 
 } // namespace feedhold
