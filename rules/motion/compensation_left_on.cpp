@@ -1,0 +1,25 @@
+// compensation-left-on: G41 or G42 at the end.
+#include "rules/motion/left_on.h"
+
+namespace feedhold::rules {
+namespace {
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  reportLeftOn(
+      {.kind = ModalKind::Compensation,
+       .actions = {CodeAction::CompensationLeft, CodeAction::CompensationRight},
+       .atProgramEnd = Severity::Warning,
+       .consequence = "the next movement is offset too, and the first one without compensation cuts into the part",
+       .remedy = "cancel it by G40 in a movement away from the part"},
+      facts, context, reporter);
+}
+
+} // namespace
+
+extern const Rule compensationLeftOn;
+const Rule compensationLeftOn{
+    .info = {"compensation-left-on", Category::Motion, Severity::Warning,
+             "Reports a cutter compensation that is still on when the program ends or returns, on some path."},
+    .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

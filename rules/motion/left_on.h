@@ -1,0 +1,22 @@
+// What a program leaves in force when it ends: the common part of the rules about it.
+#pragma once
+
+#include "rules/motion/motion_view.h"
+
+#include <string>
+
+namespace feedhold::rules {
+
+struct LeftOn {
+  ModalKind kind;
+  std::initializer_list<CodeAction> actions; // in force: left on
+  std::optional<Severity> atProgramEnd;      // of M30; absent: only what is left to a caller counts
+  std::string_view consequence;              // what happens on the machine
+  std::string_view remedy;                   // "cancel it by G40 before the end"
+};
+
+/// Reports each code that puts it on and from which an end can be reached with it still on; for each end the last such
+/// code in the text.
+void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext &context, const Reporter &reporter);
+
+} // namespace feedhold::rules

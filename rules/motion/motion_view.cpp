@@ -1,0 +1,132 @@
+// See the header.
+#include "rules/motion/motion_view.h"
+
+#include "meaning/cfg/block_words.h"
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+/// Axis words beside such a code are no end point of a movement in the sense of G00 to G03.
+bool takesAxisWords(const Code &code) {
+  switch (code.role) {
+  case CodeRole::Dwell:
+  case CodeRole::DataSetting:
+  case CodeRole::DataSettingEnd:
+  case CodeRole::CoordinateShift:
+  case CodeRole::OwnWords:
+  case CodeRole::MacroCall:
+  case CodeRole::ModalCall:
+  case CodeRole::ModalCallEach: return true;
+  case CodeRole::Plain:
+  case CodeRole::Motion:
+  case CodeRole::Arc:
+  case CodeRole::CannedCycle:
+  case CodeRole::MachinePosition:
+  case CodeRole::ModalCallCancel:
+  case CodeRole::ReferenceReturn:
+  case CodeRole::Skip:
+  case CodeRole::Contour:
+  case CodeRole::SubprogramCall:
+  case CodeRole::LocalCall:
+  case CodeRole::ExternalCall:
+  case CodeRole::Return:
+  case CodeRole::ProgramEnd:
+  case CodeRole::ProgramStop:
+  case CodeRole::JumpOnInput: break;
+  }
+  constexpr std::array kTaking = {CodeAction::RotationOn, CodeAction::ScalingOn,   CodeAction::MirrorOn,
+                                  CodeAction::MirrorOff,  CodeAction::Unmodelled,  CodeAction::OtherCycle,
+                                  CodeAction::SideCycle,  CodeAction::TurningCycle};
+  return std::ranges::find(kTaking, code.action) != kTaking.end();
+}
+
+bool movesByItself(const Code &code) {
+  return code.role == CodeRole::ReferenceReturn || code.role == CodeRole::Skip ||
+         code.role == CodeRole::MachinePosition;
+}
+
+template <typename Is> std::vector<const Word *> endPoint(const MotionView &view, NodeId node, Is &&takes) {
+  std::vector<const Word *> axes;
+  for (const Word *word : view.wordsOf(node)) {
+    const bool isCode = word->address() == 'G';
+    const Code *code = isCode ? codeOf(*word, view.context().dialect) : nullptr;
+    if (isCode && (code ? takes(*code) : word->isNumber()))
+      return {};
+    if (axisOf(word->address()) && !word->has(Word::kComma))
+      axes.push_back(word);
+  }
+  return axes;
+}
+
+} // namespace
+
+StartedBy startedBy(const FileContext &context, ProgramId program) {
+  const Program &its = context.model.programs[program];
+  return its.returns || its.name.isSubroutine || context.callGraph.isCalled({context.file, program})
+             ? StartedBy::Caller
+             : StartedBy::Operator;
+}
+
+MotionView::MotionView(ProgramId program, const FileContext &context)
+    : context_(context), program_(program), cfg_(context.programs->file(context.file).cfg), modes_(context.dialect) {}
+
+std::vector<const Word *> MotionView::wordsOf(NodeId id) const {
+  std::vector<const Word *> words;
+  const auto *execute = std::get_if<ExecuteWords>(&node(id).instruction);
+  if (!execute)
+    return words;
+  const BlockId block = node(id).block;
+  const BlockWords split(context_.tree, context_.model, context_.dialect, block);
+  for (const Word &word : context_.tree.wordsOf(block))
+    if (split.belongsTo(word, execute->which))
+      words.push_back(&word);
+  return words;
+}
+
+std::vector<const Word *> MotionView::axisWords(NodeId node) const { return endPoint(*this, node, takesAxisWords); }
+
+std::vector<const Word *> MotionView::modalMotionWords(NodeId node) const {
+  return endPoint(*this, node, [](const Code &code) { return takesAxisWords(code) || movesByItself(code); });
+}
+
+const Word *MotionView::findAction(NodeId node, std::initializer_list<CodeAction> actions) const {
+  for (const Word *word : wordsOf(node))
+    if (const Code *code = codeOf(*word, context_.dialect))
+      if (std::ranges::find(actions, code->action) != actions.end())
+        return word;
+  return nullptr;
+}
+
+bool MotionView::sets(NodeId node, ModalKind kind) const {
+  const auto group = modes_.groupOf(kind);
+  return group && std::ranges::any_of(wordsOf(node), [&](const Word *word) {
+           const Code *code = word->address() == 'G' ? codeOf(*word, context_.dialect) : nullptr;
+           return code && code->group == *group;
+         });
+}
+
+Span MotionView::blockSpan(NodeId id) const { return context_.tree.blocks[node(id).block].span(); }
+
+std::optional<CodeSet> MotionView::inForce(const AbstractState &state, ModalKind kind) const {
+  const auto group = modes_.groupOf(kind);
+  return group ? std::optional(state.codes[*group]) : std::nullopt;
+}
+
+bool MotionView::wasSet(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
+  const auto codes = inForce(state, kind);
+  return codes && !isForgotten(state) && (codes->codes() & modes_.maskOf(kind, actions)) != 0;
+}
+
+bool MotionView::surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
+  const auto codes = inForce(state, kind);
+  return codes && !codes->mayBeAtEntry() && (codes->codes() & ~modes_.maskOf(kind, actions)) == 0;
+}
+
+bool MotionView::mayBe(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
+  const auto codes = inForce(state, kind);
+  return codes && (codes->mayBeAtEntry() || (codes->codes() & modes_.maskOf(kind, actions)) != 0);
+}
+
+} // namespace feedhold::rules

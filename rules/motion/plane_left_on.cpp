@@ -1,0 +1,23 @@
+// plane-left-on: G18 or G19 at the return.
+#include "rules/motion/left_on.h"
+
+namespace feedhold::rules {
+namespace {
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  reportLeftOn({.kind = ModalKind::Plane,
+                .actions = {CodeAction::PlaneZX, CodeAction::PlaneYZ},
+                .atProgramEnd = std::nullopt,
+                .consequence = "the caller's arcs, cycles and cutter compensation work in another plane from here on",
+                .remedy = "restore what #4002 said at the head, or write G17"},
+               facts, context, reporter);
+}
+
+} // namespace
+
+extern const Rule planeLeftOn;
+const Rule planeLeftOn{.info = {"plane-left-on", Category::Motion, Severity::Warning,
+                                "Reports a called program that returns with `G18` or `G19` in force, on some path."},
+                       .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,24 @@
+// polar-left-on: G16 at the end.
+#include "rules/motion/left_on.h"
+
+namespace feedhold::rules {
+namespace {
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  reportLeftOn({.kind = ModalKind::Polar,
+                .actions = {CodeAction::PolarOn},
+                .atProgramEnd = Severity::Info,
+                .consequence = "every later X and Y is a radius and an angle",
+                .remedy = "cancel it by G15 before the end"},
+               facts, context, reporter);
+}
+
+} // namespace
+
+extern const Rule polarLeftOn;
+const Rule polarLeftOn{
+    .info = {"polar-left-on", Category::Motion, Severity::Warning,
+             "Reports polar coordinates that are still on when the program ends or returns, on some path."},
+    .hooks = {.flow = check}};
+
+} // namespace feedhold::rules
