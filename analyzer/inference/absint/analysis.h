@@ -28,6 +28,8 @@ class AnalysisVisitor : public StepObserver {
 public:
   /// Before each instruction.  `calls`: the calls that led here, outermost first.
   virtual void visit(Place, const AbstractState &, std::span<const Place> calls) = 0;
+  /// Back at an instruction from the programs that it has called.
+  virtual void resumed(Place, std::span<const Place> /*calls*/) {}
   /// After the instruction, where it has one successor.
   virtual void left(Place, const AbstractState &) {}
   virtual void branch(Place, Truth) {}

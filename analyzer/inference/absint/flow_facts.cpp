@@ -47,13 +47,18 @@ public:
       : facts_(facts), reading_(reading), watches_(watches) {}
 
   void visit(Place place, const AbstractState &state, std::span<const Place> calls) override {
-    place_ = place;
-    outer_ = calls.empty() ? std::nullopt : std::optional(calls.front().node);
-    if (outer_ || !holds(place.node))
+    resumed(place, calls);
+    if (outer_)
       return;
     facts_.reached_[place.node.index() - facts_.first_] = true;
     for (FlowWatch *watch : watches_)
       watch->before(place.node, state);
+  }
+  /// A program that is gone through with nothing known is none of this one's either.
+  void resumed(Place place, std::span<const Place> calls) override {
+    place_ = place;
+    const bool own = place.file == facts_.file.file && holds(place.node);
+    outer_ = !calls.empty() ? std::optional(calls.front().node) : own ? std::nullopt : std::optional(facts_.entry());
   }
   void left(Place place, const AbstractState &state) override {
     if (!outer_)
