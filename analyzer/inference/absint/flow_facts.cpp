@@ -22,7 +22,7 @@ std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
 }
 
 /// So much work that a program in use never needs it, so little that a hostile one ends soon.
-std::uint64_t budgetFor(const ProgramFile &file) { return 300'000 + 10 * file.cfg.nodes.size(); }
+std::uint64_t budgetFor(const ProgramFile &file) { return 300'000 + 5 * file.cfg.nodes.size(); }
 
 } // namespace
 
