@@ -237,11 +237,25 @@ bool isNeverSet(const FlowFacts &facts, std::uint32_t variable) {
          !maySet(facts, variable);
 }
 
-std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, const AbstractValue &value) {
-  if (!value.origin() || !value.origin()->offset.isZero() || value.origin()->symbol == kZeroSymbol ||
-      !isEntrySymbol(value.origin()->symbol) || !isLocal(facts.file, value.origin()->symbol))
-    return std::nullopt;
-  return value.origin()->symbol;
+std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_t variable) {
+  const ProgramFile &file = facts.file;
+  if (!maySet(facts, variable))
+    return letterOfArgument(*file.dialect, variable) ? std::optional(variable) : std::nullopt;
+  std::optional<std::uint32_t> source;
+  for (const BlockId block : blocksOf(file, facts.program))
+    for (const Statement &statement : file.tree->statementsOf(block)) {
+      const auto *assignment = std::get_if<Assignment>(&statement.node);
+      if (!assignment || variableNumber(*file.tree, unwrapped(*file.tree, assignment->target)) != variable)
+        continue;
+      if (source || statement.nested)
+        return std::nullopt;
+      source = variableNumber(*file.tree, unwrapped(*file.tree, assignment->value));
+      if (!source)
+        return std::nullopt;
+    }
+  const bool isArgument = source && isLocal(file, *source) && letterOfArgument(*file.dialect, *source) &&
+                          (source == variable || !maySet(facts, *source));
+  return isArgument ? source : std::nullopt;
 }
 
 std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block) {

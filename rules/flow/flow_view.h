@@ -56,8 +56,9 @@ bool isTestedForVacancy(const ProgramFile &file, ProgramId program, std::uint32_
 
 /// A local variable that is vacant wherever this program reads it, since nothing ever sets it.
 bool isNeverSet(const FlowFacts &facts, std::uint32_t variable);
-/// The value is what some local variable held when the program was started: its number.
-std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, const AbstractValue &value);
+/// The argument that a local variable holds, by the text: nothing in the program sets it, or its only assignment copies
+/// such a variable.
+std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_t variable);
 
 /// All expressions of a block with their parts.
 std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block);

@@ -1,5 +1,5 @@
 // possibly-unset-variable: `#31` is set under conditions, and used where none of them need hold.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/consistent_way.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,11 +31,14 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
   const auto setting = firstSetting(facts, paths);
   if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
     return;
+  const auto way = findConsistentWay(facts, *node, [&](NodeId each) { return paths.sets(each); });
+  if (!way)
+    return;
   const Span span = context.tree.expressions[read.expression].span;
   reporter.report({.message = fmt::format("{} is not set on every way that leads here", context.quoted(span)),
                    .span = span,
                    .labels = {{*setting, "set here"}},
-                   .way = wayFromEntry(facts, *node, [&](NodeId each) { return paths.sets(each); }),
+                   .way = describeWay(facts, *way),
                    .notes = {"where it is not, it is vacant: arithmetic takes it for 0, and a word with it counts as "
                              "not written"}});
 }

@@ -16,9 +16,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const BlockId block = facts.node(alarm.node).block;
     const auto divisor = expressionAt(facts, block, alarm.place);
-    const AbstractValue *value = divisor ? facts.valueOf(*divisor) : nullptr;
-    const auto argument = value ? argumentBehind(facts, *value) : std::nullopt;
     const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
+    const auto argument = variable && isLocal(facts.file, *variable) ? argumentBehind(facts, *variable) : std::nullopt;
     if (!argument || !variable || isTested(facts.file, facts.program, *argument) ||
         isTested(facts.file, facts.program, *variable) || std::ranges::find(done, *argument) != done.end())
       continue;

@@ -1,0 +1,55 @@
+// loop-never-entered: the condition of a WHILE does not hold in any run.
+#include "rules/flow/flow_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+std::string valuesOf(const FlowFacts &facts, const FileContext &context, ExpressionId condition, BlockId block) {
+  std::string text;
+  std::vector<std::uint32_t> done;
+  for (const Read &read : readsIn(facts.file, condition, block)) {
+    const AbstractValue *value = facts.valueOf(read.expression);
+    if (!value || !read.number || std::ranges::find(done, *read.number) != done.end())
+      continue;
+    done.push_back(*read.number);
+    const auto constant = value->isNumber() ? value->number().constantValue() : std::nullopt;
+    if (!constant && !value->isVacant())
+      continue;
+    const std::string shown = constant ? fmt::format("{:.6g}", *constant) : std::string("vacant");
+    text += fmt::format("{}{} is {}", text.empty() ? "" : ", ",
+                        context.quoted(context.tree.expressions[read.expression].span), shown);
+  }
+  return text;
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+    if (!test || !test->condition || isConstant(context.tree, *test->condition))
+      continue;
+    const BlockId block = facts.node(node).block;
+    const auto statements = context.tree.statementsOf(block);
+    const bool isWhile =
+        std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+    if (!isWhile || facts.truthOf(node) != Truth::False)
+      continue;
+    const Span span = context.tree.expressions[*test->condition].span;
+    const std::string values = valuesOf(facts, context, *test->condition, block);
+    reporter.report({.message = fmt::format("this loop is never entered: {} does not hold", context.quoted(span)),
+                     .span = span,
+                     .label = values,
+                     .notes = {"what it should machine is left out, without an alarm"}});
+  }
+}
+
+} // namespace
+
+extern const Rule loopNeverEntered;
+const Rule loopNeverEntered{.info = {"loop-never-entered", Category::Flow, Severity::Warning,
+                                     "Reports a `WHILE` whose condition does not hold in any run."},
+                            .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,133 @@
+// Loops as components of the graph.
+#include "rules/flow/loop_view.h"
+
+#include "language/model/block_facts.h"
+#include "meaning/cfg/wto.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace feedhold::rules {
+namespace {
+
+bool contains(const LoopFlow &loop, NodeId node) { return std::ranges::binary_search(loop.nodes, node); }
+
+/// A stop gives the operator the time to change variables; an M code that the tables do not know may be a call.
+bool mayChangeUnseen(const FlowFacts &facts, NodeId node) {
+  const Instruction &instruction = facts.node(node).instruction;
+  if (std::holds_alternative<Havoc>(instruction) || std::holds_alternative<CallProgram>(instruction))
+    return true;
+  if (!std::holds_alternative<ExecuteWords>(instruction))
+    return false;
+  const BlockId block = facts.node(node).block;
+  const SyntaxTree &tree = *facts.file.tree;
+  return findCode(tree, block, *facts.file.dialect, CodeRole::ProgramStop) ||
+         std::ranges::any_of(tree.wordsOf(block), [&](const Word &word) {
+           return word.address() == 'M' && !codeOf(word, *facts.file.dialect);
+         });
+}
+
+void addExits(const FlowFacts &facts, LoopFlow &loop, NodeId node) {
+  const Node &here = facts.node(node);
+  const auto *test = std::get_if<Test>(&here.instruction);
+  bool leaves = false;
+  forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called,
+                   [&](NodeId next) { leaves = leaves || (!contains(loop, next) && next != node); });
+  if (!leaves)
+    return;
+  if (!test || !test->condition) {
+    loop.exitsAreKnown = false;
+    return;
+  }
+  loop.exits.push_back({node, *test->condition, !contains(loop, test->taken)});
+}
+
+LoopFlow described(const FlowFacts &facts, LoopFlow loop) {
+  for (const NodeId node : loop.nodes) {
+    addExits(facts, loop, node);
+    loop.changesUnseen = loop.changesUnseen || mayChangeUnseen(facts, node);
+  }
+  return loop;
+}
+
+/// A component, and the natural loop of each edge to its head where there are several: what leads to the start of the
+/// edge without passing the head.
+std::vector<std::vector<NodeId>> partsOf(const FlowFacts &facts, NodeId head, const std::vector<NodeId> &all) {
+  std::map<NodeId, std::vector<NodeId>> predecessors;
+  for (const NodeId node : all)
+    forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called, [&](NodeId next) {
+      if (std::ranges::binary_search(all, next))
+        predecessors[next].push_back(node);
+    });
+  std::vector<std::vector<NodeId>> parts{all};
+  const std::vector<NodeId> tails = predecessors[head];
+  for (const NodeId tail : tails) {
+    std::vector<NodeId> open{tail};
+    std::set<NodeId> inside{head, tail};
+    while (!open.empty()) {
+      const NodeId node = open.back();
+      open.pop_back();
+      for (const NodeId before : node == head ? std::vector<NodeId>{} : predecessors[node])
+        if (inside.insert(before).second)
+          open.push_back(before);
+    }
+    if (inside.size() < all.size())
+      parts.emplace_back(inside.begin(), inside.end());
+  }
+  return parts;
+}
+
+} // namespace
+
+std::vector<LoopFlow> loopsOf(const FlowFacts &facts) {
+  std::vector<LoopFlow> loops;
+  const Wto wto(facts.file.cfg, *facts.file.model, facts.entry());
+  for (const NodeId head : wto.order()) {
+    if (!wto.isHead(head) || !facts.isReached(head))
+      continue;
+    std::vector<NodeId> all;
+    for (std::uint32_t i = wto.positionOf(head); i < wto.endOf(head); ++i)
+      if (facts.isReached(wto.order()[i]))
+        all.push_back(wto.order()[i]);
+    std::ranges::sort(all);
+    for (std::vector<NodeId> &nodes : partsOf(facts, head, all))
+      loops.push_back(described(facts, {head, std::move(nodes), {}}));
+  }
+  return loops;
+}
+
+std::optional<std::vector<LoopWrite>> writesTo(const FlowFacts &facts, const LoopFlow &loop, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  std::vector<LoopWrite> writes;
+  for (const NodeId node : loop.nodes)
+    for (const Assignment &assignment : assignmentsOf(facts, node)) {
+      const auto target = variableNumber(tree, unwrapped(tree, assignment.target));
+      if (!target)
+        return std::nullopt;
+      const bool toItself = variableNumber(tree, unwrapped(tree, assignment.value)) == target;
+      if (*target == variable && !toItself)
+        writes.push_back({node, assignment});
+    }
+  return writes;
+}
+
+std::optional<LoopStep> stepOf(const FlowFacts &facts, const Assignment &assignment, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto *sum = asInside<BinaryOperation>(tree, assignment.value);
+  if (!sum || (sum->op != OperatorKind::Add && sum->op != OperatorKind::Subtract))
+    return std::nullopt;
+  const auto isVariable = [&](ExpressionId id) { return variableNumber(tree, unwrapped(tree, id)) == variable; };
+  if (isVariable(sum->left) && !isVariable(sum->right))
+    return LoopStep{sum->right, sum->op == OperatorKind::Subtract};
+  if (isVariable(sum->right) && !isVariable(sum->left) && sum->op == OperatorKind::Add)
+    return LoopStep{sum->left, false};
+  return std::nullopt;
+}
+
+bool isPlain(const ProgramFile &file, std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*file.dialect, variable);
+  return range && range->kind != VariableKind::System && range->kind != VariableKind::Vacant;
+}
+
+} // namespace feedhold::rules

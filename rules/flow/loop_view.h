@@ -1,0 +1,49 @@
+// How rules look at loops, whichever way they are written: WHILE, DO, or a GOTO backwards.
+#pragma once
+
+#include "rules/flow/flow_view.h"
+
+#include <vector>
+
+namespace feedhold::rules {
+
+/// A test that leaves a loop on one side.
+struct LoopExit {
+  NodeId test;
+  ExpressionId condition;
+  bool leavesWhenTrue;
+};
+
+/// Nodes that lead back to their head: all that do so together, and where several edges lead back, those of each alone.
+struct LoopFlow {
+  NodeId head;
+  std::vector<NodeId> nodes;
+  std::vector<LoopExit> exits;
+  /// Tests are the only ways out, and all of them are in `exits`.
+  bool exitsAreKnown = true;
+  /// A call, a stop for the operator, or something that could not be read: variables may change unseen.
+  bool changesUnseen = false;
+};
+
+/// The loops of a program, outer ones before those inside.
+std::vector<LoopFlow> loopsOf(const FlowFacts &facts);
+
+/// An assignment in the loop that may give the variable another value.
+struct LoopWrite {
+  NodeId node;
+  Assignment assignment;
+};
+/// Absent: something in the loop may write it that is not an assignment to it by its number.
+std::optional<std::vector<LoopWrite>> writesTo(const FlowFacts &facts, const LoopFlow &loop, std::uint32_t variable);
+
+/// `#1=#1-#2`: by what, and which way.
+struct LoopStep {
+  ExpressionId size;
+  bool isMinus;
+};
+std::optional<LoopStep> stepOf(const FlowFacts &facts, const Assignment &assignment, std::uint32_t variable);
+
+/// Whose value stays as long as nobody writes it: local, common and retentive variables.
+bool isPlain(const ProgramFile &file, std::uint32_t variable);
+
+} // namespace feedhold::rules

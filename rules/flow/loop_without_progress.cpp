@@ -1,0 +1,81 @@
+// loop-without-progress: what the conditions of a loop ask about never changes in it.
+#include "rules/flow/loop_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// The condition can have another outcome in a later pass, or that cannot be told.
+bool mayChange(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
+  const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
+  if (reads.empty())
+    return true; // of constants alone: written so on purpose, or another rule's
+  return std::ranges::any_of(reads, [&](const Read &read) {
+    if (!read.number || (*read.number != kVacantVariable && !isPlain(facts.file, *read.number)))
+      return true;
+    const auto writes = writesTo(facts, loop, *read.number);
+    return !writes || !writes->empty();
+  });
+}
+
+bool moves(const LoopFlow &loop, const FlowFacts &facts) {
+  return std::ranges::any_of(loop.nodes, [&](NodeId node) {
+    const auto words = facts.file.tree->wordsOf(facts.node(node).block);
+    const bool isDwell =
+        findCode(*facts.file.tree, facts.node(node).block, *facts.file.dialect, CodeRole::Dwell) != nullptr;
+    return !isDwell && std::ranges::any_of(words, [](const Word &word) {
+      return word.address() == 'X' || word.address() == 'Y' || word.address() == 'Z';
+    });
+  });
+}
+
+/// A loop that stands still until common variables change may wait for a robot or a computer that writes them.
+bool mayWait(const LoopFlow &loop, const FlowFacts &facts) {
+  return !moves(loop, facts) && std::ranges::none_of(loop.exits, [&](const LoopExit &exit) {
+    const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
+    return std::ranges::all_of(reads, [&](const Read &read) { return isLocal(facts.file, *read.number); });
+  });
+}
+
+/// The loop is left by this test whenever it is reached: there is no second pass.
+bool alwaysLeaves(const LoopExit &exit, const FlowFacts &facts) {
+  return facts.truthOf(exit.test) == truthOf(exit.leavesWhenTrue);
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  std::vector<NodeId> done;
+  for (const LoopFlow &loop : loopsOf(facts)) {
+    if (!loop.exitsAreKnown || loop.exits.empty() || loop.changesUnseen ||
+        std::ranges::any_of(loop.exits, [&](const LoopExit &exit) {
+          return mayChange(exit, loop, facts) || alwaysLeaves(exit, facts);
+        }))
+      continue;
+    const LoopExit &exit = loop.exits.front();
+    if (mayWait(loop, facts))
+      continue;
+    if (std::ranges::find(done, exit.test) != done.end())
+      continue;
+    done.push_back(exit.test);
+    const Span span = context.tree.expressions[exit.condition].span;
+    const Span head = context.tree.blocks[facts.node(loop.head).block].span();
+    Diagnostic diagnostic{.message = fmt::format("this loop never ends once {} {}", context.quoted(span),
+                                                 exit.leavesWhenTrue ? "does not hold" : "holds"),
+                          .span = span,
+                          .way = wayFromEntry(facts, exit.test),
+                          .notes = {"nothing in the loop changes a variable of its condition; only reset stops it"}};
+    if (!head.contains(span))
+      diagnostic.labels.push_back({head, "the loop begins here"});
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+} // namespace
+
+extern const Rule loopWithoutProgress;
+const Rule loopWithoutProgress{.info = {"loop-without-progress", Category::Flow, Severity::Warning,
+                                        "Reports a loop in which no variable of its conditions changes."},
+                               .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,63 @@
+// redundant-comparison: `[#1GE#2]OR[#1EQ#2]`: one of the two says nothing.
+#include "rules/flow/flow_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+/// The outcomes of a comparison as bits: left is less, equal, greater.
+unsigned outcomes(OperatorKind relation) {
+  if (relation == OperatorKind::LessThan)
+    return 1;
+  if (relation == OperatorKind::Equal)
+    return 2;
+  if (relation == OperatorKind::LessOrEqual)
+    return 3;
+  if (relation == OperatorKind::GreaterThan)
+    return 4;
+  return relation == OperatorKind::NotEqual ? 5 : 6;
+}
+
+const BinaryOperation *relationIn(const SyntaxTree &tree, ExpressionId id) {
+  const auto *relation = asInside<BinaryOperation>(tree, id);
+  return relation && isRelation(relation->op) ? relation : nullptr;
+}
+
+void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  const SyntaxTree &tree = context.tree;
+  const auto *both = as<BinaryOperation>(tree, id);
+  if (!both || (both->op != OperatorKind::Or && both->op != OperatorKind::And))
+    return;
+  const BinaryOperation *left = relationIn(tree, both->left);
+  const BinaryOperation *right = relationIn(tree, both->right);
+  const auto spanOf = [&](ExpressionId each) { return tree.expressions[unwrapped(tree, each)].span; };
+  if (!left || !right || !sameText(context, spanOf(left->left), spanOf(right->left)) ||
+      !sameText(context, spanOf(left->right), spanOf(right->right)) || readsLiveValue(context, left->left) ||
+      readsLiveValue(context, left->right))
+    return;
+  const unsigned first = outcomes(left->op);
+  const unsigned second = outcomes(right->op);
+  const bool isOr = both->op == OperatorKind::Or;
+  // In an OR the narrower one adds nothing, in an AND the wider one.
+  const bool secondIsImplied = isOr ? (second & ~first) == 0 : (first & ~second) == 0;
+  const bool firstIsImplied = isOr ? (first & ~second) == 0 : (second & ~first) == 0;
+  if (!firstIsImplied && !secondIsImplied)
+    return;
+  const Span redundant = tree.expressions[secondIsImplied ? both->right : both->left].span;
+  const Span other = tree.expressions[secondIsImplied ? both->left : both->right].span;
+  reporter.report(
+      {.message = fmt::format("{} changes nothing beside {}", context.quoted(redundant), context.quoted(other)),
+       .span = redundant,
+       .labels = {{other, isOr ? "holds whenever it holds" : "holds only when it holds"}},
+       .notes = {"another comparison or another variable was probably meant"}});
+}
+
+} // namespace
+
+extern const Rule redundantComparison;
+const Rule redundantComparison{.info = {"redundant-comparison", Category::Flow, Severity::Info,
+                                        "Reports one of two joined comparisons that the other makes needless."},
+                               .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
+
+} // namespace feedhold::rules

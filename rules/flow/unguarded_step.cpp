@@ -1,0 +1,63 @@
+// unguarded-step: `#1=#1-#17` counts a loop, and nothing asks whether Q was passed.
+#include "rules/flow/loop_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+struct Unguarded {
+  std::uint32_t argument;
+  Span step;
+};
+
+/// The only step of the variable in the loop is an argument that nothing tests.
+std::optional<Unguarded> unguardedStep(std::uint32_t variable, const LoopFlow &loop, const FlowFacts &facts) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto writes = writesTo(facts, loop, variable);
+  if (!writes || writes->size() != 1)
+    return std::nullopt;
+  const auto step = stepOf(facts, writes->front().assignment, variable);
+  const auto name = step ? variableNumber(tree, unwrapped(tree, step->size)) : std::nullopt;
+  const AbstractValue *size = name ? facts.valueOf(step->size) : nullptr;
+  const bool mayBeNothing = size && isLocal(facts.file, *name) && (size->mayBeVacant() || size->number().contains(0));
+  const auto argument = mayBeNothing ? argumentBehind(facts, *name) : std::nullopt;
+  if (!argument || isTested(facts.file, facts.program, *argument) || isTested(facts.file, facts.program, *name))
+    return std::nullopt;
+  return Unguarded{*argument, cover(tree.expressions[writes->front().assignment.target].span,
+                                    tree.expressions[writes->front().assignment.value].span)};
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isMainProgram(facts))
+    return;
+  std::vector<std::uint32_t> done;
+  for (const LoopFlow &loop : loopsOf(facts)) {
+    if (!loop.exitsAreKnown || loop.exits.size() != 1 || loop.changesUnseen)
+      continue;
+    const LoopExit &exit = loop.exits.front();
+    for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block)) {
+      const auto found = read.number ? unguardedStep(*read.number, loop, facts) : std::nullopt;
+      if (!found || std::ranges::find(done, found->argument) != done.end())
+        continue;
+      done.push_back(found->argument);
+      reporter.report({.message = fmt::format("nothing makes sure that {} is not 0: it is the step of a loop",
+                                              describeVariable(context.dialect, found->argument)),
+                       .span = found->step,
+                       .labels = {{context.tree.expressions[exit.condition].span, "ends the loop"}},
+                       .notes = {"without the argument, or with 0, the loop never ends",
+                                 fmt::format("ask `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
+                                             found->argument, found->argument)}});
+    }
+  }
+}
+
+} // namespace
+
+extern const Rule unguardedStep;
+const Rule unguardedStep{.info = {"unguarded-step", Category::Flow, Severity::Warning,
+                                  "Reports a loop whose step is an argument that nothing tests."},
+                         .hooks = {.flow = check}};
+
+} // namespace feedhold::rules
