@@ -57,7 +57,8 @@ inline bool isForgotten(const AbstractState &state) { return state.codes[0] != C
 /// A word in force that nothing in the program has written: as at entry, in all runs or in some.
 inline bool isAsAtEntry(const AbstractState &state, char letter) {
   const AbstractValue &value = state.word(letter);
-  return value.origin() && value.origin()->symbol == kWordSymbols + static_cast<std::uint32_t>(letter - 'A');
+  return value.origin() &&
+         value.origin()->symbol == kWordSymbols + static_cast<std::uint32_t>(kModalWords.find(letter));
 }
 
 /// Remembers the first node, in order of the text, at which something was seen.

@@ -1,0 +1,84 @@
+// approach-before-length-offset: a Z behind M06 and before G43.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace feedhold::rules {
+namespace {
+
+constexpr std::initializer_list<CodeAction> kOffsets = {CodeAction::LengthPlus, CodeAction::LengthMinus,
+                                                        CodeAction::Unmodelled};
+
+class ApproachBeforeLengthOffset final : public FlowRule {
+public:
+  ApproachBeforeLengthOffset(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!isForgotten(state) && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) && zWord(node))
+      approaches_.insert(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    if (!usesLengthOffset(facts))
+      return;
+    for (NodeId change = facts.entry(); change < facts.end(); change = change.next())
+      if (facts.isReached(change) && view_.findAction(change, {CodeAction::ToolChange}))
+        tell(change, facts, context, reporter);
+  }
+
+private:
+  const Word *zWord(NodeId node) const {
+    for (const Word *word : view_.modalMotionWords(node))
+      if (word->address() == 'Z')
+        return word;
+    return nullptr;
+  }
+  /// Shops that measure their tools into the work offset have no G43 anywhere.
+  bool usesLengthOffset(const FlowFacts &facts) const {
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+      if (facts.isReached(node) && view_.findAction(node, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
+        return true;
+    return false;
+  }
+  /// Behind them the offset is in force, or may be.
+  bool isBehind(NodeId node) const {
+    return view_.findAction(node, kOffsets) != nullptr || view_.findAction(node, {CodeAction::ToolChange}) != nullptr ||
+           std::holds_alternative<CallProgram>(view_.node(node).instruction);
+  }
+  void tell(NodeId change, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) const {
+    for (const NodeId node : approaches_) {
+      if (isBehind(node))
+        continue;
+      const auto way = findWay(facts, change, node, [&](NodeId other) { return isBehind(other); });
+      if (!way)
+        continue;
+      return reporter.report(
+          {.message = fmt::format("{} comes between the tool change and `G43`", context.quoted(zWord(node)->span())),
+           .span = zWord(node)->span(),
+           .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "the tool changes here"}},
+           .way = describeWay(facts, *way),
+           .notes = {"the length in force is that of the tool before, or none: the new tool may go into the part",
+                     "write G43 and H in the first block that moves Z"}});
+    }
+  }
+
+  MotionView view_;
+  std::set<NodeId> approaches_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<ApproachBeforeLengthOffset>(program, context);
+}
+
+} // namespace
+
+extern const Rule approachBeforeLengthOffset;
+const Rule approachBeforeLengthOffset{
+    .info = {"approach-before-length-offset", Category::Motion, Severity::Warning,
+             "Reports a movement to a `Z` behind a tool change and before the `G43` of the new tool."},
+    .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

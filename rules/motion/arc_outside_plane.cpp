@@ -1,0 +1,73 @@
+// arc-outside-plane: a K beside G02 under G17.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace feedhold::rules {
+namespace {
+
+struct PlaneLetters {
+  CodeAction plane;
+  char outside; // the distance to the centre that the plane does not have
+  std::string_view code;
+};
+constexpr std::array kPlanes = {PlaneLetters{CodeAction::PlaneXY, 'K', "G17"},
+                                PlaneLetters{CodeAction::PlaneZX, 'J', "G18"},
+                                PlaneLetters{CodeAction::PlaneYZ, 'I', "G19"}};
+
+class ArcOutsidePlane final : public FlowRule {
+public:
+  ArcOutsidePlane(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) || isForgotten(state))
+      return;
+    const PlaneLetters *plane = nullptr;
+    for (const PlaneLetters &candidate : kPlanes)
+      if (view_.surely(state, ModalKind::Plane, {candidate.plane}))
+        plane = &candidate;
+    const auto [at, isNew] = places_.emplace(node, plane);
+    if (!isNew && at->second != plane)
+      at->second = nullptr;
+  }
+
+  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, plane] : places_) {
+      const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
+      if (!outside || isZero(*outside))
+        continue;
+      reporter.report({.message = fmt::format("{} belongs to no arc of `{}`, the plane in force",
+                                              context.quoted(outside->span()), plane->code),
+                       .span = outside->span(),
+                       .notes = {"the control stops, or cuts the arc in a plane where it was not meant",
+                                 "select the plane of the arc before it, by G17, G18 or G19"}});
+    }
+  }
+
+private:
+  const Word *findWordOf(NodeId node, char letter) const {
+    for (const Word *word : view_.wordsOf(node))
+      if (word->address() == letter && !word->has(Word::kComma))
+        return word;
+    return nullptr;
+  }
+  static bool isZero(const Word &word) { return word.isNumber() && word.number().isZero(); }
+
+  MotionView view_;
+  std::map<NodeId, const PlaneLetters *> places_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<ArcOutsidePlane>(program, context);
+}
+
+} // namespace
+
+extern const Rule arcOutsidePlane;
+const Rule arcOutsidePlane{.info = {"arc-outside-plane", Category::Motion, Severity::Warning,
+                                    "Reports an arc with a centre that does not lie in the plane in force."},
+                           .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,52 @@
+// arc-without-motion: `G02 X0. Y0. R5.` where the tool stands there already.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace feedhold::rules {
+namespace {
+
+class ArcWithoutMotion final : public FlowRule {
+public:
+  ArcWithoutMotion(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  /// An arc by R without a chord is told as a straight move: see the semantics of arcs.
+  void move(NodeId node, const Move<AbstractValue> &move) override {
+    if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}))
+      return;
+    const bool stands = move.kind == MoveKind::Feed;
+    const auto [at, isNew] = places_.emplace(node, stands);
+    at->second = at->second && (isNew || stands);
+  }
+
+  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, stands] : places_) {
+      const Word *arc = view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+      if (stands)
+        reporter.report(
+            {.message = fmt::format("this {} with `R` ends where it starts, and does not move in its plane",
+                                    context.quoted(arc->span())),
+             .span = view_.blockSpan(node),
+             .notes = {"through one point there are many circles of a radius: a full circle needs I, J, K"}});
+    }
+  }
+
+private:
+  MotionView view_;
+  std::map<NodeId, bool> places_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<ArcWithoutMotion>(program, context);
+}
+
+} // namespace
+
+extern const Rule arcWithoutMotion;
+const Rule arcWithoutMotion{.info = {"arc-without-motion", Category::Motion, Severity::Warning,
+                                     "Reports an arc with `R` whose end is its start in every run."},
+                            .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

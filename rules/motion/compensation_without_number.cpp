@@ -1,0 +1,20 @@
+// compensation-without-number: G41 before any D.
+#include "rules/motion/number_left_out.h"
+
+namespace feedhold::rules {
+namespace {
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return watchForMissingNumber(
+      {{CodeAction::CompensationLeft, CodeAction::CompensationRight}, 'D', "the radius of the cutter"}, program,
+      context);
+}
+
+} // namespace
+
+extern const Rule compensationWithoutNumber;
+const Rule compensationWithoutNumber{.info = {"compensation-without-number", Category::Motion, Severity::Warning,
+                                              "Reports a `G41` or `G42` of a main program that comes before any `D`."},
+                                     .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

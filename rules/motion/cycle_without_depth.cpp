@@ -1,0 +1,71 @@
+// cycle-without-depth: a canned cycle before any Z or R.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace feedhold::rules {
+namespace {
+
+constexpr std::initializer_list<CodeAction> kCycles = {
+    CodeAction::CycleDrill, CodeAction::CycleDwell,   CodeAction::CyclePeck, CodeAction::CycleChipBreak,
+    CodeAction::CycleTap,   CodeAction::CycleTapLeft, CodeAction::CycleBore, CodeAction::CycleBoreStop};
+
+class CycleWithoutDepth final : public FlowRule {
+public:
+  CycleWithoutDepth(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty() || isForgotten(state) ||
+        !isPlaneKnown(state))
+      return;
+    const Missing missing{state.cycle.bottom.isVacant(), state.cycle.retract.isVacant()};
+    const auto [at, isNew] = places_.emplace(node, missing);
+    if (!isNew)
+      at->second = {at->second.depth && missing.depth, at->second.retract && missing.retract};
+  }
+
+  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, missing] : places_) {
+      if (!missing.depth && !missing.retract)
+        continue;
+      const Word *cycle = view_.findAction(node, kCycles);
+      reporter.report({.message = fmt::format("{} has no {}", context.quoted(cycle->span()),
+                                              missing.depth && missing.retract ? "depth and no `R`"
+                                              : missing.depth                  ? "depth"
+                                                                               : "`R`"),
+                       .span = cycle->span(),
+                       .notes = {"the levels of an earlier cycle ended with it: the control stops, or drills to 0",
+                                 "write the depth and R in the first block of the cycle"}});
+    }
+  }
+
+private:
+  /// Else the levels are not followed.
+  bool isPlaneKnown(const AbstractState &state) const {
+    return view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}) ||
+           view_.surely(state, ModalKind::Plane, {CodeAction::PlaneZX}) ||
+           view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ});
+  }
+  struct Missing {
+    bool depth;
+    bool retract;
+  };
+  MotionView view_;
+  std::map<NodeId, Missing> places_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<CycleWithoutDepth>(program, context);
+}
+
+} // namespace
+
+extern const Rule cycleWithoutDepth;
+const Rule cycleWithoutDepth{.info = {"cycle-without-depth", Category::Motion, Severity::Warning,
+                                      "Reports a canned cycle that starts without its depth or without `R`, although "
+                                      "none can be in force."},
+                             .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

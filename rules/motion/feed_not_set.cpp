@@ -1,0 +1,71 @@
+// feed-not-set: a cutting move of a main program before any F.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+class FeedNotSet final : public FlowRule {
+public:
+  FeedNotSet(ProgramId program, const FileContext &context)
+      : view_(program, context), isMain_(startedBy(context, program) == StartedBy::Operator) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!isMain_ || isForgotten(state) || !state.word('F').mayBeVacant() || view_.modalMotionWords(node).empty() ||
+        !cuts(state))
+      return;
+    if (isAsAtEntry(state, 'F'))
+      never_.note(node);
+    first_.note(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    if (!first_.node())
+      return;
+    const auto feeds = [&](NodeId node) { return hasFeed(node); };
+    const auto way = hasFeed(*first_.node()) ? std::nullopt : findWay(facts, facts.entry(), *first_.node(), feeds);
+    // A retentive variable that may be vacant is a feed all the same.
+    const std::optional<NodeId> place = way ? first_.node() : never_.node();
+    if (!place)
+      return;
+    const Word &word = *view_.modalMotionWords(*place).front();
+    reporter.report({.message = fmt::format("the cutting move to {} comes before any `F`{}",
+                                            context.quoted(word.span()), never_.node() == place ? "" : " on some path"),
+                     .span = word.span(),
+                     .way = way ? describeWay(facts, *way) : std::vector<Label>{},
+                     .notes = {"it cuts with the feed of the program that ran before, or the control stops for want of "
+                               "one",
+                               "write F in the block of the first cutting move"}});
+  }
+
+private:
+  bool hasFeed(NodeId node) const {
+    return std::ranges::any_of(view_.wordsOf(node), [](const Word *word) { return word->address() == 'F'; });
+  }
+  bool cuts(const AbstractState &state) const {
+    return view_.surely(state, ModalKind::Motion,
+                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+  }
+
+  MotionView view_;
+  bool isMain_;
+  FirstSeen first_;
+  FirstSeen never_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<FeedNotSet>(program, context);
+}
+
+} // namespace
+
+extern const Rule feedNotSet;
+const Rule feedNotSet{.info = {"feed-not-set", Category::Motion, Severity::Warning,
+                               "Reports the first cutting move of a main program that comes before any `F` on some "
+                               "path."},
+                      .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

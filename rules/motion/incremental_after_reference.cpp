@@ -1,0 +1,78 @@
+// incremental-after-reference: `G91 G28 Z0.`, and coordinates behind it without G90.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+class IncrementalAfterReference final : public FlowRule {
+public:
+  IncrementalAfterReference(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (view_.wasSet(state, ModalKind::Distance, {CodeAction::Incremental}) && firstLiteral(node) &&
+        !view_.sets(node, ModalKind::Distance))
+      moves_.push_back(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    std::ranges::sort(moves_);
+    for (NodeId home = facts.entry(); home < facts.end(); home = home.next()) {
+      if (!facts.isReached(home) || !view_.findAction(home, {CodeAction::Incremental}) ||
+          !view_.findAction(home, {CodeAction::ReferenceReturn, CodeAction::SecondReference}))
+        continue;
+      tell(home, facts, context, reporter);
+    }
+  }
+
+private:
+  /// A computed word may well be a distance that was computed for this G91.
+  const Word *firstLiteral(NodeId node) const {
+    for (const Word *word : view_.modalMotionWords(node))
+      if (word->isNumber())
+        return word;
+    return nullptr;
+  }
+  /// The first one only: what comes behind it is of the same kind.
+  void tell(NodeId home, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+    for (const NodeId move : moves_) {
+      const auto way = findWay(facts, home, move, [&](NodeId node) {
+        return view_.sets(node, ModalKind::Distance) ||
+               std::holds_alternative<CallProgram>(view_.node(node).instruction);
+      });
+      if (!way || std::ranges::find(told_, move) != told_.end())
+        continue;
+      told_.push_back(move);
+      const Word &word = *firstLiteral(move);
+      return reporter.report(
+          {.message = fmt::format("{} is a distance: `G91` of the reference return is still in force",
+                                  context.quoted(word.span())),
+           .span = word.span(),
+           .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "in force since here"}},
+           .way = describeWay(facts, *way),
+           .notes = {"the tool goes by that much from the reference point, not to that place",
+                     "write G90 behind the reference return; where a distance is meant, say G91 in this block"}});
+    }
+  }
+
+  MotionView view_;
+  std::vector<NodeId> moves_;
+  std::vector<NodeId> told_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<IncrementalAfterReference>(program, context);
+}
+
+} // namespace
+
+extern const Rule incrementalAfterReference;
+const Rule incrementalAfterReference{
+    .info = {"incremental-after-reference", Category::Motion, Severity::Warning,
+             "Reports a movement under a `G91` that stands in the block of a reference return."},
+    .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

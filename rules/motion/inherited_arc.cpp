@@ -1,0 +1,75 @@
+// inherited-arc: axis words alone, without a centre, while G02 or G03 is in force.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace feedhold::rules {
+namespace {
+
+class InheritedArc final : public FlowRule {
+public:
+  InheritedArc(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void before(NodeId node, const AbstractState &state) override {
+    if (!view_.wasSet(state, ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
+        !isLineByItself(node))
+      return;
+    const bool always =
+        view_.surely(state, ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+    const auto [at, isNew] = places_.emplace(node, always);
+    at->second = at->second && (isNew || always);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, always] : places_) {
+      const Word &word = *view_.modalMotionWords(node).front();
+      reporter.report({.message = fmt::format("{} inherits `G02` or `G03`{}, and has neither `R` nor `I J K`",
+                                              context.quoted(word.span()), always ? "" : " on some path"),
+                       .span = word.span(),
+                       .labels = arcsBefore(node, facts),
+                       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre)),
+                                 "for a straight move write G01 or G00 in this block"}},
+                      always ? Severity::Error : Severity::Warning);
+    }
+  }
+
+private:
+  bool isLineByItself(NodeId node) const {
+    if (view_.modalMotionWords(node).empty() || view_.sets(node, ModalKind::Motion))
+      return false;
+    const auto words = view_.wordsOf(node);
+    return std::ranges::none_of(words, [](const Word *word) {
+      return std::string_view("IJKR").find(word->address()) != std::string_view::npos;
+    });
+  }
+  /// The nearest arc in the text from which the node is reached without another code of motion.
+  std::vector<Label> arcsBefore(NodeId node, const FlowFacts &facts) const {
+    const auto sets = [&](NodeId other) { return view_.sets(other, ModalKind::Motion); };
+    for (NodeId arc = node; arc != facts.entry();) {
+      arc = NodeId(arc.index() - 1);
+      const Word *word = view_.findAction(arc, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+      if (word && facts.isReached(arc) && findWay(facts, arc, node, sets))
+        return {{word->span(), "in force since here"}};
+    }
+    return {};
+  }
+
+  MotionView view_;
+  std::map<NodeId, bool> places_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<InheritedArc>(program, context);
+}
+
+} // namespace
+
+extern const Rule inheritedArc;
+const Rule inheritedArc{.info = {"inherited-arc", Category::Motion, Severity::Error,
+                                 "Reports axis words without `R` and `I J K` where an arc is still in force."},
+                        .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

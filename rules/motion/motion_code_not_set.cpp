@@ -1,0 +1,53 @@
+// motion-code-not-set: axis words of a main program before any G00 to G03.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+class MotionCodeNotSet final : public FlowRule {
+public:
+  MotionCodeNotSet(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    const auto codes = view_.inForce(state, ModalKind::Motion);
+    if (!codes || !codes->mayBeAtEntry() || isForgotten(state) || view_.modalMotionWords(node).empty())
+      return;
+    if (!view_.sets(node, ModalKind::Cycle))
+      first_.note(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    if (!first_.node())
+      return;
+    const bool isMain = startedBy(context, view_.program()) == StartedBy::Operator;
+    const Word &word = *view_.modalMotionWords(*first_.node()).front();
+    const auto sets = [&](NodeId node) { return view_.sets(node, ModalKind::Motion); };
+    reporter.report(
+        {.message = fmt::format("{} comes before any `G00`, `G01`, `G02` or `G03`", context.quoted(word.span())),
+         .span = word.span(),
+         .way = wayFromEntry(facts, *first_.node(), sets),
+         .notes = {"the block moves as the last movement before did: at rapid, at feed, or on an arc",
+                   "write the G code of the movement in this block"}},
+        isMain ? Severity::Warning : Severity::Info);
+  }
+
+private:
+  MotionView view_;
+  FirstSeen first_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<MotionCodeNotSet>(program, context);
+}
+
+} // namespace
+
+extern const Rule motionCodeNotSet;
+const Rule motionCodeNotSet{.info = {"motion-code-not-set", Category::Motion, Severity::Warning,
+                                     "Reports the first axis words of a program that come, on some path, before any "
+                                     "`G00`, `G01`, `G02` or `G03`."},
+                            .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules

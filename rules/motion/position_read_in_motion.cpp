@@ -1,0 +1,79 @@
+// position-read-in-motion: #5021 or #5041 right behind a movement.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules {
+namespace {
+
+constexpr std::size_t kMostBlocksBack = 8;
+
+bool isPosition(const VariableUse &use, const FileContext &context) {
+  if (use.write || !use.number)
+    return false;
+  const VariableRange *range = findVariable(context.dialect, *use.number);
+  return range && (range->role == VariableRole::MachinePosition || range->role == VariableRole::WorkPosition);
+}
+
+/// The control does not read ahead over an M code, a dwell, a skip, a move in machine coordinates, a called program.
+bool stopsReadingAhead(const MotionView &view, NodeId node) {
+  if (std::holds_alternative<CallProgram>(view.node(node).instruction))
+    return true;
+  return std::ranges::any_of(view.wordsOf(node), [&](const Word *word) {
+    if (word->address() == 'M')
+      return true;
+    const Code *code = word->address() == 'G' ? codeOf(*word, view.context().dialect) : nullptr;
+    return word->address() == 'G' &&
+           (!code || code->role == CodeRole::Dwell || code->role == CodeRole::Skip ||
+            code->role == CodeRole::MachinePosition || code->role == CodeRole::ReferenceReturn ||
+            code->action == CodeAction::CompensationOff);
+  });
+}
+
+/// The movement that is still under way: straight back from the read, with nothing between that waits for it.
+std::optional<NodeId> movementBefore(const MotionView &view, const FlowFacts &facts, NodeId read) {
+  NodeId node = read;
+  for (std::size_t steps = 0; steps < kMostBlocksBack && node != facts.entry(); ++steps) {
+    const NodeId before(node.index() - 1);
+    if (!facts.isReached(before) || view.node(before).next != node || stopsReadingAhead(view, before))
+      return std::nullopt;
+    if (!view.modalMotionWords(before).empty())
+      return before;
+    node = before;
+  }
+  return std::nullopt;
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const MotionView view(facts.program, context);
+  std::optional<BlockId> told;
+  for (const VariableUse &use : context.model.variablesOf(facts.program)) {
+    if (!isPosition(use, context) || told == use.block)
+      continue;
+    const auto node = reachedNode(facts, use.block);
+    const auto movement = node ? movementBefore(view, facts, *node) : std::nullopt;
+    if (!movement)
+      continue;
+    told = use.block;
+    const Span place = context.tree.expressions[use.expression].span;
+    reporter.report({.message = fmt::format("{} is read while the axes may still be moving", context.quoted(place)),
+                     .span = place,
+                     .labels = {{view.blockSpan(*movement), "this movement may not have ended"}},
+                     .notes = {"a control that reads ahead takes some place on the way",
+                               "read the end point of the block, #5001 and following, or let the control wait before "
+                               "it, by a dwell or an M code that is not buffered"}});
+  }
+}
+
+} // namespace
+
+extern const Rule positionReadInMotion;
+const Rule positionReadInMotion{
+    .info = {"position-read-in-motion", Category::Motion, Severity::Info,
+             "Reports a present position that is read right behind a movement, with nothing "
+             "between for which the control waits."},
+    .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

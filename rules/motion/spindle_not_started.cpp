@@ -1,0 +1,82 @@
+// spindle-not-started: a cutting move of a main program with the spindle at rest.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+class SpindleNotStarted final : public FlowRule {
+public:
+  SpindleNotStarted(ProgramId program, const FileContext &context)
+      : view_(program, context),
+        asked_(startedBy(context, program) == StartedBy::Operator && context.dialect.machine == MachineKind::Milling) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!asked_)
+      return;
+    mayBeStartedUnseen_ = mayBeStartedUnseen_ || hasOtherSpindleCode(node);
+    if (isForgotten(state) || view_.modalMotionWords(node).empty() || !cuts(state) || isAbovePart(node, state))
+      return;
+    if (state.spindle.mayBeAtEntry() || state.spindle.contains(kStopped))
+      first_.note(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    if (!first_.node() || mayBeStartedUnseen_)
+      return;
+    const Word &word = *view_.modalMotionWords(*first_.node()).front();
+    const auto starts = [&](NodeId node) {
+      return view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}) != nullptr;
+    };
+    reporter.report({.message = fmt::format("the cutting move to {} comes without `M03` or `M04` before it",
+                                            context.quoted(word.span())),
+                     .span = word.span(),
+                     .way = wayFromEntry(facts, *first_.node(), starts),
+                     .notes = {"the tool is pushed into the part while the spindle stands still",
+                               "start the spindle by S and M03 before the first cut"}});
+  }
+
+private:
+  static constexpr std::size_t kStopped = 0; // in kSpindleActions
+
+  bool cuts(const AbstractState &state) const {
+    return view_.surely(state, ModalKind::Motion,
+                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+  }
+  /// Down to a level above the zero of the part: an approach at feed.
+  bool isAbovePart(NodeId node, const AbstractState &state) const {
+    const auto words = view_.modalMotionWords(node);
+    return words.size() == 1 && words.front()->address() == 'Z' && state.at(Axis::Z).number().interval().lo > 0;
+  }
+  /// M codes of the machine builder often start a spindle, an air turbine, a laser.  A probe cuts nothing.
+  bool hasOtherSpindleCode(NodeId node) const {
+    for (const Word *word : view_.wordsOf(node)) {
+      const Code *code = codeOf(*word, view_.context().dialect);
+      if (word->address() == 'M' && !code)
+        return true;
+      if (code && code->role == CodeRole::Skip)
+        return true;
+    }
+    return false;
+  }
+
+  MotionView view_;
+  bool asked_;
+  bool mayBeStartedUnseen_ = false;
+  FirstSeen first_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<SpindleNotStarted>(program, context);
+}
+
+} // namespace
+
+extern const Rule spindleNotStarted;
+const Rule spindleNotStarted{.info = {"spindle-not-started", Category::Motion, Severity::Warning,
+                                      "Reports the first cutting move of a main program for a mill that comes, on some "
+                                      "path, without `M03` or `M04`."},
+                             .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules
