@@ -38,6 +38,14 @@ BlockId nextContent(const FileContext &context, BlockId block) {
   return block;
 }
 
+/// The analysis knows bounds of the variable: its range has been checked before.
+bool isChecked(const FlowFacts &facts, BlockId last, std::uint32_t variable) {
+  for (const Read &read : readsOf(facts.file, last))
+    if (const AbstractValue *value = read.number == variable ? facts.valueOf(read.expression) : nullptr)
+      return value->isNumber() && value->number().interval().isFinite();
+  return false;
+}
+
 /// The values that were not asked for, none of them is left.
 bool isExhausted(const FlowFacts &facts, BlockId last) {
   for (NodeId node = facts.file.cfg.nodeOf(last); node < facts.end() && facts.node(node).block == last;
@@ -63,7 +71,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     block = last;
     const BlockId behind = nextContent(context, last);
-    if (behind != cases.front().target || isExhausted(facts, last))
+    if (behind != cases.front().target || isExhausted(facts, last) || isChecked(facts, last, cases.front().variable))
       continue;
     reporter.report(
         {.message = fmt::format("any other value of `#{}` runs into the first case", cases.front().variable),

@@ -1,55 +1,11 @@
 // decided-condition: an IF that can have one outcome only, given what was decided or computed before it.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/loop_view.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules {
 namespace {
-
-/// Settings at the head of a program are asked on purpose: a variable that is set once, from numbers and other
-/// settings.
-class Settings {
-public:
-  explicit Settings(const FlowFacts &facts) : facts_(facts) {}
-
-  bool contains(std::uint32_t variable, int depth = 0) const {
-    const SyntaxTree &tree = *facts_.file.tree;
-    std::optional<ExpressionId> value;
-    for (const VariableUse &use : facts_.file.model->variablesOf(facts_.program)) {
-      if (!use.write || use.number != variable)
-        continue;
-      if (value)
-        return false;
-      for (const Statement &statement : tree.statementsOf(use.block))
-        if (const auto *assignment = std::get_if<Assignment>(&statement.node);
-            assignment && !statement.nested && unwrapped(tree, assignment->target) == use.expression)
-          value = assignment->value;
-      if (!value)
-        return false;
-    }
-    if (!value || depth > 3)
-      return false;
-    const auto parts = subexpressions(tree, *value);
-    return std::ranges::all_of(parts, [&](ExpressionId part) {
-      if (as<IndirectVariable>(tree, part) || as<NamedVariable>(tree, part) || as<FunctionCall>(tree, part))
-        return false;
-      const auto number = variableNumber(tree, part);
-      return !number || contains(*number, depth + 1);
-    });
-  }
-
-private:
-  const FlowFacts &facts_;
-};
-
-bool asksSettings(const FlowFacts &facts, ExpressionId condition, BlockId block) {
-  const Settings settings(facts);
-  const auto reads = readsIn(facts.file, condition, block);
-  return std::ranges::all_of(reads, [&](const Read &read) {
-    return read.number && (*read.number == kVacantVariable || settings.contains(*read.number));
-  });
-}
 
 /// `#101EQ#0`: whether a variable is vacant is asked.
 bool asksVacancy(const FileContext &context, ExpressionId condition) {
@@ -58,6 +14,8 @@ bool asksVacancy(const FileContext &context, ExpressionId condition) {
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isMainProgram(facts))
+    return; // settings at its head are asked on purpose
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     const auto truth = test && test->condition ? facts.truthOf(node) : std::nullopt;
@@ -68,7 +26,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const bool isWhile =
         std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
     const bool vacancy = asksVacancy(context, *test->condition);
-    if (isWhile || (!vacancy && asksSettings(facts, *test->condition, block)))
+    if (isWhile || isAskedToBeSure(facts, *test->condition, block))
       continue;
     const Span span = context.tree.expressions[*test->condition].span;
     reporter.report({.message = fmt::format("{} {} here", context.quoted(span),
@@ -83,7 +41,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule decidedCondition;
-const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Warning,
+const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Info,
                                      "Reports a condition that has the same outcome in all runs."},
                             .hooks = {.flow = check}};
 

@@ -128,9 +128,11 @@ std::optional<std::vector<ProgramRef>> sharersOf(const ProgramSet &programs, Pro
   return found;
 }
 
-bool hasBroken(const ProgramFile &file, ProgramId program) {
-  return std::ranges::any_of(blocksOf(file, program),
-                             [&](BlockId block) { return file.tree->blocks[block].has(Block::kBroken); });
+/// A block that did not parse speaks of the variable.
+bool isInBroken(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
+  return std::ranges::any_of(file.model->variablesOf(program), [&](const VariableUse &use) {
+    return use.number == variable && file.tree->blocks[use.block].has(Block::kBroken);
+  });
 }
 
 } // namespace
@@ -196,7 +198,7 @@ bool maySet(const FlowFacts &facts, std::uint32_t variable) {
     return true;
   return std::ranges::any_of(*sharers, [&](const ProgramRef &program) {
     const ProgramFile &file = facts.programs.file(program.file);
-    return hasBroken(file, program.program) ||
+    return isInBroken(file, program.program, variable) ||
            std::ranges::any_of(file.model->variablesOf(program.program),
                                [&](const VariableUse &use) { return mayWrite(file, use, variable); });
   });

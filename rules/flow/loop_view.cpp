@@ -130,4 +130,34 @@ bool isPlain(const ProgramFile &file, std::uint32_t variable) {
   return range && range->kind != VariableKind::System && range->kind != VariableKind::Vacant;
 }
 
+namespace {
+
+/// A setting, or what the control reports of itself, or a copy of it.
+bool comesFromControl(const FlowFacts &facts, std::uint32_t variable) {
+  if (variable != kVacantVariable && !isPlain(facts.file, variable))
+    return true;
+  const SyntaxTree &tree = *facts.file.tree;
+  for (const VariableUse &use : facts.file.model->variablesOf(facts.program)) {
+    if (!use.write || use.number != variable)
+      continue;
+    for (const Read &read : readsOf(facts.file, use.block))
+      if (read.use != ReadUse::Equality && read.number && *read.number != kVacantVariable &&
+          !isPlain(facts.file, *read.number))
+        return true;
+    for (const Statement &statement : tree.statementsOf(use.block))
+      if (const auto *assignment = std::get_if<Assignment>(&statement.node);
+          assignment && literalValue(tree, assignment->value))
+        return true; // a setting
+  }
+  return false;
+}
+
+} // namespace
+
+bool isAskedToBeSure(const FlowFacts &facts, ExpressionId condition, BlockId block) {
+  const auto reads = readsIn(facts.file, condition, block);
+  return std::ranges::any_of(reads,
+                             [&](const Read &read) { return !read.number || comesFromControl(facts, *read.number); });
+}
+
 } // namespace feedhold::rules

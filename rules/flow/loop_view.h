@@ -46,4 +46,8 @@ std::optional<LoopStep> stepOf(const FlowFacts &facts, const Assignment &assignm
 /// Whose value stays as long as nobody writes it: local, common and retentive variables.
 bool isPlain(const ProgramFile &file, std::uint32_t variable);
 
+/// The condition asks what the control reports of itself, or a setting: it is there to be sure, and may have one
+/// outcome.
+bool isAskedToBeSure(const FlowFacts &facts, ExpressionId condition, BlockId block);
+
 } // namespace feedhold::rules

@@ -7,9 +7,11 @@
 namespace feedhold::rules {
 namespace {
 
-bool isJumpTarget(const FileContext &context, ProgramId program, BlockId block) {
-  return std::ranges::any_of(context.model.jumpsOf(program),
-                             [&](const Jump &jump) { return jump.kind == JumpKind::Goto && jump.target == block; });
+/// A GOTO leads to the block, or to a lone sequence number before it.
+bool isJumpTarget(const FlowFacts &facts, BlockId block) {
+  return std::ranges::any_of(facts.file.model->jumpsOf(facts.program), [&](const Jump &jump) {
+    return jump.kind == JumpKind::Goto && jump.target && facts.node(facts.file.cfg.nodeOf(*jump.target)).block == block;
+  });
 }
 
 /// The last thing that happens before the block, when the control goes on from there into it without a decision.
@@ -23,6 +25,19 @@ std::optional<NodeId> fallsFrom(const FlowFacts &facts, NodeId alarm) {
   return node.next == alarm && facts.isReached(before) && acts ? std::optional(before) : std::nullopt;
 }
 
+/// The blocks in front of the alarm, back to the last decision or end, are there for jumps as well: a retreat that ends
+/// with the alarm.
+bool isRetreat(const FlowFacts &facts, NodeId last) {
+  for (NodeId node = last; node > facts.entry(); node = NodeId(node.index() - 1)) {
+    if (isJumpTarget(facts, facts.node(node).block))
+      return true;
+    const NodeId before(node.index() - 1);
+    if (facts.node(before).next != node || std::holds_alternative<Test>(facts.node(before).instruction))
+      return false;
+  }
+  return false;
+}
+
 /// Axes move in the block: that is work, not the preparation of an alarm.
 bool moves(const FileContext &context, BlockId block) {
   return std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
@@ -34,11 +49,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   for (const UserAlarmFact &alarm : facts.userAlarms()) {
     const BlockId block = facts.node(alarm.node).block;
     const auto before = fallsFrom(facts, alarm.node);
-    if (!before || !isJumpTarget(context, facts.program, block))
+    if (!before || !isJumpTarget(facts, block))
       continue;
     const BlockId last = facts.node(*before).block;
     const bool isCall = std::holds_alternative<CallProgram>(facts.node(*before).instruction);
-    if (!isCall && !moves(context, last))
+    if ((!isCall && !moves(context, last)) || isRetreat(facts, *before))
       continue;
     reporter.report({.message = "the program runs into this alarm at its end",
                      .span = alarm.place,

@@ -7,6 +7,14 @@
 namespace feedhold::rules {
 namespace {
 
+/// By the analysis, or where that lost it, by the text.
+std::optional<std::uint32_t> argumentIn(const FlowFacts &facts, std::uint32_t variable, const AbstractValue &value) {
+  const auto &origin = value.origin();
+  if (origin && origin->offset.isZero() && isEntrySymbol(origin->symbol) && isLocal(facts.file, origin->symbol))
+    return origin->symbol;
+  return argumentBehind(facts, variable);
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<std::uint32_t> done;
   if (isMainProgram(facts))
@@ -17,7 +25,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const BlockId block = facts.node(alarm.node).block;
     const auto divisor = expressionAt(facts, block, alarm.place);
     const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
-    const auto argument = variable && isLocal(facts.file, *variable) ? argumentBehind(facts, *variable) : std::nullopt;
+    const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
+    const auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
     if (!argument || !variable || isTested(facts.file, facts.program, *argument) ||
         isTested(facts.file, facts.program, *variable) || std::ranges::find(done, *argument) != done.end())
       continue;
