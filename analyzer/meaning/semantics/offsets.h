@@ -1,0 +1,176 @@
+// Offsets: the codes that move the zero point of the program by their axis words: G52, G92 and what ends or brings back
+// its offset, G10.  The machine stands still; its coordinates in the program change.
+#pragma once
+
+#include "meaning/semantics/executed_words.h"
+
+namespace feedhold {
+
+/// The range of variables with a role; null where the control has none.
+inline const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role) {
+  for (const VariableRange &range : dialect.variables)
+    if (range.role == role)
+      return &range;
+  return nullptr;
+}
+
+template <ValueAlgebra R> class Offsets {
+public:
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+
+  Offsets(StepContext<R> &context, const ExecutedWords<R> &words)
+      : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
+
+  /// Whether the code is one of these; then it has been carried out.
+  bool carryOut(const CodeWord &word) {
+    switch (kindOf(*word.code)) {
+    case Kind::None: return false;
+    case Kind::LocalShift: localShift(); return true;
+    case Kind::Set: set(); return true;
+    case Kind::SetOff: setOff(Kept::No); return true;
+    case Kind::Suspend: setOff(Kept::Yes); return true;
+    case Kind::Restore: restore(); return true;
+    case Kind::Data: setData(word); return true;
+    }
+    return false;
+  }
+  static bool isOne(const Code &code) { return kindOf(code) != Kind::None; }
+
+private:
+  enum class Kind { None, LocalShift, Set, SetOff, Suspend, Restore, Data };
+  enum class Kept { No, Yes };
+
+  static Kind kindOf(const Code &code) {
+    constexpr std::array kRows = {
+        std::pair{CodeAction::LocalShift, Kind::LocalShift},
+        std::pair{CodeAction::CoordinateSet, Kind::Set},
+        std::pair{CodeAction::CoordinateSetOff, Kind::SetOff},
+        std::pair{CodeAction::CoordinateSetSuspend, Kind::Suspend},
+        std::pair{CodeAction::CoordinateSetRestore, Kind::Restore},
+    };
+    for (const auto &[action, kind] : kRows)
+      if (code.action == action)
+        return kind;
+    return code.role == CodeRole::DataSetting ? Kind::Data : Kind::None;
+  }
+
+  // ---- G52, G92 ----
+
+  /// G52: the named axes.
+  void localShift() {
+    auto &shifts = context_.behaviour().oneSetOffset ? state_.shift : state_.local;
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis)))
+        moveTo(shifts, axis, reading_.select(entry->present, entry->value, shifts[indexOf(axis)]));
+    keep();
+  }
+  /// G92: the tool stands, from now on, at the named coordinates.
+  void set() {
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        Value &position = state_.at(axis);
+        Value &shift = state_.shift[indexOf(axis)];
+        const Value target = reading_.select(entry->present, entry->value, position);
+        shift = reading_.add(shift, reading_.subtract(position, target));
+        position = target;
+      }
+    keep();
+  }
+  void setOff(Kept kept) {
+    for (const Axis axis : kAllAxes)
+      moveTo(state_.shift, axis, context_.zero());
+    if (kept == Kept::No)
+      keep();
+  }
+  void restore() {
+    const VariableRange *range = rangeWithRole(context_.dialect(), VariableRole::SetOffset);
+    for (const Axis axis : kAllAxes)
+      if (range)
+        moveTo(state_.shift, axis,
+               detail::offsetVariable(context_, range->first + static_cast<std::uint32_t>(indexOf(axis))));
+  }
+  void moveTo(std::array<Value, kAxisCount> &shifts, Axis axis, const Value &wanted) {
+    Value &shift = shifts[indexOf(axis)];
+    state_.at(axis) = reading_.add(state_.at(axis), reading_.subtract(shift, wanted));
+    shift = wanted;
+  }
+  void keep() {
+    const VariableRange *range = rangeWithRole(context_.dialect(), VariableRole::SetOffset);
+    for (std::uint32_t axis = 0; range && axis < kAxisCount; ++axis)
+      state_.variables.set(range->first + axis, state_.shift[axis]);
+  }
+
+  // ---- G10 ----
+
+  void setData(const CodeWord &word) {
+    const auto *kind = words_.find('L');
+    const std::optional<double> which = kind ? reading_.constantOf(kind->value) : std::nullopt;
+    const std::optional<std::uint32_t> first = firstOfSystem();
+    if (which == 50.0 || which == 52.0)
+      return; // parameters of the machine
+    if (first && which == 2.0)
+      return setWorkOffset(*first);
+    if (first && which == 20.0 && context_.behaviour().positionByData)
+      return setPosition(*first);
+    forgetStored(word);
+  }
+  /// The first variable of the work offset that P names: 0 is the external one, or where there is none, that in force.
+  std::optional<std::uint32_t> firstOfSystem() {
+    const auto *system = words_.find('P');
+    const std::optional<double> number = system ? reading_.constantOf(system->value) : std::nullopt;
+    if (!number || *number < 0 || *number > 9)
+      return std::nullopt;
+    auto row = static_cast<std::uint32_t>(*number);
+    const VariableRange *external = findVariable(context_.dialect(), kFirstWorkOffset);
+    if (row == 0 && (!external || external->role != VariableRole::WorkOffset)) {
+      const auto inForce = detail::workOffsetInForce(context_);
+      if (!inForce)
+        return std::nullopt;
+      row = *inForce + 1;
+    }
+    return kFirstWorkOffset + kWorkOffsetStride * row;
+  }
+  void setWorkOffset(std::uint32_t first) {
+    const Truth always = reading_.truth(true);
+    const Truth absolute = context_.behaviour().dataIsAbsolute
+                               ? always
+                               : context_.inForce(ModalKind::Distance, {CodeAction::Absolute}, always);
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        const std::uint32_t variable = first + static_cast<std::uint32_t>(indexOf(axis));
+        const Value old = detail::offsetVariable(context_, variable);
+        const Value wanted = reading_.select(absolute, entry->value, reading_.add(old, entry->value));
+        detail::writeWorkOffset(context_, variable, reading_.select(entry->present, wanted, old));
+      }
+  }
+  /// The offset with which the axes, where they stand, would be at the named coordinates.
+  void setPosition(std::uint32_t first) {
+    const auto inForce = detail::workOffsetInForce(context_);
+    if (!inForce)
+      return forgetPosition(context_);
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        const auto number = static_cast<std::uint32_t>(indexOf(axis));
+        const Value present =
+            detail::offsetVariable(context_, kFirstWorkOffset + kWorkOffsetStride * (*inForce + 1) + number);
+        const Value wanted = reading_.subtract(reading_.add(present, state_.at(axis)), entry->value);
+        const Value old = detail::offsetVariable(context_, first + number);
+        detail::writeWorkOffset(context_, first + number, reading_.select(entry->present, wanted, old));
+      }
+  }
+  void forgetStored(const CodeWord &word) {
+    for (const VariableRange &range : context_.dialect().variables)
+      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset)
+        reading_.forgetVariables(state_, range.first, range.last);
+    forgetPosition(context_);
+    reading_.notModelled("offsets set by G10", word.span);
+  }
+
+  StepContext<R> &context_;
+  R &reading_;
+  MachineState<R> &state_;
+  const ExecutedWords<R> &words_;
+};
+
+} // namespace feedhold
