@@ -108,13 +108,17 @@ bool anyAsksFlow(std::span<const WorkItem> items) {
   });
 }
 
-/// A file in another language is there without programs, so that files keep their numbers.
+/// A file in another language is there without blocks and programs, so that files keep their numbers.
 ProgramSet programsOf(std::span<const WorkItem> items, const std::vector<Read> &reads, const CallGraph &callGraph,
                       unsigned jobs) {
+  static const SyntaxTree noBlocks = parse(SourceFile::fromText("", ""), items.front().profile->dialect);
+  static const ProgramModel noPrograms;
   std::vector<ProgramFile> files;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    files.push_back({FileId(i), &items[i].source, reads[i].tree.get(), reads[i].model.get(),
-                     &items[i].profile->dialect});
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool isRead = items[i].foreign == nullptr;
+    files.push_back({FileId(i), &items[i].source, isRead ? reads[i].tree.get() : &noBlocks,
+                     isRead ? reads[i].model.get() : &noPrograms, &items[i].profile->dialect});
+  }
   return ProgramSet(std::move(files), callGraph, jobs);
 }
 

@@ -3,6 +3,7 @@
 #include "inference/absint/propagation.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace feedhold {
 
@@ -65,6 +66,10 @@ const ProgramFacts &Engine::factsOf(Callee entry) {
     const ProgramFile &file = programs_.file(entry.file);
     Wto wto(file.cfg, *file.model, entry.entry, ProgramUse::Started);
     std::vector<bool> joins = joinsOf(file, wto, ProgramUse::Started);
+    const auto loops =
+        std::count_if(wto.order().begin(), wto.order().end(), [&](NodeId node) { return wto.isHead(node); });
+    if (loops > kMostLoops && !gaveUp_)
+      gaveUp_ = "a program has too many loops for a state to be kept for each";
     facts = std::make_unique<ProgramFacts>(ProgramFacts{
         entry, &file, std::move(wto), std::move(joins),
         partitionBy(file, entry.program, modesOf(entry.file)), thresholdsOf(file, entry.program)});
@@ -125,17 +130,18 @@ void Engine::descend(const ProgramFacts &facts, Summary &summary) {
   }
 }
 
-Summary &Engine::summaryOf(Callee entry, const AbstractState &state) {
+Summary &Engine::summaryOf(Callee entry, const AbstractState &state, std::optional<std::size_t> modalLimit) {
   const ProgramFacts &facts = factsOf(entry);
   auto &known = summaries_[keyOf(entry)];
   for (const auto &summary : known)
-    if (leq(reading_, state, summary->entry))
+    if (summary->modalLimit == modalLimit && leq(reading_, state, summary->entry))
       return *summary;
   AbstractState wanted = known.size() >= kMostContexts ? known.back()->entry : state;
   if (known.size() >= kMostContexts)
     widenInto(reading_, wanted, state, facts.thresholds);
   auto summary = std::make_unique<Summary>();
   summary->entry = std::move(wanted);
+  summary->modalLimit = modalLimit;
   solve(facts, *summary);
   auto &now = summaries_[keyOf(entry)]; // solving may have added some
   now.push_back(std::move(summary));
@@ -149,19 +155,55 @@ bool Engine::isStraight(const ProgramFacts &facts) const {
   });
 }
 
+AbstractState Engine::entryStateOf(Callee entry) {
+  AbstractState state = entryState(reading_);
+  const ModalTable &modes = modesOf(entry.file);
+  const auto polar = modes.groupOf(ModalKind::Polar);
+  reading_.keepPolar(polar);
+  if (polar) // otherwise no word of the program would say where it leads
+    state.codes[*polar] = CodeSet::of(
+        static_cast<std::size_t>(std::countr_zero(modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff}))));
+  return state;
+}
+
 void Engine::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
   const ProgramFacts &facts = factsOf(entry);
   reading_.useDialect(*facts.file->dialect);
   Summary straight;
   straight.entry = state;
-  Summary &summary = isStraight(facts) ? straight : summaryOf(entry, state);
+  Summary &summary = isStraight(facts) ? straight : summaryOf(entry, state, std::nullopt);
   visitor_ = &visitor;
   reading_.observe(&visitor);
   open_.push_back(entry);
   Propagation(*this, facts, summary, Propagation::Pass::Walk).run();
   open_.pop_back();
+  walkWithNothingKnown(visitor);
   reading_.observe(nullptr);
   visitor_ = nullptr;
+}
+
+void Engine::walkWithNothingKnown(AnalysisVisitor &visitor) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> walked;
+  depthKnown_ = false;
+  while (walked.size() < unfollowed_.size() && !gaveUp_) {
+    const auto next = std::find_if(unfollowed_.begin(), unfollowed_.end(),
+                                   [&](const auto &program) { return !walked.contains(program.first); });
+    walked.insert(next->first);
+    const Callee entry = next->second;
+    reading_.useDialect(*programs_.file(entry.file).dialect);
+    reading_.observe(nullptr);
+    AbstractState anything = entryStateOf(entry);
+    anything.transformed = Truth::Maybe;
+    reading_.havoc(anything, "a program that calls itself", {});
+    Summary &summary = summaryOf(entry, anything, std::nullopt);
+    reading_.observe(&visitor);
+    reading_.useDialect(*programs_.file(entry.file).dialect);
+    open_.push_back(entry);
+    Propagation(*this, factsOf(entry), summary, Propagation::Pass::Walk).run();
+    open_.pop_back();
+  }
+  depthKnown_ = true;
+  unfollowed_.clear();
 }
 
 // ---- symbols of summaries ------------------------------------------------------------------------------------------
@@ -169,6 +211,10 @@ void Engine::walk(Callee entry, const AbstractState &state, AnalysisVisitor &vis
 AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
                          AbstractState entry) {
   align(reading, summaryEntry, entry);
+  if (summaryEntry.modalCalls.size() != entry.modalCalls.size()) { // one of them knows only that there may be some
+    summaryEntry.modalCalls.clear();
+    entry.modalCalls.clear();
+  }
   std::map<std::uint32_t, Origin> meaning; // symbol of the summary: what it is in the caller
   std::vector<const AbstractValue *> theirs;
   forEachValue(summaryEntry, [&](const AbstractValue &value) { theirs.push_back(&value); });
@@ -209,7 +255,7 @@ Analysis::~Analysis() = default;
 AbstractReading &Analysis::reading() { return impl_->engine.reading(); }
 std::optional<std::string_view> Analysis::gaveUp() const { return impl_->engine.gaveUp(); }
 
-void Analysis::walk(Callee entry, AnalysisVisitor &visitor) { walk(entry, entryState(reading()), visitor); }
+void Analysis::walk(Callee entry, AnalysisVisitor &visitor) { walk(entry, impl_->engine.entryStateOf(entry), visitor); }
 void Analysis::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
   impl_->engine.walk(entry, state, visitor);
 }

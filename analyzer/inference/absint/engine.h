@@ -27,13 +27,22 @@ struct Exit {
   AbstractState state;
 };
 
+/// How many calls are open, and how many of them have locals of their own.
+struct CallDepth {
+  std::size_t calls = 0;
+  std::size_t macros = 0;
+  friend auto operator<=>(const CallDepth &, const CallDepth &) = default;
+};
+
 /// One analysis of a program in one entry state.
 struct Summary {
   AbstractState entry;
   std::map<std::uint32_t, Partitions> heads; // by position
   std::set<std::uint32_t> forcedHeads;       // reached by an `M99 P` from elsewhere
   std::vector<Exit> exits;                   // one without target, the others by target
-  bool walked = false;
+  /// Only modal calls below this one are made inside: this is one itself.  Absent: all.
+  std::optional<std::size_t> modalLimit = {};
+  std::set<CallDepth> walkedAt = {}; // alarms of nesting differ by depth
 };
 
 class Engine {
@@ -41,6 +50,8 @@ public:
   Engine(const ProgramSet &programs, AnalysisOptions options);
 
   AbstractReading &reading() { return reading_; }
+  /// What a program that is started may find; polar coordinates are not in force.
+  AbstractState entryStateOf(Callee entry);
   void walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor);
   std::optional<std::string_view> gaveUp() const { return gaveUp_; }
 
@@ -50,7 +61,9 @@ private:
   const ModalTable &modesOf(FileId file);
   const ProgramFacts &factsOf(Callee entry);
   /// The summary of a call in this state: an old one that covers it, or a new one.
-  Summary &summaryOf(Callee entry, const AbstractState &state);
+  Summary &summaryOf(Callee entry, const AbstractState &state, std::optional<std::size_t> modalLimit);
+  /// Programs that are entered in ways that are not followed: each is gone through with nothing known.
+  void walkWithNothingKnown(AnalysisVisitor &visitor);
   void solve(const ProgramFacts &facts, Summary &summary);
   void descend(const ProgramFacts &facts, Summary &summary);
   bool isOpen(Callee entry) const;
@@ -59,6 +72,7 @@ private:
   bool spend();
 
   static constexpr std::size_t kMostContexts = 12;
+  static constexpr std::ptrdiff_t kMostLoops = 5000; // a state takes some 20 KiB
 
   const ProgramSet &programs_;
   AnalysisOptions options_;
@@ -69,6 +83,9 @@ private:
   std::vector<Callee> open_; // programs whose analysis has not come to its end: the chain of calls
   AnalysisVisitor *visitor_ = nullptr;
   std::vector<Place> calls_; // of the walk
+  CallDepth depth_;          // of the walk
+  bool depthKnown_ = true;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Callee> unfollowed_; // entered somehow
   std::uint64_t spent_ = 0;
   std::optional<std::string_view> gaveUp_;
 };

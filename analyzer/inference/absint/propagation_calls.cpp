@@ -37,27 +37,67 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
 void Propagation::unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
                               std::string_view reason) {
   const auto locals = state.locals;
+  const auto loops = state.enteredLoops;
+  const auto counters = state.counters;
   reading_.havoc(state, reason, contextAt(node, state).place());
   if (request.freshLocals)
     state.locals = locals;
+  state.enteredLoops = loops;
+  state.counters = counters;
 }
 
 std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractReading> &request,
                                                 AbstractState state) {
   if (!request.callee) {
+    const Span place = contextAt(node, state).place();
+    reading_.alarm(Truth::Maybe, {AlarmKind::ProgramNotFound, place});
+    if (!request.possible.empty())
+      reading_.alarm(Truth::Maybe,
+                     {request.freshLocals ? AlarmKind::MacroNesting : AlarmKind::SubprogramNesting, place});
+    for (const Callee &callee : request.possible)
+      engine_.unfollowed_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
+    if (!request.possible.empty())
+      return enterUnfollowed(node, request, std::move(state));
     unknownCall(node, request, state, "a program that is not among these files");
     return state;
   }
-  const Dialect &dialect = *facts_.file->dialect;
-  if (engine_.open_.size() > dialect.limits.totalCallDepth) {
-    reading_.alarm(Truth::True, {AlarmKind::SubprogramNesting, contextAt(node, state).place()});
-    return std::nullopt;
-  }
-  if (engine_.isOpen(*request.callee)) {
-    unknownCall(node, request, state, "a program that calls itself");
-    return state;
-  }
-  return repeated(node, request, std::move(state));
+  nestingAlarms(node, request, state);
+  const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
+  if (!tooDeep && !engine_.isOpen(*request.callee))
+    return repeated(node, request, std::move(state));
+  engine_.unfollowed_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()},
+                              *request.callee);
+  return enterUnfollowed(node, request, std::move(state));
+}
+
+/// The program is gone through with nothing known; behind the call anything may have happened, and it may come back to
+/// any number that some M99 P names.
+std::optional<AbstractState> Propagation::enterUnfollowed(NodeId node, const CallRequest<AbstractReading> &request,
+                                                          AbstractState state) {
+  state.transformed = Truth::Maybe; // its programs may turn or mirror
+  unknownCall(node, request, state,
+              request.callee ? "a program that calls itself" : "a program whose number is computed");
+  const ReturnTargets &returns = engine_.programs_.returns();
+  if (returns.any)
+    returnTo(node, AbstractValue::anyNumber(), state);
+  else
+    for (const std::uint32_t number : returns.numbers)
+      returnTo(node, reading_.number(static_cast<double>(number)), state);
+  return state;
+}
+
+/// Whether the call is one too many.  The same program is gone through once for each depth, and what is known of it
+/// holds at any depth: so the alarm is never certain.
+void Propagation::nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state) {
+  const Limits &limits = facts_.file->dialect->limits;
+  const CallDepth &depth = engine_.depth_;
+  const bool unknown = !engine_.depthKnown_ || engine_.isOpen(*request.callee);
+  const Span place = contextAt(node, state).place();
+  if (request.freshLocals && (unknown || depth.macros >= limits.macroCallDepth))
+    reading_.alarm(Truth::Maybe, {AlarmKind::MacroNesting, place});
+  if (unknown || depth.calls >= limits.totalCallDepth ||
+      (!request.freshLocals && depth.calls - depth.macros >= limits.subprogramDepth))
+    reading_.alarm(Truth::Maybe, {AlarmKind::SubprogramNesting, place});
 }
 
 std::optional<AbstractState> Propagation::repeated(NodeId node, const CallRequest<AbstractReading> &request,
@@ -66,6 +106,8 @@ std::optional<AbstractState> Propagation::repeated(NodeId node, const CallReques
   if (times && *times < 0.5)
     return state;
   auto after = once(node, request, state);
+  if (!after && !times)
+    return state; // none at all may be asked for
   if (!after || times == 1.0)
     return after;
   // Whether the second pass starts with the arguments or with what the first has left differs by control: with either.
@@ -106,17 +148,10 @@ std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<Ab
   state.counters.clear();
   StepObserver *observer = reading_.observer();
   reading_.observe(nullptr);
-  Summary &summary = engine_.summaryOf(*request.callee, state);
+  Summary &summary = engine_.summaryOf(*request.callee, state, modal_ ? modal_ : summary_.modalLimit);
   reading_.observe(observer);
-  if (pass_ == Pass::Walk && !summary.walked) {
-    summary.walked = true;
-    engine_.calls_.push_back(placeOf(node));
-    engine_.open_.push_back(*request.callee);
-    reading_.useDialect(*engine_.programs_.file(request.callee->file).dialect);
-    Propagation(engine_, engine_.factsOf(*request.callee), summary, Pass::Walk).run();
-    engine_.open_.pop_back();
-    engine_.calls_.pop_back();
-  }
+  if (pass_ == Pass::Walk)
+    walkInto(node, request, summary);
   reading_.useDialect(*facts_.file->dialect);
   reading_.start();
   std::optional<AbstractState> behind;
@@ -132,6 +167,24 @@ std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<Ab
       addTo(behind, std::move(left));
   }
   return behind;
+}
+
+void Propagation::walkInto(NodeId node, const CallRequest<AbstractReading> &request, Summary &summary) {
+  const CallDepth before = engine_.depth_;
+  CallDepth inside{before.calls + 1, before.macros + (request.freshLocals ? 1U : 0U)};
+  if (!engine_.depthKnown_)
+    inside = {facts_.file->dialect->limits.totalCallDepth, 0};
+  if (!summary.walkedAt.insert(inside).second)
+    return;
+  engine_.depth_ = inside;
+  engine_.calls_.push_back(placeOf(node));
+  engine_.open_.push_back(*request.callee);
+  reading_.useDialect(*engine_.programs_.file(request.callee->file).dialect);
+  Propagation(engine_, engine_.factsOf(*request.callee), summary, Pass::Walk).run();
+  engine_.open_.pop_back();
+  engine_.calls_.pop_back();
+  engine_.depth_ = before;
+  engine_.visitor_->resumed(placeOf(node), engine_.calls_);
 }
 
 void Propagation::addTo(std::optional<AbstractState> &all, AbstractState state) {
@@ -158,28 +211,30 @@ void Propagation::returnTo(NodeId node, const AbstractValue &target, const Abstr
     }
     deliver(*place, state);
   }
-  AbstractState copy = state;
-  reading_.alarm(reached.empty() ? Truth::True : Truth::Maybe,
-                 {AlarmKind::SequenceNotFound, contextAt(node, copy).place()});
+  searchAlarms(node, target);
   reading_.start();
 }
 
 bool Propagation::modalCalls(NodeId node, AbstractState &state) {
-  if (state.modalCalls.empty() && state.modalCallsUnknown == Truth::False)
+  const std::size_t usable = std::min(summary_.modalLimit.value_or(~std::size_t{0}), state.modalCalls.size());
+  if (usable == 0 && state.modalCallsUnknown == Truth::False)
     return true;
   AbstractContext context = contextAt(node, state);
   const Truth moves = movesAxis(context, words_);
   if (moves == Truth::False)
     return true;
   AbstractState before = state;
-  if (state.modalCalls.empty() || mayBeTrue(state.modalCallsUnknown)) {
+  if (mayBeTrue(state.modalCallsUnknown)) {
     CallRequest<AbstractReading> unknown;
     unknown.freshLocals = true;
-    unknownCall(node, unknown, state, "a modal call that may be active");
+    unknown.possible = engine_.programs_.modalCallees();
+    state = *enter(node, unknown, std::move(state)); // what is not known comes back
   } else {
-    const std::size_t last = state.modalCalls.size() - 1;
+    const std::size_t last = usable - 1;
     const CallRequest<AbstractReading> request = prepareModalCall(context, state.modalCalls[last]);
+    const auto outer = std::exchange(modal_, last);
     auto after = enter(node, request, state);
+    modal_ = outer;
     if (!after) { // the block behind is reached only if nothing has moved
       state = std::move(before);
       return moves == Truth::Maybe;

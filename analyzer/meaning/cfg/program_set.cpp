@@ -45,21 +45,30 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
   std::vector<const ProgramModel *> models;
   for (const ProgramFile &each : files_) {
     FEEDHOLD_CHECK(each.file.index() == static_cast<std::size_t>(&each - files_.data()), "files are numbered in order");
-    if (each.model)
-      models.push_back(each.model);
+    models.push_back(each.model);
   }
-  const ReturnTargets returns = returnTargets(models);
+  returns_ = returnTargets(models);
   parallelFor(files_.size(), jobs, [&](std::size_t i) {
-    if (ProgramFile &each = files_[i]; each.model)
-      each.cfg = lower(*each.source, *each.tree, *each.model, *each.dialect, returns);
+    ProgramFile &each = files_[i];
+    each.cfg = lower(*each.source, *each.tree, *each.model, *each.dialect, returns_);
   });
-  for (const ProgramFile &each : files_)
-    if (each.model)
-      findNames(each);
+  for (const ProgramFile &each : files_) {
+    findNames(each);
+    findModalCallees(each);
+  }
   const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
   std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
   std::sort(names_.begin(), names_.end());
   names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+}
+
+void ProgramSet::findModalCallees(const ProgramFile &from) {
+  for (std::size_t i = 0; i < from.model->calls.size(); ++i) {
+    const CallKind kind = from.model->calls[CallId(i)].kind;
+    if (kind == CallKind::Modal || kind == CallKind::ModalEach)
+      if (const auto found = callee(from.file, CallId(i)))
+        modalCallees_.push_back(*found);
+  }
 }
 
 void ProgramSet::findNames(const ProgramFile &file) {

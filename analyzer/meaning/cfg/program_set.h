@@ -53,6 +53,10 @@ public:
   std::optional<Callee> callee(FileId file, CallId call) const;
   /// As callee, for a number that is known only when the call is made.
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
+  /// What the modal calls of all programs call.
+  const std::vector<Callee> &modalCallees() const { return modalCallees_; }
+  /// Where the `M99 P` of all programs may return to.
+  const ReturnTargets &returns() const { return returns_; }
 
   /// The number of the variable that a name stands for: a system variable of the dialect, one named by SETVN in any of
   /// the files, or, where the control has named parameters, one of the names from kFirstNamedVariable on.  Absent: no
@@ -67,11 +71,14 @@ public:
 
 private:
   void findNames(const ProgramFile &file);
+  void findModalCallees(const ProgramFile &from);
   std::optional<Callee> entryOf(std::optional<ProgramRef> program) const;
   std::optional<Callee> localCallee(FileId file, const Call &call) const;
 
   std::vector<ProgramFile> files_;
   CallGraph callGraph_;
+  ReturnTargets returns_;
+  std::vector<Callee> modalCallees_;
   std::vector<std::string> names_;                                  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };
