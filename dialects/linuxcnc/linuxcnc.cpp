@@ -121,6 +121,12 @@ Behaviour behaviour() {
   behaviour.assignsAfterReading = true;
   behaviour.arcDistanceModes = true;
   behaviour.cycleClearsFirst = true;
+  behaviour.cycleKeepsDepth = true;
+  behaviour.boringReturnsAtFeed = true;
+  behaviour.oneSetOffset = true;
+  behaviour.bareReferenceReturn = true;
+  behaviour.dataIsAbsolute = true;
+  behaviour.positionByData = true;
   behaviour.repeatsByK = false;
   behaviour.equalTolerance = 1e-4;
   return behaviour;
@@ -144,6 +150,7 @@ const Dialect &linuxcnc() {
     dialect.grammar = grammar();
     dialect.behaviour = behaviour();
     dialect.switches.dpi = Switch::On; // `X10` is ten units
+    dialect.switches.nat = Switch::On; // ATAN gives -180 to 180 degrees
     dialect.switches.ad2 = Switch::On; // "Multiple X words on one line"
     dialect.switches.m3b = Switch::On; // four M codes of different groups
     dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions

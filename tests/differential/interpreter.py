@@ -1,6 +1,8 @@
 """LinuxCNC's own interpreter through its Python module `gcode` (package linuxcnc-uspace): the canonical tool path of a
 program with all digits of its numbers, in inches."""
+import json
 import os
+import sys
 import tempfile
 import time
 
@@ -40,7 +42,7 @@ class Canon:
         return 1.0
 
     def get_axis_mask(self):
-        return 7
+        return 0x1FF  # all nine
 
     def get_block_delete(self):
         return 0
@@ -90,16 +92,16 @@ class Canon:
 
 
 class Run:
-    """`error`: the interpreter's words; empty when the program ended."""
+    """`units`: of the program before its own G20 or G21.  `error`: the interpreter's words; empty when it ended."""
 
-    def __init__(self, path):
+    def __init__(self, path, units="g20"):
         import gcode  # here, so that HOME is set before
         handle, parameters = tempfile.mkstemp(suffix=".var")
         with os.fdopen(handle, "w") as file:
             file.writelines(f"{number}\t{1 if number == 5220 else 0}\n" for number in STORED)
         canon = Canon(parameters)
         try:
-            result, self.line = gcode.parse(str(path), canon, "g20", "g49")
+            result, self.line = gcode.parse(str(path), canon, units, "g49")
             self.error = gcode.strerror(result) if result >= gcode.MIN_ERROR else ""
         except KeyboardInterrupt:
             self.line, self.error = 0, "time limit"
@@ -108,3 +110,8 @@ class Run:
                 if os.path.exists(name):
                     os.unlink(name)
         self.moves = canon.moves
+
+
+if __name__ == "__main__":  # a process of its own for programs that may bring the module down
+    run = Run(*sys.argv[1:])
+    json.dump({"moves": run.moves, "error": run.error, "line": run.line}, sys.stdout)

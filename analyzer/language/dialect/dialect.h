@@ -108,6 +108,7 @@ enum class CodeAction : std::uint8_t {
   CompensationRight,
   LengthPlus,
   LengthMinus,
+  LengthGiven, // Z is the length itself
   LengthOff,
   ReturnToInitial,
   ReturnToR,
@@ -124,9 +125,13 @@ enum class CodeAction : std::uint8_t {
   LocalShift,
   CoordinateSet,
   CoordinateSetOff,
+  CoordinateSetSuspend, // off, but the offset is kept in its variables
+  CoordinateSetRestore,
   MachineMove,
   ReferenceReturn,
   SecondReference,
+  ReferenceStore,
+  SecondReferenceStore,
   ReferenceCheck,
   Skip,
   ConstantSurface,
@@ -170,6 +175,9 @@ enum class VariableRole : std::uint8_t {
   WorkPosition,
   SkipPosition,
   WorkOffset, // in steps of 20 from #5201: external, G54 .. G59
+  SetOffset,  // of G92
+  Reference,  // machine coordinates to which G28 returns
+  SecondReference,
   Pi,
   EulersNumber,
 };
@@ -315,9 +323,15 @@ struct Behaviour {
   bool assignsAfterReading = false;   // all assignments of a line take place after the whole line is read
   bool arcDistanceModes = false;      // G90.1 and G91.1 exist
   bool cycleClearsFirst = false;      // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool cycleKeepsDepth = false;       // under G91 a new R level takes the bottom of the hole along
+  bool boringReturnsAtFeed = false;   // G89 feeds out up to the level to which it returns, not to the R level
+  bool oneSetOffset = false;          // G52 and G92 set one and the same offset
+  bool bareReferenceReturn = false;   // G28 without axis words moves all axes
+  bool dataIsAbsolute = false;        // G10 L2 sets the offset under G91 too
+  bool positionByData = false;        // G10 L20: the axes stand at the given coordinates
   bool returnTargetIsLocal = false;   // `M99 P` jumps within its own program, also in a subprogram
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
-  double equalTolerance = 0;          // EQ, NE, GE, LE take values this near as equal
+  double equalTolerance = 0;          // EQ and NE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end
   double peckClearance = 0.254;       // mm: how far above the last depth a peck begins (a parameter of most controls)
   Decimal leastIncrementMetric{1, 3}; // mm and degrees

@@ -23,8 +23,8 @@ public:
 private:
   /// Brackets, functions and signs inside one another; a control takes five.  Bounds the recursion.
   static constexpr int kDeepestNesting = 100;
-  /// Operators in one block: `1+1+..` makes a tree as deep as it is long, and later stages walk it.
-  static constexpr int kMostOperators = 4000;
+  /// Operators in one block: `1+1+..` makes a tree as deep as it is long, and later stages walk it by recursion.
+  static constexpr int kMostOperators = 1000;
   /// Words, statements and signs in one block; controls take some hundreds of characters.  Bounds what a rule meets
   /// when it compares the words of a block with one another.
   static constexpr int kMostItems = 2000;

@@ -9,8 +9,11 @@ namespace {
 
 constexpr double kLargestInteger = 9.0e15; // beyond it doubles have no fraction, and fewer than all integers
 
-// The interpreter of LinuxCNC computes angles in long double; doing so too makes both agree to the last bit.
-constexpr long double kDegree = std::numbers::pi_v<long double> / 180;
+// The order of operations and the places where they are rounded to double are those of LinuxCNC's interpreter, so that
+// both agree to the last bit; elsewhere the last bits are the control's own.
+constexpr long double kPi = std::numbers::pi_v<long double>;
+long double radians(double angle) { return static_cast<long double>(angle) * kPi / 180; }
+double degrees(double angle) { return static_cast<double>(static_cast<long double>(angle * 180.0) / kPi); }
 
 /// Exact at the multiples of 90 degrees, where a program compares with 0 and 1.
 double sineOfDegrees(double angle) {
@@ -20,17 +23,15 @@ double sineOfDegrees(double angle) {
     const double rest = quarter - 4 * std::floor(quarter / 4);
     return kSines[static_cast<std::size_t>(rest)];
   }
-  return static_cast<double>(std::sin(static_cast<long double>(angle) * kDegree));
+  return static_cast<double>(std::sin(radians(angle)));
 }
 
 double cosineOfDegrees(double angle) {
   const double quarter = angle / 90;
   if (std::floor(quarter) == quarter && std::fabs(quarter) < kLargestInteger)
     return sineOfDegrees(angle + 90);
-  return static_cast<double>(std::cos(static_cast<long double>(angle) * kDegree));
+  return static_cast<double>(std::cos(radians(angle)));
 }
-
-double degrees(long double radians) { return static_cast<double>(radians / kDegree); }
 
 /// BCD: each group of four bits is a decimal digit.
 double binaryOfBcd(double value) {
@@ -53,9 +54,9 @@ double valueOf(FunctionKind kind, double x) {
   switch (kind) {
   case FunctionKind::Sin: return sineOfDegrees(x);
   case FunctionKind::Cos: return cosineOfDegrees(x);
-  case FunctionKind::Tan: return static_cast<double>(std::tan(static_cast<long double>(x) * kDegree));
-  case FunctionKind::Asin: return degrees(std::asin(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
-  case FunctionKind::Acos: return degrees(std::acos(static_cast<long double>(std::clamp(x, -1.0, 1.0))));
+  case FunctionKind::Tan: return static_cast<double>(std::tan(radians(x)));
+  case FunctionKind::Asin: return degrees(std::asin(std::clamp(x, -1.0, 1.0)));
+  case FunctionKind::Acos: return degrees(std::acos(std::clamp(x, -1.0, 1.0)));
   case FunctionKind::Sqrt: return x < 0 ? 0 : std::sqrt(x);
   case FunctionKind::Abs: return std::fabs(x);
   case FunctionKind::Ln: return x <= 0 ? 0 : std::log(x);
@@ -106,7 +107,7 @@ ConcreteValue ConcreteReading::function(FunctionKind kind, const Value &argument
   return Value::of(valueOf(kind, argument.number));
 }
 ConcreteValue ConcreteReading::atan2(const Value &y, const Value &x) const {
-  return Value::of(degrees(std::atan2(static_cast<long double>(y.number), static_cast<long double>(x.number))));
+  return Value::of(degrees(std::atan2(y.number, x.number)));
 }
 ConcreteValue ConcreteReading::power(const Value &base, const Value &exponent) const {
   const double result = std::pow(base.number, exponent.number);

@@ -16,8 +16,12 @@ public:
   Machine(const ProgramSet &programs, Callee entry, const RunOptions &options)
       : programs_(programs), options_(options), reading_(*programs.file(entry.file).dialect, options.variables),
         modes_(*programs.file(entry.file).dialect),
-        state_(startState(reading_, modes_, options.start)), at_{entry.file, entry.entry} {
+        state_(options.state ? *options.state : startState(reading_, modes_, options.start)), at_{entry.file,
+                                                                                                  entry.entry} {
     frames_.push_back({.callee = entry, .call = at_});
+    for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
+      if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))
+        state_.variables.set(*variable, ConcreteValue::of(0));
   }
 
   RunResult run() {
@@ -217,6 +221,7 @@ private:
                 .ownLocals = request.freshLocals,
                 .modal = modal,
                 .modalLimit = modal ? modal : frames_.back().modalLimit};
+    frame.callerLoops = std::exchange(state_.enteredLoops, {});
     if (request.freshLocals)
       openLevel(frame, request);
     frames_.push_back(std::move(frame));
@@ -260,6 +265,7 @@ private:
       end(RunEnd::Returned);
     } else if (!target && frame.repeatsLeft >= 1.5) {
       frame.repeatsLeft -= 1;
+      state_.enteredLoops.clear();
       at_ = {frame.callee.file, frame.callee.entry};
     } else {
       leave(target);
@@ -271,6 +277,7 @@ private:
     frames_.pop_back();
     if (frame.modal && *frame.modal < state_.modalCalls.size())
       state_.modalCalls[*frame.modal].locals = state_.locals;
+    state_.enteredLoops = frame.callerLoops;
     if (frame.ownLocals) {
       state_.locals = frame.callerLocals;
       takeOwnNames();

@@ -23,6 +23,8 @@ enum class BlockSkipSwitch : std::uint8_t { Off, On };
 struct RunOptions {
   GivenVariables variables = {}; // arguments are the local variables; not listed: vacant
   std::array<double, kAxisCount> start{};
+  /// What the run finds in place of the codes, words and shifts of power-on; then `start` is not looked at.
+  std::optional<MachineState<ConcreteReading>> state = std::nullopt;
   std::uint64_t fuel = 10'000'000;   // instructions
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;

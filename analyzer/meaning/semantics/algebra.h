@@ -101,7 +101,7 @@ concept HasModalCodes = requires(R reading, const typename R::Value value, const
 
 template <typename R>
 concept HasVariables = requires(R reading, const typename R::Value value, const typename R::Truth truth,
-                                MachineState<R> &state, std::uint32_t variable) {
+                                MachineState<R> &state, std::uint32_t variable, Span place) {
   /// What a variable holds that no write of this run has reached.
   { reading.unwritten(state, variable) } -> std::same_as<typename R::Value>;
   /// A cell that may change between two reads: an input, a clock.
@@ -109,8 +109,8 @@ concept HasVariables = requires(R reading, const typename R::Value value, const 
   /// The tool length of an offset number, with its sign left out of account where it is not known.
   { reading.toolLength(state, value) } -> std::same_as<typename R::Value>;
   /// A variable whose number is not one constant.
-  { reading.readAnyOf(state, value) } -> std::same_as<typename R::Value>;
-  reading.writeAnyOf(state, value, value);
+  { reading.readAnyOf(state, value, place) } -> std::same_as<typename R::Value>;
+  reading.writeAnyOf(state, value, value, place);
   /// Nothing is known any more of the variables of a range of numbers.
   reading.forgetVariables(state, variable, variable);
   /// Two states into the first: `second` where the truth holds, else the first.

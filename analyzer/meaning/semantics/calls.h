@@ -16,6 +16,7 @@ enum class CallAction : std::uint8_t {
 template <typename R> struct CallRequest {
   CallAction action = CallAction::Enter;
   std::optional<Callee> callee; // absent: in none of the files, or its number is not one constant
+  std::vector<Callee> possible; // without `callee`: the programs of these files that a computed number may name
   bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
   std::array<typename R::Value, kLocalVariables + 1> locals;
   typename R::Value repeats;    // L
@@ -52,8 +53,7 @@ public:
     case CallKind::ModalEach:
       request.action = CallAction::SetModal;
       passArguments(request);
-      context_.state.modalCalls.push_back(
-          {context_.file.file.index(), id_.index(), request.locals});
+      context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.locals});
       return request;
     case CallKind::Macro:
     case CallKind::OWord:
@@ -67,7 +67,7 @@ public:
     case CallKind::External:
       break;
     }
-    request.callee = callee();
+    request.callee = callee(request.possible);
     readRepeats(request);
     return request;
   }
@@ -109,7 +109,7 @@ private:
   }
   static constexpr std::uint32_t kToolCallVariable = 149;
 
-  std::optional<Callee> callee() {
+  std::optional<Callee> callee(std::vector<Callee> &possible) {
     if (const auto known = context_.programs.callee(context_.file.file, id_))
       return known;
     if (!call_.programWord || !call_.callee.empty())
@@ -119,21 +119,38 @@ private:
       return std::nullopt;
     const Value value = reading_.roundTo(reading_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
     const std::optional<double> number = reading_.constantOf(value);
+    if (!number)
+      possible = calleesOf(value);
     if (!number || *number < 0 || *number > 1e9)
       return std::nullopt;
     return context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
+  }
+  std::vector<Callee> calleesOf(const Value &value) {
+    std::vector<Callee> callees;
+    for (std::size_t i = 0; i < context_.programs.size(); ++i)
+      for (const Program &program : context_.programs.file(FileId(i)).model->programs)
+        if (program.name.number &&
+            reading_.mayBe(reading_.compare(Relation::Equal, value, reading_.number(*program.name.number))))
+          if (const auto found = context_.programs.calleeOf(context_.file.file, *program.name.number))
+            callees.push_back(*found);
+    return callees;
   }
   void readRepeats(CallRequest<R> &request) {
     if (call_.repeats) {
       request.repeats = reading_.number(*call_.repeats);
       return;
     }
-    const Span code = context_.tree().words[call_.code].span();
     if (call_.kind == CallKind::OWord)
-      return;
+      return; // has no words
+    const Span code = context_.tree().words[call_.code].span();
     for (const Word &word : context_.tree().wordsOf(context_.block))
       if (word.address() == 'L' && word.form() == WordForm::Expression && word.span().begin > code.begin)
-        request.repeats = reading_.roundTo(reading_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
+        request.repeats = repeatsOf(evaluate(context_, word.expression()));
+  }
+  /// A vacant word counts as not written.
+  Value repeatsOf(const Value &value) {
+    return reading_.select(reading_.isVacant(value), reading_.number(1),
+                           reading_.roundTo(reading_.asNumber(value), Decimal(1, 0)));
   }
 
   StepContext<R> &context_;

@@ -38,8 +38,8 @@ public:
   using Point = std::array<Value, kAxisCount>;
 
   DrillingCycle(StepContext<R> &context, const ExecutedWords<R> &words, Plane plane)
-      : context_(context), reading_(context.reading), state_(context.state), cycle_(context.state.cycle),
-        words_(words), plane_(plane) {}
+      : context_(context), reading_(context.reading), state_(context.state), cycle_(context.state.cycle), words_(words),
+        plane_(plane) {}
 
   void run() {
     learnLevels();
@@ -61,8 +61,12 @@ private:
     Value &level = state_.at(plane_.normal);
     cycle_.initial = reading_.select(reading_.isVacant(cycle_.initial), level, reading_.asNumber(cycle_.initial));
     const Truth absolute = isAbsolute(context_);
+    const Value before = reading_.asNumber(cycle_.retract);
     if (const auto *entry = words_.find('R'))
       learn(cycle_.retract, *entry, absolute, cycle_.initial);
+    if (context_.behaviour().cycleKeepsDepth) // below the R level
+      cycle_.bottom = reading_.select(context_.either(absolute, reading_.isVacant(cycle_.bottom)), cycle_.bottom,
+                                      reading_.add(bottomLevel(), reading_.subtract(retractLevel(), before)));
     if (const auto *entry = words_.find(letterOf(plane_.normal)))
       learn(cycle_.bottom, *entry, absolute, reading_.asNumber(cycle_.retract));
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
@@ -89,37 +93,46 @@ private:
     return 1;
   }
   void drillUnknownTimes() {
+    const auto notDrilled = state_;
     drill();
     if (!context_.certain(isAbsolute(context_)))
       for (const Axis axis : {plane_.first, plane_.second})
         if (words_.find(letterOf(axis)))
           state_.at(axis) = reading_.anyNumber();
+    reading_.join(state_, reading_.unknownTruth(), notDrilled);
   }
 
   Value retractLevel() { return reading_.asNumber(cycle_.retract); }
   Value bottomLevel() { return reading_.asNumber(cycle_.bottom); }
   Value returnLevel() {
-    const Truth toInitial = context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, reading_.truth(true));
-    return reading_.select(toInitial, cycle_.initial, retractLevel());
+    const Truth toInitial =
+        context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, reading_.truth(true));
+    const Value initial =
+        context_.behaviour().cycleClearsFirst ? higher(cycle_.initial, retractLevel()) : cycle_.initial;
+    return reading_.select(toInitial, initial, retractLevel());
   }
 
+  /// A cycle that begins below its R level goes up to it before anything else.
   void clearFirst() {
     if (!context_.behaviour().cycleClearsFirst)
       return;
-    const Value retract = retractLevel();
-    Value &level = state_.at(plane_.normal);
-    const Truth below = reading_.compare(Relation::Less, level, retract);
-    if (!reading_.mayBe(below))
-      return;
-    go(MoveKind::Rapid, reading_.select(below, retract, level));
-    const Truth initialBelow = reading_.compare(Relation::Less, cycle_.initial, retract);
-    cycle_.initial = reading_.select(initialBelow, retract, cycle_.initial);
+    const Truth below = reading_.compare(Relation::Less, cycle_.initial, retractLevel());
+    if (reading_.mayBe(below))
+      go(MoveKind::Rapid, reading_.select(below, retractLevel(), state_.at(plane_.normal)));
   }
+  /// The level at which the tool goes from hole to hole.
+  Value travelLevel() {
+    const Value &present = state_.at(plane_.normal);
+    if (!context_.behaviour().cycleClearsFirst)
+      return present;
+    return higher(present, higher(retractLevel(), returnLevel()));
+  }
+  Value higher(const Value &a, const Value &b) { return reading_.select(reading_.compare(Relation::Less, a, b), b, a); }
 
   void drill() {
     const Point start = state_.position;
     Point target = targetOf(context_, words_);
-    target[indexOf(plane_.normal)] = start[indexOf(plane_.normal)];
+    target[indexOf(plane_.normal)] = travelLevel();
     state_.position = target;
     tell(context_, MoveKind::Rapid, start);
     go(MoveKind::Rapid, retractLevel());
@@ -129,6 +142,8 @@ private:
   }
   void go(MoveKind kind, const Value &level) {
     const Point start = state_.position;
+    if (context_.certain(reading_.compare(Relation::Equal, start[indexOf(plane_.normal)], level)))
+      return;
     state_.at(plane_.normal) = level;
     tell(context_, kind, start);
   }
@@ -136,32 +151,42 @@ private:
   /// Down and, where the cycle feeds back, up to the R level.
   void stroke() {
     switch (kindOf()) {
-    case Kind::Straight:
-      return go(MoveKind::Feed, bottomLevel());
+    case Kind::Straight: go(MoveKind::Feed, bottomLevel()); return dwell();
     case Kind::FeedBack:
       go(MoveKind::Feed, bottomLevel());
-      return go(MoveKind::Feed, retractLevel());
-    case Kind::Peck:
-      return pecks(retractLevel());
-    case Kind::ChipBreak:
-      return pecks(std::nullopt);
+      dwell();
+      return go(MoveKind::Feed, feedsToReturnLevel() ? returnLevel() : retractLevel());
+    case Kind::Peck: return pecks(retractLevel());
+    case Kind::ChipBreak: return pecks(std::nullopt);
     case Kind::NotFollowed:
       go(MoveKind::Unfollowed, bottomLevel());
       return reading_.notModelled("the way of this boring cycle", context_.place());
     }
   }
+  bool feedsToReturnLevel() {
+    return context_.behaviour().boringReturnsAtFeed && isInForce({CodeAction::CycleBoreDwell});
+  }
+  bool isInForce(std::initializer_list<CodeAction> actions) {
+    return context_.certain(context_.inForce(ModalKind::Cycle, actions, reading_.truth(false)));
+  }
+  void dwell() {
+    if (!context_.certain(reading_.negation(reading_.isVacant(cycle_.dwell))))
+      return;
+    Move<Value> move;
+    move.kind = MoveKind::Dwell;
+    move.start = move.end = state_.position;
+    move.feed = cycle_.dwell;
+    reading_.move(move);
+  }
   enum class Kind { Straight, FeedBack, Peck, ChipBreak, NotFollowed };
   Kind kindOf() {
-    const auto is = [&](std::initializer_list<CodeAction> actions) {
-      return context_.certain(context_.inForce(ModalKind::Cycle, actions, reading_.truth(false)));
-    };
-    if (is({CodeAction::CyclePeck}))
+    if (isInForce({CodeAction::CyclePeck}))
       return Kind::Peck;
-    if (is({CodeAction::CycleChipBreak}))
+    if (isInForce({CodeAction::CycleChipBreak}))
       return Kind::ChipBreak;
-    if (is({CodeAction::CycleBore, CodeAction::CycleBoreDwell, CodeAction::CycleTap, CodeAction::CycleTapLeft}))
+    if (isInForce({CodeAction::CycleBore, CodeAction::CycleBoreDwell, CodeAction::CycleTap, CodeAction::CycleTapLeft}))
       return Kind::FeedBack;
-    if (is({CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CycleBoreStop}))
+    if (isInForce({CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CycleBoreStop}))
       return Kind::Straight;
     return Kind::NotFollowed;
   }
@@ -197,6 +222,8 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
   const std::optional<Plane> plane = planeOf(context);
   if (plane)
     return detail::DrillingCycle<R>(context, words, *plane).run();
+  const auto any = context.reading.anything();
+  context.state.cycle = {any, any, any, any, any};
   forgetPosition(context);
   context.reading.notModelled("a canned cycle whose plane is not known", context.place());
 }

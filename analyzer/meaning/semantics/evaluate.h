@@ -69,7 +69,7 @@ private:
     const Value index = value(variable.index);
     if (const auto number = variableAt(context_, index, place))
       return readVariable(context_, *number, place);
-    return reading_.readAnyOf(context_.state, reading_.asNumber(index));
+    return reading_.readAnyOf(context_.state, reading_.asNumber(index), place);
   }
   Value named(const NamedVariable &variable, Span place) {
     if (const auto number = context_.programs.variableOf(context_.file.file, variable.name))
@@ -88,35 +88,27 @@ private:
   Value asValue(Truth truth) { return reading_.select(truth, reading_.number(1), context_.zero()); }
 
   Value binary(ExpressionId id, const BinaryOperation &operation, Span place) {
-    if (isRelation(operation.op) || (isBitwise(operation.op) && isCondition(operation.left)))
+    if (isRelation(operation.op) ||
+        (isBitwise(operation.op) && isCondition(operation.left) && isCondition(operation.right)))
       return asValue(condition(id));
     const Value left = number(operation.left);
     const Value right = number(operation.right);
     switch (operation.op) {
-    case OperatorKind::Add:
-      return reading_.add(left, right);
-    case OperatorKind::Subtract:
-      return reading_.subtract(left, right);
-    case OperatorKind::Multiply:
-      return reading_.multiply(left, right);
-    case OperatorKind::Divide:
-      requireNotZero(right, operation.right);
-      return reading_.divide(left, right);
-    case OperatorKind::Modulo:
-      return modulo(left, right, operation.right);
-    case OperatorKind::Power:
-      return power(left, right, place);
+    case OperatorKind::Add: return reading_.add(left, right);
+    case OperatorKind::Subtract: return reading_.subtract(left, right);
+    case OperatorKind::Multiply: return reading_.multiply(left, right);
+    case OperatorKind::Divide: requireNotZero(right, operation.right); return reading_.divide(left, right);
+    case OperatorKind::Modulo: return modulo(left, right, operation.right);
+    case OperatorKind::Power: return power(left, right, place);
     case OperatorKind::And:
     case OperatorKind::Or:
-    case OperatorKind::Xor:
-      return logic(operation.op, left, right);
+    case OperatorKind::Xor: return logic(operation.op, left, right);
     case OperatorKind::Equal:
     case OperatorKind::NotEqual:
     case OperatorKind::GreaterThan:
     case OperatorKind::GreaterOrEqual:
     case OperatorKind::LessThan:
-    case OperatorKind::LessOrEqual:
-      break; // a relation: seen above
+    case OperatorKind::LessOrEqual: break; // a relation: seen above
     }
     return broken(place);
   }
@@ -158,8 +150,8 @@ private:
   bool isCondition(ExpressionId id) const {
     const Expression &expression = context_.tree().expressions[unwrapped(context_.tree(), id)];
     const auto *operation = std::get_if<BinaryOperation>(&expression.node);
-    return operation && (isRelation(operation->op) || (isBitwise(operation->op) && isCondition(operation->left) &&
-                                                       isCondition(operation->right)));
+    return operation && (isRelation(operation->op) ||
+                         (isBitwise(operation->op) && isCondition(operation->left) && isCondition(operation->right)));
   }
   Truth joined(const BinaryOperation &operation) {
     const Truth left = condition(operation.left);
@@ -170,18 +162,14 @@ private:
     const Value left = value(operation.left);
     const Value right = value(operation.right);
     switch (operation.op) {
-    case OperatorKind::Equal:
-      return equal(left, right);
-    case OperatorKind::NotEqual:
-      return reading_.negation(equal(left, right));
+    case OperatorKind::Equal: return equal(left, right);
+    case OperatorKind::NotEqual: return reading_.negation(equal(left, right));
     case OperatorKind::GreaterThan:
       return reading_.compare(Relation::Greater, reading_.asNumber(left), reading_.asNumber(right));
-    case OperatorKind::GreaterOrEqual:
-      return atLeast(left, right);
+    case OperatorKind::GreaterOrEqual: return reading_.compare(Relation::GreaterOrEqual, reading_.asNumber(left), reading_.asNumber(right));
     case OperatorKind::LessThan:
       return reading_.compare(Relation::Less, reading_.asNumber(left), reading_.asNumber(right));
-    case OperatorKind::LessOrEqual:
-      return atLeast(right, left);
+    case OperatorKind::LessOrEqual: return reading_.compare(Relation::LessOrEqual, reading_.asNumber(left), reading_.asNumber(right));
     case OperatorKind::Add:
     case OperatorKind::Subtract:
     case OperatorKind::Multiply:
@@ -190,8 +178,7 @@ private:
     case OperatorKind::Power:
     case OperatorKind::And:
     case OperatorKind::Or:
-    case OperatorKind::Xor:
-      break;
+    case OperatorKind::Xor: break;
     }
     return reading_.unknownTruth();
   }
@@ -209,36 +196,23 @@ private:
     const Value distance = reading_.function(FunctionKind::Abs, reading_.subtract(left, right));
     return reading_.compare(Relation::Less, distance, reading_.number(tolerance));
   }
-  Truth atLeast(const Value &left, const Value &right) {
-    const Value a = reading_.asNumber(left);
-    const Value b = reading_.asNumber(right);
-    const Truth exact = reading_.compare(Relation::GreaterOrEqual, a, b);
-    return context_.behaviour().equalTolerance == 0 ? exact : context_.either(exact, near(a, b));
-  }
-
   // ---- functions ----
 
   Value function(const FunctionCall &call, Span place) {
     if (call.arguments().empty())
       return broken(place);
     switch (call.function) {
-    case FunctionKind::Round:
-      return reading_.roundTo(number(call.arguments()[0]), unit_.step);
-    case FunctionKind::Fix:
-      return integerPart(number(call.arguments()[0]), IntegerSide::Fix);
-    case FunctionKind::Fup:
-      return integerPart(number(call.arguments()[0]), IntegerSide::Fup);
-    case FunctionKind::Atan:
-      return arcTangent(call);
+    case FunctionKind::Round: return reading_.roundTo(number(call.arguments()[0]), unit_.step);
+    case FunctionKind::Fix: return integerPart(number(call.arguments()[0]), IntegerSide::Fix);
+    case FunctionKind::Fup: return integerPart(number(call.arguments()[0]), IntegerSide::Fup);
+    case FunctionKind::Atan: return arcTangent(call);
     case FunctionKind::Pow:
       return call.arguments().size() < 2 ? broken(place)
                                          : power(number(call.arguments()[0]), number(call.arguments()[1]), place);
-    case FunctionKind::Exists:
-      return asValue(reading_.negation(reading_.isVacant(unread(call.arguments()[0]))));
+    case FunctionKind::Exists: return asValue(reading_.negation(reading_.isVacant(unread(call.arguments()[0]))));
     case FunctionKind::Sin:
     case FunctionKind::Cos:
-    case FunctionKind::Abs:
-      return reading_.function(call.function, number(call.arguments()[0]));
+    case FunctionKind::Abs: return reading_.function(call.function, number(call.arguments()[0]));
     case FunctionKind::Tan:
     case FunctionKind::Asin:
     case FunctionKind::Acos:
@@ -246,13 +220,11 @@ private:
     case FunctionKind::Ln:
     case FunctionKind::Exp:
     case FunctionKind::Bin:
-    case FunctionKind::Bcd:
-      return inDomain(call.function, number(call.arguments()[0]), spanOf(call.arguments()[0]));
+    case FunctionKind::Bcd: return inDomain(call.function, number(call.arguments()[0]), spanOf(call.arguments()[0]));
     case FunctionKind::Adp:
     case FunctionKind::Prm:
     case FunctionKind::Ax:
-    case FunctionKind::AxNumber:
-      return reading_.anyNumber(); // parameters of the machine
+    case FunctionKind::AxNumber: return reading_.anyNumber(); // parameters of the machine
     }
     return broken(place);
   }
@@ -285,12 +257,9 @@ private:
   }
   Value bySwitch(const Value &natOff, const Value &natOn) {
     switch (context_.dialect().switches.nat) {
-    case Switch::Off:
-      return natOff;
-    case Switch::On:
-      return natOn;
-    case Switch::Unknown:
-      return reading_.either(natOff, natOn);
+    case Switch::Off: return natOff;
+    case Switch::On: return natOn;
+    case Switch::Unknown: return reading_.either(natOff, natOn);
     }
     return natOff;
   }
@@ -317,13 +286,10 @@ private:
   }
   Truth outside(FunctionDomain domain, const Value &argument) {
     switch (domain) {
-    case FunctionDomain::Any:
-      return reading_.truth(false);
+    case FunctionDomain::Any: return reading_.truth(false);
     case FunctionDomain::NotNegative:
-    case FunctionDomain::Bcd:
-      return reading_.compare(Relation::Less, argument, context_.zero());
-    case FunctionDomain::Positive:
-      return reading_.compare(Relation::LessOrEqual, argument, context_.zero());
+    case FunctionDomain::Bcd: return reading_.compare(Relation::Less, argument, context_.zero());
+    case FunctionDomain::Positive: return reading_.compare(Relation::LessOrEqual, argument, context_.zero());
     case FunctionDomain::MinusOneToOne:
       return reading_.compare(Relation::Greater, reading_.function(FunctionKind::Abs, argument), reading_.number(1));
     case FunctionDomain::NotPole: {

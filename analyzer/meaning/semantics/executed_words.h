@@ -26,7 +26,14 @@ template <typename R> struct ExecutedWords {
   /// Groups whose code comes from a variable that can hold several.
   std::vector<std::pair<std::uint8_t, typename R::ModalCode>> computed;
 
+  /// A code that is restored may be one that takes the axis words for itself: where they lead is not known.
+  bool mayTakeAxes = false;
+  /// One of the codes is not known: nothing that the block does can be relied on.
+  bool unfollowed = false;
+
   void clear() {
+    unfollowed = false;
+    mayTakeAxes = false;
     codes.clear();
     computed.clear();
     entries.clear();
@@ -50,8 +57,7 @@ template <typename R> struct ExecutedWords {
 };
 
 /// Fills `words`; codes that call, return or end are left out: they are nodes of their own.
-template <ValueAlgebra R>
-void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words);
+template <ValueAlgebra R> void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words);
 
 /// The least input increment of an address, in the units in force.
 template <ValueAlgebra R>
@@ -113,13 +119,9 @@ private:
     case WordForm::Number:
       return add(word, reading_.truth(true),
                  scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint)));
-    case WordForm::Expression:
-      return readExpression(word, format);
-    case WordForm::Missing:
-      reading_.alarm(reading_.truth(true), {AlarmKind::NoDataAfterAddress, word.span()});
-      return;
-    case WordForm::Name:
-      return;
+    case WordForm::Expression: return readExpression(word, format);
+    case WordForm::Missing: reading_.alarm(reading_.truth(true), {AlarmKind::NoDataAfterAddress, word.span()}); return;
+    case WordForm::Name: return;
     case WordForm::Broken:
       reading_.notModelled("a word that could not be read", word.span());
       return add(word, reading_.unknownTruth(), reading_.anyNumber());
@@ -139,7 +141,7 @@ private:
     add(word, present, roundedToIncrement(context_, format, reading_.asNumber(value)));
   }
   RoundingUnit roundingOf(char address, const AddressFormat &format) const {
-    if (!takesIncrement(format, address))
+    if (!context_.behaviour().roundsWords || !takesIncrement(format, address))
       return {};
     const bool metric = context_.certain(isMetric(context_)) || format.kind == AddressKind::Angle;
     return {metric ? context_.behaviour().leastIncrementMetric : context_.behaviour().leastIncrementInch};
@@ -167,15 +169,43 @@ private:
       return static_cast<std::uint16_t>(*number * 10 + 0.5);
     if (context_.certain(reading_.isVacant(value)))
       return std::nullopt;
-    if (const auto code = word.address() == 'G' ? reading_.codeFrom(value, context_.modes) : std::nullopt)
+    const auto code = word.address() == 'G' ? reading_.codeFrom(value, context_.modes) : std::nullopt;
+    if (code && !isMapping(code->first)) {
       words_.computed.push_back(*code);
-    else
-      reading_.havoc(context_.state, "a code whose number is computed", word.span());
+      words_.mayTakeAxes = words_.mayTakeAxes || mayTakeAxes(code->first, code->second);
+    } else
+      anyCode(word);
     return std::nullopt;
+  }
+  /// Such a code takes the axis words of the block for itself.
+  bool isMapping(std::uint8_t group) const {
+    for (const ModalKind kind : {ModalKind::Scaling, ModalKind::Mirror, ModalKind::Rotation})
+      if (context_.modes.groupOf(kind) == group)
+        return true;
+    return false;
+  }
+  bool mayTakeAxes(std::uint8_t group, const typename R::ModalCode &code) {
+    const auto &codes = context_.modes.group(group).codes;
+    for (std::size_t i = 0; i < codes.size(); ++i)
+      if (const CodeAction action = codes[i]->action;
+          action == CodeAction::Unmodelled || action == CodeAction::OtherCycle ||
+          action == CodeAction::TurningCycle || action == CodeAction::SideCycle)
+        if (reading_.mayBe(reading_.isOneOf(code, CodeMask{1} << i)))
+          return true;
+    return false;
+  }
+  void anyCode(const Word &word) {
+    if (word.address() == 'G') {
+      reading_.alarm(reading_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+      context_.state.transformed = reading_.unknownTruth(); // it may be one that turns or mirrors
+      words_.unfollowed = true;
+    }
+    reading_.havoc(context_.state, "a code whose number is computed", word.span());
   }
   /// Either an alarm, or a macro that the machine's parameters call.
   void unknownCode(const Word &word) {
     reading_.alarm(reading_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+    words_.unfollowed = true;
     reading_.havoc(context_.state, "a G code that the table of the control does not have", word.span());
   }
 
@@ -209,12 +239,10 @@ typename R::Value roundedToIncrement(StepContext<R> &context, const AddressForma
   case AddressKind::Length:
   case AddressKind::Angle:
     return detail::byUnits(context, format, [&](Decimal step) { return context.reading.roundTo(value, step); });
-  case AddressKind::Integer:
-    return context.reading.roundTo(value, Decimal(1, 0));
+  case AddressKind::Integer: return context.reading.roundTo(value, Decimal(1, 0));
   case AddressKind::None:
   case AddressKind::Rate:
-  case AddressKind::Flexible:
-    return value;
+  case AddressKind::Flexible: return value;
   }
   return value;
 }
@@ -226,15 +254,15 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
       context.dialect().switches.dpi == Switch::On)
     return context.reading.literal(literal);
   const auto inIncrements = detail::byUnits(context, format, [&](Decimal step) {
-    return context.reading.literal(Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
+    return context.reading.literal(
+        Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
   });
   if (context.dialect().switches.dpi == Switch::Off)
     return inIncrements;
   return context.reading.either(inIncrements, context.reading.literal(literal));
 }
 
-template <ValueAlgebra R>
-void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
+template <ValueAlgebra R> void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
   words.clear();
   detail::WordReader<R>(context, choice, words).run();
 }

@@ -65,14 +65,25 @@ private:
       if (action == kSpindleActions[i])
         state_.spindle = reading_.code(static_cast<std::uint8_t>(i));
   }
-  /// `G#1` where #1 holds what #4003 said: the mode is restored.
+  /// `G#1` where #1 holds what #4003 said: the mode is restored, and with it whatever depends on it.
   void computedCodes() {
     for (const auto &[group, code] : words_.computed) {
       state_.codes[group] = code;
-      for (const ModalKind kind : {ModalKind::Units, ModalKind::WorkOffset, ModalKind::Length, ModalKind::Scaling,
-                                   ModalKind::Mirror, ModalKind::Rotation, ModalKind::Cycle})
-        if (context_.modes.groupOf(kind) == group)
-          forgetPosition(context_);
+      const auto is = [&, of = group](std::initializer_list<ModalKind> kinds) {
+        return std::any_of(kinds.begin(), kinds.end(),
+                           [&](ModalKind kind) { return context_.modes.groupOf(kind) == of; });
+      };
+      if (is({ModalKind::Units, ModalKind::WorkOffset, ModalKind::Length, ModalKind::Cycle}))
+        forgetPosition(context_);
+      if (is({ModalKind::Units}))
+        for (auto *lengths : {&state_.shift, &state_.local})
+          lengths->fill(reading_.anyNumber());
+      if (is({ModalKind::Units, ModalKind::Length}))
+        state_.lengthOffset = reading_.anyNumber();
+      if (is({ModalKind::Units, ModalKind::Cycle}))
+        for (Value *level : {&state_.cycle.bottom, &state_.cycle.retract, &state_.cycle.initial, &state_.cycle.peck,
+                             &state_.cycle.dwell})
+          *level = reading_.anything();
     }
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
@@ -84,6 +95,11 @@ private:
     if (!cycle || !motion || cycle == motion)
       return;
     bool moves = false;
+    for (const auto &[group, code] : words_.computed) {
+      if (group == *cycle)
+        return;
+      moves = moves || group == *motion;
+    }
     for (const CodeWord &word : words_.codes) {
       if (word.address == 'G' && word.code->group == *cycle)
         return;
@@ -252,9 +268,9 @@ private:
   /// G68 X Y R: the centre is where the tool stands when it is not written.
   void rotation() {
     const std::optional<Plane> plane = planeOf(context_);
-    const Plane turned = plane.value_or(kPlaneXY);
-    state_.transform.centre[0] = wordOr(letterOf(turned.first), state_.at(turned.first));
-    state_.transform.centre[1] = wordOr(letterOf(turned.second), state_.at(turned.second));
+    auto &[first, second] = state_.transform.centre;
+    first = plane ? wordOr(letterOf(plane->first), state_.at(plane->first)) : reading_.anyNumber();
+    second = plane ? wordOr(letterOf(plane->second), state_.at(plane->second)) : reading_.anyNumber();
     state_.transform.angle = plane ? wordOr('R', context_.zero()) : reading_.anyNumber();
   }
   void mirror() {

@@ -1,8 +1,10 @@
-// Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, dwell, shifts.
+// Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, dwell,
+// shifts.
 #pragma once
 
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
+#include "meaning/semantics/offsets.h"
 
 namespace feedhold {
 
@@ -25,7 +27,7 @@ public:
   void run() {
     if (const CodeWord *word = ownWords())
       return consume(*word);
-    if (!hasAxisWords())
+    if (!hasAxisWords() && !isFullCircle())
       return;
     const Truth cycle = cycleActive();
     if (context_.certain(cycle))
@@ -45,41 +47,50 @@ private:
   /// The code of the block, not modal, that takes the axis words for itself.
   const CodeWord *ownWords() const {
     for (const CodeWord &word : words_.codes)
-      if (word.address == 'G' && takesWords(word.code->action, word.code->role))
+      if (word.address == 'G' && takesWords(*word.code))
         return &word;
     return nullptr;
   }
-  static bool takesWords(CodeAction action, CodeRole role) {
-    constexpr std::array kTaking = {
-        CodeAction::Dwell,        CodeAction::LocalShift,      CodeAction::CoordinateSet,   CodeAction::CoordinateSetOff,
-        CodeAction::MachineMove,  CodeAction::ReferenceReturn, CodeAction::SecondReference, CodeAction::ReferenceCheck,
-        CodeAction::Skip,         CodeAction::RotationOn,      CodeAction::ScalingOn,       CodeAction::MirrorOn,
-        CodeAction::MirrorOff,    CodeAction::Unmodelled,      CodeAction::OtherCycle,      CodeAction::TurningCycle,
-        CodeAction::SideCycle};
-    return role == CodeRole::DataSetting || std::find(kTaking.begin(), kTaking.end(), action) != kTaking.end();
+  static bool takesWords(const Code &code) {
+    constexpr std::array kTaking = {CodeAction::Dwell,
+                                    CodeAction::LengthGiven,
+                                    CodeAction::ReferenceStore,
+                                    CodeAction::SecondReferenceStore,
+                                    CodeAction::MachineMove,
+                                    CodeAction::ReferenceReturn,
+                                    CodeAction::SecondReference,
+                                    CodeAction::ReferenceCheck,
+                                    CodeAction::Skip,
+                                    CodeAction::RotationOn,
+                                    CodeAction::ScalingOn,
+                                    CodeAction::MirrorOn,
+                                    CodeAction::MirrorOff,
+                                    CodeAction::Unmodelled,
+                                    CodeAction::OtherCycle,
+                                    CodeAction::TurningCycle,
+                                    CodeAction::SideCycle};
+    return Offsets<R>::isOne(code) || std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
   }
   void consume(const CodeWord &word) {
     const CodeAction action = word.code->action;
     if (action == CodeAction::Dwell)
       dwell();
-    else if (action == CodeAction::LocalShift)
-      localShift();
-    else if (action == CodeAction::CoordinateSet)
-      coordinateSet();
-    else if (action == CodeAction::CoordinateSetOff)
-      coordinateSetOff();
     else if (action == CodeAction::MachineMove)
       machineMove();
     else if (action == CodeAction::ReferenceReturn || action == CodeAction::SecondReference)
       referenceReturn(word);
+    else if (action == CodeAction::ReferenceStore)
+      storeReference(VariableRole::Reference);
+    else if (action == CodeAction::SecondReferenceStore)
+      storeReference(VariableRole::SecondReference);
     else if (action == CodeAction::Skip)
       skip();
     else if (action == CodeAction::TurningCycle) // ends where it starts
       reading_.notModelled(word.code->meaning, word.span);
     else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled)
       unfollowed(word);
-    else if (word.code->role == CodeRole::DataSetting)
-      setData(word);
+    else
+      Offsets<R>(context_, words_).carryOut(word);
   }
   void unfollowed(const CodeWord &word) {
     forgetPosition(context_);
@@ -94,6 +105,8 @@ private:
         return true;
     return context_.dialect().machine == MachineKind::Turning && words_.find('H');
   }
+  /// An arc whose end point is not written ends where it starts.
+  bool isFullCircle() { return (words_.find('I') || words_.find('J') || words_.find('K')) && reading_.mayBe(isArc()); }
   Truth cycleActive() {
     const Truth none = reading_.truth(false);
     const auto group = context_.modes.groupOf(ModalKind::Cycle);
@@ -120,9 +133,9 @@ private:
     const auto isMotion = [&](CodeAction action) {
       return context_.certain(context_.inForce(ModalKind::Motion, {action}, reading_.truth(false)));
     };
-    const MoveKind kind = isMotion(CodeAction::Rapid)                                       ? MoveKind::Rapid
+    const MoveKind kind = isMotion(CodeAction::Rapid)                                    ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
-                                                                                            : MoveKind::Unfollowed;
+                                                                                         : MoveKind::Unfollowed;
     tell(context_, kind, start);
   }
 
@@ -136,7 +149,7 @@ private:
   void followArc(const Point &start, Truth arc) {
     const std::optional<Plane> plane = planeOf(context_);
     if (!plane)
-      return; // only the end point is known
+      return alarmsOfUnknownPlane(arc); // only the end point is known
     const Truth byRadius = present('R');
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
     reading_.alarm(reading_.both(arc, reading_.negation(context_.either(byRadius, byCentre))),
@@ -149,6 +162,13 @@ private:
                    {AlarmKind::ArcRadius, context_.place()});
     if (reading_.wantsMoves() && context_.certain(arc))
       tellArc(start, {*plane, first, second, byRadius});
+  }
+  void alarmsOfUnknownPlane(Truth arc) {
+    const Truth byCentre = reading_.both(arc, reading_.negation(present('R')));
+    const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
+    const Truth without = context_.either(reading_.negation(anyDistance), reading_.unknownTruth());
+    reading_.alarm(reading_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
+    reading_.alarm(reading_.both(byCentre, reading_.unknownTruth()), {AlarmKind::ArcRadius, context_.place()});
   }
   Truth present(char letter) const {
     const auto *entry = words_.find(letter);
@@ -191,8 +211,8 @@ private:
   }
 
   void tellArc(const Point &start, const Arc &arc) {
-    const bool clockwise = context_.certain(
-        context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, reading_.truth(false)));
+    const bool clockwise =
+        context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, reading_.truth(false)));
     Move<Value> move;
     move.kind = clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
     move.start = start;
@@ -233,14 +253,16 @@ private:
     const Truth negative = reading_.compare(Relation::Less, heightSquare, zero);
     const Value height = reading_.function(FunctionKind::Sqrt, reading_.select(negative, zero, heightSquare));
     const Truth noChord = reading_.compare(Relation::Equal, chordSquare, zero);
-    const Value chord = reading_.function(FunctionKind::Sqrt, reading_.select(noChord, reading_.number(1), chordSquare));
+    const Value chord =
+        reading_.function(FunctionKind::Sqrt, reading_.select(noChord, reading_.number(1), chordSquare));
     const Truth longArc = reading_.compare(Relation::Less, entry->value, zero);
-    const Value side = reading_.select(longArc, reading_.number(clockwise ? 1 : -1), reading_.number(clockwise ? -1 : 1));
+    const Value side =
+        reading_.select(longArc, reading_.number(clockwise ? 1 : -1), reading_.number(clockwise ? -1 : 1));
     const Value ratio = reading_.multiply(side, reading_.divide(height, chord));
     const Value first = reading_.subtract(reading_.add(start[indexOf(plane.first)], reading_.divide(a, two)),
                                           reading_.multiply(ratio, b));
-    const Value second = reading_.add(reading_.add(start[indexOf(plane.second)], reading_.divide(b, two)),
-                                      reading_.multiply(ratio, a));
+    const Value second =
+        reading_.add(reading_.add(start[indexOf(plane.second)], reading_.divide(b, two)), reading_.multiply(ratio, a));
     return {first, second};
   }
 
@@ -257,34 +279,6 @@ private:
         move.feed = entry->value;
     reading_.move(move);
   }
-  /// G52: the named axes; the machine stands still.
-  void localShift() {
-    for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis))) {
-        Value &shift = state_.local[indexOf(axis)];
-        const Value wanted = reading_.select(entry->present, entry->value, shift);
-        state_.at(axis) = reading_.add(state_.at(axis), reading_.subtract(shift, wanted));
-        shift = wanted;
-      }
-  }
-  /// G92: the tool stands, from now on, at the named coordinates.
-  void coordinateSet() {
-    for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis))) {
-        Value &position = state_.at(axis);
-        Value &shift = state_.shift[indexOf(axis)];
-        const Value target = reading_.select(entry->present, entry->value, position);
-        shift = reading_.add(shift, reading_.subtract(position, target));
-        position = target;
-      }
-  }
-  void coordinateSetOff() {
-    for (const Axis axis : kAllAxes) {
-      Value &shift = state_.shift[indexOf(axis)];
-      state_.at(axis) = reading_.add(state_.at(axis), shift);
-      shift = context_.zero();
-    }
-  }
   void machineMove() {
     const Point start = state_.position;
     for (const Axis axis : kAllAxes)
@@ -295,26 +289,43 @@ private:
     if (reading_.wantsMoves())
       tellLine(start);
   }
-  /// By way of the programmed point to the reference position, which is the machine's zero for G28.
+  /// By way of the programmed point to the reference position.
   void referenceReturn(const CodeWord &word) {
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
     tell(context_, MoveKind::Rapid, start);
     const Point between = state_.position;
+    const bool all = context_.behaviour().bareReferenceReturn && !hasAxisWords();
     for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis)))
-        home(axis, entry->present, word.code->action);
+      if (const auto *entry = words_.find(letterOf(axis)); entry || all)
+        home(axis, entry ? entry->present : reading_.truth(true), word);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
-        home(axis, entry->present, word.code->action);
+        home(axis, entry->present, word);
     tell(context_, MoveKind::Rapid, between);
   }
-  void home(Axis axis, Truth present, CodeAction action) {
+  void home(Axis axis, Truth present, const CodeWord &word) {
     Value &position = state_.at(axis);
-    const Value reference = action == CodeAction::ReferenceReturn
-                                ? reading_.subtract(context_.zero(), originOf(context_, axis))
-                                : reading_.anyNumber();
+    const Value reference = reading_.subtract(referencePosition(axis, word), originOf(context_, axis));
     position = reading_.select(present, reference, position);
+  }
+  /// Machine coordinate; that of G28 is the machine's zero where no variable says otherwise.
+  Value referencePosition(Axis axis, const CodeWord &word) {
+    const bool isFirst = word.code->action == CodeAction::ReferenceReturn;
+    if (const VariableRange *range = referenceRange(isFirst ? VariableRole::Reference : VariableRole::SecondReference))
+      return offsetVariable(context_, range->first + static_cast<std::uint32_t>(indexOf(axis)));
+    if (isFirst)
+      return context_.zero();
+    reading_.notModelled("where the second reference position lies", word.span);
+    return reading_.anyNumber();
+  }
+  const VariableRange *referenceRange(VariableRole role) const { return rangeWithRole(context_.dialect(), role); }
+  void storeReference(VariableRole role) {
+    const VariableRange *range = referenceRange(role);
+    for (const Axis axis : kAllAxes)
+      if (range)
+        state_.variables.set(range->first + static_cast<std::uint32_t>(indexOf(axis)),
+                             reading_.add(state_.at(axis), originOf(context_, axis)));
   }
   /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
   void skip() {
@@ -328,41 +339,6 @@ private:
         for (std::uint32_t axis = 0; axis < kAxisCount && range.first + axis <= range.last; ++axis)
           state_.variables.set(range.first + axis, state_.position[axis]);
     tell(context_, MoveKind::Probe, start);
-  }
-
-  // ---- G10 ----
-
-  void setData(const CodeWord &word) {
-    const auto *kind = words_.find('L');
-    const std::optional<double> which = kind ? reading_.constantOf(kind->value) : std::nullopt;
-    if (which == 2.0)
-      return setWorkOffset(word);
-    if (which == 50.0 || which == 52.0)
-      return; // parameters of the machine
-    forgetStored(word);
-  }
-  void setWorkOffset(const CodeWord &word) {
-    const auto *system = words_.find('P');
-    const std::optional<double> number = system ? reading_.constantOf(system->value) : std::nullopt;
-    if (!number || *number < 0 || *number > 9)
-      return forgetStored(word);
-    const Truth absolute = context_.inForce(ModalKind::Distance, {CodeAction::Absolute}, reading_.truth(true));
-    for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis))) {
-        const std::uint32_t variable = kFirstWorkOffset +
-                                       kWorkOffsetStride * static_cast<std::uint32_t>(*number) +
-                                       static_cast<std::uint32_t>(indexOf(axis));
-        const Value old = offsetVariable(context_, variable);
-        const Value wanted = reading_.select(absolute, entry->value, reading_.add(old, entry->value));
-        writeWorkOffset(context_, variable, reading_.select(entry->present, wanted, old));
-      }
-  }
-  void forgetStored(const CodeWord &word) {
-    for (const VariableRange &range : context_.dialect().variables)
-      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset)
-        reading_.forgetVariables(state_, range.first, range.last);
-    forgetPosition(context_);
-    reading_.notModelled("offsets set by G10", word.span);
   }
 
   StepContext<R> &context_;

@@ -9,8 +9,7 @@ namespace feedhold {
 
 /// Instructions that have one successor.  `words` is scratch memory that a run keeps.  The others (tests, jumps, calls,
 /// returns, ends) change nothing here.
-template <ValueAlgebra R>
-void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words);
+template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words);
 
 /// Whether the block that has just been executed moved an axis: a modal macro is called then.
 template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words);
@@ -43,7 +42,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
     const auto index = evaluate(context, indirect->index);
     if (const auto number = variableAt(context, index, expression.span))
       return writeVariable(context, *number, std::move(value), expression.span);
-    return reading.writeAnyOf(context.state, reading.asNumber(index), value);
+    return reading.writeAnyOf(context.state, reading.asNumber(index), value, expression.span);
   } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
     if (const auto number = context.programs.variableOf(context.file.file, named->name))
       return writeVariable(context, *number, std::move(value), expression.span);
@@ -67,8 +66,14 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
       store(context, assignment->target, std::move(*value++));
 }
 
-template <ValueAlgebra R> typename R::Truth &enteredLoop(MachineState<R> &state, std::uint8_t number,
-                                                         typename R::Truth initial) {
+template <ValueAlgebra R>
+void setNamed(StepContext<R> &context, std::string_view name, const typename R::Value &value) {
+  if (const auto number = context.programs.variableNamed(name))
+    context.state.variables.set(*number, value);
+}
+
+template <ValueAlgebra R>
+typename R::Truth &enteredLoop(MachineState<R> &state, std::uint8_t number, typename R::Truth initial) {
   for (auto &[loop, entered] : state.enteredLoops)
     if (loop == number)
       return entered;
@@ -79,6 +84,10 @@ template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice 
   readWords(context, choice, words);
   applyModes(context, words);
   applyMotion(context, words);
+  if (words.mayTakeAxes)
+    forgetPosition(context);
+  if (words.unfollowed)
+    context.reading.havoc(context.state, "a code that is not known", context.place());
 }
 
 template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCount &start) {
@@ -91,8 +100,7 @@ template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCo
 
 } // namespace detail
 
-template <ValueAlgebra R>
-void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
+template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
   R &reading = context.reading;
   if (const auto *execute = std::get_if<ExecuteWords>(&instruction))
     return detail::executeWords(context, execute->which, words);
@@ -147,9 +155,11 @@ template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, 
 template <ValueAlgebra R>
 std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from) {
   R &reading = context.reading;
-  if (from.value)
-    if (const auto number = context.programs.variableNamed("_value"))
-      context.state.variables.set(*number, reading.asNumber(evaluate(context, *from.value)));
+  if (context.dialect().grammar.namedParameters && !from.target) {
+    const auto value = from.value ? reading.asNumber(evaluate(context, *from.value)) : context.zero();
+    detail::setNamed(context, "_value", value);
+    detail::setNamed(context, "_value_returned", reading.number(from.value ? 1 : 0));
+  }
   if (!from.target)
     return std::nullopt;
   const Word &word = context.tree().words[*from.target];

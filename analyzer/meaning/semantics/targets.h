@@ -37,19 +37,18 @@ template <ValueAlgebra R>
 void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words, std::array<typename R::Value, kAxisCount> &target) {
   R &reading = context.reading;
   const auto polar = context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false));
-  const auto off = context.inForce(ModalKind::Polar, {CodeAction::PolarOff}, reading.truth(true));
-  if (!context.certain(polar) && !context.certain(off) && !reading.mayBe(polar))
+  if (!reading.mayBe(polar))
     return;
-  if (!context.certain(polar))
-    return; // as at the start of the run: coordinates are those of the program
   const std::optional<Plane> plane = planeOf(context);
-  if (!plane)
-    return forgetPosition(context);
+  if (!plane) {
+    target.fill(reading.anyNumber());
+    return;
+  }
   const auto *radius = words.find(letterOf(plane->first));
   const auto *angle = words.find(letterOf(plane->second));
   auto &first = target[indexOf(plane->first)];
   auto &second = target[indexOf(plane->second)];
-  if (!radius || !angle || !context.certain(isAbsolute(context))) {
+  if (!radius || !angle || !context.certain(isAbsolute(context)) || !context.certain(polar)) {
     if (radius || angle)
       first = second = reading.anyNumber();
     return;

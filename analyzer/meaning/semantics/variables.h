@@ -19,6 +19,8 @@ std::optional<std::uint32_t> variableAt(StepContext<R> &context, const typename 
   const auto number = reading.asNumber(index);
   reading.alarm(reading.compare(Relation::Less, number, reading.number(-0.5)),
                 {AlarmKind::VariableNotAvailable, place});
+  reading.alarm(reading.compare(Relation::Greater, number, reading.number(1e9)),
+                {AlarmKind::VariableNotAvailable, place});
   const std::optional<double> constant = reading.constantOf(number);
   if (!constant || *constant < -0.5 || *constant > 1e9)
     return std::nullopt;
@@ -171,6 +173,8 @@ void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Va
   }
   if (range->role == VariableRole::Alarm)
     return reading.userAlarm(value, place);
+  if (range->kind == VariableKind::System) // cells of the control hold numbers
+    value = reading.asNumber(value);
   if (range->role == VariableRole::WorkOffset)
     return detail::writeWorkOffset(context, number, value);
   if (range->role != VariableRole::MessageStop && range->role != VariableRole::Volatile)
