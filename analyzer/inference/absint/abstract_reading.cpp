@@ -164,9 +164,12 @@ AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
     return value; // a multiple of the step already
   if (step.scale() == 0 && step.mantissa() == 1)
     return valueOf(feedhold::round(number));
-  const AbstractNumber unit = AbstractNumber::constant(step);
-  const auto steps = feedhold::divide(number, unit);
-  return steps ? valueOf(feedhold::multiply(feedhold::round(*steps), unit)) : valueOf(number);
+  // In the order in which the machine computes: how many steps there are in 1 is whole, a step seldom a double.
+  const auto perUnit = feedhold::divide(AbstractNumber::constant(std::pow(10.0, step.scale())),
+                                        AbstractNumber::constant(static_cast<double>(step.mantissa())));
+  const auto rounded =
+      perUnit ? feedhold::divide(feedhold::round(feedhold::multiply(number, *perUnit)), *perUnit) : std::nullopt;
+  return valueOf(rounded.value_or(number));
 }
 
 AbstractValue AbstractReading::function(FunctionKind kind, const Value &argument) const {

@@ -50,6 +50,8 @@ public:
 
   // ---- for the engine ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+  /// The mode of polar coordinates is taken to be left as it is by what is not followed.
+  void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   void observe(StepObserver *observer) { observer_ = observer; }
   StepObserver *observer() const { return observer_; }
   /// Every run has stopped in the step: nothing goes on from here.
@@ -111,8 +113,8 @@ public:
   Value unwritten(const State &state, std::uint32_t variable) const;
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
   Value toolLength(const State &, const Value &) const { return AbstractValue::anyNumber(); }
-  Value readAnyOf(State &state, const Value &index);
-  void writeAnyOf(State &state, const Value &index, const Value &value);
+  Value readAnyOf(State &state, const Value &index, Span place);
+  void writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
   Value between(const Value &start, const Value &end) const;
   void join(State &state, Truth truth, const State &second);
@@ -130,8 +132,12 @@ public:
   }
 
 private:
+  enum class Use : std::uint8_t { Read, Write };
+  void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
+
   const Dialect *dialect_;
   StepObserver *observer_ = nullptr;
+  std::optional<std::uint8_t> polarGroup_;
   std::uint32_t nextSymbol_ = kFirstFreshSymbol;
   bool stopped_ = false;
   bool mayHaveDividedByZero_ = false;

@@ -298,6 +298,19 @@ void AbstractReading::forgetVariables(State &state, std::uint32_t first, std::ui
   std::erase_if(entries, [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
 
+namespace {
+
+void anyMapping(AbstractState &state) {
+  for (auto *numbers : {&state.transform.scale, &state.transform.scaleCentre})
+    numbers->fill(AbstractValue::anyNumber());
+  state.transform.mirrorAt.fill(AbstractValue::any());
+  state.transform.angle = AbstractValue::anyNumber();
+  state.transform.centre.fill(AbstractValue::anyNumber());
+  state.transformed = Truth::Maybe;
+}
+
+} // namespace
+
 void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);
   forgetVariables(state, 0, 0xffffffff);
@@ -306,10 +319,17 @@ void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
   for (auto *numbers : {&state.position, &state.shift, &state.local})
     numbers->fill(AbstractValue::anyNumber());
   state.lengthOffset = AbstractValue::anyNumber();
-  noMapping(*this, state); // positions are unknown: they may as well be told under whatever mapping is in force now
+  // What is not followed is taken to leave no mapping in force, as at entry; one of the program's own may stay or end.
+  if (state.transformed == Truth::False)
+    noMapping(*this, state);
+  else
+    anyMapping(state);
   for (AbstractValue &counter : state.counters)
     counter = AbstractValue::anyNumber();
+  const CodeSet polar = polarGroup_ && state.transformed == Truth::False ? state.codes[*polarGroup_] : unknownCode();
   state.codes.fill(unknownCode());
+  if (polarGroup_)
+    state.codes[*polarGroup_] = polar;
   state.spindle = unknownCode();
   state.modalCallsUnknown = Truth::Maybe;
   for (auto &loop : state.enteredLoops)
@@ -341,7 +361,31 @@ bool hasIndex(const AbstractValue &index, std::uint32_t variable) {
 
 } // namespace
 
-AbstractValue AbstractReading::readAnyOf(State &state, const Value &index) {
+/// Of a variable that may be one of several: some may not exist, or be protected, or stop the program.
+void AbstractReading::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
+  const IndexRange range = indicesOf(index).value_or(IndexRange{0, kFirstNamedVariable - 1});
+  std::uint64_t existing = 0;
+  bool isProtected = false;
+  bool stops = false;
+  for (const VariableRange &row : dialect_->variables) {
+    const std::uint32_t first = std::max(row.first, range.first);
+    const std::uint32_t last = std::min(row.last, range.last);
+    if (first > last || (first == last && !hasIndex(index, first)))
+      continue;
+    existing += last - first + 1;
+    isProtected = isProtected || row.access == (use == Use::Read ? VariableAccess::WriteOnly : VariableAccess::ReadOnly);
+    stops = stops || (use == Use::Write && row.role == VariableRole::Alarm);
+  }
+  if (existing <= range.last - range.first)
+    alarm(Truth::Maybe, {AlarmKind::VariableNotAvailable, place});
+  if (isProtected)
+    alarm(Truth::Maybe, {use == Use::Read ? AlarmKind::ReadProtected : AlarmKind::WriteProtected, place});
+  if (stops && observer_ && !stopped_)
+    observer_->userAlarm(value, place);
+}
+
+AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span place) {
+  alarmsOfAnyOf(index, Use::Read, index, place);
   const auto range = indicesOf(index);
   if (!range || range->last - range->first > kMostIndices)
     return anything();
@@ -360,7 +404,8 @@ AbstractValue AbstractReading::readAnyOf(State &state, const Value &index) {
   return all.value_or(anything());
 }
 
-void AbstractReading::writeAnyOf(State &state, const Value &index, const Value &value) {
+void AbstractReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+  alarmsOfAnyOf(index, Use::Write, value, place);
   const IndexRange range = indicesOf(index).value_or(IndexRange{0, 0xffffffff});
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
     if (range.first <= local && local <= range.last && hasIndex(index, local))

@@ -57,8 +57,8 @@ public:
   /// A program that is gone through with nothing known is none of this one's either.
   void resumed(Place place, std::span<const Place> calls) override {
     place_ = place;
-    const bool own = place.file == facts_.file.file && holds(place.node);
-    outer_ = !calls.empty() ? std::optional(calls.front().node) : own ? std::nullopt : std::optional(facts_.entry());
+    const bool own = place.file == facts_.file.file && holds(place.node); // by M97 it calls parts of itself
+    outer_ = own ? std::nullopt : std::optional(calls.empty() ? facts_.entry() : calls.front().node);
   }
   void left(Place place, const AbstractState &state) override {
     if (!outer_)

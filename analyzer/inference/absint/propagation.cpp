@@ -244,16 +244,32 @@ bool Propagation::jump(NodeId node, const JumpTo &target, AbstractState &state) 
         findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
     AbstractState there = state;
     AbstractContext arriving = contextAt(node, there);
-    if (place && assumeEqual(arriving, target.target, label.number))
+    if (place && assumeRoundsTo(arriving, target.target, label.number))
       go(*place, std::move(there));
   }
-  const auto values = number.number().set().values();
-  const bool allFound = !values.empty() && std::all_of(values.begin(), values.end(), [&](double value) {
-    return value >= 0 && value < 1e9 && reached.contains(static_cast<std::uint32_t>(value));
-  });
-  reading_.alarm(reached.empty() ? Truth::True : allFound ? Truth::False : Truth::Maybe,
-                 {AlarmKind::SequenceNotFound, context.place()});
+  searchAlarms(node, number);
   return false;
+}
+
+/// Of a search for a sequence number that several labels may have.
+void Propagation::searchAlarms(NodeId node, const AbstractValue &number) {
+  const Dialect &dialect = *facts_.file->dialect;
+  const BlockId from = nodeAt(node).block;
+  const Span place = facts_.file->tree->blocks[from].span();
+  const double lowest = dialect.grammar.sequenceZero ? 0 : 1;
+  const Truth inRange = conjunction(
+      isAtMost(AbstractNumber::constant(lowest), number.number()),
+      isAtMost(number.number(), AbstractNumber::constant(static_cast<double>(dialect.limits.lastSequenceNumber))));
+  reading_.alarm(negate(inRange), {AlarmKind::SequenceOutOfRange, place});
+  const auto exists = [&](double value) {
+    return value >= lowest && value <= static_cast<double>(dialect.limits.lastSequenceNumber) &&
+           findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, static_cast<std::uint32_t>(value), from);
+  };
+  const auto values = number.number().set().values();
+  const bool some = values.empty() || std::any_of(values.begin(), values.end(), exists);
+  const bool all = !values.empty() && std::all_of(values.begin(), values.end(), exists);
+  if (mayBeTrue(inRange))
+    reading_.alarm(all ? Truth::False : some ? Truth::Maybe : Truth::True, {AlarmKind::SequenceNotFound, place});
 }
 
 bool Propagation::leave(NodeId node, const ReturnFromProgram &from, AbstractState &state) {
@@ -262,10 +278,16 @@ bool Propagation::leave(NodeId node, const ReturnFromProgram &from, AbstractStat
   if (pass_ == Pass::Walk)
     engine_.visitor_->ended(placeOf(node), PathEnd::Returns, state);
   if (target && engine_.open_.size() <= 1) // started by the operator: M99 P stays in the program
-    for (const NodeId label : returnsWithin(facts_.file->cfg, *facts_.file->model, node))
-      go(label, state);
+    startAgainAt(node, *target, state);
   addExit(target, std::move(state));
   return false;
+}
+
+void Propagation::startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state) {
+  for (const NodeId label : returnsWithin(facts_.file->cfg, *facts_.file->model, node))
+    go(label, state);
+  searchAlarms(node, target);
+  reading_.start();
 }
 
 void Propagation::addExit(std::optional<AbstractValue> target, AbstractState state) {

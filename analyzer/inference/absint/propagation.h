@@ -51,10 +51,16 @@ private:
 
   bool modalCalls(NodeId node, AbstractState &state);
   std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  std::optional<AbstractState> enterUnfollowed(NodeId node, const CallRequest<AbstractReading> &request,
+                                               AbstractState state);
+  void nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state);
   std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
   std::optional<AbstractState> once(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
   void addTo(std::optional<AbstractState> &all, AbstractState state);
+  void walkInto(NodeId node, const CallRequest<AbstractReading> &request, Summary &summary);
+  void searchAlarms(NodeId node, const AbstractValue &number);
   void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
+  void startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state);
   void addExit(std::optional<AbstractValue> target, AbstractState state);
   void unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
                    std::string_view reason);
@@ -70,6 +76,7 @@ private:
   std::map<std::uint32_t, Partitions> pending_; // by position
   std::map<std::uint32_t, Partitions> arrived_;
   std::map<std::uint32_t, int> visits_; // of heads
+  std::optional<std::size_t> modal_;    // the modal call that is being entered
   std::set<std::uint32_t> passed_;      // heads that have been gone through in this pass
   std::vector<Work> work_;
   bool startAgain_ = false; // a new head has been found: what has passed it was not kept

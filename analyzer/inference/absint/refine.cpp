@@ -100,7 +100,7 @@ public:
     const ExpressionId inner = unwrapped(context_.tree(), id);
     const auto *operation = std::get_if<BinaryOperation>(&context_.tree().expressions[inner].node);
     if (!operation)
-      return holds == Holds::No ? relation(OperatorKind::Equal, inner, context_.reading.number(0)) : true;
+      return holds == Holds::Yes || isZero(inner);
     if (isRelation(operation->op))
       return relation(holds == Holds::Yes ? operation->op : opposite(operation->op), operation->left,
                       operation->right);
@@ -118,6 +118,11 @@ public:
   }
 
 private:
+  /// A vacant value counts as 0 where a number stands for a condition.
+  bool isZero(ExpressionId id) {
+    const AbstractValue zero = context_.reading.number(0);
+    return relation(OperatorKind::GreaterOrEqual, id, zero) && relation(OperatorKind::LessOrEqual, id, zero);
+  }
   AbstractValue value(ExpressionId id) { return evaluate(context_, id); }
 
   /// AND of numbers is bitwise: only conditions say something of their parts.
@@ -297,8 +302,10 @@ bool assume(AbstractContext &context, ExpressionId condition, Holds holds) {
   return Refiner(context).condition(condition, holds);
 }
 
-bool assumeEqual(AbstractContext &context, ExpressionId expression, double value) {
-  return Refiner(context).relation(OperatorKind::Equal, expression, context.reading.number(value));
+bool assumeRoundsTo(AbstractContext &context, ExpressionId expression, double number) {
+  Refiner refiner(context);
+  return refiner.relation(OperatorKind::GreaterOrEqual, expression, context.reading.number(number - 0.5)) &&
+         refiner.relation(OperatorKind::LessOrEqual, expression, context.reading.number(number + 0.5));
 }
 
 bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value) {

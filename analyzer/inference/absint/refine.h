@@ -12,8 +12,8 @@ using AbstractContext = StepContext<AbstractReading>;
 enum class Holds : std::uint8_t { No, Yes };
 bool assume(AbstractContext &context, ExpressionId condition, Holds holds);
 
-/// The expression has this value.
-bool assumeEqual(AbstractContext &context, ExpressionId expression, double value);
+/// The value of the expression is rounded to this whole number; a vacant one counts as 0.
+bool assumeRoundsTo(AbstractContext &context, ExpressionId expression, double number);
 bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value);
 
 } // namespace feedhold

@@ -1,0 +1,263 @@
+#include "soundness/macro_programs.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::soundness {
+
+namespace {
+
+class Writer {
+public:
+  explicit Writer(Random &random) : random_(random) {}
+
+  ProgramLines run() {
+    lines_.push_back("O1");
+    body(6 + random_.below(14));
+    lines_.push_back(random_.oneIn(4) ? "M99" : "M30");
+    for (int program = 2; program <= 4; ++program) {
+      lines_.push_back(fmt::format("O{}", program));
+      inside_ = program;
+      body(2 + random_.below(6));
+      lines_.push_back(random_.oneIn(8) ? "M99P" + label() : "M99");
+    }
+    return std::move(lines_);
+  }
+
+private:
+  void add(std::string line) {
+    std::string head;
+    if (random_.oneIn(12))
+      head = "/";
+    if (random_.oneIn(5))
+      head += "N" + label();
+    lines_.push_back(head + std::move(line));
+  }
+  void body(std::uint32_t blocks) {
+    for (std::uint32_t i = 0; i < blocks; ++i)
+      block();
+  }
+  void block() {
+    switch (random_.below(20)) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+    case 4: return add(assignment());
+    case 5: return add("IF" + condition() + "GOTO" + label());
+    case 6: return add("IF" + condition() + "THEN" + assignment());
+    case 7: return loop();
+    case 8: return countedLoop();
+    case 9: return add(random_.oneIn(3) ? "GOTO" + variable() : "GOTO" + label());
+    case 10:
+    case 11: return add(call());
+    case 12: return add(modes());
+    case 13: return add(shifts());
+    case 14: return add(arcOrCycle());
+    case 15: return add(system());
+    case 16: return saveAndRestore();
+    case 17: return counterUp();
+    default: return add(motion());
+    }
+  }
+
+  // ---- expressions ----
+
+  std::string label() { return random_.of<const char *>({"10", "20", "30", "40"}); }
+  std::string number() {
+    return random_.of<const char *>({"0", "1", "2", "3", "-1", "-2.5", ".5", "1.5", "0.1", ".001", "10", "17.", "90.",
+                                     "45", "100.", "0.3", "7", "30.", "99999999", "-.1", "20"});
+  }
+  std::string variable() {
+    if (random_.oneIn(25))
+      return "#[" + (random_.oneIn(2) ? variable() : expression(1)) + "]";
+    if (random_.oneIn(25))
+      return random_.of<const char *>({"#5001", "#5002", "#5003", "#4001", "#4003", "#4006", "#4109", "#1000", "#5041",
+                                       "#5021", "#5221", "#5061", "#2001", "#0", "#3001", "#5201", "#4014"});
+    return random_.of<const char *>(
+        {"#1", "#2", "#3", "#4", "#5", "#6", "#7", "#1", "#2", "#3", "#100", "#101", "#500", "#33"});
+  }
+  std::string expression(int depth) {
+    if (depth == 0 || random_.oneIn(4))
+      return random_.oneIn(2) ? number() : variable();
+    switch (random_.below(7)) {
+    case 0: return "[" + expression(depth - 1) + "]";
+    case 1: return "-" + variable();
+    case 2: return function(depth - 1);
+    case 3: return "[" + expression(depth - 1) + random_.of<const char *>({" MOD ", "/"}) + expression(depth - 1) + "]";
+    default:
+      return "[" + expression(depth - 1) + random_.of<const char *>({"+", "-", "+", "-", "*", "/", " AND ", " OR ", " XOR "}) +
+             expression(depth - 1) + "]";
+    }
+  }
+  std::string function(int depth) {
+    if (random_.oneIn(8))
+      return "ATAN[" + expression(depth) + "]/[" + expression(depth) + "]";
+    if (random_.oneIn(12))
+      return "POW[" + expression(depth) + "," + number() + "]";
+    return random_.of<const char *>({"SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "LN", "EXP", "FIX",
+                                     "FUP", "ROUND", "FIX", "FUP", "ROUND", "ABS", "BIN", "BCD"}) +
+           std::string("[") + expression(depth) + "]";
+  }
+  std::string relation() {
+    if (random_.oneIn(4))
+      return variable() + random_.of<const char *>({" EQ #0", " NE #0", " GT #0", " LE #0"});
+    return (random_.oneIn(3) ? expression(1) : variable()) + " " +
+           random_.of<const char *>({"EQ", "NE", "GT", "GE", "LT", "LE"}) + " " + expression(1);
+  }
+  std::string condition() {
+    if (random_.oneIn(5))
+      return "[[" + relation() + "] " + random_.of<const char *>({"AND", "OR", "XOR"}) + " [" + relation() + "]]";
+    return random_.oneIn(12) ? "[" + variable() + "]" : "[" + relation() + "]";
+  }
+  std::string assignment() {
+    if (random_.oneIn(6))
+      return variable() + "=#0";
+    if (random_.oneIn(4))
+      return variable() + "=" + variable();
+    return variable() + "=" + expression(2);
+  }
+
+  // ---- control flow ----
+
+  void loop() {
+    if (loops_ == 3)
+      return add(assignment());
+    ++loops_;
+    const int number = random_.oneIn(10) ? 1 : loops_;
+    add((random_.oneIn(8) ? std::string() : "WHILE" + condition()) + fmt::format("DO{}", number));
+    body(1 + random_.below(4));
+    lines_.push_back(fmt::format("END{}", number));
+    --loops_;
+  }
+  /// A loop that comes to its end, as most do.
+  void countedLoop() {
+    if (loops_ == 3)
+      return add(motion());
+    ++loops_;
+    const std::string counter = random_.of<const char *>({"#10", "#11", "#12", "#110"});
+    const std::string step = random_.of<const char *>({"1", ".5", "2", "0.1", "#7"});
+    const std::string other = random_.of<const char *>({"#1", "#2", "#3", "#101"});
+    lines_.push_back(counter + "=" + random_.of<const char *>({"0", "1", "#1", "-3"}));
+    lines_.push_back(fmt::format("WHILE[{} LT {}]DO{}", counter, random_.of<const char *>({"5", "3.5", "#2", "10"}), loops_));
+    if (random_.oneIn(2))
+      lines_.push_back(other + "=" + other + random_.of<const char *>({"+", "-"}) + step);
+    body(random_.below(3));
+    lines_.push_back(counter + "=" + counter + "+" + step);
+    lines_.push_back(fmt::format("END{}", loops_));
+    --loops_;
+  }
+  void counterUp() {
+    const std::string name = label();
+    const std::string counter = variable();
+    lines_.push_back("N" + name + counter + "=" + counter + "+" + number());
+    block();
+    lines_.push_back("IF[" + counter + " LT " + number() + "]GOTO" + name);
+  }
+  std::string call() {
+    const std::string program = random_.oneIn(20) ? random_.of<const char *>({"9", "#1", "1"})
+                                : random_.oneIn(8) ? fmt::format("{}", inside_)
+                                                   : fmt::format("{}", 2 + random_.below(3));
+    const std::string repeats = random_.oneIn(5) ? "L" + (random_.oneIn(4) ? "#" + fmt::format("{}", 1 + random_.below(3)) : random_.of<const char *>({"0", "2", "3", "7"})) : "";
+    switch (random_.below(6)) {
+    case 0:
+    case 1: return "M98P" + program + repeats;
+    case 2: return "G66P" + program + arguments();
+    case 3: return "G67";
+    default: return "G65P" + program + repeats + arguments();
+    }
+  }
+  std::string arguments() {
+    std::string text;
+    for (const char letter : {'A', 'B', 'C', 'I', 'J', 'D', 'X', 'Z', 'F'})
+      if (random_.oneIn(3))
+        text += letter + (random_.oneIn(2) ? number() : random_.oneIn(3) ? "[" + expression(1) + "]" : simpleVariable());
+    return text;
+  }
+  std::string simpleVariable() { return random_.of<const char *>({"#1", "#2", "#3", "#4", "#100", "#500", "#0"}); }
+
+  // ---- words ----
+
+  std::string operand() {
+    if (random_.oneIn(2))
+      return number();
+    return random_.oneIn(3) ? "[" + expression(1) + "]" : (random_.oneIn(6) ? "-" : "") + simpleVariable();
+  }
+  std::string words(std::string_view letters) {
+    std::string text;
+    for (const char letter : letters)
+      if (random_.oneIn(2))
+        text += letter + operand();
+    return text;
+  }
+  std::string motion() {
+    const std::string code = random_.of<const char *>({"G0", "G1", "", "", "G91", "G90", "G91G1", "G90G0", "G28", "G31",
+                                                       "G53G0", "G4", "G30", "G94", "G40", "G41"});
+    return code + words("XYZ") + (random_.oneIn(4) ? words("FSTDH") : "") + random_.of<const char *>({"", "", "M3", "M5", "M8"});
+  }
+  std::string modes() {
+    return random_.of<const char *>({"G90", "G91", "G17", "G18", "G19", "G20", "G21", "G54", "G55", "G59", "G98", "G99",
+                                     "G80", "G94", "G95", "G49", "G43H1", "G43H#1", "G15", "G16", "G54.1P1", "G96S100",
+                                     "G97", "G0", "G1", "M3S500", "F100", "F#2", "S#3", "T#1", "G#1", "G[#100]", "M#2"});
+  }
+  std::string shifts() {
+    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1", "G10L12P1",
+                                     "G92.1", "G69", "G50.1", "G50"}) +
+           words("XYZ") + (random_.oneIn(3) ? "R" + operand() : "") + (random_.oneIn(6) ? "P" + number() : "");
+  }
+  std::string arcOrCycle() {
+    if (random_.oneIn(2))
+      return random_.of<const char *>({"G2", "G3", "G17G2", "G18G3"}) + words("XYZ") +
+             (random_.oneIn(2) ? "R" + operand() : words("IJK"));
+    return random_.of<const char *>({"G81", "G83", "G73", "G82", "G98G81", "G99G81", "G91G81", "G85", "G76"}) +
+           words("XYZRQ") + (random_.oneIn(5) ? random_.of<const char *>({"K2", "K0", "K#1", "L3"}) : "");
+  }
+  std::string system() {
+    return random_.of<const char *>({"#3000=1(STOP)", "#3000=#1", "#5221=#1", "#5222=[#5222+1]", "#5201=.5", "#2001=#2",
+                                     "#3003=0", "#3006=1", "#1100=1", "#3901=#3", "#[#1]=5", "#[#1+100]=#2",
+                                     "#[99+#3]=#0", "#3000=#0", "#4001=1", "#5001=0", "#1=#3012"});
+  }
+  void saveAndRestore() {
+    const std::string group = random_.of<const char *>({"4001", "4002", "4003", "4006", "4014", "4010"});
+    const std::string keep = random_.of<const char *>({"#31", "#32", "#105"});
+    add(keep + "=#" + group);
+    block();
+    block();
+    add("G" + keep);
+    if (random_.oneIn(2))
+      add(motion());
+  }
+
+  Random &random_;
+  ProgramLines lines_;
+  int loops_ = 0;
+  int inside_ = 1;
+};
+
+} // namespace
+
+std::uint64_t Random::next() {
+  std::uint64_t mixed = state_ += 0x9E3779B97F4A7C15ULL;
+  mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBULL;
+  return mixed ^ (mixed >> 31);
+}
+
+ProgramLines macroProgram(Random &random) { return Writer(random).run(); }
+
+std::string textOf(const ProgramLines &lines) {
+  std::string text = "%\n";
+  for (const std::string &line : lines)
+    text += line + "\n";
+  return text + "%\n";
+}
+
+double anyInput(Random &random) {
+  switch (random.below(4)) {
+  case 0: return random.of({0.0, 1.0, 2.0, 3.0, 10.0, 20.0, -1.0, 30.0});
+  case 1: return random.of({0.1, 0.3, -0.1, 0.001, 12.345, -2.5, 0.5, 1e-9});
+  case 2: return static_cast<double>(random.below(2000)) - 1000;
+  default: return (static_cast<double>(random.below(2'000'000)) - 1e6) / 1000;
+  }
+}
+
+} // namespace feedhold::soundness
