@@ -8,6 +8,11 @@
 namespace feedhold::rules {
 namespace {
 
+/// To the block, or to a lone sequence number before it.
+bool leadsTo(const FlowFacts &facts, const Jump &jump, BlockId block) {
+  return jump.target && facts.node(facts.file.cfg.nodeOf(*jump.target)).block == block;
+}
+
 /// A jump to the block whose condition has its outcome for other reasons than a wrong check.
 bool isReserve(const FlowFacts &facts, const Jump &jump) {
   const auto statements = facts.file.tree->statementsOf(jump.block);
@@ -27,12 +32,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         reachedNode(facts, use.block))
       continue;
     const auto all = context.model.jumpsOf(facts.program);
-    if (std::ranges::any_of(all, [&](const Jump &jump) { return jump.target == use.block && isReserve(facts, jump); }))
+    if (std::ranges::any_of(
+            all, [&](const Jump &jump) { return leadsTo(facts, jump, use.block) && isReserve(facts, jump); }))
       continue;
     const Span span = context.tree.expressions[use.expression].span;
     std::vector<Label> jumps;
     for (const Jump &jump : all)
-      if (jump.target == use.block)
+      if (leadsTo(facts, jump, use.block))
         jumps.push_back({jump.span, "never leads there"});
     reporter.report({.message = "this alarm never comes: no run reaches it",
                      .span = span,

@@ -55,30 +55,35 @@ private:
         return true;
     return false;
   }
-  void add(ExpressionId id, ReadUse use) {
-    const Expression &expression = tree_.expressions[id];
+  /// Without recursion: a sum is a tree as deep as it is long.
+  void add(ExpressionId root, ReadUse use) {
+    pending_.push_back({root, use});
+    while (!pending_.empty()) {
+      const auto [id, useOfId] = pending_.back();
+      pending_.pop_back();
+      addOne(id, useOfId);
+    }
+  }
+  void addOne(ExpressionId id, ReadUse use) {
+    const auto later = [&](ExpressionId part, ReadUse useOfPart) { pending_.push_back({part, useOfPart}); };
     match(
-        expression.node, [](const NumberLiteral &) {}, [](const BrokenExpression &) {},
-        [&](const NumberedVariable &) {
-          reads_.push_back({id, variableNumber(tree_, id), use, block_});
-        },
-        [&](const NamedVariable &) {
-          reads_.push_back({id, std::nullopt, use, block_});
-        },
+        tree_.expressions[id].node, [](const NumberLiteral &) {}, [](const BrokenExpression &) {},
+        [&](const NumberedVariable &) { reads_.push_back({id, variableNumber(tree_, id), use, block_}); },
+        [&](const NamedVariable &) { reads_.push_back({id, std::nullopt, use, block_}); },
         [&](const IndirectVariable &variable) {
           reads_.push_back({id, std::nullopt, use, block_});
-          add(variable.index, ReadUse::Other);
+          later(variable.index, ReadUse::Other);
         },
-        [&](const Negation &negation) { add(negation.operand, ReadUse::Computed); },
-        [&](const Identity &identity) { add(identity.operand, use); },
-        [&](const Bracketed &bracketed) { add(bracketed.inner, use); },
+        [&](const Negation &negation) { later(negation.operand, ReadUse::Computed); },
+        [&](const Identity &identity) { later(identity.operand, use); },
+        [&](const Bracketed &bracketed) { later(bracketed.inner, use); },
         [&](const BinaryOperation &operation) {
-          add(operation.left, useIn(operation.op));
-          add(operation.right, useIn(operation.op));
+          later(operation.right, useIn(operation.op));
+          later(operation.left, useIn(operation.op));
         },
         [&](const FunctionCall &call) {
-          for (const ExpressionId argument : call.arguments())
-            add(argument, ReadUse::Computed);
+          for (std::size_t i = call.arguments().size(); i-- > 0;)
+            later(call.arguments()[i], ReadUse::Computed);
         });
   }
   static ReadUse useIn(OperatorKind op) {
@@ -91,6 +96,7 @@ private:
   const ProgramFile &file_;
   BlockId block_;
   std::vector<Read> reads_;
+  std::vector<std::pair<ExpressionId, ReadUse>> pending_;
 };
 
 /// The index of `#[..]` may be the number of a local variable: unless a constant that is added leads beyond them.

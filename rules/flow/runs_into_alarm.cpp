@@ -52,7 +52,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!before || !isJumpTarget(facts, block))
       continue;
     const BlockId last = facts.node(*before).block;
-    const bool isCall = std::holds_alternative<CallProgram>(facts.node(*before).instruction);
+    const auto *call = std::get_if<CallProgram>(&facts.node(*before).instruction);
+    const bool isCall = call && facts.programs.callee(context.file, call->call); // an unknown one may end the run
     if ((!isCall && !moves(context, last)) || isRetreat(facts, *before))
       continue;
     reporter.report({.message = "the program runs into this alarm at its end",
