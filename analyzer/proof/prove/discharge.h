@@ -1,0 +1,77 @@
+// discharge: the only place where a formula becomes Proved.
+#pragma once
+
+#include "proof/smt/model.h"
+#include "proof/smt/term.h"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// "Whenever all assumptions hold and every function and quotient in them is defined, the goal holds."  Facts about
+/// functions are added by discharge, each guarded by its domain, so that a term that is undefined never proves
+/// anything.
+struct Query {
+  std::vector<smt::TermId> assumptions; ///< Bool
+  smt::TermId goal;                     ///< Bool
+};
+
+/// How much work may be done, in units that do not depend on the machine.
+struct Budget {
+  /// Steps of the certificate search: coefficients touched (about 10 million in a second).
+  std::uint64_t search = 8'000'000;
+  /// Resource units of Z3 (about a million in a second); 0: Z3 is not asked.
+  std::uint64_t z3 = 2'000'000;
+  /// Resource units of cvc5; 0: cvc5 is not asked.
+  std::uint64_t cvc5 = 200'000;
+
+  /// For the many small questions of a search for invariants: linear reasoning and few splits, no solver.
+  static Budget quick() { return {.search = 300'000, .z3 = 0, .cvc5 = 0}; }
+};
+
+enum class Grade : std::uint8_t {
+  Certified,  ///< a certificate was found, and the checker of `check/` verified it
+  TwoSolvers, ///< two solvers of different makers answer `unsat` on the same text
+};
+
+/// The texts that `check::readClaim` and `check::readCertificate` read.
+struct CertificateEvidence {
+  std::string claim;
+  std::string certificate;
+};
+struct SolverEvidence {
+  std::string smtlib;
+  std::vector<std::string> solvers; ///< names and versions
+};
+
+struct Proved {
+  Grade grade;
+  std::variant<CertificateEvidence, SolverEvidence> evidence;
+};
+/// Values that seem to break the goal.  A candidate: roots may be rounded, and functions such as a sine are known to
+/// the search by some of their facts only.  The concrete machine must replay it.
+struct Counterexample {
+  smt::Model model;
+};
+struct Unknown {
+  std::string reason; ///< lower case, no full stop
+};
+
+struct Outcome {
+  std::variant<Proved, Counterexample, Unknown> answer;
+  std::string method;       ///< `folding`, `linear`, `products`, `z3`, `z3+cvc5`: who found the answer
+  std::uint64_t effort = 0; ///< units spent, of all kinds together; the same in every run
+
+  bool proved() const { return std::holds_alternative<Proved>(answer); }
+  const smt::Model *counterexample() const {
+    const auto *found = std::get_if<Counterexample>(&answer);
+    return found == nullptr ? nullptr : &found->model;
+  }
+};
+
+Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget = {});
+
+} // namespace feedhold::prove
