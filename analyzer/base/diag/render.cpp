@@ -49,6 +49,24 @@ std::vector<Section> sectionsOf(const Diagnostic &diagnostic, const SourceFile &
   return sections;
 }
 
+constexpr std::size_t kMostOfBlock = 40; // characters of a block that is named on the way
+
+/// One line for each place that leads to the finding: its number, what stands there, what happened.
+std::string wayText(const Diagnostic &diagnostic, const SourceFile &source,
+                    const std::function<const SourceFile &(FileId)> &fileOf) {
+  std::string text;
+  for (const Label &step : diagnostic.way) {
+    const SourceFile &file = step.file ? fileOf(*step.file) : source;
+    const Position begin = file.position(step.span.begin);
+    const Position end = file.position(step.span.end);
+    const bool isShort = begin.line == end.line && end.column - begin.column <= kMostOfBlock;
+    const std::string block = isShort ? fmt::format(" `{}`", file.utf8(step.span)) : std::string();
+    const std::string name = step.file && file.path() != source.path() ? std::string(file.path()) + " " : std::string();
+    text += fmt::format("{}{}line {}{}: {}", text.empty() ? "" : "\n", name, begin.line, block, step.text);
+  }
+  return text;
+}
+
 std::string_view shownName(FixSafety safety) {
   switch (safety) {
   case FixSafety::Safe: return "safe";
@@ -65,14 +83,16 @@ public:
       gutter_ = std::max(gutter_, std::to_string(section.lines.rbegin()->first).size());
   }
 
-  std::string render(const Diagnostic &diagnostic) {
+  std::string render(const Diagnostic &diagnostic, std::string_view way) {
     line({{std::string(head_.severity), Style::Severity},
           {": " + printable(diagnostic.message), Style::Message},
           {fmt::format(" [{}]", head_.rule)}});
     for (const Section &section : sections_)
       addSection(section);
-    if (!diagnostic.notes.empty() || !diagnostic.fixes.empty())
+    if (!way.empty() || !diagnostic.notes.empty() || !diagnostic.fixes.empty())
       gutterLine("", {});
+    if (!way.empty())
+      addNote("the way there", way);
     for (const std::string &note : diagnostic.notes)
       addNote("note", note);
     for (const FixIt &fix : diagnostic.fixes)
@@ -146,7 +166,8 @@ private:
 
 std::string render(const Diagnostic &diagnostic, const RenderedHead &head, const SourceFile &source,
                    const std::function<const SourceFile &(FileId)> &fileOf, const RenderOptions &options) {
-  return Renderer(head, options, sectionsOf(diagnostic, source, fileOf)).render(diagnostic);
+  return Renderer(head, options, sectionsOf(diagnostic, source, fileOf))
+      .render(diagnostic, wayText(diagnostic, source, fileOf));
 }
 
 } // namespace feedhold

@@ -7,31 +7,45 @@ namespace feedhold {
 
 namespace {
 
-constexpr std::size_t kMostSteps = 12; // of a way that a person still reads
+constexpr std::size_t kMostSteps = 8; // of a way that a person still reads
 
 Label labelOf(const FlowFacts &facts, NodeId node, std::string text) {
   return {facts.file.tree->blocks[facts.node(node).block].span(), std::move(text), std::nullopt};
 }
 
+/// `N10` for the label at which a jump arrives.
+std::string labelName(const FlowFacts &facts, NodeId from, NodeId next) {
+  const BlockId jump = facts.node(from).block;
+  for (const SequenceNumber &number : facts.file.model->sequenceNumbersOf(facts.program))
+    if (arrival(facts.file.cfg, number.block, jump) == next)
+      return "N" + std::to_string(number.number);
+  return "a sequence number";
+}
+
 /// What is decided at a node when the way goes on to `next`; empty for nothing.
 std::string decision(const FlowFacts &facts, NodeId node, NodeId next) {
   const Node &here = facts.node(node);
-  if (const auto *test = std::get_if<Test>(&here.instruction))
+  if (const auto *test = std::get_if<Test>(&here.instruction)) {
+    if (facts.truthOf(node).value_or(Truth::Maybe) != Truth::Maybe)
+      return {};
     return next == test->taken ? "the condition holds" : "the condition does not hold";
+  }
   if (const auto *skip = std::get_if<BlockSkip>(&here.instruction))
     return next == skip->skipped ? "the block is skipped" : "";
   if (const auto *count = std::get_if<CountDown>(&here.instruction))
     return next == count->taken ? "another pass" : "no pass is left";
   if (std::holds_alternative<JumpTo>(here.instruction))
-    return "jumps to " + std::string("N") + [&] {
-      for (const SequenceNumber &number : facts.file.model->sequenceNumbersOf(facts.program))
-        if (facts.file.cfg.nodeOf(number.block) == next)
-          return std::to_string(number.number);
-      return std::string("?");
-    }();
-  if (std::holds_alternative<CallProgram>(here.instruction))
-    return "calls and comes back";
+    return "jumps to " + labelName(facts, node, next);
   return {};
+}
+
+/// No run goes on from a condition to the side on which it never comes out.
+bool isExcluded(const FlowFacts &facts, NodeId node, NodeId next) {
+  const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+  if (!test || test->taken == facts.node(node).next)
+    return false;
+  const Truth truth = facts.truthOf(node).value_or(Truth::Maybe);
+  return (truth == Truth::True && next != test->taken) || (truth == Truth::False && next == test->taken);
 }
 
 } // namespace
@@ -43,7 +57,7 @@ std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, 
   std::deque<NodeId> open{from};
   const auto visit = [&](NodeId node, NodeId next) {
     if (next.index() < first || next.index() - first >= before.size() || before[next.index() - first] != 0xffffffff ||
-        !facts.isReached(next) || (next != to && blocked(next)))
+        !facts.isReached(next) || (next != to && blocked(next)) || isExcluded(facts, node, next))
       return;
     before[next.index() - first] = node.index();
     open.push_back(next);

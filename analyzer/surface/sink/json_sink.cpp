@@ -27,13 +27,26 @@ Json fixToJson(const FixIt &fix, const SourceFile &source) {
   return {{"title", fix.title}, {"safety", nameOf(fix.safety)}, {"edits", std::move(edits)}};
 }
 
-Json findingToJson(const Finding &finding, const CheckedFile &file) {
+Json wayToJson(const Finding &finding, const CheckedFile &file, const Report &report) {
+  Json way = Json::array();
+  for (const Label &step : finding.diagnostic.way) {
+    const CheckedFile &there = step.file ? report.result.files[step.file->index()] : file;
+    Json row = {{"path", there.path}};
+    row.update(placeOf(there.source, step.span));
+    row["message"] = step.text;
+    way.push_back(std::move(row));
+  }
+  return way;
+}
+
+Json findingToJson(const Finding &finding, const CheckedFile &file, const Report &report) {
   Json row = {{"path", file.path}};
   row.update(placeOf(file.source, finding.diagnostic.span));
   row["rule"] = finding.rule->name;
   row["severity"] = nameOf(finding.severity);
   row["message"] = finding.diagnostic.message;
   row["fingerprint"] = finding.fingerprint;
+  row["way"] = wayToJson(finding, file, report);
   row["notes"] = finding.diagnostic.notes;
   row["fixes"] = Json::array();
   for (const FixIt &fix : finding.diagnostic.fixes)
@@ -48,7 +61,7 @@ Json findingToJson(const Finding &finding, const CheckedFile &file) {
 std::string writeJson(const Report &report) {
   Json document = {{"version", 1}, {"findings", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
-    document["findings"].push_back(findingToJson(finding, file));
+    document["findings"].push_back(findingToJson(finding, file, report));
   });
   for (const SkippedFile &skipped : report.result.skipped)
     document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}});

@@ -101,6 +101,20 @@ Json relatedLocations(const Finding &finding, const CheckedFile &file, const Rep
   return rows;
 }
 
+/// The way that leads to the finding, and the finding itself as its last step.
+Json codeFlows(const Finding &finding, const CheckedFile &file, const Report &report) {
+  Json steps = Json::array();
+  const auto add = [&](const CheckedFile &there, Span span, const std::string &text) {
+    steps.push_back(
+        {{"location", {{"physicalLocation", physicalLocation(there, span, report)}, {"message", {{"text", text}}}}}});
+  };
+  for (const Label &step : finding.diagnostic.way)
+    add(step.file ? report.result.files[step.file->index()] : file, step.span, step.text);
+  add(file, finding.diagnostic.span, finding.diagnostic.message);
+  Json thread = {{"locations", std::move(steps)}};
+  return Json::array({Json{{"threadFlows", Json::array({std::move(thread)})}}});
+}
+
 using RuleIndex = std::map<std::string_view, std::size_t>;
 
 Json resultToJson(const Finding &finding, const CheckedFile &file, const Report &report, const RuleIndex &ruleIndex) {
@@ -113,6 +127,8 @@ Json resultToJson(const Finding &finding, const CheckedFile &file, const Report 
   row["locations"] = Json::array({Json{{"physicalLocation", physicalLocation(file, finding.diagnostic.span, report)}}});
   if (!finding.diagnostic.labels.empty())
     row["relatedLocations"] = relatedLocations(finding, file, report);
+  if (!finding.diagnostic.way.empty())
+    row["codeFlows"] = codeFlows(finding, file, report);
   // Code scanning services compare only the first; any stable text will do.
   row["partialFingerprints"] = {{"primaryLocationLineHash", finding.fingerprint + ":1"},
                                 {"feedhold/v1", finding.fingerprint}};
