@@ -1,53 +1,109 @@
 // `feedhold ranges FILE[:LINE]`: what is known before each block, for all inputs.
-#include "inference/absint/analysis.h"
-#include "inference/absint/describe.h"
-#include "language/parse/parse.h"
-#include "surface/cli/dump_input.h"
+#include "dialects/registry.h"
+#include "findings/session/ranges.h"
+#include "rules/registry.h"
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
+#include "surface/sink/ranges_sink.h"
 
 #include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace feedhold {
 
 namespace {
 
-class Printer : public AnalysisVisitor {
-public:
-  Printer(const ProgramSet &programs, const ModalTable &modes) : programs_(programs), modes_(modes) {}
-
-  void visit(Place place, const AbstractState &state, std::span<const Place> calls) override {
-    const ProgramFile &file = programs_.file(place.file);
-    const Block &block = file.tree->blocks[programs_.node(place).block];
-    text += fmt::format("{}{}: {}\n", std::string(2 * calls.size(), ' '),
-                        file.source->position(block.begin).line, file.source->text(block.span()));
-    const StateDescription description = describe(state, modes_, programs_);
-    for (const auto *facts : {&description.variables, &description.positions, &description.modes})
-      for (const StateFact &fact : *facts)
-        text += fmt::format("      {:<10} {} {}\n", fact.name, fact.value, fact.relation);
-  }
-  std::string text;
-
-private:
-  const ProgramSet &programs_;
-  const ModalTable &modes_;
+struct RangesArguments {
+  std::string path;
+  std::string program;
+  bool calls = false;
+  std::string dialect;
+  std::string config;
+  bool isolated = false;
+  std::string format = "text";
 };
 
-std::string ranges(const SourceFile &source, const Dialect &dialect) {
-  const SyntaxTree tree = parse(source, dialect);
-  const ProgramModel model = resolve(source, tree, dialect);
-  CallGraph graph({{FileId(0), "", "", &model}});
-  const ProgramSet programs({{FileId(0), &source, &tree, &model, &dialect}}, graph);
-  const ModalTable modes(dialect);
-  Printer printer(programs, modes);
-  Analysis analysis(programs);
-  for (std::size_t i = 0; i < model.programs.size(); ++i)
-    analysis.walk({FileId(0), programs.file(FileId(0)).cfg.entryOf(ProgramId(i)), ProgramId(i)}, printer);
-  return printer.text;
+void addOptions(CLI::App &app, RangesArguments &arguments) {
+  app.add_option("file", arguments.path, "FILE or FILE:LINE; programs that it calls are found in its folder")
+      ->required();
+  app.add_option("--program", arguments.program, "start at this program of the file (default: all that nothing calls)");
+  app.add_flag("--calls", arguments.calls, "show the blocks of called programs in other files, too");
+  app.add_option("--dialect", arguments.dialect, "the control that runs it; `feedhold dialects` lists them");
+  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration");
+  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  app.add_option("--format", arguments.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+}
+
+struct PathAndLine {
+  std::string path;
+  std::optional<std::uint32_t> line;
+};
+/// A path may itself end like a line.
+PathAndLine pathAndLine(const std::string &text) {
+  const std::size_t colon = text.rfind(':');
+  std::error_code ignored;
+  if (colon == std::string::npos || colon + 1 == text.size() || std::filesystem::exists(text, ignored))
+    return {text, std::nullopt};
+  std::uint32_t line = 0;
+  const char *end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data() + colon + 1, end, line);
+  if (error != std::errc() || at != end)
+    return {text, std::nullopt};
+  return {text.substr(0, colon), line};
+}
+
+Result<std::string> ranges(const RangesArguments &arguments) {
+  const PathAndLine asked = pathAndLine(arguments.path);
+  ProgramsWish wish{.path = asked.path};
+  if (asked.path == "-")
+    wish.piped = PipedText{"<stdin>", readStandardInput()};
+  if (!arguments.dialect.empty()) {
+    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
+      return Error{*complaint};
+    wish.dialect = arguments.dialect;
+  }
+  if (arguments.isolated)
+    wish.config.source = ConfigSource::None;
+  else if (!arguments.config.empty())
+    wish.config = {ConfigSource::Named, arguments.config};
+  const auto loaded = loadPrograms(wish, {allDialects(), allRules()});
+  if (!loaded)
+    return loaded.error();
+  const LoadedPrograms &programs = *loaded.value();
+
+  const auto program = arguments.program.empty() ? std::nullopt : std::optional(arguments.program);
+  const auto files = arguments.calls ? RangesWish::Files::All : RangesWish::Files::First;
+  const Result<BlockStates> states = rangesOf(programs, {program, asked.line, files});
+  if (!states)
+    return Error{asked.path + ": " + states.error().message};
+  std::vector<std::string> shown;
+  for (const auto &file : programs.files)
+    shown.push_back(file->shown);
+  const RangesReport report{*programs.set, shown, states.value(), asked.line};
+  return arguments.format == "json" ? writeRangesJson(report) : writeRangesText(report);
+}
+
+int rangesOrComplain(const RangesArguments &arguments) {
+  const Result<std::string> text = ranges(arguments);
+  if (!text) {
+    printError(text.error().message);
+    return kExitCouldNotRun;
+  }
+  print(text.value());
+  return kExitClean;
 }
 
 } // namespace
 
 Command addRangesCommand(CLI::App &parent) {
-  return addDumpCommand(parent, "ranges", "print what is known before each block, for all inputs", ranges);
+  CLI::App *app = parent.add_subcommand("ranges", "print what is known before each block, for all inputs");
+  const auto arguments = std::make_shared<RangesArguments>();
+  addOptions(*app, *arguments);
+  return {app, [arguments] { return rangesOrComplain(*arguments); }};
 }
 
 } // namespace feedhold

@@ -1,0 +1,88 @@
+#include "findings/session/ranges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace feedhold {
+
+namespace {
+
+constexpr FileId kFirstFile{0};
+
+/// What a program calls, and what those call, itself included.
+void collectReached(const ProgramSet &programs, ProgramRef from, std::set<ProgramRef> &reached) {
+  std::vector<ProgramRef> open{from};
+  while (!open.empty()) {
+    const ProgramRef next = open.back();
+    open.pop_back();
+    if (!reached.insert(next).second)
+      continue;
+    const ProgramModel &model = *programs.file(next.file).model;
+    for (const Call &call : model.callsOf(next.program))
+      if (const auto callee = programs.callGraph().callee(next.file, call))
+        open.push_back(*callee);
+  }
+}
+
+std::vector<Callee> allStarts(const LoadedPrograms &loaded) {
+  const ProgramSet &programs = *loaded.set;
+  const ProgramFile &file = programs.file(kFirstFile);
+  std::vector<Callee> starts;
+  std::set<ProgramRef> reached;
+  const auto start = [&](ProgramId program) {
+    starts.push_back({kFirstFile, file.cfg.entryOf(program), program});
+    collectReached(programs, {kFirstFile, program}, reached);
+  };
+  const auto isCalledHere = [&](ProgramId program) {
+    const auto callers = programs.callGraph().callers({kFirstFile, program});
+    return std::any_of(callers.begin(), callers.end(), [&](const CallGraph::Caller &caller) {
+      return caller.file == kFirstFile && file.model->calls[caller.call].caller != program;
+    });
+  };
+  for (std::size_t i = 0; i < file.model->programs.size(); ++i)
+    if (!isCalledHere(ProgramId(i)))
+      start(ProgramId(i));
+  for (std::size_t i = 0; i < file.model->programs.size(); ++i)
+    if (!reached.contains({kFirstFile, ProgramId(i)})) // they call one another
+      start(ProgramId(i));
+  return starts;
+}
+
+/// The block of a line, or of the next one that is executed.
+std::optional<BlockId> blockAt(const ProgramFile &file, std::uint32_t line) {
+  for (BlockId block(0); block.index() < file.tree->blocks.size(); block = block.next()) {
+    if (file.source->lineOf(file.tree->blocks[block].begin) < line)
+      continue;
+    const NodeId node = file.cfg.nodeOf(block);
+    return node.index() < file.cfg.nodes.size() ? std::optional(file.cfg.nodes[node].block) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Result<BlockStates> rangesOf(const LoadedPrograms &programs, const RangesWish &wish) {
+  std::vector<Callee> starts;
+  if (wish.program) {
+    const auto start = startOf(programs, wish.program);
+    if (!start)
+      return Error{fmt::format("no program `{}` in it", *wish.program)};
+    starts.push_back(*start);
+  } else {
+    starts = allStarts(programs);
+  }
+  const ProgramFile &file = programs.set->file(kFirstFile);
+  std::optional<BlockId> block;
+  if (wish.line) {
+    block = blockAt(file, *wish.line);
+    if (!block || *wish.line == 0)
+      return Error{fmt::format("nothing is executed in line {} or behind it", *wish.line)};
+  }
+  return collectBlockStates(*programs.set, starts, [&](FileId at, BlockId which) {
+    return (at == kFirstFile || (wish.files == RangesWish::Files::All && !block)) && (!block || *block == which);
+  });
+}
+
+} // namespace feedhold

@@ -1,0 +1,52 @@
+// StateFacts: an abstract state told fact by fact: what is known of variables, positions, modes and what they bring.
+#pragma once
+
+#include "inference/absint/block_states.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// That a value is another one plus an offset.
+struct KnownRelation {
+  std::string name; // of the other: `#1`, `X`, `F`
+  enum class Time : std::uint8_t { Now, AtStart } time;
+  double offset;
+  bool isItself = false; // what the thing itself was at the start
+};
+
+struct ValueFact {
+  std::string name; // `#1`, `X`, `F`, `cycle R`, `G52 X`
+  AbstractValue value;
+  std::optional<KnownRelation> relation = std::nullopt;
+};
+
+struct ModeFact {
+  std::string name;               // `distance`, `plane`
+  std::vector<std::string> codes; // `G90`; those that are set on some way
+  bool maybeAsAtStart;            // or nothing has set it
+};
+
+/// Only things of which something is known, or that are no more as they were at the start.
+struct StateFacts {
+  std::vector<ValueFact> variables;
+  std::vector<ValueFact> positions;
+  std::vector<ModeFact> modes;
+  std::vector<ValueFact> settings;     // words in force, levels of a cycle, offsets, mappings
+  std::vector<std::string> modalCalls; // `G66 P9010 in line 3`; innermost last
+  bool maybeOtherModalCalls = false;
+};
+
+StateFacts factsOf(const AbstractState &state, const ContextStates &context, const ProgramSet &programs,
+                   const ModalTable &modes);
+
+/// `= #1 + 17`, `as at start`, `= X at start - 5`.
+std::string textOf(const KnownRelation &relation);
+/// `0 to 17, whole (= #1 + 17)`
+std::string textOf(const ValueFact &fact);
+/// `G90 or G91, or as at start`
+std::string textOf(const ModeFact &fact);
+
+} // namespace feedhold
