@@ -196,7 +196,7 @@ struct LoopHint {
 
 /// All clauses of one program, each kind in the order in which they stand.
 struct Contract {
-  ProgramId program;
+  ProgramId program{0};
   std::vector<EntryValue> params;  // each variable once
   std::vector<EntryValue> globals; // each variable once
   std::vector<ContractCondition> requirements;

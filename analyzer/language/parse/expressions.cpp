@@ -4,6 +4,23 @@
 
 namespace feedhold {
 
+ExpressionId parseExpression(SyntaxTree &tree, const SourceFile &source, Span part, const Dialect &dialect,
+                             FindReserved reserved) {
+  return Parser(source.text().substr(0, part.end), dialect).runExpression(tree, part.begin, reserved);
+}
+
+ExpressionId Parser::runExpression(SyntaxTree &tree, std::uint32_t begin, FindReserved reserved) {
+  std::swap(tree, tree_);
+  reserved_ = reserved;
+  symbolicAllowed_ = true;
+  moveTo(begin);
+  const ExpressionId result = expression();
+  if (!at(TokenKind::EndOfFile))
+    issue(SyntaxIssueKind::BrokenExpression, token_.span(), {}, Broken::Yes);
+  std::swap(tree, tree_);
+  return result;
+}
+
 ExpressionId Parser::expression() { return binary(1); }
 
 ExpressionId Parser::binary(int lowestPrecedence) { return binaryRest(operand(), lowestPrecedence); }
@@ -132,9 +149,10 @@ ExpressionId Parser::operandInside() {
     const ExpressionId inner = operand();
     return addExpression(begin, Identity{inner});
   }
+  case TokenKind::Address:
+  case TokenKind::Other: return unknownOperand();
   case TokenKind::EndOfFile:
   case TokenKind::EndOfBlock:
-  case TokenKind::Address:
   case TokenKind::Operator:
   case TokenKind::ControlWord:
   case TokenKind::OWord:
@@ -149,10 +167,18 @@ ExpressionId Parser::operandInside() {
   case TokenKind::CloseParenthesis:
   case TokenKind::Name:
   case TokenKind::Less:
-  case TokenKind::Greater:
-  case TokenKind::Other: return brokenOperand();
+  case TokenKind::Greater: return brokenOperand();
   }
   return brokenOperand();
+}
+
+ExpressionId Parser::unknownOperand() {
+  const std::uint32_t begin = token_.begin;
+  const auto found = reserved_ ? reserved_(text_.substr(begin)) : std::nullopt;
+  if (!found)
+    return brokenOperand();
+  moveTo(begin + found->length);
+  return addExpression(begin, NumberedVariable{found->variable});
 }
 
 namespace {

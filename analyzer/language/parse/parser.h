@@ -7,6 +7,7 @@
 
 #include "language/dialect/dialect.h"
 #include "language/lex/lexer.h"
+#include "language/parse/parse.h"
 #include "language/syntax/tree.h"
 
 #include <array>
@@ -19,6 +20,8 @@ class Parser {
 public:
   Parser(std::string_view text, const Dialect &dialect);
   SyntaxTree run();
+  /// The text from `begin` to its end as one expression, added to `tree`.
+  ExpressionId runExpression(SyntaxTree &tree, std::uint32_t begin, FindReserved reserved);
 
 private:
   /// Brackets, functions and signs inside one another; a control takes five.  Bounds the recursion.
@@ -86,6 +89,7 @@ private:
   OperatorKind takeSymbolicComparison();
   ExpressionId operand();
   ExpressionId operandInside();
+  ExpressionId unknownOperand();
   ExpressionId number();
   ExpressionId variable();
   ExpressionId bracketed();
@@ -134,6 +138,7 @@ private:
   bool commentsAreBlanks_ = false; // inside a macro statement, and between an address and its value
   bool dataBlocks_ = false;        // between G10 L50/L52 and G11
   bool symbolicAllowed_ = false;   // inside brackets or a condition: `=` can only mean a comparison
+  FindReserved reserved_ = nullptr;
   int depth_ = 0;
   int operatorsInBlock_ = 0;
   int itemsInBlock_ = 0;

@@ -1,0 +1,36 @@
+// The steps of readContracts: from the carriers to clauses, from a clause to its part of the contract, and the checks.
+// Internal to the room.
+#pragma once
+
+#include "language/contract/clause_reader.h"
+
+namespace feedhold {
+
+/// A clause in its text, before it is read.
+struct RawClause {
+  ContractSourceId source;
+  Span span; // from `@` on
+  ProgramId program;
+  std::optional<BlockId> place; // of a comment: its block or the next one that does something
+  std::optional<Span> number;   // of `@AT N30`: `N30`
+};
+
+/// Comments of the program, then the lines of the sidecar files.
+std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sidecar> sidecars);
+
+/// Reads one clause into its contract, or leaves an issue.
+void readClause(ContractReading &reading, const RawClause &raw);
+
+/// `BOX X..`, `CYLINDER ..` and so on.
+decltype(Region::shape) readShape(ClauseReader &reader);
+Box readBox(ClauseReader &reader);
+std::vector<AxisValue> readAxisValues(ClauseReader &reader, std::string_view axes);
+
+/// What can only be seen in the whole contract.
+void checkContracts(ContractReading &reading);
+
+void addIssue(ContractReading &reading, ContractIssue issue);
+/// The contract of a program, made at first need.
+Contract &contractOf(ContractReading &reading, ProgramId program);
+
+} // namespace feedhold

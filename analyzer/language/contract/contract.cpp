@@ -1,0 +1,94 @@
+#include "language/contract/contract.h"
+
+#include "language/contract/clauses.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace feedhold {
+
+std::string_view nameOf(ClauseKind kind) {
+  static constexpr std::string_view kNames[] = {
+#define CLAUSE(kind, name) name,
+#include "language/contract/clauses.def"
+  };
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view nameOf(Unit unit) {
+  static constexpr std::string_view kNames[] = {
+#define UNIT(unit, name) name,
+#include "language/contract/units.def"
+  };
+  return kNames[static_cast<std::size_t>(unit)];
+}
+
+std::string_view nameOf(ContractIssueKind kind) {
+  static constexpr std::string_view kNames[] = {
+#define CONTRACT_ISSUE(kind) #kind,
+#include "language/contract/issues.def"
+  };
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+const EntryValue *Contract::param(std::uint32_t variable) const {
+  const auto found = std::ranges::find(params, variable, &EntryValue::variable);
+  return found == params.end() ? nullptr : &*found;
+}
+
+const Contract *FileContracts::of(ProgramId program) const {
+  const auto found = std::ranges::lower_bound(contracts, program, {}, &Contract::program);
+  return found == contracts.end() || found->program != program ? nullptr : &*found;
+}
+
+void addIssue(ContractReading &reading, ContractIssue issue) { reading.result.issues.push_back(std::move(issue)); }
+
+Contract &contractOf(ContractReading &reading, ProgramId program) {
+  std::vector<Contract> &contracts = reading.result.contracts;
+  const auto found = std::ranges::lower_bound(contracts, program, {}, &Contract::program);
+  if (found != contracts.end() && found->program == program)
+    return *found;
+  Contract contract;
+  contract.program = program;
+  return *contracts.insert(found, std::move(contract));
+}
+
+namespace {
+
+/// One empty block and the end mark: an expression of a contract stands in a block too.
+void addNoBlocks(SyntaxTree &tree) {
+  for (int i = 0; i < 2; ++i)
+    tree.blocks.add({0, 0, WordId(0), StatementId(0), CommentId(0)});
+}
+
+std::vector<BlockId> jumpHeads(const ProgramModel &model) {
+  std::vector<BlockId> heads;
+  for (const Jump &jump : model.jumps)
+    if (jump.target && *jump.target <= jump.block)
+      heads.push_back(*jump.target);
+  std::ranges::sort(heads);
+  return heads;
+}
+
+} // namespace
+
+FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model,
+                            const Dialect &dialect, std::span<const Sidecar> sidecars) {
+  ContractReading reading{source, tree, model, dialect};
+  addNoBlocks(reading.result.tree);
+  reading.result.sources.push_back(source);
+  for (const Sidecar &sidecar : sidecars)
+    reading.result.sources.push_back(sidecar.source);
+  const std::vector<RawClause> clauses = findClauses(reading, sidecars);
+  if (clauses.empty())
+    return std::move(reading.result);
+  reading.jumpHeads = jumpHeads(model);
+  for (const RawClause &raw : clauses)
+    readClause(reading, raw);
+  checkContracts(reading);
+  const auto place = [](const ContractIssue &issue) { return std::tuple(issue.source, issue.span.begin); };
+  std::ranges::stable_sort(reading.result.issues, {}, place);
+  return std::move(reading.result);
+}
+
+} // namespace feedhold

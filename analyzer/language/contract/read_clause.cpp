@@ -1,0 +1,470 @@
+// Reads one clause into its part of the contract.
+#include "base/support/text.h"
+#include "language/contract/clauses.h"
+#include "language/model/block_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+constexpr std::string_view kAxes = "XYZABCUVW";
+
+constexpr std::string_view kClauseNames[] = {
+#define CLAUSE(kind, name) name,
+#include "language/contract/clauses.def"
+};
+constexpr std::string_view kUnitNames[] = {
+#define UNIT(unit, name) name,
+#include "language/contract/units.def"
+};
+
+class ReadClause {
+public:
+  ReadClause(ContractReading &reading, const RawClause &raw, ClauseId id, Span body)
+      : reading_(reading), raw_(raw), id_(id), reader_(reading, id, body),
+        contract_(contractOf(reading, reading.result.clauses[id].program)) {}
+
+  void run() {
+    read(reading_.result.clauses[id_].kind);
+    if (!reader_.failed())
+      return;
+    contract_.isSound = false;
+    addIssue(reading_, reader_.issue());
+  }
+
+private:
+  void read(ClauseKind kind) {
+    switch (kind) {
+    case ClauseKind::Param: return entryValue(contract_.params);
+    case ClauseKind::Global: return entryValue(contract_.globals);
+    case ClauseKind::Require: return require();
+    case ClauseKind::Modal: return modal();
+    case ClauseKind::Start: return start();
+    case ClauseKind::Tool: return tool();
+    case ClauseKind::KeepIn: return region(contract_.keepIn);
+    case ClauseKind::KeepOut: return region(contract_.keepOut);
+    case ClauseKind::Clearance: return clearance();
+    case ClauseKind::Travel: return travel();
+    case ClauseKind::Limit: return limit();
+    case ClauseKind::Ensure: return ensure();
+    case ClauseKind::Assigns: return assigns();
+    case ClauseKind::Guarded: return mark(contract_.guarded);
+    case ClauseKind::Alarm: return alarm();
+    case ClauseKind::Invariant: return hint(contract_.invariants);
+    case ClauseKind::Variant: return hint(contract_.variants);
+    case ClauseKind::Cyclic: return mark(contract_.cyclic);
+    }
+  }
+
+  /// The clause was read to its end without an issue.
+  bool isRead() {
+    reader_.expectEnd();
+    return !reader_.failed();
+  }
+  /// For clauses that stand once.
+  template <typename Part> void setOnce(std::optional<Part> &place, Part part, std::string_view what) {
+    if (place)
+      return refuseSecond(place->clause, std::string(what));
+    place = std::move(part);
+  }
+  void refuseSecond(ClauseId first, std::string what) {
+    ContractIssue issue{ContractIssueKind::Repeated,
+                        reading_.result.clauses[id_].source,
+                        reading_.result.clauses[id_].span,
+                        std::move(what),
+                        first,
+                        contract_.program};
+    contract_.isSound = false;
+    addIssue(reading_, std::move(issue));
+  }
+
+  // ---- values on entry ----
+
+  void entryValue(std::vector<EntryValue> &entries) {
+    const bool isParam = &entries == &contract_.params;
+    const ClauseReader::Variable variable = reader_.variable();
+    EntryValue value{id_, variable.number, variable.span, {}, AnyNumber{}};
+    if (!reader_.failed())
+      refuseWrongKind(value, isParam);
+    if (const auto name = reader_.peekName(); name && !reader_.at("IN") && !reader_.at("OPTIONAL"))
+      value.name = reading_.result.source(source()).utf8(reader_.name("a name"));
+    value.values = readValues(value.name);
+    readUnit(value);
+    if (reader_.take("OPTIONAL"))
+      value.vacancy = Vacancy::Possible;
+    if (!isRead())
+      return;
+    for (const std::vector<EntryValue> *list : {&contract_.params, &contract_.globals})
+      if (const auto first = std::ranges::find(*list, value.variable, &EntryValue::variable); first != list->end())
+        return refuseSecond(first->clause, fmt::format("`#{}`", value.variable));
+    entries.push_back(std::move(value));
+  }
+
+  void refuseWrongKind(const EntryValue &value, bool isParam) {
+    const VariableRange *range = findVariable(reading_.dialect, value.variable);
+    const bool isLocal = range && range->kind == VariableKind::Local;
+    if (!range || range->kind == VariableKind::Vacant)
+      reader_.fail(ContractIssueKind::Malformed, value.variableSpan, "a variable that this control has");
+    else if (isParam && !isLocal)
+      reader_.fail(ContractIssueKind::Malformed, value.variableSpan,
+                   "a local variable, since a call passes its arguments in these; `@GLOBAL` is for the others");
+    else if (!isParam && isLocal)
+      reader_.fail(ContractIssueKind::Malformed, value.variableSpan,
+                   "a common variable; `@PARAM` is for the arguments in local variables");
+  }
+
+  AllowedValues readValues(std::string_view name) {
+    if (reader_.take("IN"))
+      return readList();
+    if (reader_.atEnd() || reader_.peekName())
+      return AnyNumber{};
+    const std::string_view of = name.empty() ? "the variable" : name;
+    return reader_.range(fmt::format("the range of {}, such as `0.5..50.`", of));
+  }
+
+  ValueList readList() {
+    ValueList list;
+    do
+      list.values.push_back(reader_.value("a value behind `IN`"));
+    while (!reader_.failed() && reader_.takeSign(','));
+    return list;
+  }
+
+  void readUnit(EntryValue &value) {
+    const std::optional<Span> word = reader_.peekName();
+    if (!word || reader_.at("OPTIONAL") || reader_.failed())
+      return;
+    const std::string name = toUpper(reader_.text(*word));
+    const auto found = std::ranges::find(kUnitNames, name);
+    if (found == std::end(kUnitNames)) {
+      const auto nearest = nearestWord(name, kUnitNames);
+      return reader_.fail(ContractIssueKind::Unit, *word,
+                          nearest && !nearest->empty()
+                              ? fmt::format("there is no such unit; did you mean `{}`?", *nearest)
+                              : fmt::format("there is no such unit; the units are `{}`",
+                                            fmt::join(std::begin(kUnitNames) + 1, std::end(kUnitNames), " ")));
+    }
+    value.unit = static_cast<Unit>(found - std::begin(kUnitNames));
+    value.unitSpan = reader_.name("a unit");
+  }
+
+  void require() {
+    const ExpressionId condition = reader_.condition(nullptr);
+    if (isRead())
+      contract_.requirements.push_back({id_, condition});
+  }
+
+  // ---- modal state, position, tool ----
+
+  void modal() {
+    for (const ModalCode &code : readCodes()) {
+      const auto first = std::ranges::find(contract_.modal, code.group, &ModalCode::group);
+      if (first == contract_.modal.end()) {
+        contract_.modal.push_back(code);
+        continue;
+      }
+      const std::string_view other =
+          reading_.result.source(reading_.result.clauses[first->clause].source).text(first->span);
+      ContractIssue issue{ContractIssueKind::Code,
+                          source(),
+                          code.span,
+                          fmt::format("`{}` stands already, and only one code of a group is in force", other),
+                          first->clause,
+                          contract_.program};
+      contract_.isSound = false;
+      addIssue(reading_, std::move(issue));
+    }
+  }
+
+  /// None when the clause has an issue.
+  std::vector<ModalCode> readCodes() {
+    std::vector<ModalCode> codes;
+    do {
+      const Span span = reader_.ahead();
+      const std::optional<char> letter = reader_.takeLetter("GM");
+      if (!letter) {
+        reader_.expected("a code such as `G90`");
+        break;
+      }
+      const ExpressionId number = reader_.value("the number of the code");
+      if (!reader_.failed())
+        codes.push_back(codeFrom(*letter, number, span));
+    } while (!reader_.failed() && !reader_.atEnd());
+    return isRead() ? codes : std::vector<ModalCode>();
+  }
+
+  ModalCode codeFrom(char letter, ExpressionId number, Span span) {
+    const std::optional<Decimal> value = literalValue(reading_.result.tree, number);
+    const std::optional<std::uint16_t> tenths =
+        value ? Word::number(letter, *value, span, 0).tenths() : std::optional<std::uint16_t>();
+    const Code *code = !tenths         ? nullptr
+                       : letter == 'G' ? findGCode(reading_.dialect, *tenths)
+                                       : findMCode(reading_.dialect, *tenths);
+    if (!code)
+      reader_.fail(ContractIssueKind::Code, span, "this control has no such code");
+    else if (code->group == 0)
+      reader_.fail(ContractIssueKind::Code, span, "it acts in its block only and is never in force behind it");
+    return {id_, letter, tenths.value_or(0), code ? code->group : std::uint8_t{0}, span};
+  }
+
+  void start() {
+    std::vector<AxisValue> axes = readAxisValues(reader_, kAxes);
+    if (axes.empty())
+      reader_.expected("axes such as `X0 Y0 Z5.`");
+    if (isRead())
+      setOnce(contract_.start, StartPosition{id_, std::move(axes)}, "the position on entry");
+  }
+
+  void tool() {
+    ContractTool tool{id_, ToolShape::Flat, ExpressionId(0), {}};
+    if (reader_.take("BALL"))
+      tool.shape = ToolShape::Ball;
+    else if (reader_.take("BULL"))
+      tool.shape = ToolShape::Bull;
+    else if (reader_.take("DRILL"))
+      tool.shape = ToolShape::Drill;
+    else if (!reader_.take("FLAT"))
+      reader_.expected("`FLAT`, `BALL`, `BULL` or `DRILL`");
+    if (!reader_.take("RADIUS"))
+      reader_.expected("`RADIUS` and its value");
+    tool.radius = reader_.value("a radius");
+    if (tool.shape == ToolShape::Bull) {
+      if (!reader_.take("CORNER"))
+        reader_.expected("`CORNER` and its radius");
+      tool.corner = reader_.value("a radius");
+    }
+    if (isRead())
+      setOnce(contract_.tool, std::move(tool), "the tool");
+  }
+
+  // ---- geometry ----
+
+  void region(std::vector<Region> &regions) {
+    const bool isShape = reader_.at("BOX") || reader_.at("CYLINDER") || reader_.at("SPHERE") || reader_.at("POLYGON") ||
+                         reader_.at("WHERE");
+    if (isShape)
+      reader_.expected("a name for the region in front of its shape");
+    const Span name = reader_.name("a name for the region");
+    Region read{id_, reading_.result.source(source()).utf8(name), readShape(reader_)};
+    if (isRead())
+      regions.push_back(std::move(read));
+  }
+
+  void clearance() {
+    const std::optional<char> axis = reader_.takeLetter("XYZ");
+    if (!axis)
+      reader_.expected("an axis with its height, such as `Z2.`");
+    const ExpressionId height = reader_.value("the height");
+    if (isRead())
+      setOnce(contract_.clearance, Clearance{id_, {axis.value_or('Z'), height}}, "the clearance");
+  }
+
+  void travel() {
+    Box box = readBox(reader_);
+    if (isRead())
+      setOnce(contract_.travel, Travel{id_, std::move(box)}, "the travel");
+  }
+
+  void limit() {
+    const std::optional<char> address = reader_.takeLetter("FS");
+    if (!address)
+      reader_.expected("`F` or `S` with its range, such as `F 1..5000`");
+    const Range range = reader_.range("the range");
+    if (!isRead())
+      return;
+    const auto first = std::ranges::find(contract_.limits, *address, &WordLimit::address);
+    if (first != contract_.limits.end())
+      return refuseSecond(first->clause, fmt::format("the limit of {}", *address));
+    contract_.limits.push_back({id_, *address, range});
+  }
+
+  // ---- promises ----
+
+  void ensure() {
+    if (reader_.take("MODAL")) {
+      if (!reader_.take("PRESERVED"))
+        reader_.expected("`PRESERVED`");
+      if (isRead())
+        contract_.ensures.push_back({id_, ModalPreserved{}});
+      return;
+    }
+    if (reader_.peekLetter("GM")) {
+      if (std::vector<ModalCode> codes = readCodes(); !codes.empty())
+        contract_.ensures.push_back({id_, std::move(codes)});
+      return;
+    }
+    const ExpressionId condition = reader_.condition(findPromiseOperand);
+    if (isRead())
+      contract_.ensures.push_back({id_, condition});
+  }
+
+  void assigns() {
+    Assigns assigns{id_, {}};
+    if (!reader_.take("NOTHING"))
+      do {
+        const std::uint32_t first = reader_.variable().number;
+        const bool isRange = reader_.takeSign('.') && reader_.takeSign('.');
+        const std::uint32_t last = isRange ? reader_.variable().number : first;
+        if (last < first)
+          reader_.fail(ContractIssueKind::EmptyRange, reading_.result.clauses[id_].span,
+                       fmt::format("`#{}` comes behind `#{}`", first, last));
+        assigns.variables.push_back({first, last});
+      } while (!reader_.failed() && !reader_.atEnd());
+    if (isRead())
+      contract_.assigns.push_back(std::move(assigns));
+  }
+
+  void mark(std::optional<ClauseId> &place) {
+    if (!isRead())
+      return;
+    if (place)
+      return refuseSecond(*place, std::string(nameOf(reading_.result.clauses[id_].kind)));
+    place = id_;
+  }
+
+  void alarm() {
+    const std::uint32_t number = reader_.integer("the number of an alarm");
+    AlarmClaim claim = AlarmClaim::If;
+    if (reader_.take("IFF"))
+      claim = AlarmClaim::IfAndOnlyIf;
+    else if (!reader_.take("IF"))
+      reader_.expected("`IF` or `IFF` and a condition");
+    const ExpressionId condition = reader_.condition(nullptr);
+    if (isRead())
+      contract_.alarms.push_back({id_, number, claim, condition});
+  }
+
+  // ---- loops ----
+
+  void hint(std::vector<LoopHint> &hints) {
+    const bool isInvariant = &hints == &contract_.invariants;
+    const ExpressionId expression =
+        isInvariant ? reader_.condition(findPromiseOperand) : reader_.expression(findPromiseOperand);
+    if (!isRead())
+      return;
+    if (const std::optional<BlockId> block = loopHead(); block && !reader_.failed())
+      hints.push_back({id_, *block, expression});
+  }
+
+  std::optional<BlockId> loopHead() {
+    const std::optional<BlockId> block = raw_.source == kProgramText ? raw_.place : blockOfNumber();
+    const Span span = raw_.number.value_or(reading_.result.clauses[id_].span);
+    if (block && !reader_.failed() && isLoopHead(*block))
+      return block;
+    reader_.fail(ContractIssueKind::Place, span, "no loop begins there");
+    return std::nullopt;
+  }
+
+  std::optional<BlockId> blockOfNumber() {
+    const Span clause = reading_.result.clauses[id_].span;
+    if (!raw_.number) {
+      reader_.fail(ContractIssueKind::Place, clause,
+                   "it needs the sequence number of its loop in front: `@AT N30 ...`");
+      return std::nullopt;
+    }
+    const std::string_view text = reading_.result.source(source()).text(*raw_.number);
+    constexpr std::size_t kMostDigits = 9;
+    const std::string_view digits = text.substr(std::min<std::size_t>(1, text.size()));
+    if (toUpper(text.substr(0, 1)) != "N" || digits.empty() || digits.size() > kMostDigits ||
+        !std::ranges::all_of(digits, isDigit)) {
+      reader_.fail(ContractIssueKind::Malformed, *raw_.number, "a sequence number such as `N30`");
+      return std::nullopt;
+    }
+    const auto number = static_cast<std::uint32_t>(std::stoul(std::string(digits)));
+    const std::vector<SequenceNumber> found = reading_.model.find(contract_.program, number);
+    if (found.size() == 1)
+      return found.front().block;
+    reader_.fail(ContractIssueKind::Place, *raw_.number,
+                 found.empty() ? fmt::format("there is no N{} in the program", number)
+                               : fmt::format("N{} stands in the program {} times", number, found.size()));
+    return std::nullopt;
+  }
+
+  /// A DO, the head of a loop of o-words, or a block to which a jump leads back.
+  bool isLoopHead(BlockId block) const {
+    const ProgramModel &model = reading_.model;
+    if (!model.loopsIn(block, block.next()).empty())
+      return true;
+    for (const OWordUse &use : model.oWordsIn(block, block.next()))
+      if (use.kind == OWordKind::While || use.kind == OWordKind::Do || use.kind == OWordKind::Repeat)
+        return true;
+    if (std::ranges::binary_search(reading_.jumpHeads, block))
+      return true;
+    const bool isLabel = !model.sequenceNumbersIn(block, block.next()).empty();
+    return isLabel && std::ranges::any_of(model.jumpsOf(contract_.program),
+                                          [](const Jump &jump) { return jump.computed.has_value(); });
+  }
+
+  ContractSourceId source() const { return raw_.source; }
+
+  ContractReading &reading_;
+  const RawClause &raw_;
+  ClauseId id_;
+  ClauseReader reader_;
+  Contract &contract_;
+};
+
+/// `@PARAM` -> its kind and what follows.
+struct ClauseHead {
+  Span keyword;
+  std::string name; // upper case, with `@`
+};
+
+ClauseHead headOf(std::string_view text, const RawClause &raw) {
+  std::uint32_t end = raw.span.begin;
+  while (end < raw.span.end && (text[end] == '@' || text[end] == '-' || text[end] == '_' || isLetter(text[end])))
+    ++end;
+  const Span keyword{raw.span.begin, end};
+  std::string name = toUpper(text.substr(keyword.begin, keyword.size()));
+  if (raw.number && !name.starts_with('@'))
+    name.insert(name.begin(), '@');
+  return {keyword, std::move(name)};
+}
+
+/// The whole word where it is none of ours.
+Span wordAt(std::string_view text, Span span) {
+  std::uint32_t end = span.begin;
+  while (end < span.end && !isBlank(text[end]))
+    ++end;
+  return {span.begin, end};
+}
+
+bool isSuppression(std::string_view name) { return name == "@ALLOW" || name == "@ALLOW-PROGRAM"; }
+
+void refuseUnknown(ContractReading &reading, const RawClause &raw, const ClauseHead &head, std::string_view text) {
+  std::vector<std::string_view> names(std::begin(kClauseNames), std::end(kClauseNames));
+  names.insert(names.end(), {"@ALLOW", "@ALLOW-PROGRAM", "@AT"});
+  const auto nearest = nearestWord(head.name, names);
+  contractOf(reading, raw.program).isSound = false;
+  addIssue(reading, {ContractIssueKind::UnknownClause, raw.source, wordAt(text, raw.span),
+                     std::string(nearest.value_or("")), std::nullopt, raw.program});
+}
+
+} // namespace
+
+void readClause(ContractReading &reading, const RawClause &raw) {
+  const SourceFile source = reading.result.source(raw.source);
+  const ClauseHead head = headOf(source.text(), raw);
+  if (isSuppression(head.name))
+    return;
+  const auto found = std::ranges::find(kClauseNames, head.name);
+  if (found == std::end(kClauseNames))
+    return refuseUnknown(reading, raw, head, source.text());
+  const auto kind = static_cast<ClauseKind>(found - std::begin(kClauseNames));
+  const ClauseId id = reading.result.clauses.add({kind, raw.source, raw.span, source.utf8(raw.span), raw.program});
+  if (raw.number && kind != ClauseKind::Invariant && kind != ClauseKind::Variant) {
+    addIssue(reading,
+             {ContractIssueKind::Malformed, raw.source, *raw.number,
+              fmt::format("no place: `{}` speaks of the whole program", head.name), std::nullopt, raw.program});
+    contractOf(reading, reading.result.clauses[id].program).isSound = false;
+    return;
+  }
+  ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
+}
+
+} // namespace feedhold
