@@ -33,6 +33,7 @@ std::string_view nameOf(Category category) {
   case Category::Suppression: return "suppression";
   case Category::Flow: return "flow";
   case Category::Motion: return "motion";
+  case Category::Contract: return "contract";
   }
   FEEDHOLD_UNREACHABLE("a category without a name");
 }

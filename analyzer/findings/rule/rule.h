@@ -7,6 +7,7 @@
 #include "base/diag/diagnostic.h"
 #include "base/source/source_file.h"
 #include "inference/absint/flow_facts.h"
+#include "language/contract/contract.h"
 #include "language/model/block_facts.h"
 #include "language/model/call_graph.h"
 #include "language/model/model.h"
@@ -19,7 +20,7 @@
 
 namespace feedhold {
 
-enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression, Flow, Motion };
+enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression, Flow, Motion, Contract };
 std::string_view nameOf(Category category);
 
 struct RuleInfo {
@@ -38,6 +39,9 @@ struct FileContext {
   const ProgramModel &model;
   const CallGraph &callGraph;
   const ProgramSet *programs = nullptr; // when some rule asks for the flow
+  std::span<const FileContracts> contracts = {}; // by FileId; may be empty
+  /// The text that findings are about: the program, or a file with its contracts (`source` is that file then).
+  ContractSourceId contractSource = kProgramText;
 
   std::string_view text(Span span) const { return source.text(span); }
   /// "`#510`": program text for a message, blanks at the ends cut, a long one shortened.
@@ -98,6 +102,8 @@ public:
 struct RuleHooks {
   void (*issue)(const SyntaxIssue &, const FileContext &, const Reporter &) = nullptr;
   std::span<const SyntaxIssueKind> issueKinds = {}; // issue is called for these
+  void (*contract)(const ContractIssue &, const FileContext &, const Reporter &) = nullptr;
+  std::span<const ContractIssueKind> contractKinds = {}; // contract is called for these
   void (*file)(const FileContext &, const Reporter &) = nullptr;
   void (*program)(ProgramId, const FileContext &, const Reporter &) = nullptr;
   void (*block)(BlockId, const FileContext &, const Reporter &) = nullptr; // every block that the control reads

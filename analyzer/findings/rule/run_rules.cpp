@@ -16,6 +16,11 @@ constexpr std::size_t kIssueKinds = 0
 #include "language/syntax/issues.def"
     ;
 
+constexpr std::size_t kContractIssueKinds = 0
+#define CONTRACT_ISSUE(kind) +1
+#include "language/contract/issues.def"
+    ;
+
 constexpr std::size_t kExpressionKinds = std::variant_size_v<decltype(Expression::node)>;
 
 template <typename Hook> struct Listener {
@@ -26,6 +31,7 @@ template <typename Hook> using Listeners = std::vector<Listener<Hook>>;
 
 struct HookLists {
   std::array<Listeners<decltype(RuleHooks::issue)>, kIssueKinds> issues;
+  std::array<Listeners<decltype(RuleHooks::contract)>, kContractIssueKinds> contractIssues;
   std::array<Listeners<decltype(RuleHooks::word)>, 128> words; // by address
   Listeners<decltype(RuleHooks::file)> file;
   Listeners<decltype(RuleHooks::program)> program;
@@ -56,6 +62,8 @@ HookLists gather(std::span<const Rule *const> rules, std::span<RuleFindings> sin
     const RuleHooks &hooks = rule->hooks;
     for (const SyntaxIssueKind kind : hooks.issueKinds)
       addIfAsked(lists.issues[static_cast<std::size_t>(kind)], hooks.issue, reporter);
+    for (const ContractIssueKind kind : hooks.contractKinds)
+      addIfAsked(lists.contractIssues[static_cast<std::size_t>(kind)], hooks.contract, reporter);
     for (const char address : hooks.wordAddresses)
       addIfAsked(lists.words[slotOf(address)], hooks.word, reporter);
     addIfAsked(lists.file, hooks.file, reporter);
@@ -145,6 +153,15 @@ void visitModel(const HookLists &lists, const FileContext &context) {
       tell(lists.variable, context, use);
 }
 
+/// The clauses of one text: the program or a file beside it.
+void visitContracts(const HookLists &lists, const FileContext &context) {
+  if (context.file.index() >= context.contracts.size())
+    return;
+  for (const ContractIssue &issue : context.contracts[context.file.index()].issues)
+    if (issue.source == context.contractSource)
+      tell(lists.contractIssues[static_cast<std::size_t>(issue.kind)], context, issue);
+}
+
 /// One analysis for each program, all rules looking on.
 void visitFlow(const HookLists &lists, const FileContext &context) {
   if (context.programs == nullptr || (lists.flow.empty() && lists.watch.empty()))
@@ -197,10 +214,17 @@ std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileC
   const HookLists lists = gather(rules, sinks);
   for (const SyntaxIssue &issue : context.tree.issues)
     tell(lists.issues[static_cast<std::size_t>(issue.kind)], context, issue);
+  visitContracts(lists, context);
   tell(lists.file, context);
   Walk(lists, context).run();
   visitModel(lists, context);
   visitFlow(lists, context);
+  return joined(std::move(sinks));
+}
+
+std::vector<RawFinding> runContractRules(std::span<const Rule *const> rules, const FileContext &context) {
+  std::vector<RuleFindings> sinks(rules.size());
+  visitContracts(gather(rules, sinks), context);
   return joined(std::move(sinks));
 }
 

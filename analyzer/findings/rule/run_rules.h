@@ -14,4 +14,7 @@ bool comesBefore(const RawFinding &a, const RawFinding &b);
 /// Findings in order of place, then of rule name.
 std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context);
 
+/// Of a file beside the program: only what rules say of its clauses.
+std::vector<RawFinding> runContractRules(std::span<const Rule *const> rules, const FileContext &context);
+
 } // namespace feedhold

@@ -6,6 +6,7 @@
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"
 #include "findings/session/fingerprint.h"
+#include "findings/session/sidecars.h"
 #include "language/parse/parse.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <set>
 
 namespace feedhold {
 
@@ -24,6 +26,10 @@ struct Read {
   std::unique_ptr<const SyntaxTree> tree;
   std::unique_ptr<const ProgramModel> model;
 };
+
+FileContracts contractsOf(const WorkItem &item, const Read &read) {
+  return readContracts(item.source, *read.tree, *read.model, item.profile->dialect, sidecarsOf(item.path, *read.model));
+}
 
 Read read(const WorkItem &item) {
   const Dialect &dialect = item.profile->dialect;
@@ -78,6 +84,24 @@ std::vector<Finding> findingsOf(const FileContext &context, const Profile &profi
   return findings;
 }
 
+/// A file beside the program, when there is something to say of its clauses.
+std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext &program, ContractSourceId source) {
+  const FileContracts &contracts = program.contracts[program.file.index()];
+  const FileContext context{program.file,  contracts.source(source), program.dialect, program.tree,
+                            program.model, program.callGraph,        nullptr,         program.contracts,
+                            source};
+  CheckedFile file = headOf(item);
+  file.path = context.source.path();
+  file.source = context.source;
+  LineFingerprints fingerprints(context.source);
+  for (RawFinding &raw : runContractRules(item.profile->rules, context)) {
+    Finding finding = toFinding(std::move(raw), *item.profile, false);
+    finding.fingerprint = fingerprints.of(*finding.rule, finding.diagnostic.span);
+    file.findings.push_back(std::move(finding));
+  }
+  return file.findings.empty() ? std::nullopt : std::optional(std::move(file));
+}
+
 Span firstLineWithText(const SourceFile &source) {
   for (std::uint32_t line = 1; line <= source.lineCount(); ++line)
     if (const Span span = source.lineSpan(line); !trimmed(source.text(span)).empty())
@@ -127,9 +151,12 @@ ProgramSet programsOf(std::span<const WorkItem> items, const std::vector<Read> &
 std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
                                  const AnalyseOptions &options) {
   std::vector<Read> reads(items.size());
+  std::vector<FileContracts> contracts(items.size());
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
-    if (items[i].foreign == nullptr)
-      reads[i] = read(items[i]);
+    if (items[i].foreign != nullptr)
+      return;
+    reads[i] = read(items[i]);
+    contracts[i] = contractsOf(items[i], reads[i]);
   });
   const CallGraph callGraph = joinModels(items, reads);
   std::optional<ProgramSet> programs;
@@ -137,16 +164,19 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     programs.emplace(programsOf(items, reads, callGraph, options.jobs));
 
   std::vector<std::vector<Finding>> findings(items.size());
+  std::vector<std::vector<CheckedFile>> sidecars(items.size());
   std::atomic<std::size_t> done{0};
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
     const WorkItem &item = items[i];
     if (item.foreign != nullptr) {
       findings[i] = refuse(item);
     } else {
-      const FileContext context{FileId(i),      item.source,     item.profile->dialect,
-                                *reads[i].tree, *reads[i].model, callGraph,
-                                programs ? &*programs : nullptr};
+      const FileContext context{FileId(i),       item.source, item.profile->dialect,           *reads[i].tree,
+                                *reads[i].model, callGraph,   programs ? &*programs : nullptr, contracts};
       findings[i] = findingsOf(context, *item.profile, rules);
+      for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
+        if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(k)))
+          sidecars[i].push_back(std::move(*file));
       if (!programs)
         reads[i].tree.reset();
     }
@@ -160,6 +190,11 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     files.push_back(headOf(items[i]));
     files.back().findings = std::move(findings[i]);
   }
+  std::set<std::string> seen; // two programs of one number in a folder share a file
+  for (std::vector<CheckedFile> &of : sidecars)
+    for (CheckedFile &file : of)
+      if (seen.insert(file.path).second)
+        files.push_back(std::move(file));
   return files;
 }
 

@@ -13,7 +13,8 @@ struct AnalyseOptions {
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
-/// One result for each item, in their order; the index of an item is its FileId.
+/// One result for each item, in their order; the index of an item is its FileId.  Behind them those files with contracts
+/// of which there is something to say.
 std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
                                  const AnalyseOptions &options);
 

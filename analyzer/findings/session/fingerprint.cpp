@@ -47,6 +47,13 @@ std::string Fingerprints::blockText(BlockId id, Span place) const {
   return text;
 }
 
+std::string LineFingerprints::of(const RuleInfo &rule, Span place) {
+  const Span line = source_.lineSpan(source_.lineOf(place.begin));
+  const std::uint64_t hash =
+      stableHash(fmt::format("{}\n{}", rule.name, toUpper(trimmed(source_.text(line).substr(0, kLongestBlock)))));
+  return hexadecimal(stableHash(fmt::format("\n{}", seen_[hash]++), hash));
+}
+
 std::string fingerprintOfFile(const RuleInfo &rule, std::string_view fileName) {
   return hexadecimal(stableHash(fmt::format("{}\n{}", rule.name, fileName)));
 }

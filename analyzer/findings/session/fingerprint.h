@@ -25,6 +25,17 @@ private:
   std::unordered_map<std::uint64_t, std::uint32_t> seen_;
 };
 
+/// The same for the lines of a file with contracts.
+class LineFingerprints {
+public:
+  explicit LineFingerprints(const SourceFile &source) : source_(source) {}
+  std::string of(const RuleInfo &rule, Span place);
+
+private:
+  const SourceFile &source_;
+  std::unordered_map<std::uint64_t, std::uint32_t> seen_;
+};
+
 /// For a file without tree: a foreign language.
 std::string fingerprintOfFile(const RuleInfo &rule, std::string_view fileName);
 

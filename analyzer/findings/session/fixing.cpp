@@ -52,7 +52,7 @@ public:
 
   FixResult run() {
     std::vector<CheckedFile> files = analyseAll();
-    for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t i = 0; i < repairs_.size(); ++i)
       repairs_[i].errors = errorCount(files[i]);
     for (int round = 0; round < kMostFixRounds && applyAll(files); ++round) {
       files = analyseAll();
@@ -69,7 +69,7 @@ private:
 
   bool applyAll(const std::vector<CheckedFile> &files) {
     bool changed = false;
-    for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t i = 0; i < repairs_.size(); ++i)
       changed = (!repairs_[i].isFrozen && apply(files[i], i)) || changed;
     return changed;
   }
@@ -95,7 +95,7 @@ private:
   /// True when a file got its text from before the last round back.
   bool takeBackWorse(const std::vector<CheckedFile> &files) {
     bool tookBack = false;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t i = 0; i < repairs_.size(); ++i) {
       Repair &repair = repairs_[i];
       const std::size_t errors = errorCount(files[i]);
       if (repair.lastFixes == 0 || errors <= repair.errors) {
@@ -116,7 +116,7 @@ private:
 
   FixResult result(std::vector<CheckedFile> files) {
     FixResult fixed;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t i = 0; i < repairs_.size(); ++i) {
       const std::string_view after = files[i].source.text();
       if (repairs_[i].fixes == 0 || after == repairs_[i].original)
         continue;

@@ -4,6 +4,7 @@
 #include "base/support/text.h"
 #include "findings/session/content.h"
 #include "findings/session/discovery.h"
+#include "findings/session/sidecars.h"
 #include "language/parse/parse.h"
 
 #include <fmt/format.h>
@@ -19,8 +20,9 @@ namespace {
 std::unique_ptr<const LoadedFile> read(std::string shown, fs::path path, SourceFile source, const Dialect &dialect) {
   SyntaxTree tree = parse(source, dialect);
   ProgramModel model = resolve(source, tree, dialect);
-  return std::make_unique<const LoadedFile>(
-      LoadedFile{std::move(shown), std::move(path), std::move(source), std::move(tree), std::move(model)});
+  FileContracts contracts = readContracts(source, tree, model, dialect, sidecarsOf(path, model));
+  return std::make_unique<const LoadedFile>(LoadedFile{std::move(shown), std::move(path), std::move(source),
+                                                       std::move(tree), std::move(model), std::move(contracts)});
 }
 
 /// The files beside `path` that are programs by their names and their looks, by name.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings/session/workload.h"
+#include "language/contract/contract.h"
 #include "meaning/cfg/program_set.h"
 
 #include <filesystem>
@@ -26,6 +27,7 @@ struct LoadedFile {
   SourceFile source;
   SyntaxTree tree;
   ProgramModel model;
+  FileContracts contracts; // with those of the files beside it
 };
 
 /// All files are read for the control of the first one, with its switches.

@@ -61,15 +61,6 @@ void findInComments(const ContractReading &reading, std::vector<RawClause> &foun
   }
 }
 
-std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sidecar) {
-  if (!sidecar.program)
-    return ProgramId(0);
-  for (std::size_t i = 0; i < model.programs.size(); ++i)
-    if (model.programs[ProgramId(i)].name.number == sidecar.program)
-      return ProgramId(i);
-  return std::nullopt;
-}
-
 /// Cuts `@AT N30 ` off; the rest begins with the name of its clause, with or without `@`.
 void takePlace(std::string_view text, RawClause &clause) {
   const auto word = [&](std::uint32_t from) {
@@ -111,6 +102,15 @@ void findInSidecar(const ContractReading &reading, ContractSourceId id, const Si
 }
 
 } // namespace
+
+std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sidecar) {
+  if (!sidecar.program)
+    return ProgramId(0);
+  for (std::size_t i = 0; i < model.programs.size(); ++i)
+    if (model.programs[ProgramId(i)].name.number == sidecar.program)
+      return ProgramId(i);
+  return std::nullopt;
+}
 
 std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sidecar> sidecars) {
   std::vector<RawClause> found;

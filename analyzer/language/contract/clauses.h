@@ -18,6 +18,9 @@ struct RawClause {
 /// Comments of the program, then the lines of the sidecar files.
 std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sidecar> sidecars);
 
+/// Whose contract a sidecar file holds; absent: no program of the file has its number.
+std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sidecar);
+
 /// Reads one clause into its contract, or leaves an issue.
 void readClause(ContractReading &reading, const RawClause &raw);
 

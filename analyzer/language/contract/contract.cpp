@@ -61,6 +61,19 @@ void addNoBlocks(SyntaxTree &tree) {
     tree.blocks.add({0, 0, WordId(0), StatementId(0), CommentId(0)});
 }
 
+void refuseUnreadable(ContractReading &reading, ContractSourceId id, const Sidecar &sidecar) {
+  if (!sidecar.problem)
+    return;
+  const ProgramId program = programOf(reading.model, sidecar).value_or(ProgramId(0));
+  contractOf(reading, program).isSound = false;
+  addIssue(reading, {ContractIssueKind::Malformed,
+                     id,
+                     {},
+                     "a text file with one clause a line: " + *sidecar.problem,
+                     std::nullopt,
+                     program});
+}
+
 std::vector<BlockId> jumpHeads(const ProgramModel &model) {
   std::vector<BlockId> heads;
   for (const Jump &jump : model.jumps)
@@ -79,6 +92,8 @@ FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, co
   reading.result.sources.push_back(source);
   for (const Sidecar &sidecar : sidecars)
     reading.result.sources.push_back(sidecar.source);
+  for (std::size_t i = 0; i < sidecars.size(); ++i)
+    refuseUnreadable(reading, ContractSourceId(i + 1), sidecars[i]);
   const std::vector<RawClause> clauses = findClauses(reading, sidecars);
   if (clauses.empty())
     return std::move(reading.result);

@@ -252,6 +252,7 @@ struct FileContracts {
 struct Sidecar {
   SourceFile source;
   std::optional<std::uint32_t> program; // of `O9100.contract`; absent: the first program of the file
+  std::optional<std::string> problem = {}; // why it could not be read; its text is empty then
 };
 
 FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model,

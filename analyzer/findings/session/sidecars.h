@@ -1,0 +1,15 @@
+// Sidecars: the files beside a program that hold contracts.
+#pragma once
+
+#include "language/contract/contract.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace feedhold {
+
+/// Of `part.nc`: `O9100.contract` for each of its programs, then `part.contract` and `part.nc.contract`.  One that is
+/// there and cannot be read is in the list with the reason.
+std::vector<Sidecar> sidecarsOf(const std::filesystem::path &file, const ProgramModel &model);
+
+} // namespace feedhold
