@@ -42,14 +42,14 @@ enum class TermKind : std::uint8_t {
   Number,      ///< sort Int when it is an integer
   Variable,    ///< named, of any sort
   Add,         ///< two or more; at most one constant, last; each other argument once, perhaps with a factor
-  Multiply,    ///< two or more; a constant factor stands first; never a constant times a sum
+  Multiply,    ///< (constant, a term that is no sum), or two or more terms without a constant
   Divide,      ///< (dividend, divisor); says nothing where the divisor is 0
   Less,        ///< of two numbers; one side is a constant
   LessOrEqual, ///< of two numbers; one side is a constant
   Equal,       ///< of two numbers; the right side is a constant
   And,         ///< two or more
   Or,          ///< two or more
-  Not,         ///< of a Variable or an Equal
+  Not,         ///< never of a Not, a Less or a LessOrEqual
   Ite,         ///< (condition, then, else), of numbers
   Apply,       ///< of a Function
 };
@@ -142,9 +142,10 @@ private:
 
   TermId intern(Term term);
   TermId compare(TermKind kind, TermId left, TermId right);
-  TermId product(const Number &factor, std::vector<TermId> factors);
   TermId junction(TermKind kind, std::span<const TermId> terms);
-  TermId foldedApply(Function function, std::span<const TermId> arguments);
+  std::optional<TermId> foldedFloor(TermId argument);
+  std::optional<TermId> folded(Function function, std::span<const TermId> arguments);
+  bool isWhole(const LinearSum &sum) const;
 
   Store<Term, TermId> terms_;
   std::unordered_set<TermId, Hash, Same> known_;

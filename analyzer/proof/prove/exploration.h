@@ -1,0 +1,84 @@
+// Exploration: what following all paths of a program brings to light, before anything is proved.
+#pragma once
+
+#include "proof/prove/path.h"
+
+#include <map>
+#include <string_view>
+
+namespace feedhold::prove {
+
+/// One way to a place: the run stops there when `conditions` and `stops` hold.
+struct CheckInstance {
+  std::vector<smt::TermId> conditions;
+  smt::TermId stops;
+  SymbolicValue number; // of `#3000=`
+  smt::TermId moved;    // whether an axis has moved before
+};
+
+/// A place where a run may stop by itself.
+struct Check {
+  Place place;
+  Span span;
+  std::optional<AlarmKind> alarm; // absent: `#3000=`
+  std::vector<CheckInstance> instances;
+};
+
+/// What one pass of a loop does.
+struct Transition {
+  std::vector<smt::TermId> conditions; // of the pass, those of the arrival included
+  smt::Substitution next;              // from the loop's variables to their values after the pass
+};
+
+/// A loop as one of the paths meets it.  `variables` stand for the state before any pass; `passes` counts them.
+struct LoopInstance {
+  Place head;
+  std::vector<Place> calls; // that led there
+  smt::TermId passes;
+  std::vector<smt::TermId> variables; // of the parts of the state of which no closed form is known
+  std::vector<smt::TermId> arrival;   // conditions of the path that met it
+  std::vector<smt::TermId> facts;     // that hold before each pass
+  std::vector<Transition> transitions;
+  bool isRecorded = false; // false: met only in a trial
+};
+
+enum class ExitKind : std::uint8_t { Returns, Ends };
+
+/// A way on which the run comes to an end that is none of an alarm.
+struct PathExit {
+  ExitKind kind;
+  Place place;
+  std::vector<smt::TermId> conditions;
+  SymbolicState state;
+  smt::TermId moved;
+};
+
+/// Something was taken as anything at all.
+struct Unfollowed {
+  std::string_view reason;
+  Place place;
+  Span span;
+};
+
+struct Exploration {
+  std::vector<Check> checks;
+  std::vector<LoopInstance> loops;
+  std::vector<PathExit> exits;
+  std::vector<Unfollowed> unfollowed;
+  std::vector<smt::TermId> facts;             // about all variables
+  std::optional<std::string_view> incomplete; // why paths are missing; then nothing is proved
+  std::size_t paths = 0;
+  std::size_t steps = 0;
+};
+
+struct ExploreOptions {
+  std::vector<smt::TermId> assumptions = {}; // of the contract
+  std::size_t mostSteps = 100'000;
+  std::size_t mostPaths = 5'000;
+};
+
+/// Follows every path of the program; loops are met once, in the midst of any of their passes.
+Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
+                    const ExploreOptions &options);
+
+} // namespace feedhold::prove

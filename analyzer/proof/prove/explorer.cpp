@@ -1,0 +1,324 @@
+#include "proof/prove/explorer.h"
+
+#include "proof/prove/entails.h"
+#include "proof/prove/loops.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+using smt::TermKind;
+
+// ---- Path ----------------------------------------------------------------------------------------------------------
+
+bool Path::says(const smt::TermStore &store, TermId condition) const {
+  if (condition == store.yes())
+    return true;
+  return std::find(conditions.begin(), conditions.end(), condition) != conditions.end();
+}
+
+bool Path::assume(const smt::TermStore &store, TermId condition) {
+  if (condition == store.no())
+    return false;
+  if (says(store, condition))
+    return true;
+  if (store[condition].kind == TermKind::And) {
+    const std::vector<TermId> parts = store[condition].arguments;
+    return std::all_of(parts.begin(), parts.end(), [&](TermId part) { return assume(store, part); });
+  }
+  conditions.push_back(condition);
+  return true;
+}
+
+// ---- Explorer ------------------------------------------------------------------------------------------------------
+
+Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options)
+    : reading_(reading), store_(reading.store()), programs_(programs), options_(options) {
+  reading_.usePath(this);
+}
+
+Exploration Explorer::run(Callee entry, const SymbolicState &start) {
+  Path path{.at = {entry.file, entry.entry},
+            .state = start,
+            .conditions = {},
+            .frames = {{.callee = entry, .call = {entry.file, entry.entry}}},
+            .loops = {},
+            .moved = store_.no()};
+  bool possible = true;
+  for (const TermId assumption : options_.assumptions)
+    possible = possible && path.assume(store_, assumption);
+  if (possible)
+    follow({std::move(path)}, Purpose::Record, nullptr);
+  std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
+  result_.facts = reading_.facts();
+  reading_.usePath(nullptr);
+  return std::move(result_);
+}
+
+void Explorer::giveUp(std::string_view reason) {
+  if (!result_.incomplete)
+    result_.incomplete = reason;
+}
+
+bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
+
+bool Explorer::proves(TermId condition) {
+  return path_ && entails(store_, reading_.facts(), path_->conditions, condition, Budget::quick());
+}
+
+bool Explorer::isPossible(const Path &path, TermId condition) {
+  const TermId opposite = store_.logicalNot(condition);
+  if (condition == store_.no() || path.says(store_, opposite))
+    return false;
+  return !entails(store_, reading_.facts(), path.conditions, opposite, Budget::quick());
+}
+
+StepContext<SymbolicReading> Explorer::contextOf(Path &path) {
+  const ProgramFile &file = fileOf(path);
+  reading_.useDialect(*file.dialect);
+  path_ = &path;
+  return {reading_, path.state, programs_, file, modesOf(path.at.file), nodeOf(path).block};
+}
+
+const ModalTable &Explorer::modesOf(FileId file) {
+  auto &modes = modes_[file.index()];
+  if (!modes)
+    modes = std::make_unique<ModalTable>(*programs_.file(file).dialect);
+  return *modes;
+}
+
+const Wto &Explorer::wtoOf(const Path &path) {
+  const Callee &callee = path.frames.back().callee;
+  auto &wto = wtos_[{callee.file.index(), callee.entry.index()}];
+  if (!wto) {
+    const ProgramFile &file = programs_.file(callee.file);
+    wto = std::make_unique<Wto>(file.cfg, *file.model, callee.entry,
+                                path.frames.size() == 1 ? ProgramUse::Started : ProgramUse::Called);
+  }
+  return *wto;
+}
+
+Path Explorer::to(Path path, NodeId node) const {
+  path.at.node = node;
+  return path;
+}
+
+// ---- the paths -----------------------------------------------------------------------------------------------------
+
+void Explorer::follow(std::vector<Path> work, Purpose purpose, Trial *trial) {
+  while (!work.empty() && !result_.incomplete) {
+    Path path = std::move(work.back());
+    work.pop_back();
+    if (++result_.steps > options_.mostSteps)
+      return giveUp("there are too many ways through the program");
+    if (++path.steps > 20'000)
+      return giveUp("a way through the program is too long");
+    purpose_ = purpose; // opening a loop tries it
+    if (!arrive(path, purpose, trial))
+      continue;
+    purpose_ = purpose;
+    for (Path &next : execute(std::move(path)))
+      work.push_back(std::move(next));
+    path_ = nullptr;
+    if (work.size() > options_.mostPaths)
+      return giveUp("there are too many ways through the program");
+  }
+}
+
+/// A loop is left when the path leaves its program, or stands outside of its nodes.
+bool Explorer::closeLeftLoops(Path &path, const Trial *trial) {
+  while (!path.loops.empty()) {
+    const OpenLoop &loop = path.loops.back();
+    if (path.frames.size() > loop.depth)
+      return true;
+    if (path.frames.size() == loop.depth) {
+      const Wto &wto = wtoOf(path);
+      const std::uint32_t at = wto.positionOf(path.at.node);
+      if (wto.positionOf(loop.head) <= at && at < wto.endOf(loop.head))
+        return true;
+    }
+    if (trial && trial->instance == loop.instance)
+      return false;
+    path.loops.pop_back();
+  }
+  return true;
+}
+
+bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
+  if (path.atOpenedHead) {
+    path.atOpenedHead = false;
+    return true;
+  }
+  if (!closeLeftLoops(path, trial))
+    return false;
+  if (!wtoOf(path).isHead(path.at.node))
+    return true;
+  const bool isOpen =
+      !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
+  if (isOpen) {
+    if (trial && trial->instance == path.loops.back().instance)
+      trial->passes.push_back(std::move(path));
+    else if (purpose == Purpose::Record)
+      recordPass(path);
+    return false;
+  }
+  return LoopOpener(*this).open(path);
+}
+
+void Explorer::recordPass(const Path &path) {
+  const std::size_t instance = path.loops.back().instance;
+  if (!LoopOpener(*this).record(instance, path))
+    giveUp("what a loop leaves unchanged could not be told");
+}
+
+// ---- what a step may have stopped at
+// ---------------------------------------------------------------------------------
+
+bool Explorer::takeChecks(Path &path) {
+  for (const auto &[reason, span] : reading_.takeNotes())
+    if (purpose_ == Purpose::Record)
+      result_.unfollowed.push_back({reason, path.at, span});
+  for (const StopCheck &check : reading_.checks()) {
+    if (purpose_ == Purpose::Record) {
+      const auto same = [&](const Check &known) {
+        return known.place == path.at && known.span == check.place && known.alarm == check.alarm;
+      };
+      auto found = std::find_if(result_.checks.begin(), result_.checks.end(), same);
+      if (found == result_.checks.end())
+        found = result_.checks.insert(result_.checks.end(), Check{path.at, check.place, check.alarm, {}});
+      found->instances.push_back({path.conditions, check.when.term, check.number, path.moved});
+    }
+    if (!path.assume(store_, store_.logicalNot(check.when.term)))
+      return false;
+  }
+  if (reading_.moved())
+    path.moved = store_.yes();
+  reading_.start();
+  return true;
+}
+
+void Explorer::stopsWhen(Path &path, Condition when, AlarmKind alarm) {
+  reading_.alarm(when, {alarm, fileOf(path).tree->blocks[nodeOf(path).block].span()});
+}
+
+void Explorer::exit(const Path &path, ExitKind kind) {
+  ++result_.paths;
+  if (purpose_ == Purpose::Record)
+    result_.exits.push_back({kind, path.at, path.conditions, path.state, path.moved});
+}
+
+// ---- instructions --------------------------------------------------------------------------------------------------
+
+std::vector<Path> Explorer::execute(Path path) {
+  reading_.start();
+  const Instruction &instruction = nodeOf(path).instruction;
+  return match(
+      instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },
+      [&](const Test &test) { return follow(std::move(path), test); },
+      [&](const JumpTo &jump) { return follow(std::move(path), jump); },
+      [&](const CountDown &count) { return follow(std::move(path), count); },
+      [&](const CallProgram &call) { return follow(std::move(path), call); },
+      [&](const ReturnFromProgram &from) { return follow(std::move(path), from); },
+      [&](const EndProgram &end) { return follow(std::move(path), end); },
+      [&](const auto &) { return straight(std::move(path)); });
+}
+
+std::vector<Path> Explorer::straight(Path path) {
+  const Node &node = nodeOf(path);
+  auto context = contextOf(path);
+  step(context, node.instruction, words_);
+  const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
+  const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
+  if (!takeChecks(path))
+    return {};
+  if (moves.term != store_.no())
+    return modalCall(std::move(path), moves);
+  return {to(std::move(path), node.next)};
+}
+
+std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken) {
+  std::vector<Path> paths;
+  const NodeId next = nodeOf(path).next;
+  if (!takeChecks(path))
+    return paths;
+  const TermId opposite = store_.logicalNot(condition.term);
+  if (isPossible(path, opposite)) {
+    Path straightOn = to(path, next);
+    if (straightOn.assume(store_, opposite))
+      paths.push_back(std::move(straightOn));
+  }
+  if (isPossible(path, condition.term)) {
+    Path other = to(std::move(path), taken);
+    if (other.assume(store_, condition.term))
+      paths.push_back(std::move(other));
+  }
+  return paths;
+}
+
+std::vector<Path> Explorer::follow(Path path, const BlockSkip &skip) {
+  return branch(std::move(path), reading_.unknownTruth(), skip.skipped);
+}
+std::vector<Path> Explorer::follow(Path path, const Test &test) {
+  auto context = contextOf(path);
+  const Condition condition = conditionOf(context, test);
+  return branch(std::move(path), condition, test.taken);
+}
+std::vector<Path> Explorer::follow(Path path, const CountDown &count) {
+  auto context = contextOf(path);
+  const Condition goesOn = countDown(context, count);
+  return branch(std::move(path), goesOn, count.taken);
+}
+std::vector<Path> Explorer::follow(Path path, const JumpTo &jump) {
+  auto context = contextOf(path);
+  const SymbolicValue number = jumpTarget(context, jump);
+  const BlockId from = nodeOf(path).block;
+  return search(std::move(path), number, from);
+}
+
+/// A way for each sequence number of the program that the number may be.
+std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, BlockId from) {
+  const ProgramFile &file = fileOf(path);
+  const auto constant = [&](double value) { return reading_.number(value).number; };
+  const TermId inRange = store_.logicalAnd(
+      store_.lessOrEqual(constant(file.dialect->grammar.sequenceZero ? 0 : 1), number.number),
+      store_.lessOrEqual(number.number, constant(static_cast<double>(file.dialect->limits.lastSequenceNumber))));
+  std::map<std::uint32_t, NodeId> places;
+  std::vector<TermId> found;
+  for (const LabelNode &label : labelsOf(file.cfg, *file.model, from))
+    if (const auto place = findLabel(file.cfg, *file.model, path.frames.back().callee.program, label.number, from))
+      if (places.emplace(label.number, *place).second)
+        found.push_back(store_.equal(number.number, constant(label.number)));
+  stopsWhen(path, {store_.logicalNot(inRange)}, AlarmKind::SequenceOutOfRange);
+  stopsWhen(path, {store_.logicalNot(store_.logicalOr(found))}, AlarmKind::SequenceNotFound);
+  std::vector<Path> paths;
+  if (!takeChecks(path))
+    return paths;
+  for (const auto &[label, place] : places) {
+    const TermId isLabel = store_.equal(number.number, constant(label));
+    if (!isPossible(path, isLabel))
+      continue;
+    Path there = to(path, place);
+    if (there.assume(store_, isLabel))
+      paths.push_back(std::move(there));
+  }
+  return paths;
+}
+
+std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
+  const ProgramFile &file = fileOf(path);
+  if (end.end == ProgramEnd::EndOfFile && alarmNumber(*file.dialect, AlarmKind::EndOfRecord)) {
+    stopsWhen(path, reading_.truth(true), AlarmKind::EndOfRecord);
+    takeChecks(path);
+    return {};
+  }
+  exit(path, ExitKind::Ends);
+  return {};
+}
+
+Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
+                    const ExploreOptions &options) {
+  return Explorer(reading, programs, options).run(entry, start);
+}
+
+} // namespace feedhold::prove

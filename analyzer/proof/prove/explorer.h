@@ -1,0 +1,86 @@
+// Explorer: follows the paths of a program through its graph and into the programs it calls.
+#pragma once
+
+#include "meaning/cfg/wto.h"
+#include "proof/prove/exploration.h"
+#include "proof/prove/loops.h"
+
+#include <memory>
+
+namespace feedhold::prove {
+
+class Explorer : public PathKnowledge {
+public:
+  Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options);
+
+  Exploration run(Callee entry, const SymbolicState &start);
+
+  // ---- PathKnowledge ----
+  bool says(smt::TermId condition) const override;
+  bool proves(smt::TermId condition) override;
+
+private:
+  friend class LoopOpener;
+
+  /// Checks, passes and exits are kept only when the paths are those that count: loops are tried before.
+  enum class Purpose : std::uint8_t { Trial, Record };
+  /// Of a trial: the loop whose passes are looked for, and the paths that come back to its head.
+  struct Trial {
+    std::size_t instance;
+    std::vector<Path> passes;
+  };
+  void follow(std::vector<Path> work, Purpose purpose, Trial *trial);
+  /// False: the path has ended here.
+  bool arrive(Path &path, Purpose purpose, Trial *trial);
+  bool closeLeftLoops(Path &path, const Trial *trial);
+  void recordPass(const Path &path);
+
+  // ---- one instruction: the paths that go on ----
+  std::vector<Path> execute(Path path);
+  std::vector<Path> straight(Path path);
+  std::vector<Path> branch(Path path, Condition condition, NodeId taken);
+  std::vector<Path> follow(Path path, const BlockSkip &skip);
+  std::vector<Path> follow(Path path, const Test &test);
+  std::vector<Path> follow(Path path, const CountDown &count);
+  std::vector<Path> follow(Path path, const JumpTo &jump);
+  std::vector<Path> follow(Path path, const CallProgram &call);
+  std::vector<Path> follow(Path path, const ReturnFromProgram &from);
+  std::vector<Path> follow(Path path, const EndProgram &end);
+  std::vector<Path> search(Path path, const SymbolicValue &number, BlockId from);
+
+  // ---- calls ----
+  std::vector<Path> enter(Path path, const CallRequest<SymbolicReading> &request, std::optional<std::size_t> modal);
+  std::vector<Path> modalCall(Path path, Condition moves);
+  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request, std::string_view reason);
+  std::optional<AlarmKind> nestingAlarm(const Path &path, bool macro) const;
+  std::vector<VariableMap<SymbolicValue>::Entry> takeOwnNames(SymbolicState &state) const;
+  std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
+
+  /// Keeps what the step may have stopped at; false when it always stops.
+  bool takeChecks(Path &path);
+  void stopsWhen(Path &path, Condition when, AlarmKind alarm);
+  void exit(const Path &path, ExitKind kind);
+  void giveUp(std::string_view reason);
+  bool isPossible(const Path &path, smt::TermId condition);
+
+  StepContext<SymbolicReading> contextOf(Path &path);
+  const Node &nodeOf(const Path &path) const { return programs_.node(path.at); }
+  const ProgramFile &fileOf(const Path &path) const { return programs_.file(path.at.file); }
+  const Wto &wtoOf(const Path &path);
+  const ModalTable &modesOf(FileId file);
+  Path to(Path path, NodeId node) const;
+
+  SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const ProgramSet &programs_;
+  const ExploreOptions &options_;
+  const Path *path_ = nullptr; // on which the present step is made
+  Purpose purpose_ = Purpose::Record;
+  Exploration result_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Wto>> wtos_; // by file and entry
+  std::map<std::uint32_t, std::unique_ptr<ModalTable>> modes_;
+  ExecutedWords<SymbolicReading> words_;
+  std::vector<LoopShape> shapes_; // by Exploration::loops
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,463 @@
+#include "proof/prove/loops.h"
+
+#include "proof/prove/entails.h"
+#include "proof/prove/explorer.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::Sort;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+constexpr int kMostRounds = 12;
+
+std::vector<TermId> partsOf(SymbolicState &state, TermId moved) {
+  std::vector<TermId> parts;
+  forEachPart(state, [&](TermId &part) { parts.push_back(part); });
+  parts.push_back(moved);
+  return parts;
+}
+
+/// How many parts are values: a vacancy and a number each, in turn.
+std::size_t valueParts(const SymbolicState &state, std::size_t parts) {
+  constexpr std::size_t kFlags = kModalGroups + 3; // spindle, mapping, modal calls
+  return parts - kFlags - state.enteredLoops.size() - 1;
+}
+
+} // namespace
+
+struct LoopOpener::Work {
+  Path arrival;
+  std::size_t instance;
+  TermId passes;
+  std::size_t mark; // the terms below were there before the loop
+  LoopShape shape = {};
+  TermId moved{0};
+  std::vector<TermId> facts = {};
+  std::vector<Path> found = {};
+  std::vector<std::vector<TermId>> left = {}; // by pass: its parts
+
+  std::vector<LoopPart> &parts() { return shape.parts; }
+  const std::vector<LoopPart> &parts() const { return shape.parts; }
+};
+
+// ---- trying
+// ----------------------------------------------------------------------------------------------------------
+
+/// The state before any pass, from the parts.
+void LoopOpener::build(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId isFirst = store.equal(work.passes, store.number(Number(0)));
+  for (LoopPart &part : work.parts())
+    switch (part.kind) {
+    case PartKind::Kept: part.generic = part.arrival; break;
+    case PartKind::Free: part.generic = part.symbol; break;
+    case PartKind::Closed: part.generic = store.add(part.arrival, store.multiply(work.passes, part.step)); break;
+    case PartKind::Derived: part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step)); break;
+    }
+  work.shape.state = work.arrival.state;
+  auto part = work.parts().begin();
+  forEachPart(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
+  work.moved = part->generic;
+}
+
+/// Over the symbols of closed parts: what it was at the last pass.
+TermId LoopOpener::lastPass(const Work &work, TermId term) const {
+  smt::TermStore &store = explorer_.store_;
+  const TermId before = store.subtract(work.passes, store.number(Number(1)));
+  smt::Substitution closed;
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, store.add(part.arrival, store.multiply(before, part.step)));
+  return smt::substitute(store, term, closed);
+}
+
+/// Follows the passes from the state that the parts say.
+bool LoopOpener::tryPasses(Work &work) {
+  build(work);
+  Path start = work.arrival;
+  start.state = work.shape.state;
+  start.moved = work.moved;
+  for (const TermId fact : work.facts)
+    if (!start.assume(explorer_.store_, fact)) {
+      work.found.clear();
+      return true;
+    }
+  start.loops.push_back({start.at.node, start.frames.size(), work.instance});
+  start.atOpenedHead = true;
+  Explorer::Trial trial{work.instance, {}};
+  explorer_.follow({std::move(start)}, Explorer::Purpose::Trial, &trial);
+  work.found = std::move(trial.passes);
+  return !explorer_.result_.incomplete;
+}
+
+/// Gives the arrival the parts that a pass has made; and takes down what the passes leave.
+bool LoopOpener::relayout(Work &work, bool &grew) {
+  grew = false;
+  SymbolicState &arrival = work.arrival.state;
+  const auto size = [&] { return partsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
+  const std::size_t before = size();
+  for (Path &pass : work.found)
+    if (!align(explorer_.reading_, arrival, pass.state)) {
+      explorer_.giveUp("a modal call begins or ends in a loop");
+      return false;
+    }
+  grew = size() != before;
+  work.left.clear();
+  for (Path &pass : work.found) {
+    align(explorer_.reading_, arrival, pass.state); // what a later pass has made
+    work.left.push_back(partsOf(pass.state, pass.moved));
+  }
+  return true;
+}
+
+// ---- which parts change, and how
+// -------------------------------------------------------------------------------------
+
+bool LoopOpener::findChanged(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  work.parts().clear();
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (work.parts().empty())
+      for (const TermId part : partsOf(work.arrival.state, work.arrival.moved))
+        work.parts().push_back({PartKind::Kept, part, part, part, part});
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew))
+      return false;
+    if (grew) {
+      work.parts().clear();
+      continue;
+    }
+    bool changed = false;
+    for (const std::vector<TermId> &left : work.left)
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        LoopPart &part = work.parts()[i];
+        if (left[i] == part.generic)
+          continue;
+        const bool widens =
+            part.kind == PartKind::Free && store.sort(part.symbol) == Sort::Int && store.sort(left[i]) == Sort::Real;
+        if (part.kind == PartKind::Free && !widens)
+          continue;
+        const Sort sort = store.sort(part.arrival) == Sort::Int ? store.sort(left[i]) : store.sort(part.arrival);
+        part.kind = PartKind::Free;
+        part.symbol = explorer_.reading_.fresh("part", sort);
+        changed = true;
+      }
+    if (!changed)
+      return true;
+  }
+  explorer_.giveUp("what a loop changes could not be told");
+  return false;
+}
+
+bool LoopOpener::isOutside(const Work &work, TermId term) const {
+  const auto variables = smt::variablesOf(explorer_.store_, term);
+  return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
+    return variable.index() < work.mark || explorer_.reading_.isFromEntry(variable);
+  });
+}
+
+void LoopOpener::classify(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  if (work.left.empty())
+    return;
+  const auto sameInAll = [&](auto &&termOf) -> std::optional<TermId> {
+    const TermId first = termOf(work.left.front());
+    for (const auto &left : work.left)
+      if (termOf(left) != first)
+        return std::nullopt;
+    return first;
+  };
+  smt::Substitution closed;
+  for (std::size_t i = 0; i < work.parts().size(); ++i) {
+    LoopPart &part = work.parts()[i];
+    if (part.kind != PartKind::Free || store.sort(part.symbol) == Sort::Bool)
+      continue;
+    const auto step = sameInAll([&](const auto &left) { return store.subtract(left[i], part.symbol); });
+    if (step && isOutside(work, *step)) {
+      part.kind = PartKind::Closed;
+      part.step = *step;
+      closed.emplace(part.symbol, part.symbol);
+    }
+  }
+  for (std::size_t i = 0; i < work.parts().size(); ++i) {
+    LoopPart &part = work.parts()[i];
+    if (part.kind != PartKind::Free)
+      continue;
+    const auto value = sameInAll([&](const auto &left) { return left[i]; });
+    if (!value)
+      continue;
+    const auto variables = smt::variablesOf(store, *value);
+    if (std::all_of(variables.begin(), variables.end(),
+                    [&](TermId variable) { return closed.contains(variable) || isOutside(work, variable); })) {
+      part.kind = PartKind::Derived;
+      part.step = *value;
+    }
+  }
+}
+
+/// What a pass leaves is what was thought; other parts become free.
+bool LoopOpener::verify(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution closed;
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, part.generic);
+  bool holds = true;
+  for (std::size_t pass = 0; pass < work.left.size(); ++pass)
+    for (std::size_t i = 0; i < work.parts().size(); ++i) {
+      LoopPart &part = work.parts()[i];
+      const TermId left = work.left[pass][i];
+      bool asThought = true;
+      switch (part.kind) {
+      case PartKind::Kept: asThought = left == part.arrival; break;
+      case PartKind::Free: break;
+      case PartKind::Closed: asThought = store.subtract(left, part.generic) == part.step; break;
+      case PartKind::Derived: asThought = left == smt::substitute(store, part.step, closed); break;
+      }
+      if (asThought)
+        continue;
+      if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
+        part.symbol = explorer_.reading_.fresh(
+            "part", store.sort(part.arrival) == Sort::Int ? store.sort(left) : store.sort(part.arrival));
+      part.kind = PartKind::Free;
+      holds = false;
+    }
+  return holds;
+}
+
+bool LoopOpener::findKinds(Work &work) {
+  classify(work);
+  smt::TermStore &store = explorer_.store_;
+  for (int round = 0; round < kMostRounds; ++round) {
+    // Derived parts speak of closed ones: when one of those has become free, so do they.
+    for (LoopPart &part : work.parts())
+      if (part.kind == PartKind::Derived)
+        for (const TermId variable : smt::variablesOf(store, part.step))
+          if (!isOutside(work, variable) &&
+              std::none_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &other) {
+                return other.kind == PartKind::Closed && other.symbol == variable;
+              }))
+            part.kind = PartKind::Free;
+    work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
+    const std::size_t values = valueParts(work.arrival.state, work.parts().size());
+    build(work);
+    for (std::size_t i = 0; i + 1 < values; i += 2) // vacant counts as 0
+      if (work.parts()[i].kind != PartKind::Kept || work.parts()[i + 1].kind != PartKind::Kept)
+        work.facts.push_back(
+            store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew))
+      return false;
+    if (grew)
+      break;
+    if (verify(work))
+      return true;
+  }
+  explorer_.giveUp("what a loop changes could not be told");
+  return false;
+}
+
+// ---- invariants
+// ------------------------------------------------------------------------------------------------------
+
+/// Before the first pass, or some pass has come before: what let it come back to the head held then.
+void LoopOpener::addLastPass(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const std::size_t known = work.arrival.conditions.size();
+  const smt::Substitution earlier{{work.passes, store.subtract(work.passes, store.number(Number(1)))}};
+  std::vector<TermId> cases{store.equal(work.passes, store.number(Number(0)))};
+  for (const Path &pass : work.found) {
+    std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.passes)};
+    for (std::size_t i = known; i < pass.conditions.size(); ++i) {
+      const auto variables = smt::variablesOf(store, pass.conditions[i]);
+      if (std::all_of(variables.begin(), variables.end(),
+                      [&](TermId variable) { return variable == work.passes || isOutside(work, variable); }))
+        held.push_back(smt::substitute(store, pass.conditions[i], earlier));
+    }
+    cases.push_back(store.logicalAnd(held));
+  }
+  work.facts.push_back(store.logicalOr(cases));
+}
+
+std::vector<TermId> LoopOpener::candidates(const Work &work) const {
+  smt::TermStore &store = explorer_.store_;
+  std::vector<TermId> all;
+  const TermId zero = store.number(Number(0));
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < work.parts().size(); ++i)
+    if (work.parts()[i].kind == PartKind::Free)
+      free.push_back(i);
+  for (const std::size_t i : free) {
+    const LoopPart &part = work.parts()[i];
+    if (store.sort(part.symbol) == Sort::Bool) {
+      all.push_back(store.logicalNot(part.symbol));
+      continue;
+    }
+    all.push_back(store.lessOrEqual(part.arrival, part.symbol));
+    all.push_back(store.lessOrEqual(part.symbol, part.arrival));
+    all.push_back(store.lessOrEqual(zero, part.symbol));
+    all.push_back(store.lessOrEqual(part.symbol, zero));
+    for (const std::size_t j : free) {
+      const LoopPart &other = work.parts()[j];
+      if (j <= i || store.sort(other.symbol) == Sort::Bool ||
+          std::any_of(work.left.begin(), work.left.end(), [&](const auto &left) {
+            return store.subtract(left[i], part.symbol) != store.subtract(left[j], other.symbol);
+          }))
+        continue;
+      all.push_back(
+          store.equal(store.subtract(part.symbol, other.symbol), store.subtract(part.arrival, other.arrival)));
+    }
+  }
+  if (free.empty())
+    return all;
+  for (const Path &pass : work.found)
+    for (std::size_t i = work.arrival.conditions.size(); i < pass.conditions.size(); ++i) {
+      const TermKind kind = store[pass.conditions[i]].kind;
+      if (kind != TermKind::Less && kind != TermKind::LessOrEqual)
+        continue;
+      all.push_back(pass.conditions[i]);
+      all.push_back(store.logicalNot(pass.conditions[i]));
+      const TermId left = store[pass.conditions[i]].arguments[0];
+      const TermId right = store[pass.conditions[i]].arguments[1];
+      all.push_back(store.lessOrEqual(left, right));
+    }
+  return all;
+}
+
+bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution first{{work.passes, store.number(Number(0))}};
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Free)
+      first.emplace(part.symbol, part.arrival);
+  return entails(store, explorer_.reading_.facts(), work.arrival.conditions, smt::substitute(store, candidate, first),
+                 Budget::quick());
+}
+
+bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution next{{work.passes, store.add(work.passes, store.number(Number(1)))}};
+  const auto &left = work.left[static_cast<std::size_t>(&pass - work.found.data())];
+  for (std::size_t i = 0; i < work.parts().size(); ++i)
+    if (work.parts()[i].kind == PartKind::Free)
+      next.emplace(work.parts()[i].symbol, left[i]);
+  return entails(store, explorer_.reading_.facts(), pass.conditions, smt::substitute(store, candidate, next),
+                 Budget::quick());
+}
+
+/// Houdini: candidates that do not hold are dropped until all that are left hold together.
+void LoopOpener::addInvariants(Work &work) {
+  const std::vector<TermId> always = work.facts;
+  std::vector<TermId> left = candidates(work);
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  std::erase_if(left, [&](TermId candidate) {
+    const auto variables = smt::variablesOf(explorer_.store_, candidate);
+    const bool speaks = std::any_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &part) {
+      return part.kind == PartKind::Free &&
+             std::find(variables.begin(), variables.end(), part.symbol) != variables.end();
+    });
+    const bool known = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
+      return variable == work.passes || isOutside(work, variable) ||
+             std::any_of(work.parts().begin(), work.parts().end(),
+                         [&](const LoopPart &part) { return part.kind == PartKind::Free && part.symbol == variable; });
+    });
+    return !speaks || !known || !holdsAtArrival(work, candidate);
+  });
+  for (int round = 0; round < kMostRounds && !left.empty(); ++round) {
+    work.facts = always;
+    work.facts.insert(work.facts.end(), left.begin(), left.end());
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew) || grew)
+      break;
+    const auto dropped = std::erase_if(left, [&](TermId candidate) {
+      return !std::all_of(work.found.begin(), work.found.end(),
+                          [&](const Path &pass) { return holdsAfter(work, pass, candidate); });
+    });
+    if (dropped == 0)
+      return;
+  }
+  work.facts = always;
+}
+
+// ---- LoopOpener
+// ------------------------------------------------------------------------------------------------------
+
+bool LoopOpener::open(Path &path) {
+  smt::TermStore &store = explorer_.store_;
+  const std::size_t instance = explorer_.result_.loops.size();
+  std::vector<Place> calls;
+  for (std::size_t i = 1; i < path.frames.size(); ++i)
+    calls.push_back(path.frames[i].call);
+  const auto purpose = explorer_.purpose_;
+  const std::size_t mark = store.size();
+  Work work{
+      .arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int), .mark = mark};
+  explorer_.result_.loops.push_back(
+      {.head = path.at, .calls = calls, .passes = work.passes, .variables = {}, .arrival = path.conditions});
+  explorer_.shapes_.emplace_back();
+  if (!findChanged(work) || !findKinds(work))
+    return false;
+  addInvariants(work);
+  bool grew = false;
+  if (!tryPasses(work) || !relayout(work, grew) || grew)
+    return explorer_.giveUp("what a loop changes could not be told"), false;
+  addLastPass(work);
+  build(work);
+
+  LoopInstance &loop = explorer_.result_.loops[instance];
+  loop.isRecorded = purpose == Explorer::Purpose::Record;
+  loop.facts = work.facts;
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Free)
+      loop.variables.push_back(part.symbol);
+  path.state = work.shape.state;
+  path.moved = work.moved;
+  path.loops.push_back({path.at.node, path.frames.size(), instance});
+  explorer_.shapes_[instance] = std::move(work.shape);
+  for (const TermId fact : work.facts)
+    if (!path.assume(store, fact))
+      return false;
+  return true;
+}
+
+bool LoopOpener::record(std::size_t instance, const Path &path) {
+  smt::TermStore &store = explorer_.store_;
+  const LoopShape &shape = explorer_.shapes_[instance];
+  LoopInstance &loop = explorer_.result_.loops[instance];
+  SymbolicState before = shape.state;
+  SymbolicState after = path.state;
+  const std::size_t ranges = before.forgotten.size();
+  if (!align(explorer_.reading_, before, after) || before.forgotten.size() != ranges)
+    return false;
+  const std::vector<TermId> left = partsOf(after, path.moved);
+  if (left.size() != shape.parts.size())
+    return false;
+  Transition transition{path.conditions, {{loop.passes, store.add(loop.passes, store.number(Number(1)))}}};
+  smt::Substitution closed;
+  for (const LoopPart &part : shape.parts)
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, part.generic);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const LoopPart &part = shape.parts[i];
+    bool asThought = true;
+    switch (part.kind) {
+    case PartKind::Kept: asThought = left[i] == part.arrival; break;
+    case PartKind::Free: transition.next.emplace(part.symbol, left[i]); break;
+    case PartKind::Closed: asThought = store.subtract(left[i], part.generic) == part.step; break;
+    case PartKind::Derived: asThought = left[i] == smt::substitute(store, part.step, closed); break;
+    }
+    if (!asThought)
+      return false;
+  }
+  loop.transitions.push_back(std::move(transition));
+  return true;
+}
+
+} // namespace feedhold::prove

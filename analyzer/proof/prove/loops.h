@@ -1,0 +1,66 @@
+// Loops: what holds before any pass of a loop, found by trial and verified by following a pass.
+//
+// A path that meets a loop goes on in the midst of it, before a pass of which nothing is known but how many came before
+// (`passes`).  Each part of the state is then
+//   kept     what it was at the arrival, because no pass changes it;
+//   closed   arrival + passes * step, because every pass adds the same step, which no pass changes;
+//   derived  the arrival before the first pass, and what each pass leaves in it, told from closed parts, behind that;
+//   free     a variable, of which some invariants are known.
+// All of it is a guess until a pass has been followed from that state and has left it so; record() refuses a pass that
+// does not.
+#pragma once
+
+#include "proof/prove/path.h"
+
+namespace feedhold::prove {
+
+class Explorer;
+
+enum class PartKind : std::uint8_t { Kept, Closed, Derived, Free };
+
+struct LoopPart {
+  PartKind kind = PartKind::Kept;
+  smt::TermId arrival;
+  smt::TermId symbol;  // stands for the part while its kind is looked for; of Free: for good
+  smt::TermId generic; // before any pass
+  smt::TermId step;    // of Closed: what a pass adds; of Derived: what a pass leaves, over the symbols of closed parts
+};
+
+/// What is known of a loop that has been opened.
+struct LoopShape {
+  SymbolicState state;         // before any pass
+  std::vector<LoopPart> parts; // of `state`, then whether an axis has moved
+};
+
+class LoopOpener {
+public:
+  explicit LoopOpener(Explorer &explorer) : explorer_(explorer) {}
+
+  /// The path stands at the head of a loop: moves it to the midst of the loop.  False: nothing could be found that
+  /// holds.
+  bool open(Path &path);
+  /// The path has come back to the head: adds the pass.  False: it does not leave the loop as it was thought to.
+  bool record(std::size_t instance, const Path &path);
+
+private:
+  struct Work;
+  bool findChanged(Work &work);
+  bool findKinds(Work &work);
+  void classify(Work &work);
+  bool verify(Work &work);
+  void addInvariants(Work &work);
+  void addLastPass(Work &work);
+  std::vector<smt::TermId> candidates(const Work &work) const;
+  bool holdsAtArrival(const Work &work, smt::TermId candidate);
+  bool holdsAfter(const Work &work, const Path &pass, smt::TermId candidate);
+
+  bool tryPasses(Work &work);
+  void build(Work &work);
+  bool relayout(Work &work, bool &grew);
+  bool isOutside(const Work &work, smt::TermId term) const;
+  smt::TermId lastPass(const Work &work, smt::TermId term) const;
+
+  Explorer &explorer_;
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,48 @@
+// Path: one way through a program, as far as it has been followed: where it stands, what holds on it, what the state
+// is.
+#pragma once
+
+#include "proof/prove/symbolic_reading.h"
+
+#include <optional>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// A program that has been entered and not left.
+struct SymbolicFrame {
+  Callee callee;
+  Place call;             // the node that called; of the first frame, where the run began
+  double repeatsLeft = 1; // of L, this pass included
+  bool ownLocals = false;
+  std::array<SymbolicValue, kLocalVariables + 1> callerLocals = {}; // of ownLocals, as the next one
+  std::vector<VariableMap<SymbolicValue>::Entry> callerNames = {};
+  std::vector<std::pair<std::uint8_t, Condition>> callerLoops = {};
+  std::vector<SymbolicValue> callerCounters = {};
+  std::optional<std::size_t> modal = {}; // the modal call that this is: its index in MachineState::modalCalls
+  std::optional<std::size_t> modalLimit = {};
+};
+
+/// A loop in which the path is: any of its passes.
+struct OpenLoop {
+  NodeId head;
+  std::size_t depth;    // how many frames there were at its head
+  std::size_t instance; // Exploration::loops
+};
+
+struct Path {
+  Place at;
+  SymbolicState state;
+  std::vector<smt::TermId> conditions; // all hold on this path
+  std::vector<SymbolicFrame> frames;
+  std::vector<OpenLoop> loops; // the innermost last
+  smt::TermId moved;           // an axis has moved since the start
+  std::uint32_t steps = 0;
+  bool atOpenedHead = false; // the loop at whose head the path stands has just been opened
+
+  /// False when the condition contradicts the path at first sight: the path ends.
+  bool assume(const smt::TermStore &store, smt::TermId condition);
+  bool says(const smt::TermStore &store, smt::TermId condition) const;
+};
+
+} // namespace feedhold::prove

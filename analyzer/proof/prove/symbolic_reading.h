@@ -1,0 +1,227 @@
+// SymbolicReading: programs read with terms of a solver: a value is a term over what was there at the start of the run.
+//
+// A value is a pair: whether it is vacant, and its number, which is 0 wherever it is vacant; so a vacant value counts
+// as 0 in arithmetic without a case of its own.  What is not known is a fresh variable.  Numbers are exact reals: words
+// are taken as they are written, not rounded to the least increment of the control (docs/soundness.md).
+#pragma once
+
+#include "meaning/semantics/step.h"
+#include "proof/smt/term.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold::prove {
+
+struct SymbolicValue {
+  smt::TermId vacant{1};
+  smt::TermId number{0};
+  friend bool operator==(const SymbolicValue &, const SymbolicValue &) = default;
+};
+struct Condition {
+  smt::TermId term{0};
+  friend bool operator==(const Condition &, const Condition &) = default;
+};
+/// The index of a code in its group, a number of sort Int.
+struct SymbolicCode {
+  smt::TermId index{0};
+  friend bool operator==(const SymbolicCode &, const SymbolicCode &) = default;
+};
+
+class SymbolicReading;
+using SymbolicState = MachineState<SymbolicReading>;
+
+/// Something that stops the run where the condition holds.
+struct StopCheck {
+  Condition when;
+  std::optional<AlarmKind> alarm; // absent: `#3000=`
+  SymbolicValue number;           // of `#3000=`
+  Span place;
+};
+
+/// Whoever follows the path knows what holds on it.
+class PathKnowledge {
+public:
+  virtual ~PathKnowledge() = default;
+  /// By a look at the conditions of the path.
+  virtual bool says(smt::TermId condition) const = 0;
+  /// By a proof, which costs more.
+  virtual bool proves(smt::TermId condition) = 0;
+};
+
+class SymbolicReading {
+public:
+  using Value = SymbolicValue;
+  using Truth = Condition;
+  using ModalCode = SymbolicCode;
+  using State = SymbolicState;
+
+  SymbolicReading(smt::TermStore &store, const Dialect &dialect) : store_(store), dialect_(&dialect) {}
+
+  // ---- for the explorer ----
+  void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+  void usePath(PathKnowledge *path) { path_ = path; }
+  /// The mode of polar coordinates is taken to be left as it is by what is not followed.
+  void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
+  smt::TermStore &store() { return store_; }
+  /// Begins a step.
+  void start();
+  bool stopped() const { return stopped_; }
+  /// What may have stopped the run in the step, in order.
+  const std::vector<StopCheck> &checks() const { return checks_; }
+  /// Whether an axis may have moved in the step.
+  bool moved() const { return moved_; }
+  /// Reasons why something was not followed, since they were last taken.
+  std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
+  /// What is true of the variables that this reading has made.
+  const std::vector<smt::TermId> &facts() const { return facts_; }
+  /// A new variable; its name starts with `what`.
+  smt::TermId fresh(std::string_view what, smt::Sort sort);
+  /// A value with variables of its own, named after `name`: a number where `vacant` is false.
+  enum class MayBeVacant : std::uint8_t { No, Yes };
+  Value named(const std::string &name, MayBeVacant mayBeVacant);
+  /// The value that a variable has at the start of the run.
+  Value atEntry(std::uint32_t variable);
+  /// The variable of the solver stands for what was there at the start of the run.
+  bool isFromEntry(smt::TermId variable) const { return entry_.contains(variable); }
+
+  // ---- values ----
+  Value literal(Decimal value);
+  Value number(double value);
+  Value vacant();
+  Value anything() { return freshValue(MayBeVacant::Yes); }
+  Value anyNumber() { return freshValue(MayBeVacant::No); }
+  Value asNumber(const Value &value) const { return {store_.no(), value.number}; }
+  Truth isVacant(const Value &value) const { return {value.vacant}; }
+  std::optional<double> constantOf(const Value &value) const;
+  Value select(Truth truth, const Value &first, const Value &second);
+  Value either(const Value &first, const Value &second) { return select(unknownTruth(), first, second); }
+  Value between(const Value &start, const Value &end);
+
+  // ---- arithmetic ----
+  Value add(const Value &a, const Value &b) { return of(store_.add(a.number, b.number)); }
+  Value subtract(const Value &a, const Value &b) { return of(store_.subtract(a.number, b.number)); }
+  Value multiply(const Value &a, const Value &b) { return of(store_.multiply(a.number, b.number)); }
+  Value divide(const Value &a, const Value &b) { return of(store_.divide(a.number, b.number)); }
+  Value negate(const Value &a) { return of(store_.negate(a.number)); }
+  Value remainder(const Value &a, const Value &b);
+  Value fix(const Value &a);
+  Value fup(const Value &a);
+  Value floor(const Value &a) { return of(store_.floor(a.number)); }
+  Value ceiling(const Value &a) { return of(store_.ceiling(a.number)); }
+  Value roundTo(const Value &value, Decimal step);
+  Value function(FunctionKind kind, const Value &argument);
+  Value atan2(const Value &y, const Value &x);
+  Value power(const Value &base, const Value &exponent);
+  Value bitwise(OperatorKind op, const Value &a, const Value &b);
+
+  // ---- truths ----
+  Truth truth(bool value) const { return {value ? store_.yes() : store_.no()}; }
+  Truth compare(Relation relation, const Value &a, const Value &b);
+  Truth both(Truth a, Truth b) { return {store_.logicalAnd(a.term, b.term)}; }
+  Truth negation(Truth a) { return {store_.logicalNot(a.term)}; }
+  bool mayBe(Truth a);
+  Truth unknownTruth() { return {fresh("either", smt::Sort::Bool)}; }
+
+  // ---- modal codes ----
+  ModalCode code(std::uint8_t index) { return {store_.number(smt::Number(static_cast<int>(index)))}; }
+  ModalCode unknownCode() { return {fresh("code", smt::Sort::Int)}; }
+  Truth isOneOf(ModalCode code, CodeMask mask);
+  std::optional<std::uint8_t> onlyCode(ModalCode code);
+  ModalCode selectCode(Truth truth, ModalCode first, ModalCode second);
+  Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group);
+  std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &value, const ModalTable &modes) const;
+
+  // ---- variables ----
+  Value unwritten(const State &state, std::uint32_t variable);
+  Value volatileRead(std::uint32_t variable);
+  Value toolLength(const State &state, const Value &number);
+  Value readAnyOf(State &state, const Value &index, Span place);
+  void writeAnyOf(State &state, const Value &index, const Value &value, Span place);
+  void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
+  void join(State &state, Truth truth, const State &second);
+
+  // ---- what happens ----
+  void alarm(Truth truth, const AlarmReport &report);
+  void userAlarm(const Value &number, Span place);
+  bool wantsMoves() const { return true; }
+  void move(const Move<Value> &move);
+  void notModelled(std::string_view reason, Span place) { notes_.emplace_back(reason, place); }
+  void havoc(State &state, std::string_view reason, Span place);
+  void evaluated(ExpressionId, const Value &) const {}
+
+private:
+  Value of(smt::TermId number) const { return {store_.no(), number}; }
+  Value freshValue(MayBeVacant mayBeVacant);
+  bool isNeverNegative(smt::TermId term) const;
+  smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);
+  enum class Use : std::uint8_t { Read, Write };
+  void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
+  void anyMapping(State &state);
+
+  smt::TermStore &store_;
+  const Dialect *dialect_;
+  PathKnowledge *path_ = nullptr;
+  std::optional<std::uint8_t> polarGroup_;
+  std::vector<StopCheck> checks_;
+  std::vector<std::pair<std::string_view, Span>> notes_;
+  std::vector<smt::TermId> facts_;
+  std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
+  std::map<std::string, Value> named_;
+  std::set<smt::TermId> entry_;
+  std::uint32_t nextFresh_ = 0;
+  bool stopped_ = false;
+  bool moved_ = false;
+};
+
+/// What the control gives to a program that is started: each part of the state a variable of its own.
+SymbolicState symbolicEntry(SymbolicReading &reading);
+
+/// Gives both states the same parts.  False when they hold different modal calls.
+bool align(SymbolicReading &reading, SymbolicState &a, SymbolicState &b);
+
+/// Calls visit(smt::TermId &) for each part of the state, in a fixed order; aligned states have the same parts.
+template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit);
+
+// ---- template -----------------------------------------------------------------------------------------------------
+
+template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit) {
+  const auto all = [&visit](auto &values) {
+    for (auto &value : values) {
+      visit(value.vacant);
+      visit(value.number);
+    }
+  };
+  const auto one = [&visit](auto &value) {
+    visit(value.vacant);
+    visit(value.number);
+  };
+  all(state.locals);
+  for (auto &entry : state.variables.entries())
+    one(entry.second);
+  for (auto *values : {&state.position, &state.shift, &state.local})
+    all(*values);
+  all(state.words);
+  one(state.lengthOffset);
+  for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck,
+                      &state.cycle.dwell, &state.transform.angle})
+    one(*level);
+  for (auto *values : {&state.transform.scale, &state.transform.scaleCentre, &state.transform.mirrorAt})
+    all(*values);
+  all(state.transform.centre);
+  for (auto &call : state.modalCalls)
+    all(call.locals);
+  all(state.counters);
+  for (auto &code : state.codes)
+    visit(code.index);
+  visit(state.spindle.index);
+  visit(state.transformed.term);
+  visit(state.modalCallsUnknown.term);
+  for (auto &loop : state.enteredLoops)
+    visit(loop.second.term);
+}
+
+} // namespace feedhold::prove

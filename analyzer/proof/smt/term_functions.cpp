@@ -1,0 +1,129 @@
+// Applications of functions, and what folds in them.
+#include "base/support/check.h"
+#include "proof/smt/exact_angles.h"
+#include "proof/smt/term.h"
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold::smt {
+namespace {
+
+constexpr std::array<std::string_view, 14> kNames = {"floor", "sqrt", "sin", "cos",   "tan",    "asin",  "acos",
+                                                     "atan2", "ln",   "exp", "power", "bitand", "bitor", "bitxor"};
+
+/// Products stay readable up to here; higher powers remain applications.
+constexpr int kHighestPower = 8;
+
+/// Of two whole numbers that are not negative and below 2^53; elsewhere controls differ.
+std::optional<Number> bitwise(Function function, const Number &left, const Number &right) {
+  const Number limit = Number(std::int64_t{1} << 53);
+  for (const Number *side : {&left, &right})
+    if (!side->isInteger() || side->sign() < 0 || *side >= limit)
+      return std::nullopt;
+  std::int64_t a = left.toRational()->numerator(), b = right.toRational()->numerator();
+  if (function == Function::BitAnd)
+    return Number(a & b);
+  return Number(function == Function::BitOr ? (a | b) : (a ^ b));
+}
+
+std::optional<Number> ofConstant(Function function, const Number &value) {
+  switch (function) {
+  case Function::Floor: return floor(value);
+  case Function::Sqrt: return value.sign() < 0 ? std::nullopt : exactSquareRoot(value);
+  case Function::Sin: return exactSine(value);
+  case Function::Cos: return exactSine(value + 90);
+  case Function::Tan: return exactTangent(value);
+  case Function::Asin: return exactArcSine(value);
+  case Function::Acos: {
+    std::optional<Number> angle = exactArcSine(value);
+    return angle ? std::optional(Number(90) - *angle) : std::nullopt;
+  }
+  case Function::Ln: return value == Number(1) ? std::optional(Number(0)) : std::nullopt;
+  case Function::Exp: return value.isZero() ? std::optional(Number(1)) : std::nullopt;
+  case Function::Atan2:
+  case Function::Power:
+  case Function::BitAnd:
+  case Function::BitOr:
+  case Function::BitXor: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+TermId TermStore::apply(Function function, TermId argument) { return apply(function, std::array{argument}); }
+
+TermId TermStore::apply(Function function, std::span<const TermId> arguments) {
+  FEEDHOLD_CHECK(arguments.size() == arity(function), "a function got the wrong number of arguments");
+  for (TermId argument : arguments)
+    FEEDHOLD_CHECK(sort(argument) != Sort::Bool, "a Bool is no number");
+  if (std::optional<TermId> simpler = folded(function, arguments))
+    return *simpler;
+  return intern({.kind = TermKind::Apply,
+                 .sort = function == Function::Floor ? Sort::Int : Sort::Real,
+                 .function = function,
+                 .arguments = {arguments.begin(), arguments.end()},
+                 .number = {},
+                 .name = {}});
+}
+
+std::optional<TermId> TermStore::folded(Function function, std::span<const TermId> arguments) {
+  if (function == Function::Floor)
+    return foldedFloor(arguments[0]);
+  if (arguments.size() == 1 && isNumber(arguments[0])) {
+    std::optional<Number> value = ofConstant(function, terms_[arguments[0]].number);
+    return value ? std::optional(number(*value)) : std::nullopt;
+  }
+  if (arguments.size() == 1 || !isNumber(arguments[1]))
+    return std::nullopt;
+  const Number right = terms_[arguments[1]].number;
+  if (function == Function::Power && right.isInteger() && right.sign() > 0 && right <= Number(kHighestPower))
+    return multiply(std::vector<TermId>(static_cast<std::size_t>(right.toDouble()), arguments[0]));
+  const bool isBitwise = function == Function::BitAnd || function == Function::BitOr || function == Function::BitXor;
+  if (isBitwise && isNumber(arguments[0]))
+    if (std::optional<Number> value = bitwise(function, terms_[arguments[0]].number, right))
+      return number(*value);
+  return std::nullopt;
+}
+
+/// floor(x + n) is floor(x) + n for whole n.
+std::optional<TermId> TermStore::foldedFloor(TermId argument) {
+  if (sort(argument) == Sort::Int)
+    return argument;
+  LinearSum sum = linear(argument), whole, rest;
+  whole.constant = smt::floor(sum.constant);
+  rest.constant = sum.constant - whole.constant;
+  for (const auto &part : sum.terms)
+    (part.second.isInteger() && sort(part.first) == Sort::Int ? whole : rest).terms.push_back(part);
+  if (rest.terms.empty())
+    return fromLinear(whole);
+  if (whole.terms.empty() && whole.constant.isZero())
+    return std::nullopt;
+  TermId left = fromLinear(whole);
+  return add(left, floor(fromLinear(rest)));
+}
+
+std::string_view nameOf(Function function) { return kNames[static_cast<std::size_t>(function)]; }
+
+std::size_t arity(Function function) {
+  switch (function) {
+  case Function::Atan2:
+  case Function::Power:
+  case Function::BitAnd:
+  case Function::BitOr:
+  case Function::BitXor: return 2;
+  case Function::Floor:
+  case Function::Sqrt:
+  case Function::Sin:
+  case Function::Cos:
+  case Function::Tan:
+  case Function::Asin:
+  case Function::Acos:
+  case Function::Ln:
+  case Function::Exp: return 1;
+  }
+  FEEDHOLD_UNREACHABLE("a new function needs its arity");
+}
+
+} // namespace feedhold::smt
