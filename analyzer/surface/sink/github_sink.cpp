@@ -35,7 +35,7 @@ std::string_view commandFor(Severity severity) {
 std::string writeGithub(const Report &report) {
   std::string text;
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
-    const Region region = regionOf(file.source, finding.diagnostic.span);
+    const TextRegion region = regionOf(file.source, finding.diagnostic.span);
     text += fmt::format("::{} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
                         finding.suppressed ? "notice" : commandFor(finding.severity), asProperty(file.path),
                         region.begin.line, region.end.line, region.begin.column, region.end.column,

@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json placeOf(const SourceFile &source, Span span) {
-  const Region region = regionOf(source, span);
+  const TextRegion region = regionOf(source, span);
   return {{"line", region.begin.line},
           {"column", region.begin.column},
           {"endLine", region.end.line},

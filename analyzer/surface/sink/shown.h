@@ -17,12 +17,12 @@ template <typename Visit> void forEachShown(const Report &report, Visit visit) {
         visit(file, finding);
 }
 
-struct Region {
+struct TextRegion {
   Position begin;
   Position end; // just behind the last character
 };
 /// Columns in characters.
-inline Region regionOf(const SourceFile &source, Span span) {
+inline TextRegion regionOf(const SourceFile &source, Span span) {
   return {source.position(span.begin), source.position(span.end)};
 }
 
