@@ -18,10 +18,10 @@ class Containment {
 public:
   Containment(const ConcreteState &state, const AbstractState &abstract, const EntryValues &entry,
               const ModalTable &modes, const Dialect &dialect)
-      : state_(state), abstract_(abstract), entry_(entry), modes_(modes), dialect_(dialect) {}
+      : state_(state), abstract_(abstract), entry_(entry), modes_(modes), dialect_(dialect), reading_(dialect, entry.given) {}
 
   std::optional<std::string> run() {
-    for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+    for (std::uint32_t local = 1; local <= kLocalVariables && reading_.isLocal(local); ++local)
       value(fmt::format("#{}", local), state_.locals[local], abstract_.locals[local]);
     variables();
     axes("position", state_.position, abstract_.position);
@@ -99,14 +99,11 @@ private:
     if (symbol >= kWordSymbols)
       return entry_.state.words[symbol - kWordSymbols];
     if (symbol >= kModalSymbols)
-      return ConcreteReading(dialect_, {})
-          .numberOfCode(entry_.state.codes[symbol - kModalSymbols], modes_,
+      return reading_.numberOfCode(entry_.state.codes[symbol - kModalSymbols], modes_,
                         static_cast<std::uint8_t>(symbol - kModalSymbols));
     if (symbol >= kPositionSymbols)
       return entry_.state.position[symbol - kPositionSymbols];
-    if (symbol <= kLocalVariables)
-      return entry_.state.locals[symbol];
-    return ConcreteReading(dialect_, entry_.given).given(symbol);
+    return reading_.isLocal(symbol) ? entry_.state.locals[symbol] : reading_.given(symbol);
   }
 
   // ---- the parts ----
@@ -163,7 +160,8 @@ private:
       const auto &abstract = abstract_.modalCalls[i];
       if (concrete.call != abstract.call || concrete.file != abstract.file)
         fail("another modal call");
-      for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+      value(fmt::format("L of modal call {}", i), concrete.repeats, abstract.repeats);
+      for (std::uint32_t local = 1; local <= kLocalVariables && reading_.isLocal(local); ++local)
         value(fmt::format("#{} of modal call {}", local, i), concrete.locals[local], abstract.locals[local]);
     }
   }
@@ -178,6 +176,7 @@ private:
   const EntryValues &entry_;
   const ModalTable &modes_;
   const Dialect &dialect_;
+  const ConcreteReading reading_;
   std::map<std::uint32_t, Known> fresh_;
   std::optional<std::string> why_;
 };

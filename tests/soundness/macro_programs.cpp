@@ -1,5 +1,7 @@
 #include "soundness/macro_programs.h"
 
+#include "soundness/ngc_programs.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::soundness {
@@ -18,7 +20,7 @@ public:
       lines_.push_back(fmt::format("O{}", program));
       inside_ = program;
       body(2 + random_.below(6));
-      lines_.push_back(random_.oneIn(8) ? "M99P" + label() : "M99");
+      lines_.push_back(random_.oneIn(8) ? "M99P" + (random_.oneIn(4) ? variable() : label()) : "M99");
     }
     return std::move(lines_);
   }
@@ -27,7 +29,7 @@ private:
   void add(std::string line) {
     std::string head;
     if (random_.oneIn(12))
-      head = "/";
+      head = random_.oneIn(4) ? "/2" : "/";
     if (random_.oneIn(5))
       head += "N" + label();
     lines_.push_back(head + std::move(line));
@@ -37,7 +39,7 @@ private:
       block();
   }
   void block() {
-    switch (random_.below(20)) {
+    switch (random_.below(22)) {
     case 0:
     case 1:
     case 2:
@@ -56,6 +58,8 @@ private:
     case 15: return add(system());
     case 16: return saveAndRestore();
     case 17: return counterUp();
+    case 18: return dispatch();
+    case 19: return add(random_.oneIn(3) ? oddBlock() : severalAssignments());
     default: return add(motion());
     }
   }
@@ -69,12 +73,17 @@ private:
   }
   std::string variable() {
     if (random_.oneIn(25))
-      return "#[" + (random_.oneIn(2) ? variable() : expression(1)) + "]";
+      return "#[" + (random_.oneIn(2) ? variable() : random_.oneIn(3) ? nearCell() : expression(1)) + "]";
     if (random_.oneIn(25))
       return random_.of<const char *>({"#5001", "#5002", "#5003", "#4001", "#4003", "#4006", "#4109", "#1000", "#5041",
                                        "#5021", "#5221", "#5061", "#2001", "#0", "#3001", "#5201", "#4014"});
     return random_.of<const char *>(
         {"#1", "#2", "#3", "#4", "#5", "#6", "#7", "#1", "#2", "#3", "#100", "#101", "#500", "#33"});
+  }
+  /// The number of a variable that stands beside one with a meaning of its own.
+  std::string nearCell() {
+    return random_.of<const char *>({"5000", "5040", "5220", "5200", "4000", "100", "1", "3000", "2000", "99"}) +
+           std::string("+") + random_.of<const char *>({"#1", "#2", "#100", "FIX[#3]", "ABS[#4]", "#10"});
   }
   std::string expression(int depth) {
     if (depth == 0 || random_.oneIn(4))
@@ -153,6 +162,36 @@ private:
     block();
     lines_.push_back("IF[" + counter + " LT " + number() + "]GOTO" + name);
   }
+  /// A number is chosen from a few, and decides later where to go.
+  void dispatch() {
+    const std::string chosen = random_.of<const char *>({"#20", "#21", "#120"});
+    lines_.push_back(chosen + "=1");
+    lines_.push_back("IF" + condition() + "THEN" + chosen + "=" + random_.of<const char *>({"2", "#0", "3"}));
+    block();
+    lines_.push_back("IF[" + chosen + " EQ 1]GOTO" + label());
+    lines_.push_back("IF[" + chosen + " EQ 2]GOTO" + label());
+    if (random_.oneIn(3))
+      lines_.push_back("GOTO[" + chosen + "*10]");
+  }
+  std::string severalAssignments() {
+    return assignment() + random_.of<const char *>({" ", ""}) + (random_.oneIn(2) ? assignment() : motion());
+  }
+  /// What stands in few programs, and ends, leaves or breaks them.
+  std::string oddBlock() {
+    switch (random_.below(10)) {
+    case 0: return random_.of<const char *>({"M99", "M30", "M02", "M00", "M01", "M98", "G65", "M99P#1", "M99P0"});
+    case 1: return random_.of<const char *>({"END1", "END2", "DO2", "DO1", "DO4", "END3", "ELSE", "ENDIF"});
+    case 2: return random_.of<const char *>({"GOTO0", "GOTO99", "GOTO[#1/0]", "GOTO-1", "GOTO99999999", "GOTO"});
+    case 3: return "IF" + condition() + "M99" + (random_.oneIn(2) ? "P" + label() : "");
+    case 4: return "IF" + condition() + "THEN" + random_.of<const char *>({"G91", "S900", "G0X#1", "M98P2", ""});
+    case 5: return random_.of<const char *>({"X", "G", "#1=", "#=1", "X1X2", "G0G1X1", "G90G91", "X#", "X[#1", "#1=[1+"});
+    case 6: return "G1X" + operand() + "/Y" + operand();
+    case 7: return random_.of<const char *>({"M97P10", "M97P20L2", "M97P#1", "M98P2Q10", "G66.1P2A1", "G66P3L2A#1"});
+    case 8: return random_.of<const char *>({"G200", "G200.1X1", "M150", "G65P#1", "G10L50", "G11", "G12.1", "G13.1"});
+    default: return random_.of<const char *>({"#1=ADP[#2]", "#2=PRM[10]", "DPRNT[X#1[53]]", "SETVN500[ABC]", "#3=[#ABC]",
+                                              "#1=#1+1 GOTO10", "WHILE[#1 LT 3]DO1 END1", "#30=30 #[#30]=1"});
+    }
+  }
   std::string call() {
     const std::string program = random_.oneIn(20) ? random_.of<const char *>({"9", "#1", "1"})
                                 : random_.oneIn(8) ? fmt::format("{}", inside_)
@@ -168,7 +207,7 @@ private:
   }
   std::string arguments() {
     std::string text;
-    for (const char letter : {'A', 'B', 'C', 'I', 'J', 'D', 'X', 'Z', 'F'})
+    for (const char letter : {'A', 'B', 'C', 'I', 'J', 'D', 'X', 'Z', 'F', 'K', 'I', 'J'})
       if (random_.oneIn(3))
         text += letter + (random_.oneIn(2) ? number() : random_.oneIn(3) ? "[" + expression(1) + "]" : simpleVariable());
     return text;
@@ -192,15 +231,18 @@ private:
   std::string motion() {
     const std::string code = random_.of<const char *>({"G0", "G1", "", "", "G91", "G90", "G91G1", "G90G0", "G28", "G31",
                                                        "G53G0", "G4", "G30", "G94", "G40", "G41"});
+    if (random_.oneIn(30))
+      return code + words("UWCAH");
     return code + words("XYZ") + (random_.oneIn(4) ? words("FSTDH") : "") + random_.of<const char *>({"", "", "M3", "M5", "M8"});
   }
   std::string modes() {
     return random_.of<const char *>({"G90", "G91", "G17", "G18", "G19", "G20", "G21", "G54", "G55", "G59", "G98", "G99",
                                      "G80", "G94", "G95", "G49", "G43H1", "G43H#1", "G15", "G16", "G54.1P1", "G96S100",
-                                     "G97", "G0", "G1", "M3S500", "F100", "F#2", "S#3", "T#1", "G#1", "G[#100]", "M#2"});
+                                     "G97", "G0", "G1", "M3S500", "F100", "F#2", "S#3", "T#1", "G#1", "G[#100]", "M#2", "G54.1P#2", "G43H2Z1.",
+                                     "G44H1", "G90G17G54", "G112", "G96", "G92S500", "T0101", "G40G49G80", "G94F#3"});
   }
   std::string shifts() {
-    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1", "G10L12P1",
+    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1", "G10L12P1", "G10L20P1", "G10L20P2",
                                      "G92.1", "G69", "G50.1", "G50"}) +
            words("XYZ") + (random_.oneIn(3) ? "R" + operand() : "") + (random_.oneIn(6) ? "P" + number() : "");
   }
@@ -214,7 +256,9 @@ private:
   std::string system() {
     return random_.of<const char *>({"#3000=1(STOP)", "#3000=#1", "#5221=#1", "#5222=[#5222+1]", "#5201=.5", "#2001=#2",
                                      "#3003=0", "#3006=1", "#1100=1", "#3901=#3", "#[#1]=5", "#[#1+100]=#2",
-                                     "#[99+#3]=#0", "#3000=#0", "#4001=1", "#5001=0", "#1=#3012"});
+                                     "#[99+#3]=#0", "#3000=#0", "#4001=1", "#5001=0", "#1=#3012",
+                                     "#[5220+#1]=.5", "#[5200+#2]=#3", "#[#1]=#[#2]", "#[#100+3000]=1", "#33=#[33]",
+                                     "#5061=1", "#1=#5043", "#2=#5061", "#3=#5002-#5022", "#149=#1", "#0=1"});
   }
   void saveAndRestore() {
     const std::string group = random_.of<const char *>({"4001", "4002", "4003", "4006", "4014", "4010"});
@@ -242,7 +286,12 @@ std::uint64_t Random::next() {
   return mixed ^ (mixed >> 31);
 }
 
-ProgramLines macroProgram(Random &random) { return Writer(random).run(); }
+Sample macroSample(Random &random) {
+  const std::string_view dialect =
+      random.of<std::string_view>({"fanuc-30i", "fanuc-30i", "fanuc-30i", "fanuc-30i", "fanuc-0i", "haas-ngc",
+                                   "haas-classic", "mitsubishi-m700", "fanuc-30i-lathe", "linuxcnc", "linuxcnc"});
+  return {dialect, dialect == "linuxcnc" ? ngcProgram(random) : Writer(random).run()};
+}
 
 std::string textOf(const ProgramLines &lines) {
   std::string text = "%\n";

@@ -23,9 +23,15 @@ private:
   std::uint64_t state_;
 };
 
-/// One block a line; O1 first, then the programs that it may call.
+/// One block a line.
 using ProgramLines = std::vector<std::string>;
-ProgramLines macroProgram(Random &random);
+
+struct Sample {
+  std::string_view dialect;
+  ProgramLines lines; // the program that is run first, then those that it may call
+};
+/// Of any dialect; the commonest one more often than others.
+Sample macroSample(Random &random);
 
 std::string textOf(const ProgramLines &lines);
 

@@ -22,7 +22,14 @@ public:
   Loaded(const Loaded &) = delete;
   Loaded &operator=(const Loaded &) = delete;
 
-  Callee main() const { return {FileId(0), set.file(FileId(0)).cfg.entryOf(ProgramId(0)), ProgramId(0)}; }
+  /// The first program, but for subroutines that stand before it.
+  Callee main() const {
+    ProgramId main(0);
+    for (ProgramId id(0); id.index() < model_.programs.size(); id = id.next())
+      if (dialect_.grammar.oWords && model_.programs[id].first.index() < model_.programs[main].first.index())
+        main = id;
+    return {FileId(0), set.file(FileId(0)).cfg.entryOf(main), main};
+  }
   bool isEmpty() const { return model_.programs.empty(); }
   std::string blockOf(Place place) const { return std::string(source_.text(tree_.blocks[set.node(place).block].span())); }
   const Dialect &dialect() const { return dialect_; }
@@ -37,12 +44,13 @@ public:
   ProgramSet set;
 };
 
-const Dialect &control() { return *findDialect(allDialects(), "fanuc-30i"); }
+const Dialect &controlOf(const Sample &sample) { return *findDialect(allDialects(), sample.dialect); }
 
-Dialect machineOf(Random &random) {
-  Dialect dialect = control();
-  dialect.switches.dpi = random.oneIn(2) ? Switch::On : Switch::Off;
-  dialect.switches.nat = random.oneIn(2) ? Switch::On : Switch::Off;
+Dialect machineOf(const Sample &sample, Random &random) {
+  Dialect dialect = controlOf(sample);
+  for (Switch *unknown : {&dialect.switches.dpi, &dialect.switches.nat})
+    if (*unknown == Switch::Unknown)
+      *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
   return dialect;
 }
 
@@ -93,9 +101,16 @@ public:
 private:
   void start(Random &random) {
     GivenVariables &given = entry_.given;
-    const auto value = [&] { return random.oneIn(3) ? ConcreteValue{} : ConcreteValue::of(anyInput(random)); };
+    const bool vacancy = machine_.dialect().behaviour.variablesMayBeVacant;
+    const auto value = [&] {
+      return random.oneIn(3) ? (vacancy ? ConcreteValue{} : ConcreteValue::of(0)) : ConcreteValue::of(anyInput(random));
+    };
     for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
-      given.set(local, value());
+      if (findVariable(machine_.dialect(), local))
+        given.set(local, value());
+    for (const std::string_view result : {"_value", "_value_returned"}) // before any call has returned one
+      if (const auto variable = machine_.set.variableNamed(result))
+        given.set(*variable, ConcreteValue::of(0));
     for (const std::uint32_t common : {100, 101, 102, 105, 110, 120, 130, 500, 501})
       given.set(common, value());
     for (const std::uint32_t cell : {1000, 2001, 3001, 3012, 5061, 5201, 5221, 5222, 5241, 3901})
@@ -106,7 +121,8 @@ private:
     MachineState<ConcreteReading> &state = entry_.state =
         startState(ConcreteReading(machine_.dialect(), given), modes_, position);
     for (std::size_t group = 1; group < kModalGroups; ++group)
-      if (const std::size_t codes = modes_.group(group).codes.size(); codes != 0 && !random.oneIn(4))
+      if (const std::size_t codes = modes_.group(group).codes.size();
+          codes != 0 && (!modes_.powerOn(group) || !random.oneIn(4)))
         state.codes[group] = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(codes)));
     if (const auto polar = modes_.groupOf(ModalKind::Polar)) // an assumption of the analysis: not in force at entry
       state.codes[*polar] = modes_.powerOn(*polar).value_or(ConcreteReading::kNoCode);
@@ -165,10 +181,10 @@ private:
 
 } // namespace
 
-std::optional<std::string> unforeseen(const ProgramLines &lines, std::uint64_t inputSeed, int runs, Tally &tally) {
+std::optional<std::string> unforeseen(const Sample &sample, std::uint64_t inputSeed, int runs, Tally &tally) {
   Random random(inputSeed);
-  const Loaded analysed(lines, control());
-  const Loaded machine(lines, machineOf(random));
+  const Loaded analysed(sample.lines, controlOf(sample));
+  const Loaded machine(sample.lines, machineOf(sample, random));
   if (analysed.isEmpty())
     return std::nullopt;
   Foreseen foreseen;
@@ -186,24 +202,25 @@ std::optional<std::string> unforeseen(const ProgramLines &lines, std::uint64_t i
   return std::nullopt;
 }
 
-ProgramLines shrunk(ProgramLines lines, std::uint64_t inputSeed, int runs) {
+Sample shrunk(Sample sample, std::uint64_t inputSeed, int runs) {
   bool smaller = true;
   while (smaller) {
     smaller = false;
-    for (std::size_t count = lines.size() / 2; count > 0; count /= 2)
-      for (std::size_t at = 0; at + count <= lines.size();) {
-        ProgramLines fewer = lines;
-        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at), fewer.begin() + static_cast<std::ptrdiff_t>(at + count));
+    for (std::size_t count = sample.lines.size() / 2; count > 0; count /= 2)
+      for (std::size_t at = 0; at + count <= sample.lines.size();) {
+        Sample fewer = sample;
+        const auto first = fewer.lines.begin() + static_cast<std::ptrdiff_t>(at);
+        fewer.lines.erase(first, first + static_cast<std::ptrdiff_t>(count));
         Tally tally;
-        if (!fewer.empty() && unforeseen(fewer, inputSeed, runs, tally)) {
-          lines = std::move(fewer);
+        if (!fewer.lines.empty() && unforeseen(fewer, inputSeed, runs, tally)) {
+          sample = std::move(fewer);
           smaller = true;
         } else {
           ++at;
         }
       }
   }
-  return lines;
+  return sample;
 }
 
 } // namespace feedhold::soundness

@@ -15,9 +15,9 @@ struct Tally {
 };
 
 /// What the analysis did not foresee; absent when it foresaw all.
-std::optional<std::string> unforeseen(const ProgramLines &lines, std::uint64_t inputSeed, int runs, Tally &tally);
+std::optional<std::string> unforeseen(const Sample &sample, std::uint64_t inputSeed, int runs, Tally &tally);
 
 /// Without the lines that are not needed for the analysis to be wrong.
-ProgramLines shrunk(ProgramLines lines, std::uint64_t inputSeed, int runs);
+Sample shrunk(Sample sample, std::uint64_t inputSeed, int runs);
 
 } // namespace feedhold::soundness

@@ -20,18 +20,20 @@ std::uint64_t fromEnvironment(const char *name, std::uint64_t otherwise) {
 
 TEST(Soundness, EveryRunIsForeseen) {
   const std::uint64_t first = fromEnvironment("SOUNDNESS_FIRST", 1);
-  const std::uint64_t programs = fromEnvironment("SOUNDNESS_PROGRAMS", 750);
+  const std::uint64_t programs = fromEnvironment("SOUNDNESS_PROGRAMS", 1200);
   Tally tally;
   int wrong = 0;
   for (std::uint64_t seed = first; seed < first + programs; ++seed) {
     Random random(seed);
-    const ProgramLines lines = macroProgram(random);
+    const Sample sample = macroSample(random);
     const std::uint64_t inputs = random.next();
-    if (!unforeseen(lines, inputs, kRuns, tally))
+    if (!unforeseen(sample, inputs, kRuns, tally))
       continue;
-    const ProgramLines least = shrunk(lines, inputs, kRuns);
+    const Sample least = shrunk(sample, inputs, kRuns);
     Tally ignored;
-    ADD_FAILURE() << "program " << seed << ": " << unforeseen(least, inputs, kRuns, ignored).value_or("") << "\n" << textOf(least);
+    ADD_FAILURE() << "program " << seed << ", " << least.dialect << ": "
+                  << unforeseen(least, inputs, kRuns, ignored).value_or("") << "\n"
+                  << textOf(least.lines);
     if (++wrong == kMostShown)
       return;
   }

@@ -275,7 +275,7 @@ AbstractValue AbstractReading::numberOfCode(ModalCode code, const ModalTable &mo
       number = number ? feedhold::join(*number, one) : one;
     }
   const AbstractValue value = valueOf(number.value_or(AbstractNumber::any()));
-  const bool atEntry = code == CodeSet::atEntry();
+  const bool atEntry = code == CodeSet::atEntry() && !codes.empty();
   return atEntry ? value.withOrigin(Origin{kModalSymbols + group, Rational()}) : value;
 }
 

@@ -300,12 +300,16 @@ void AbstractReading::forgetVariables(State &state, std::uint32_t first, std::ui
 
 namespace {
 
+void anyCentres(AbstractState &state) {
+  state.transform.scaleCentre.fill(AbstractValue::anyNumber());
+  state.transform.centre.fill(AbstractValue::anyNumber());
+}
+
 void anyMapping(AbstractState &state) {
-  for (auto *numbers : {&state.transform.scale, &state.transform.scaleCentre})
-    numbers->fill(AbstractValue::anyNumber());
+  anyCentres(state);
+  state.transform.scale.fill(AbstractValue::anyNumber());
   state.transform.mirrorAt.fill(AbstractValue::any());
   state.transform.angle = AbstractValue::anyNumber();
-  state.transform.centre.fill(AbstractValue::anyNumber());
   state.transformed = Truth::Maybe;
 }
 
@@ -320,10 +324,12 @@ void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
     numbers->fill(AbstractValue::anyNumber());
   state.lengthOffset = AbstractValue::anyNumber();
   // What is not followed is taken to leave no mapping in force, as at entry; one of the program's own may stay or end.
-  if (state.transformed == Truth::False)
+  if (state.transformed == Truth::False) {
     noMapping(*this, state);
-  else
+    anyCentres(state); // of a mapping that has ended, or of one that maps nothing
+  } else {
     anyMapping(state);
+  }
   for (AbstractValue &counter : state.counters)
     counter = AbstractValue::anyNumber();
   const CodeSet polar = polarGroup_ && state.transformed == Truth::False ? state.codes[*polarGroup_] : unknownCode();

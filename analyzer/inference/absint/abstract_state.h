@@ -53,8 +53,10 @@ template <typename State, typename Visit> void forEachValue(State &state, Visit 
   all(state.transform.mirrorAt);
   visit(state.transform.angle);
   all(state.transform.centre);
-  for (auto &call : state.modalCalls)
+  for (auto &call : state.modalCalls) {
+    visit(call.repeats);
     all(call.locals);
+  }
   all(state.counters);
 }
 

@@ -7,6 +7,26 @@ namespace {
 
 constexpr double kMostUnrolled = 4;
 
+using Entries = std::vector<VariableMap<AbstractValue>::Entry>;
+
+bool isOwnName(const ProgramSet &programs, std::uint32_t variable) {
+  return variable >= kFirstNamedVariable && !programs.isGlobalName(variable);
+}
+
+/// The named variables of the present level, which no called program sees, with a level of its own or by M98.
+Entries ownNames(const ProgramSet &programs, const AbstractState &state) {
+  Entries names;
+  for (const auto &entry : state.variables.entries())
+    if (isOwnName(programs, entry.first))
+      names.push_back(entry);
+  return names;
+}
+void putOwnNames(const ProgramSet &programs, AbstractState &state, const Entries &names) {
+  std::erase_if(state.variables.entries(), [&](const auto &entry) { return isOwnName(programs, entry.first); });
+  for (const auto &[variable, value] : names)
+    state.variables.set(variable, value);
+}
+
 } // namespace
 
 bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &state) {
@@ -37,11 +57,13 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
 void Propagation::unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
                               std::string_view reason) {
   const auto locals = state.locals;
+  const auto names = ownNames(engine_.programs_, state);
   const auto loops = state.enteredLoops;
   const auto counters = state.counters;
   reading_.havoc(state, reason, contextAt(node, state).place());
   if (request.freshLocals)
     state.locals = locals;
+  putOwnNames(engine_.programs_, state, names);
   state.enteredLoops = loops;
   state.counters = counters;
 }
@@ -115,7 +137,10 @@ std::optional<AbstractState> Propagation::repeated(NodeId node, const CallReques
     CallRequest<AbstractReading> again = request;
     for (AbstractValue &local : again.locals)
       local = AbstractValue::any();
-    return once(node, again, from);
+    AbstractState begins = from;
+    if (modal_ && *modal_ < begins.modalCalls.size())
+      begins.modalCalls[*modal_].locals = again.locals;
+    return once(node, again, std::move(begins));
   };
   if (times && *times <= kMostUnrolled) {
     for (double pass = 2; pass < *times + 0.5 && after; ++pass)
@@ -140,10 +165,13 @@ std::optional<AbstractState> Propagation::repeated(NodeId node, const CallReques
 std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<AbstractReading> &request,
                                                AbstractState state) {
   const auto callerLocals = state.locals;
+  const auto callerNames = ownNames(engine_.programs_, state);
   const auto callerLoops = state.enteredLoops;
   const auto callerCounters = state.counters;
   if (request.freshLocals)
     state.locals = request.locals;
+  for (const auto &name : callerNames)
+    state.variables.set(name.first, AbstractValue::vacant());
   state.enteredLoops.clear();
   state.counters.clear();
   StepObserver *observer = reading_.observer();
@@ -157,8 +185,11 @@ std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<Ab
   std::optional<AbstractState> behind;
   for (const Exit &exit : summary.exits) {
     AbstractState left = translated(reading_, exit.state, summary.entry, state);
+    if (modal_ && *modal_ < left.modalCalls.size()) // what the macro leaves in its variables is there at the next call
+      left.modalCalls[*modal_].locals = left.locals;
     if (request.freshLocals)
       left.locals = callerLocals;
+    putOwnNames(engine_.programs_, left, callerNames);
     left.enteredLoops = callerLoops;
     left.counters = callerCounters;
     if (exit.target)
@@ -240,10 +271,6 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
       return moves == Truth::Maybe;
     }
     state = std::move(*after);
-    // What the macro leaves in its variables is there at the next call.
-    if (last < state.modalCalls.size())
-      for (AbstractValue &local : state.modalCalls[last].locals)
-        local = AbstractValue::any();
   }
   if (moves == Truth::Maybe)
     joinInto(reading_, state, before);

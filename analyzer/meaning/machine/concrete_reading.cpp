@@ -107,7 +107,7 @@ ConcreteValue ConcreteReading::function(FunctionKind kind, const Value &argument
   return Value::of(valueOf(kind, argument.number));
 }
 ConcreteValue ConcreteReading::atan2(const Value &y, const Value &x) const {
-  return Value::of(degrees(std::atan2(y.number, x.number)));
+  return Value::of(degrees(std::atan2(y.number + 0.0, x.number + 0.0))); // no control has a -0
 }
 ConcreteValue ConcreteReading::power(const Value &base, const Value &exponent) const {
   const double result = std::pow(base.number, exponent.number);

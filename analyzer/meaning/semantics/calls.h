@@ -53,7 +53,8 @@ public:
     case CallKind::ModalEach:
       request.action = CallAction::SetModal;
       passArguments(request);
-      context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.locals});
+      readRepeats(request);
+      context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.repeats, request.locals});
       return request;
     case CallKind::Macro:
     case CallKind::OWord:
@@ -170,7 +171,7 @@ CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<ty
   CallRequest<R> request;
   request.freshLocals = true;
   request.locals = modal.locals;
-  request.repeats = context.reading.number(1);
+  request.repeats = modal.repeats;
   request.callee = context.programs.callee(FileId(modal.file), CallId(modal.call));
   return request;
 }

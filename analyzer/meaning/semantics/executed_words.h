@@ -188,7 +188,7 @@ private:
     const auto &codes = context_.modes.group(group).codes;
     for (std::size_t i = 0; i < codes.size(); ++i)
       if (const CodeAction action = codes[i]->action;
-          action == CodeAction::Unmodelled || action == CodeAction::OtherCycle ||
+          action == CodeAction::Unmodelled || action == CodeAction::OtherCycle || action == CodeAction::Skip ||
           action == CodeAction::TurningCycle || action == CodeAction::SideCycle)
         if (reading_.mayBe(reading_.isOneOf(code, CodeMask{1} << i)))
           return true;

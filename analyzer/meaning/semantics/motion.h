@@ -27,21 +27,30 @@ public:
   void run() {
     if (const CodeWord *word = ownWords())
       return consume(*word);
-    if (!hasAxisWords() && !isFullCircle())
-      return;
     const Truth cycle = cycleActive();
+    const Truth moves = context_.either(axisWords(), reading_.both(isFullCircle(), reading_.negation(cycle)));
+    if (!reading_.mayBe(moves))
+      return;
+    if (context_.certain(moves))
+      return move(cycle, moves);
+    const auto before = state_;
+    move(cycle, moves);
+    reading_.join(state_, reading_.negation(moves), before);
+  }
+
+private:
+  void move(Truth cycle, Truth moves) {
     if (context_.certain(cycle))
       return runCycle(context_, words_);
     if (!reading_.mayBe(cycle))
-      return plain();
+      return plain(moves);
     auto drilled = state_; // either: both are followed, and what they leave is joined
-    plain();
+    plain(reading_.both(moves, reading_.negation(cycle)));
     std::swap(state_, drilled);
     runCycle(context_, words_);
     reading_.join(state_, reading_.negation(cycle), drilled);
   }
 
-private:
   // ---- what takes the axis words ----
 
   /// The code of the block, not modal, that takes the axis words for itself.
@@ -99,14 +108,17 @@ private:
 
   // ---- targets ----
 
-  bool hasAxisWords() const {
+  Truth axisWords() const {
+    Truth any = reading_.truth(false);
     for (const Axis axis : kAllAxes)
-      if (words_.find(letterOf(axis)))
-        return true;
-    return context_.dialect().machine == MachineKind::Turning && words_.find('H');
+      any = context_.either(any, present(letterOf(axis)));
+    return context_.dialect().machine == MachineKind::Turning ? context_.either(any, present('H')) : any;
   }
   /// An arc whose end point is not written ends where it starts.
-  bool isFullCircle() { return (words_.find('I') || words_.find('J') || words_.find('K')) && reading_.mayBe(isArc()); }
+  Truth isFullCircle() {
+    const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
+    return reading_.both(centre, isArc());
+  }
   Truth cycleActive() {
     const Truth none = reading_.truth(false);
     const auto group = context_.modes.groupOf(ModalKind::Cycle);
@@ -115,13 +127,14 @@ private:
     return reading_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
   }
 
-  void plain() {
+  /// `holds`: whether this is what the block does.
+  void plain(Truth holds) {
     const Point start = state_.position;
     const Point target = targetOf(context_, words_);
     state_.position = target;
     const Truth arc = isArc();
     if (reading_.mayBe(arc))
-      followArc(start, arc);
+      followArc(start, arc, reading_.both(arc, holds));
     if (!context_.certain(arc) && reading_.wantsMoves())
       tellLine(start);
   }
@@ -146,19 +159,19 @@ private:
     Value first, second; // centre
     Truth byRadius;
   };
-  void followArc(const Point &start, Truth arc) {
+  void followArc(const Point &start, Truth arc, Truth follows) {
     const std::optional<Plane> plane = planeOf(context_);
     if (!plane)
-      return alarmsOfUnknownPlane(arc); // only the end point is known
+      return alarmsOfUnknownPlane(follows); // only the end point is known
     const Truth byRadius = present('R');
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
-    reading_.alarm(reading_.both(arc, reading_.negation(context_.either(byRadius, byCentre))),
+    reading_.alarm(reading_.both(follows, reading_.negation(context_.either(byRadius, byCentre))),
                    {AlarmKind::ArcWithoutCentre, context_.place()});
     const Value first = centreOf(plane->firstCentre, plane->first, start);
     const Value second = centreOf(plane->secondCentre, plane->second, start);
     const Value difference = radiusDifference(*plane, start, first, second);
     const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
-    reading_.alarm(reading_.both(reading_.both(arc, reading_.negation(byRadius)), differs),
+    reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), differs),
                    {AlarmKind::ArcRadius, context_.place()});
     if (reading_.wantsMoves() && context_.certain(arc))
       tellArc(start, {*plane, first, second, byRadius});
@@ -295,10 +308,11 @@ private:
     state_.position = targetOf(context_, words_);
     tell(context_, MoveKind::Rapid, start);
     const Point between = state_.position;
-    const bool all = context_.behaviour().bareReferenceReturn && !hasAxisWords();
+    const Truth all = reading_.both(reading_.truth(context_.behaviour().bareReferenceReturn),
+                                    reading_.negation(axisWords()));
     for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis)); entry || all)
-        home(axis, entry ? entry->present : reading_.truth(true), word);
+      if (const Truth homes = context_.either(present(letterOf(axis)), all); reading_.mayBe(homes))
+        home(axis, homes, word);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
         home(axis, entry->present, word);

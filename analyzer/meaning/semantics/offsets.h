@@ -147,13 +147,12 @@ private:
   /// The offset with which the axes, where they stand, would be at the named coordinates.
   void setPosition(std::uint32_t first) {
     const auto inForce = detail::workOffsetInForce(context_);
-    if (!inForce)
-      return forgetPosition(context_);
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         const auto number = static_cast<std::uint32_t>(indexOf(axis));
         const Value present =
-            detail::offsetVariable(context_, kFirstWorkOffset + kWorkOffsetStride * (*inForce + 1) + number);
+            inForce ? detail::offsetVariable(context_, kFirstWorkOffset + kWorkOffsetStride * (*inForce + 1) + number)
+                    : reading_.anyNumber();
         const Value wanted = reading_.subtract(reading_.add(present, state_.at(axis)), entry->value);
         const Value old = detail::offsetVariable(context_, first + number);
         detail::writeWorkOffset(context_, first + number, reading_.select(entry->present, wanted, old));

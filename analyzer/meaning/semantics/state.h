@@ -72,6 +72,7 @@ template <typename Value> struct TransformState {
 template <typename Value> struct ModalCallState {
   std::uint32_t file; // of the block with G66
   std::uint32_t call; // CallId in that file
+  Value repeats;      // L
   std::array<Value, kLocalVariables + 1> locals; // kept from one call to the next
   friend bool operator==(const ModalCallState &, const ModalCallState &) = default;
 };

@@ -50,6 +50,14 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
   reading.havoc(context.state, "an assignment whose target is not known", expression.span);
 }
 
+/// A name on the left of `=` is there, and 0, while the right side is read: `#<new>=[#<new>+1]`.
+template <ValueAlgebra R> void introduceName(StepContext<R> &context, ExpressionId target) {
+  const auto *named = std::get_if<NamedVariable>(&context.tree().expressions[target].node);
+  const auto number = named ? context.programs.variableOf(context.file.file, named->name) : std::nullopt;
+  if (number)
+    context.state.variables.set(*number, context.reading.asNumber(storedValue(context, *number)));
+}
+
 /// All right sides are read before the first assignment takes place.
 template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &assign) {
   const SyntaxTree &tree = context.tree();
@@ -58,8 +66,11 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
     return std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
   };
   for (std::uint32_t i = 0; i < assign.count; ++i)
-    if (const Assignment *assignment = assignmentAt(i))
+    if (const Assignment *assignment = assignmentAt(i)) {
+      if (context.behaviour().assignsAfterReading)
+        introduceName(context, assignment->target);
       values.push_back(evaluate(context, assignment->value));
+    }
   auto value = values.begin();
   for (std::uint32_t i = 0; i < assign.count; ++i)
     if (const Assignment *assignment = assignmentAt(i))
@@ -84,8 +95,12 @@ template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice 
   readWords(context, choice, words);
   applyModes(context, words);
   applyMotion(context, words);
-  if (words.mayTakeAxes)
+  if (words.mayTakeAxes) {
     forgetPosition(context);
+    for (const VariableRange &range : context.dialect().variables)
+      if (range.role == VariableRole::SkipPosition)
+        context.reading.forgetVariables(context.state, range.first, range.last);
+  }
   if (words.unfollowed)
     context.reading.havoc(context.state, "a code that is not known", context.place());
 }
