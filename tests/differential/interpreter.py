@@ -7,7 +7,8 @@ import tempfile
 import time
 
 # The module keeps a tool table of its own in $HOME and empties it when it starts.
-os.environ["HOME"] = tempfile.mkdtemp(prefix="feedhold-interpreter-")
+home = tempfile.TemporaryDirectory(prefix="feedhold-interpreter-")
+os.environ["HOME"] = home.name
 
 LONGEST_RUN = 10
 PLANES = {1: ("X", "Y", "Z"), 2: ("Y", "Z", "X"), 3: ("Z", "X", "Y")}
@@ -88,7 +89,8 @@ class Canon:
         self.move("arc", point, {axes[0]: first_centre, axes[1]: second_centre}, turns)
 
     def dwell(self, time):
-        self.moves.append(("dwell", time))
+        if time:
+            self.moves.append(("dwell", time))
 
 
 class Run:

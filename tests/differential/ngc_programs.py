@@ -181,14 +181,16 @@ class Motion(Expressions):
         first, second, normal, _, _ = PLANES[plane]
         self.say(f"{plane} g90 g0 {first}{self.coordinate()} {second}{self.coordinate()} {normal}{decimal(self.between(0, 6))}")
         incremental = self.chance(0.3)
-        code = self.pick("g81", "g82", "g83", "g73", "g85", "g86", "g89")
+        # Under G18 and G19 version 2.9.0~pre1 leaves a G84 along the wrong axes (parity.md).
+        tapping = ["g84"] if plane == "g17" else []
+        code = self.pick("g81", "g82", "g83", "g73", "g85", "g86", "g89", *tapping)
         level = self.between(0.5, 2) if incremental else self.between(0, 4)
         bottom = -self.between(0.5, 4) if incremental else -self.between(0.1, 4)
         words = [self.pick("g98", "g99"), "g91" if incremental else "g90", code, f"{first}{self.coordinate()}",
                  f"{second}{self.coordinate()}", f"{normal}{decimal(bottom)}", f"r{decimal(level)}"]
         if code in ("g83", "g73"):
             words.append(f"q{decimal(self.between(0.3, 2))}")
-        if code in ("g82", "g86", "g89"):
+        if code in ("g82", "g84", "g86", "g89"):
             words.append(f"p{decimal(self.between(0, 1))}")
         if incremental and self.chance(0.6) or self.chance(0.1):
             words.append(f"l{self.random.randint(1, 4)}")
@@ -302,12 +304,15 @@ class Program(Flow):
     def text(self):
         self.prologue()
         self.subroutine_text()
+        subprograms = [str(self.new_label()) for _ in range(self.random.randrange(3))]
+        self.subroutines += [(number, "m98") for number in subprograms]
         for _ in range(self.random.randint(4, 10)):
             self.statement(DEEPEST_BLOCK)
         self.say("g20 g90 g80")
         for variable in self.numbered + [f"<{name}>" for name in self.named]:
             self.say(f"g1 x[#{variable}]")
         self.say(self.pick("m2", "m30", "M2"))
+        self.subprogram_text()
         return "\n".join(self.lines) + "\n"
 
     def prologue(self):
@@ -336,6 +341,17 @@ class Program(Flow):
                 self.say(f"o{inner} endif")
             self.say(f"o{label} endsub" + self.pick("", f" [{self.expression(2)}]"))
             self.subroutines.append((label, "o"))
+
+    def subprogram_text(self):
+        """Behind the end of the main program; they see its #1 to #30 and end with M99."""
+        subprograms = [label for label, style in self.subroutines if style == "m98"]
+        self.subroutines = []
+        for label in subprograms:
+            self.say(f"o{label}")
+            if self.chance(0.9):  # else some names are not there: an alarm
+                self.say("#<depth> = #4 #<step> = 0.5 #<a b> = -2")
+            self.body(2)
+            self.say("m99")
 
 
 def program(seed):

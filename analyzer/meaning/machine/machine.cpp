@@ -222,8 +222,9 @@ private:
                 .modal = modal,
                 .modalLimit = modal ? modal : frames_.back().modalLimit};
     frame.callerLoops = std::exchange(state_.enteredLoops, {});
+    frame.callerNames = takeOwnNames();
     if (request.freshLocals)
-      openLevel(frame, request);
+      frame.callerLocals = std::exchange(state_.locals, request.locals);
     frames_.push_back(std::move(frame));
     at_ = {request.callee->file, request.callee->entry};
     return true;
@@ -238,10 +239,6 @@ private:
     if (open >= limits.totalCallDepth || (!macro && open - macros >= limits.subprogramDepth))
       return AlarmKind::SubprogramNesting;
     return std::nullopt;
-  }
-  void openLevel(Frame &frame, const CallRequest<ConcreteReading> &request) {
-    frame.callerLocals = std::exchange(state_.locals, request.locals);
-    frame.callerNames = takeOwnNames();
   }
   /// The named variables of the present level, which a called program does not see.
   std::vector<VariableMap<ConcreteValue>::Entry> takeOwnNames() {
@@ -266,6 +263,8 @@ private:
     } else if (!target && frame.repeatsLeft >= 1.5) {
       frame.repeatsLeft -= 1;
       state_.enteredLoops.clear();
+      if (!frame.ownLocals) // each pass of an M98 begins without names
+        takeOwnNames();
       at_ = {frame.callee.file, frame.callee.entry};
     } else {
       leave(target);
@@ -278,12 +277,11 @@ private:
     if (frame.modal && *frame.modal < state_.modalCalls.size())
       state_.modalCalls[*frame.modal].locals = state_.locals;
     state_.enteredLoops = frame.callerLoops;
-    if (frame.ownLocals) {
+    if (frame.ownLocals)
       state_.locals = frame.callerLocals;
-      takeOwnNames();
-      for (const auto &[variable, value] : frame.callerNames)
-        state_.variables.set(variable, value);
-    }
+    takeOwnNames(); // those of the program that ends
+    for (const auto &[variable, value] : frame.callerNames)
+      state_.variables.set(variable, value);
     const Node &caller = programs_.node(frame.call);
     at_ = frame.call;
     const std::optional<NodeId> label = target ? search(target->number, caller.block) : std::nullopt;

@@ -156,6 +156,10 @@ private:
       go(MoveKind::Feed, bottomLevel());
       dwell();
       return go(MoveKind::Feed, feedsToReturnLevel() ? returnLevel() : retractLevel());
+    case Kind::ByHand:
+      go(MoveKind::Feed, bottomLevel());
+      dwell();
+      return go(MoveKind::Unfollowed, returnLevel());
     case Kind::Peck: return pecks(retractLevel());
     case Kind::ChipBreak: return pecks(std::nullopt);
     case Kind::NotFollowed:
@@ -164,7 +168,8 @@ private:
     }
   }
   bool feedsToReturnLevel() {
-    return context_.behaviour().boringReturnsAtFeed && isInForce({CodeAction::CycleBoreDwell});
+    return context_.behaviour().boringReturnsAtFeed &&
+           isInForce({CodeAction::CycleBoreDwell, CodeAction::CycleTap, CodeAction::CycleTapLeft});
   }
   bool isInForce(std::initializer_list<CodeAction> actions) {
     return context_.certain(context_.inForce(ModalKind::Cycle, actions, reading_.truth(false)));
@@ -178,7 +183,7 @@ private:
     move.feed = cycle_.dwell;
     reading_.move(move);
   }
-  enum class Kind { Straight, FeedBack, Peck, ChipBreak, NotFollowed };
+  enum class Kind { Straight, FeedBack, ByHand, Peck, ChipBreak, NotFollowed };
   Kind kindOf() {
     if (isInForce({CodeAction::CyclePeck}))
       return Kind::Peck;
@@ -188,6 +193,8 @@ private:
       return Kind::FeedBack;
     if (isInForce({CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CycleBoreStop}))
       return Kind::Straight;
+    if (isInForce({CodeAction::CycleBoreManual})) // the operator pulls the tool out
+      return Kind::ByHand;
     return Kind::NotFollowed;
   }
   /// G83 goes back to the R level after each peck, G73 only by the clearance.
