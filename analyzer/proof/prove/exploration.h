@@ -35,10 +35,11 @@ struct LoopInstance {
   Place head;
   std::vector<Place> calls; // that led there
   smt::TermId passes;
-  std::vector<smt::TermId> variables; // of the parts of the state of which no closed form is known
-  std::vector<smt::TermId> arrival;   // conditions of the path that met it
-  std::vector<smt::TermId> facts;     // that hold before each pass
-  std::vector<Transition> transitions;
+  std::size_t mark;                        // terms below it were made before the loop was met
+  std::vector<smt::TermId> arrival;        // conditions of the path that met it
+  std::vector<smt::TermId> variables = {}; // of the parts of the state of which no closed form is known
+  std::vector<smt::TermId> facts = {};     // that hold before each pass
+  std::vector<Transition> transitions = {};
   bool isRecorded = false; // false: met only in a trial
 };
 

@@ -314,12 +314,17 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
           store.equal(store.subtract(part.symbol, other.symbol), store.subtract(part.arrival, other.arrival)));
     }
   }
-  if (free.empty())
-    return all;
   for (const Path &pass : work.found)
     for (std::size_t i = work.arrival.conditions.size(); i < pass.conditions.size(); ++i) {
       const TermKind kind = store[pass.conditions[i]].kind;
-      if (kind != TermKind::Less && kind != TermKind::LessOrEqual)
+      if (kind == TermKind::Not && store[store[pass.conditions[i]].arguments[0]].kind == TermKind::Equal) {
+        const auto &sides = store[store[pass.conditions[i]].arguments[0]].arguments; // a loop that ends at one value
+        const TermId left = sides[0];
+        const TermId right = sides[1];
+        all.push_back(store.lessOrEqual(left, right));
+        all.push_back(store.lessOrEqual(right, left));
+      }
+      if (free.empty() || (kind != TermKind::Less && kind != TermKind::LessOrEqual))
         continue;
       all.push_back(pass.conditions[i]);
       all.push_back(store.logicalNot(pass.conditions[i]));
@@ -400,7 +405,7 @@ bool LoopOpener::open(Path &path) {
   Work work{
       .arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int), .mark = mark};
   explorer_.result_.loops.push_back(
-      {.head = path.at, .calls = calls, .passes = work.passes, .variables = {}, .arrival = path.conditions});
+      {.head = path.at, .calls = calls, .passes = work.passes, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
   if (!findChanged(work) || !findKinds(work))
     return false;

@@ -72,6 +72,7 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
   const bool isNumber = range && range->kind == VariableKind::System;
   const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
+  entryValues_.emplace(variable, value);
   entry_.insert(value.number);
   entry_.insert(value.vacant);
   return value;

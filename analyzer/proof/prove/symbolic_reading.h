@@ -87,6 +87,8 @@ public:
   Value atEntry(std::uint32_t variable);
   /// The variable of the solver stands for what was there at the start of the run.
   bool isFromEntry(smt::TermId variable) const { return entry_.contains(variable); }
+  /// The variables of programs whose first value has been asked for, by number.
+  const std::map<std::uint32_t, Value> &entryValues() const { return entryValues_; }
 
   // ---- values ----
   Value literal(Decimal value);
@@ -171,6 +173,7 @@ private:
   std::vector<smt::TermId> facts_;
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
   std::map<std::string, Value> named_;
+  std::map<std::uint32_t, Value> entryValues_;
   std::set<smt::TermId> entry_;
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;

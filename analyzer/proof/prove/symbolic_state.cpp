@@ -51,7 +51,7 @@ SymbolicState symbolicEntry(SymbolicReading &reading) {
   using Vacancy = SymbolicReading::MayBeVacant;
   SymbolicState state;
   for (std::uint32_t local = 0; local <= kLocalVariables; ++local)
-    state.locals[local] = local == 0 ? reading.vacant() : reading.named(fmt::format("#{}", local), Vacancy::Yes);
+    state.locals[local] = local == 0 ? reading.vacant() : reading.atEntry(local);
   for (std::size_t group = 0; group < kModalGroups; ++group)
     state.codes[group] = {reading.store().variable(fmt::format("code of group {}", group), Sort::Int)};
   for (const Axis axis : kAllAxes)

@@ -1,0 +1,119 @@
+#include "proof/prove/contract_terms.h"
+
+#include "base/support/match.h"
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+/// The expressions of a contract are read as those of the program, in a tree of their own.
+template <typename Evaluate>
+auto inContract(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
+                SymbolicState &state, Evaluate &&evaluate) {
+  const ProgramFile &program = programs.file(file);
+  const ProgramFile within{.file = file,
+                           .source = program.source,
+                           .tree = &contracts.tree,
+                           .model = program.model,
+                           .dialect = program.dialect};
+  const ModalTable modes(*program.dialect);
+  reading.useDialect(*program.dialect);
+  StepContext<SymbolicReading> context{reading, state, programs, within, modes, BlockId(0)};
+  auto result = evaluate(context);
+  reading.start(); // what a condition of a contract would stop at is no alarm of the program
+  return result;
+}
+
+} // namespace
+
+SymbolicValue ContractTerms::value(ExpressionId expression, const SymbolicState &state) {
+  SymbolicState copy = state;
+  return inContract(reading_, programs_, file_, contracts_, copy,
+                    [&](auto &context) { return evaluate(context, expression); });
+}
+
+SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const SymbolicState &now) const {
+  SymbolicState state = now;
+  for (const Axis axis : kAllAxes) {
+    state.variables.set(positionVariable(letterOf(axis)), now.at(axis));
+    state.variables.set(entryVariable(letterOf(axis)), entry.at(axis));
+  }
+  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+    state.variables.set(oldVariable(local), entry.locals[local]);
+  for (const Expression &expression : contracts_.tree.expressions) {
+    const auto *variable = std::get_if<NumberedVariable>(&expression.node);
+    const auto number = variable ? variable->number.asInteger() : std::nullopt;
+    if (!number || *number >= 0)
+      continue;
+    const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
+    const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr;
+    if (of && of->variable > kLocalVariables)
+      state.variables.set(oldVariable(of->variable), reading_.unwritten(entry, of->variable));
+  }
+  return state;
+}
+
+TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
+  SymbolicState state = withReserved(entry, now);
+  return inContract(reading_, programs_, file_, contracts_, state,
+                    [&](auto &context) { return evaluateCondition(context, expression); })
+      .term;
+}
+
+TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {
+  smt::TermStore &store = reading_.store();
+  const SymbolicValue held =
+      given.variable <= kLocalVariables ? entry.locals[given.variable] : reading_.unwritten(entry, given.variable);
+  std::vector<TermId> demands;
+  match(
+      given.values, [](const AnyNumber &) {},
+      [&](const Range &range) {
+        if (range.low)
+          demands.push_back(store.lessOrEqual(value(*range.low, entry).number, held.number));
+        if (range.high)
+          demands.push_back(store.lessOrEqual(held.number, value(*range.high, entry).number));
+      },
+      [&](const ValueList &list) {
+        std::vector<TermId> cases;
+        for (const ExpressionId each : list.values)
+          cases.push_back(store.equal(held.number, value(each, entry).number));
+        demands.push_back(store.logicalOr(cases));
+      });
+  if (given.unit == Unit::Integer)
+    demands.push_back(store.equal(store.floor(held.number), held.number));
+  const TermId within = store.logicalAnd(demands);
+  if (given.vacancy == Vacancy::Possible)
+    return store.logicalOr(held.vacant, within);
+  return store.logicalAnd(store.logicalNot(held.vacant), within);
+}
+
+std::vector<TermId> ContractTerms::demands(const Contract &contract, const SymbolicState &entry) {
+  std::vector<TermId> demands;
+  for (const EntryValue &param : contract.params)
+    demands.push_back(demandOf(param, entry));
+  for (const EntryValue &global : contract.globals)
+    demands.push_back(demandOf(global, entry));
+  for (const ContractCondition &requirement : contract.requirements)
+    demands.push_back(condition(requirement.condition, entry, entry));
+  return demands;
+}
+
+void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
+  const Dialect &dialect = *programs_.file(file_).dialect;
+  const ModalTable modes(dialect);
+  for (const ModalCode &code : contract.modal) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    const auto index = row ? modes.indexOf(*row) : std::nullopt;
+    if (index)
+      entry.codes[row->group] = reading_.code(*index);
+  }
+  if (contract.start)
+    for (const AxisValue &axis : contract.start->axes)
+      if (const auto known = axisOf(axis.axis))
+        entry.at(*known) = reading_.asNumber(value(axis.value, entry));
+}
+
+} // namespace feedhold::prove

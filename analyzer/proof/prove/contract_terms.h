@@ -1,0 +1,34 @@
+// Contract terms: what the clauses of a contract say of an entry state and of a state at the return.
+#pragma once
+
+#include "language/contract/contract.h"
+#include "proof/prove/symbolic_reading.h"
+
+#include <vector>
+
+namespace feedhold::prove {
+
+class ContractTerms {
+public:
+  ContractTerms(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts)
+      : reading_(reading), programs_(programs), file_(file), contracts_(contracts) {}
+
+  /// The modal codes and the start position of the contract are put into the state.
+  void prepare(const Contract &contract, SymbolicState &entry);
+  /// `@PARAM`, `@GLOBAL` and `@REQUIRE`: what a caller has to see to.
+  std::vector<smt::TermId> demands(const Contract &contract, const SymbolicState &entry);
+  /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
+  smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+
+private:
+  smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
+  SymbolicValue value(ExpressionId expression, const SymbolicState &state);
+  SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
+
+  SymbolicReading &reading_;
+  const ProgramSet &programs_;
+  FileId file_;
+  const FileContracts &contracts_;
+};
+
+} // namespace feedhold::prove

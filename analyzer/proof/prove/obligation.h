@@ -1,0 +1,51 @@
+// Obligation: something that must hold of a program for every input its contract allows, and the verdict on it.
+#pragma once
+
+#include "meaning/machine/machine.h"
+#include "proof/prove/discharge.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feedhold::prove {
+
+enum class ObligationKind : std::uint8_t {
+#define OBLIGATION(kind, name) kind,
+#include "proof/prove/obligation_kinds.def"
+};
+std::string_view nameOf(ObligationKind kind);
+
+enum class Verdict : std::uint8_t {
+  Proved,      // for all inputs
+  Refuted,     // a run on the witness shows it
+  Unknown,     // neither; the reason says what is missing
+  Unreachable, // no run comes to the place
+};
+std::string_view nameOf(Verdict verdict);
+std::string_view nameOf(Grade grade);
+
+/// Inputs on which the machine was seen to break the claim.
+struct Witness {
+  GivenVariables variables; // all others are vacant
+  RunEnd end;
+  std::string happened; // in shop words: what the run came to
+};
+
+struct Obligation {
+  ObligationKind kind;
+  std::string id; // `O9100.loop-ends.N20`, the same from run to run
+  Place place;
+  Span span;
+  std::string claim; // what is claimed, in shop words
+  Verdict verdict = Verdict::Unknown;
+  std::optional<Grade> grade = {};     // of Proved and Unreachable
+  std::string method = {};             // of the same: how, for instance `linear`
+  std::string reason = {};             // of Unknown: what was missing; of Proved: why it holds, in shop words
+  std::optional<Witness> witness = {}; // of Refuted
+  std::uint64_t effort = 0;
+  std::vector<Outcome> evidence = {}; // of Proved: each part of the proof
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,25 @@
+// prove: the obligations of one program and a verdict on each.
+#pragma once
+
+#include "language/contract/contract.h"
+#include "proof/prove/exploration.h"
+#include "proof/prove/obligation.h"
+
+namespace feedhold::prove {
+
+struct ProveOptions {
+  std::vector<ObligationKind> only = {}; // empty: all
+  Budget budget = {};
+};
+
+struct ProgramProof {
+  std::vector<Obligation> obligations;        // by kind, then by place
+  std::vector<Unfollowed> unfollowed;         // what was taken as anything at all
+  std::optional<std::string_view> incomplete; // why not all ways were followed
+};
+
+/// For every input that the contract allows; without one, for every input.  `contracts`: of the file of the program.
+ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
+                   const ProveOptions &options = {});
+
+} // namespace feedhold::prove

@@ -1,0 +1,314 @@
+#include "proof/prove/prover.h"
+
+#include "meaning/cfg/wto.h"
+#include "proof/prove/entails.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+std::string_view nameOf(ObligationKind kind) {
+  switch (kind) {
+#define OBLIGATION(kind, name)                                                                                         \
+  case ObligationKind::kind: return name;                                                                              \
+      #include "proof/prove/obligation_kinds.def"
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind");
+}
+std::string_view nameOf(Verdict verdict) {
+  switch (verdict) {
+  case Verdict::Proved: return "proved";
+  case Verdict::Refuted: return "refuted";
+  case Verdict::Unknown: return "unknown";
+  case Verdict::Unreachable: return "unreachable";
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every verdict");
+}
+std::string_view nameOf(Grade grade) { return grade == Grade::Certified ? "certified" : "two-solvers"; }
+
+Prover::Prover(const ProgramSet &programs, Callee program, const FileContracts *contracts, const ProveOptions &options)
+    : programs_(programs), program_(program), contracts_(contracts), options_(options),
+      reading_(store_, *programs.file(program.file).dialect), entry_(symbolicEntry(reading_)) {}
+
+const Contract *Prover::contract() const { return contracts_ ? contracts_->of(program_.program) : nullptr; }
+
+ProgramProof Prover::run() {
+  explore();
+  stops();
+  loops();
+  programEnds();
+  if (contract()) {
+    satisfiable();
+    ensures();
+    assigns();
+    alarmPromises();
+    guarded();
+  }
+  std::stable_sort(proof_.obligations.begin(), proof_.obligations.end(), [](const Obligation &a, const Obligation &b) {
+    return std::pair(a.kind, a.span.begin) < std::pair(b.kind, b.span.begin);
+  });
+  std::map<std::string, int> names;
+  for (Obligation &obligation : proof_.obligations)
+    if (const int number = ++names[obligation.id]; number > 1)
+      obligation.id += fmt::format(".{}", number);
+  return std::move(proof_);
+}
+
+void Prover::explore() {
+  const ModalTable modes(*file().dialect);
+  if (const auto polar = modes.groupOf(ModalKind::Polar)) {
+    reading_.keepPolar(*polar);
+    const CodeMask off = modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff});
+    if (off != 0)
+      entry_.codes[*polar] = reading_.code(static_cast<std::uint8_t>(std::countr_zero(off)));
+  }
+  if (contract()) {
+    terms_ = std::make_unique<ContractTerms>(reading_, programs_, program_.file, *contracts_);
+    terms_->prepare(*contract(), entry_);
+    demands_ = terms_->demands(*contract(), entry_);
+  }
+  ExploreOptions options;
+  options.assumptions = demands_;
+  found_ = prove::explore(reading_, programs_, program_, entry_, options);
+  proof_.unfollowed = found_.unfollowed;
+  proof_.incomplete = found_.incomplete;
+  witnesses_ = std::make_unique<WitnessSearch>(reading_, programs_, program_, demands_, constants());
+  witnesses_->sample();
+}
+
+/// Numbers that the program and its contract write: where its conditions change their outcome.
+std::vector<double> Prover::constants() const {
+  std::set<double> constants;
+  const auto collect = [&](const SyntaxTree &tree) {
+    for (const Expression &expression : tree.expressions)
+      if (const auto *literal = std::get_if<NumberLiteral>(&expression.node); literal && constants.size() < 24)
+        constants.insert(literal->value.toDouble());
+  };
+  if (contracts_)
+    collect(contracts_->tree);
+  collect(*file().tree);
+  return {constants.begin(), constants.end()};
+}
+
+// ---- obligations and their verdicts
+// ----------------------------------------------------------------------------------
+
+bool Prover::wanted(ObligationKind kind) const {
+  return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), kind) != options_.only.end();
+}
+
+bool Prover::isOwn(Place place) const {
+  return place.file == program_.file && file().model->programOf(programs_.node(place).block) == program_.program;
+}
+
+/// `O9100.loop-ends.N20`: by the sequence number of the block, or its line.
+std::string Prover::idOf(ObligationKind kind, Place place, Span span) const {
+  const BlockId block = programs_.node(place).block;
+  const std::string program = toString(file().model->programs[program_.program].name);
+  for (const SequenceNumber &number : file().model->sequenceNumbersOf(program_.program))
+    if (number.block == block)
+      return fmt::format("{}.{}.N{}", program, nameOf(kind), number.number);
+  return fmt::format("{}.{}.L{}", program, nameOf(kind), file().source->lineOf(span.begin));
+}
+
+Obligation &Prover::add(ObligationKind kind, Place place, Span span, std::string claim) {
+  Obligation obligation{
+      .kind = kind, .id = idOf(kind, place, span), .place = place, .span = span, .claim = std::move(claim)};
+  return proof_.obligations.emplace_back(std::move(obligation));
+}
+
+Query Prover::onPath(const std::vector<TermId> &conditions, TermId goal) const {
+  std::vector<TermId> all = conditions;
+  all.push_back(goal);
+  const TermId everything = goal; // the path itself may be what is impossible
+  Query query = relevantQuery(store_, found_.facts, conditions, everything);
+  for (const TermId condition : conditions) {
+    const Query part = relevantQuery(store_, found_.facts, {}, condition);
+    for (const TermId fact : part.assumptions)
+      query.assumptions.push_back(fact);
+    query.assumptions.push_back(condition);
+  }
+  std::sort(query.assumptions.begin(), query.assumptions.end());
+  query.assumptions.erase(std::unique(query.assumptions.begin(), query.assumptions.end()), query.assumptions.end());
+  return query;
+}
+
+void Prover::takeProof(Obligation &obligation, Outcome outcome) {
+  const Grade grade = std::get<Proved>(outcome.answer).grade;
+  obligation.grade = std::max(obligation.grade.value_or(grade), grade);
+  obligation.effort += outcome.effort;
+  if (obligation.method.find(outcome.method) == std::string::npos)
+    obligation.method += (obligation.method.empty() ? "" : ", ") + outcome.method;
+  obligation.evidence.push_back(std::move(outcome));
+}
+
+void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
+  if (auto witness = witnesses_->amongSamples(violation)) {
+    obligation.verdict = Verdict::Refuted;
+    obligation.witness = std::move(witness);
+    return;
+  }
+  if (found_.incomplete) {
+    obligation.reason = *found_.incomplete;
+    return;
+  }
+  obligation.verdict = queries.empty() ? Verdict::Unreachable : Verdict::Proved;
+  obligation.grade = queries.empty() ? std::optional(Grade::Certified) : std::nullopt;
+  for (const Query &query : queries) {
+    Outcome outcome = discharge(store_, query, options_.budget);
+    if (outcome.proved()) {
+      takeProof(obligation, std::move(outcome));
+      continue;
+    }
+    obligation.verdict = Verdict::Unknown;
+    obligation.grade.reset();
+    obligation.effort += outcome.effort;
+    if (const smt::Model *model = outcome.counterexample()) {
+      if (auto witness = witnesses_->fromModel(*model, violation)) {
+        obligation.verdict = Verdict::Refuted;
+        obligation.witness = std::move(witness);
+        return;
+      }
+      obligation.reason = "inputs that seem to break it do not do so when they are run";
+    } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
+      obligation.reason = unknown->reason;
+    }
+  }
+}
+
+// ---- places where a run may stop
+// ---------------------------------------------------------------------------------------
+
+void Prover::stops() {
+  const auto violated = [this](const Check &check) {
+    return [this, &check](const RunResult &run) -> std::optional<std::string> {
+      const bool here = run.place == check.place && run.alarmSpan == check.span;
+      if (!check.alarm && here && run.end == RunEnd::UserAlarm)
+        return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
+      if (check.alarm && here && run.end == RunEnd::Alarm && run.alarm == *check.alarm)
+        return "the control stops here";
+      return std::nullopt;
+    };
+  };
+  for (const Check &check : found_.checks) {
+    const ObligationKind kind = check.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
+    if (!isOwn(check.place) || !wanted(kind))
+      continue;
+    std::vector<Query> queries;
+    for (const CheckInstance &instance : check.instances)
+      queries.push_back(onPath(instance.conditions, store_.logicalNot(instance.stops)));
+    Obligation &obligation =
+        add(kind, check.place, check.span,
+            check.alarm ? fmt::format("no {} here", meaningOf(*check.alarm)) : "this alarm is never raised");
+    settle(obligation, queries, violated(check));
+  }
+}
+
+// ---- ends
+// ------------------------------------------------------------------------------------------------------------
+
+void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
+                        const Violation &violation) {
+  if (auto witness = witnesses_->amongSamples(violation)) {
+    obligation.verdict = Verdict::Refuted;
+    obligation.witness = std::move(witness);
+    return;
+  }
+  if (found_.incomplete) {
+    obligation.reason = *found_.incomplete;
+    return;
+  }
+  obligation.verdict = instances.empty() ? Verdict::Unreachable : Verdict::Proved;
+  for (const LoopInstance *instance : instances) {
+    const auto known = std::find_if(ends_.begin(), ends_.end(), [&](const auto &end) { return end.first == instance; });
+    Termination &end = known != ends_.end()
+                           ? known->second
+                           : ends_.emplace_back(instance, provesEnd(reading_, store_, *instance)).second;
+    if (end.proved) {
+      for (const Outcome &outcome : end.evidence)
+        takeProof(obligation, outcome);
+      continue;
+    }
+    obligation.verdict = Verdict::Unknown;
+    obligation.reason = end.reason;
+    if (const auto pass = recurrentPass(reading_, store_, *instance)) {
+      const Outcome outcome =
+          discharge(store_, onPath(instance->transitions[*pass].conditions, store_.no()), options_.budget);
+      const smt::Model *model = outcome.counterexample();
+      if (model == nullptr)
+        continue;
+      if (auto witness = witnesses_->fromModel(*model, violation)) {
+        obligation.verdict = Verdict::Refuted;
+        obligation.witness = std::move(witness);
+        return;
+      }
+    }
+  }
+  if (obligation.verdict == Verdict::Proved && !obligation.grade)
+    obligation.grade = Grade::Certified;
+}
+
+void Prover::loops() {
+  if (!wanted(ObligationKind::LoopEnds))
+    return;
+  const Wto wto(file().cfg, *file().model, program_.entry);
+  for (const NodeId head : wto.order()) {
+    if (!wto.isHead(head))
+      continue;
+    const Place place{program_.file, head};
+    std::vector<const LoopInstance *> instances;
+    for (const LoopInstance &loop : found_.loops)
+      if (loop.head == place)
+        instances.push_back(&loop);
+    const Violation violation = [this, place, &wto](const RunResult &run) -> std::optional<std::string> {
+      const auto isInside = [&](Place at) {
+        const std::uint32_t position = at.file == place.file ? wto.positionOf(at.node) : Wto::kUnreachable;
+        return wto.positionOf(place.node) <= position && position < wto.endOf(place.node);
+      };
+      const bool inside =
+          isInside(run.place) ||
+          std::any_of(run.calls.begin(), run.calls.end(), [&](const OpenCall &call) { return isInside(call.place); });
+      if (run.end == RunEnd::Repeats && inside)
+        return "the run comes back to the same state and goes on for ever";
+      return std::nullopt;
+    };
+    Obligation &obligation =
+        add(ObligationKind::LoopEnds, place, file().tree->blocks[programs_.node(place).block].span(), "this loop ends");
+    settleLoop(obligation, instances, violation);
+  }
+}
+
+void Prover::programEnds() {
+  if (!wanted(ObligationKind::ProgramEnds))
+    return;
+  const Place place{program_.file, program_.entry};
+  std::vector<const LoopInstance *> instances;
+  for (const LoopInstance &loop : found_.loops)
+    instances.push_back(&loop);
+  const Violation violation = [](const RunResult &run) -> std::optional<std::string> {
+    if (run.end == RunEnd::Repeats)
+      return "the run comes back to the same state and goes on for ever";
+    return std::nullopt;
+  };
+  const BlockId block = programs_.node(place).block;
+  Obligation &obligation =
+      add(ObligationKind::ProgramEnds, place, file().tree->blocks[block].span(), "the program comes to an end");
+  obligation.id = fmt::format("{}.program-ends", toString(file().model->programs[program_.program].name));
+  settleLoop(obligation, instances, violation);
+  if (instances.empty() && obligation.verdict == Verdict::Unreachable) {
+    obligation.verdict = Verdict::Proved;
+    obligation.grade = Grade::Certified;
+    obligation.method = "no loop";
+  }
+}
+
+ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
+                   const ProveOptions &options) {
+  return Prover(programs, program, contracts, options).run();
+}
+
+} // namespace feedhold::prove

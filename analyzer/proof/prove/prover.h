@@ -1,0 +1,65 @@
+// Prover: what the proofs of one program share.
+#pragma once
+
+#include "proof/prove/contract_terms.h"
+#include "proof/prove/prove.h"
+#include "proof/prove/termination.h"
+#include "proof/prove/witness.h"
+
+#include <memory>
+
+namespace feedhold::prove {
+
+class Prover {
+public:
+  Prover(const ProgramSet &programs, Callee program, const FileContracts *contracts, const ProveOptions &options);
+  ProgramProof run();
+
+private:
+  void explore();
+
+  // ---- obligations of the program's own text (prover.cpp) ----
+  void stops();
+  void loops();
+  void programEnds();
+  // ---- promises of the contract (prover_contract.cpp) ----
+  void satisfiable();
+  void ensures();
+  void modalPreserved(ClauseId clause);
+  void assigns();
+  void alarmPromises();
+  void guarded();
+  void requireEnds(Obligation &obligation);
+
+  Obligation &add(ObligationKind kind, Place place, Span span, std::string claim);
+  std::string idOf(ObligationKind kind, Place place, Span span) const;
+  bool wanted(ObligationKind kind) const;
+  /// Each query must hold; a counterexample is replayed.  Without queries the place is not reached.
+  void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
+  void takeProof(Obligation &obligation, Outcome outcome);
+  void settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
+                  const Violation &violation);
+  /// All conditions of a path, and what is known of the variables in them.
+  Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal) const;
+
+  bool isOwn(Place place) const;
+  const ProgramFile &file() const { return programs_.file(program_.file); }
+  const Contract *contract() const;
+  std::vector<double> constants() const;
+
+  const ProgramSet &programs_;
+  Callee program_;
+  const FileContracts *contracts_;
+  const ProveOptions &options_;
+  smt::TermStore store_;
+  SymbolicReading reading_;
+  SymbolicState entry_;
+  std::vector<smt::TermId> demands_;
+  std::unique_ptr<ContractTerms> terms_;
+  Exploration found_;
+  std::unique_ptr<WitnessSearch> witnesses_;
+  std::vector<std::pair<const LoopInstance *, Termination>> ends_;
+  ProgramProof proof_;
+};
+
+} // namespace feedhold::prove

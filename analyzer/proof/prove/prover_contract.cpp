@@ -1,0 +1,213 @@
+// What the contract of a program promises.
+#include "proof/prove/entails.h"
+#include "proof/prove/prover.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+const Violation kNothingToReplay = [](const RunResult &) { return std::optional<std::string>(); };
+
+} // namespace
+
+/// A contract that no call satisfies would make everything true.
+void Prover::satisfiable() {
+  const Place place{program_.file, program_.entry};
+  const Span span = file().tree->blocks[programs_.node(place).block].span();
+  Outcome outcome = discharge(store_, onPath(demands_, store_.no()), options_.budget);
+  if (!outcome.proved())
+    return;
+  Obligation &obligation = add(ObligationKind::ContractSatisfiable, place, span, "some call satisfies this contract");
+  obligation.verdict = Verdict::Refuted;
+  obligation.reason = "no call satisfies this contract: what it says of the arguments contradicts itself";
+  for (Obligation &other : proof_.obligations)
+    if (other.verdict == Verdict::Proved || other.verdict == Verdict::Unreachable) {
+      other.verdict = Verdict::Unknown;
+      other.grade.reset();
+      other.reason = "no call satisfies the contract";
+    }
+}
+
+void Prover::ensures() {
+  for (const Ensure &ensure : contract()->ensures) {
+    if (std::holds_alternative<ModalPreserved>(ensure.promise)) {
+      modalPreserved(ensure.clause);
+      continue;
+    }
+    if (!wanted(ObligationKind::Ensures))
+      continue;
+    std::vector<Query> queries;
+    for (const PathExit &exit : found_.exits) {
+      TermId goal = store_.yes();
+      if (const auto *expression = std::get_if<ExpressionId>(&ensure.promise))
+        goal = terms_->condition(*expression, entry_, exit.state);
+      if (const auto *codes = std::get_if<std::vector<ModalCode>>(&ensure.promise)) {
+        const ModalTable modes(*file().dialect);
+        for (const ModalCode &code : *codes) {
+          const Code *row = code.address == 'G' ? findGCode(*file().dialect, code.tenths) : nullptr;
+          const auto index = row ? modes.indexOf(*row) : std::nullopt;
+          goal = index ? store_.logicalAnd(
+                             goal, store_.equal(exit.state.codes[row->group].index, reading_.code(*index).index))
+                       : store_.no();
+        }
+      }
+      queries.push_back(onPath(exit.conditions, goal));
+    }
+    const Clause &clause = contracts_->clauses[ensure.clause];
+    const Place place{program_.file, program_.entry};
+    Obligation &obligation =
+        add(ObligationKind::Ensures, place, file().tree->blocks[programs_.node(place).block].span(), clause.text);
+    settle(obligation, queries, kNothingToReplay);
+  }
+}
+
+void Prover::modalPreserved(ClauseId clause) {
+  if (!wanted(ObligationKind::ModalPreserved))
+    return;
+  std::vector<Query> queries;
+  const ModalTable modes(*file().dialect);
+  for (const PathExit &exit : found_.exits) {
+    TermId same = store_.yes();
+    for (std::size_t group = 1; group < kModalGroups; ++group)
+      if (!modes.group(group).codes.empty())
+        same = store_.logicalAnd(same, store_.equal(exit.state.codes[group].index, entry_.codes[group].index));
+    queries.push_back(onPath(exit.conditions, same));
+  }
+  const Place place{program_.file, program_.entry};
+  Obligation &obligation =
+      add(ObligationKind::ModalPreserved, place, file().tree->blocks[programs_.node(place).block].span(),
+          contracts_->clauses[clause].text);
+  settle(obligation, queries, kNothingToReplay);
+}
+
+void Prover::assigns() {
+  if (contract()->assigns.empty() || !wanted(ObligationKind::Assigns))
+    return;
+  const auto allowed = [&](std::uint32_t variable) {
+    for (const Assigns &assigns : contract()->assigns)
+      for (const Assigns::Variables &range : assigns.variables)
+        if (range.first <= variable && variable <= range.last)
+          return true;
+    return false;
+  };
+  std::vector<Query> queries;
+  bool unknown = false;
+  for (const PathExit &exit : found_.exits) {
+    TermId kept = store_.yes();
+    for (const auto &[variable, value] : exit.state.variables.entries()) {
+      const VariableRange *row = variable < kFirstNamedVariable ? findVariable(*file().dialect, variable) : nullptr;
+      if (!row || row->kind == VariableKind::System || row->kind == VariableKind::Local || allowed(variable))
+        continue;
+      const SymbolicValue before = reading_.atEntry(variable);
+      kept = store_.logicalAnd(kept, store_.logicalAnd(store_.equal(value.vacant, before.vacant),
+                                                       store_.equal(value.number, before.number)));
+    }
+    unknown = unknown || !exit.state.forgotten.empty();
+    queries.push_back(onPath(exit.conditions, kept));
+  }
+  const Place place{program_.file, program_.entry};
+  Obligation &obligation = add(ObligationKind::Assigns, place, file().tree->blocks[programs_.node(place).block].span(),
+                               contracts_->clauses[contract()->assigns.front().clause].text);
+  if (unknown)
+    obligation.reason = "a variable whose number is not known is written";
+  else
+    settle(obligation, queries, kNothingToReplay);
+}
+
+/// IF: a call for which the condition holds ends with this alarm and no other way.  IFF: no other call raises it.
+void Prover::alarmPromises() {
+  if (!wanted(ObligationKind::AlarmIff))
+    return;
+  for (const AlarmPromise &promise : contract()->alarms) {
+    const TermId condition = terms_->condition(promise.condition, entry_, entry_);
+    const TermId number = reading_.number(promise.number).number;
+    std::vector<Query> queries;
+    for (const PathExit &exit : found_.exits)
+      queries.push_back(onPath(exit.conditions, store_.logicalNot(condition)));
+    for (const Check &check : found_.checks)
+      for (const CheckInstance &instance : check.instances) {
+        std::vector<TermId> stopped = instance.conditions;
+        stopped.push_back(instance.stops);
+        const TermId isThis = check.alarm ? store_.no() : store_.equal(instance.number.number, number);
+        queries.push_back(onPath(stopped, store_.implies(condition, isThis)));
+        if (promise.claim == AlarmClaim::IfAndOnlyIf)
+          queries.push_back(onPath(stopped, store_.implies(isThis, condition)));
+      }
+    const Place place{program_.file, program_.entry};
+    Obligation &obligation =
+        add(ObligationKind::AlarmIff, place, file().tree->blocks[programs_.node(place).block].span(),
+            contracts_->clauses[promise.clause].text);
+    obligation.id =
+        fmt::format("{}.alarm-iff.{}", toString(file().model->programs[program_.program].name), promise.number);
+    settle(obligation, queries, kNothingToReplay);
+    requireEnds(obligation);
+  }
+}
+
+/// What is claimed of all calls is not so of one that goes on for ever.
+void Prover::requireEnds(Obligation &obligation) {
+  if (obligation.verdict != Verdict::Proved)
+    return;
+  for (const LoopInstance &loop : found_.loops) {
+    Obligation ends = obligation;
+    settleLoop(ends, {&loop}, kNothingToReplay);
+    if (ends.verdict == Verdict::Proved)
+      continue;
+    obligation.verdict = Verdict::Unknown;
+    obligation.grade.reset();
+    obligation.reason = "it is not known whether a loop ends";
+    return;
+  }
+}
+
+/// Every call that the contract does not allow raises an alarm before an axis moves.
+void Prover::guarded() {
+  if (!contract()->guarded || !wanted(ObligationKind::Guarded))
+    return;
+  const Place place{program_.file, program_.entry};
+  Obligation &obligation = add(ObligationKind::Guarded, place, file().tree->blocks[programs_.node(place).block].span(),
+                               contracts_->clauses[*contract()->guarded].text);
+  ExploreOptions options;
+  options.assumptions = {store_.logicalNot(store_.logicalAnd(demands_))};
+  const Exploration outside = prove::explore(reading_, programs_, program_, entry_, options);
+  if (outside.incomplete) {
+    obligation.reason = *outside.incomplete;
+    return;
+  }
+  const Exploration inside = std::exchange(found_, outside);
+  std::vector<Query> queries;
+  for (const PathExit &exit : found_.exits)
+    queries.push_back(onPath(exit.conditions, store_.no()));
+  for (const Check &check : found_.checks)
+    for (const CheckInstance &instance : check.instances) {
+      std::vector<TermId> stopped = instance.conditions;
+      stopped.push_back(instance.stops);
+      queries.push_back(onPath(stopped, store_.logicalNot(instance.moved)));
+    }
+  auto outsideWitnesses =
+      std::make_unique<WitnessSearch>(reading_, programs_, program_, options.assumptions, constants());
+  outsideWitnesses->sample();
+  const Violation moves = [](const RunResult &run) -> std::optional<std::string> {
+    const bool moved = std::any_of(run.moves.begin(), run.moves.end(),
+                                   [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });
+    if (moved)
+      return "an axis moves";
+    const bool ended = run.end == RunEnd::M02 || run.end == RunEnd::M30 || run.end == RunEnd::Returned;
+    return ended ? std::optional<std::string>("the program ends without an alarm") : std::nullopt;
+  };
+  std::swap(witnesses_, outsideWitnesses);
+  settle(obligation, queries, moves);
+  ends_.clear(); // of the loops of the other exploration
+  requireEnds(obligation);
+  ends_.clear();
+  std::swap(witnesses_, outsideWitnesses);
+  found_ = inside;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,220 @@
+#include "proof/prove/termination.h"
+
+#include "proof/prove/entails.h"
+
+#include <algorithm>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+constexpr std::size_t kMostMeasures = 60;
+
+class RankingSearch {
+public:
+  RankingSearch(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop)
+      : reading_(reading), store_(store), loop_(loop) {}
+
+  Termination run() {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < loop_.transitions.size(); ++i)
+      all.push_back(i);
+    candidates_ = measures();
+    result_.proved = rank(all);
+    if (!result_.proved)
+      result_.reason = "no measure was found that every pass lowers";
+    return std::move(result_);
+  }
+
+private:
+  /// Passes that can follow one another in a circle are ranked together.
+  bool rank(std::vector<std::size_t> passes) {
+    if (passes.empty())
+      return true;
+    if (lower(passes))
+      return rank(passes);
+    if (passes.size() == 1 || passes.size() > 12)
+      return false;
+    const auto circles = circlesOf(passes);
+    if (circles.size() == 1 && circles.front().size() == passes.size())
+      return false;
+    return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+  }
+
+  /// Takes away the passes that lower a measure which no other pass raises.
+  bool lower(std::vector<std::size_t> &passes) {
+    for (const TermId measure : candidates_) {
+      std::vector<Outcome> evidence;
+      std::vector<std::size_t> lowering;
+      std::optional<TermId> decrease;
+      bool raised = false;
+      for (const std::size_t pass : passes) {
+        const TermId fall = fallOf(measure, pass);
+        if (lowers(measure, fall, pass, evidence)) {
+          lowering.push_back(pass);
+          decrease = decrease.value_or(fall);
+        } else if (!holds(pass, store_.lessOrEqual(zero(), fall), evidence)) {
+          raised = true;
+          break;
+        }
+      }
+      if (raised || lowering.empty())
+        continue;
+      std::erase_if(passes, [&](std::size_t pass) {
+        return std::find(lowering.begin(), lowering.end(), pass) != lowering.end();
+      });
+      result_.measures.push_back({measure, *decrease, std::move(lowering)});
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+      return true;
+    }
+    return false;
+  }
+  TermId fallOf(TermId measure, std::size_t pass) {
+    return store_.subtract(measure, smt::substitute(store_, measure, loop_.transitions[pass].next));
+  }
+  /// By an amount that no pass changes and that is positive, or by a fixed one.
+  bool lowers(TermId measure, TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
+    if (!mayLower(fall) || !holds(pass, store_.lessOrEqual(zero(), measure), evidence))
+      return false;
+    if (isConstantInLoop(fall))
+      return holds(pass, store_.less(zero(), fall), evidence);
+    for (const int parts : {1, 10, 1000})
+      if (holds(pass, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
+        return true;
+    return false;
+  }
+  bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
+
+  bool isConstantInLoop(TermId term) const {
+    const auto variables = smt::variablesOf(store_, term);
+    return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
+      return variable.index() < loop_.mark || reading_.isFromEntry(variable);
+    });
+  }
+  bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
+    if (goal == store_.yes())
+      return true;
+    if (goal == store_.no())
+      return false;
+    Outcome outcome =
+        discharge(store_, relevantQuery(store_, reading_.facts(), loop_.transitions[pass].conditions, goal), Budget{});
+    const bool proved = outcome.proved();
+    if (proved)
+      evidence.push_back(std::move(outcome));
+    return proved;
+  }
+  TermId zero() { return store_.number(Number(0)); }
+
+  /// What the conditions of the passes keep from below, the number of passes apart.
+  std::vector<TermId> measures() {
+    std::set<TermId> seen;
+    std::vector<TermId> all;
+    const auto offer = [&](TermId measure) {
+      if (all.size() < kMostMeasures && !isConstantInLoop(measure) && seen.insert(measure).second)
+        all.push_back(measure);
+    };
+    for (const Transition &transition : loop_.transitions)
+      for (const TermId condition : transition.conditions)
+        offerSides(condition, offer);
+    const std::vector<TermId> single = all;
+    for (std::size_t i = 0; i < single.size() && i < 8; ++i)
+      for (std::size_t j = i + 1; j < single.size() && j < 8; ++j)
+        offer(store_.add(single[i], single[j]));
+    return all;
+  }
+  template <typename Offer> void offerSides(TermId condition, Offer &&offer) {
+    const TermKind kind = store_[condition].kind;
+    if (kind == TermKind::Not)
+      return offerSides(store_[condition].arguments[0], offer);
+    if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
+      return;
+    const TermId left = store_[condition].arguments[0];
+    const TermId right = store_[condition].arguments[1];
+    offer(store_.subtract(right, left));
+    if (kind == TermKind::Equal)
+      offer(store_.subtract(left, right));
+  }
+
+  // ---- which pass can follow which ----
+
+  std::vector<std::vector<std::size_t>> circlesOf(const std::vector<std::size_t> &passes) {
+    const std::size_t count = passes.size();
+    std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j)
+        reaches[i][j] = canFollow(passes[i], passes[j]);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
+    std::vector<std::vector<std::size_t>> circles;
+    std::vector<bool> placed(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (placed[i] || !reaches[i][i])
+        continue; // happens once at most
+      circles.emplace_back();
+      for (std::size_t j = i; j < count; ++j)
+        if (!placed[j] && reaches[i][j] && reaches[j][i]) {
+          placed[j] = true;
+          circles.back().push_back(passes[j]);
+        }
+    }
+    return circles;
+  }
+  /// What is not of the loop itself is read anew in the second pass: other variables stand for it.
+  bool canFollow(std::size_t first, std::size_t second) {
+    const Transition &before = loop_.transitions[first];
+    smt::Substitution next = before.next;
+    std::vector<TermId> goals;
+    for (const TermId condition : loop_.transitions[second].conditions) {
+      for (const TermId variable : smt::variablesOf(store_, condition))
+        if (variable.index() >= loop_.mark && !reading_.isFromEntry(variable) && !next.contains(variable))
+          next.emplace(variable, store_.variable("again " + store_[variable].name, store_.sort(variable)));
+      goals.push_back(smt::substitute(store_, condition, next));
+    }
+    const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
+    Outcome outcome =
+        discharge(store_, relevantQuery(store_, reading_.facts(), before.conditions, impossible), Budget::quick());
+    if (!outcome.proved())
+      return true;
+    result_.evidence.push_back(std::move(outcome));
+    return false;
+  }
+
+  const SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const LoopInstance &loop_;
+  std::vector<TermId> candidates_;
+  Termination result_;
+};
+
+} // namespace
+
+Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop) {
+  return RankingSearch(reading, store, loop).run();
+}
+
+std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
+                                         const LoopInstance &loop) {
+  for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
+    const Transition &pass = loop.transitions[i];
+    const bool holdsAgain = std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](TermId condition) {
+      const auto variables = smt::variablesOf(store, condition);
+      const bool isOfTheLoop = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
+        return variable.index() < loop.mark || reading.isFromEntry(variable) || pass.next.contains(variable);
+      });
+      return isOfTheLoop && entails(store, reading.facts(), pass.conditions,
+                                    smt::substitute(store, condition, pass.next), Budget::quick());
+    });
+    if (holdsAgain)
+      return i;
+  }
+  return std::nullopt;
+}
+
+} // namespace feedhold::prove

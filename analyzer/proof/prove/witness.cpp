@@ -1,0 +1,134 @@
+#include "proof/prove/witness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace feedhold::prove {
+
+namespace {
+
+constexpr int kSamples = 150;
+constexpr std::uint64_t kSampleFuel = 4'000;
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+} // namespace
+
+WitnessSearch::WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry,
+                             std::vector<smt::TermId> demands, std::vector<double> constants)
+    : reading_(reading), programs_(programs), entry_(entry), demands_(std::move(demands)),
+      constants_(std::move(constants)) {}
+
+std::vector<std::uint32_t> WitnessSearch::inputs() const {
+  std::vector<std::uint32_t> inputs;
+  for (const auto &[variable, value] : reading_.entryValues())
+    inputs.push_back(variable);
+  return inputs;
+}
+
+/// In exact numbers.
+bool WitnessSearch::allowed(const GivenVariables &given) const {
+  smt::Model model;
+  const smt::TermStore &store = reading_.store();
+  for (const auto &[variable, value] : reading_.entryValues()) {
+    const ConcreteValue *held = given.find(variable);
+    const bool vacant = !held || held->vacant;
+    model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromDouble(held->number);
+    if (store[value.vacant].kind == smt::TermKind::Variable)
+      model[store[value.vacant].name] = vacant;
+  }
+  return std::all_of(demands_.begin(), demands_.end(), [&](smt::TermId demand) {
+    const auto value = smt::evaluate(store, demand, model);
+    return value && std::get<bool>(*value);
+  });
+}
+
+void WitnessSearch::sample() {
+  std::vector<double> pool{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
+  for (const double constant : constants_)
+    pool.insert(pool.end(), {constant, constant + 1, constant - 1, -constant});
+  std::mt19937 random(1);
+  std::vector<std::uint32_t> names = inputs();
+  for (int i = 0; i < kSamples; ++i) {
+    GivenVariables given;
+    for (const std::uint32_t variable : names) {
+      const auto choice = random() % (pool.size() + pool.size() / 4 + 1);
+      if (i > 0 && choice < pool.size())
+        given.set(variable, ConcreteValue::of(pool[choice]));
+    }
+    if (!allowed(given))
+      continue;
+    RunOptions options;
+    options.variables = given;
+    options.fuel = kSampleFuel;
+    RunResult result = run(programs_, entry_, options);
+    samples_.push_back({std::move(given), std::move(result)});
+  }
+}
+
+std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
+  for (const Sample &sample : samples_)
+    if (const auto happened = violation(sample.result))
+      return plainest({sample.given, sample.result.end, *happened}, violation, kSampleFuel);
+  return std::nullopt;
+}
+
+std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
+                                            std::uint64_t fuel) const {
+  if (!allowed(given))
+    return std::nullopt;
+  RunOptions options;
+  options.variables = given;
+  options.fuel = fuel;
+  const RunResult result = run(programs_, entry_, options);
+  const auto happened = violation(result);
+  return happened ? std::optional(Witness{given, result.end, *happened}) : std::nullopt;
+}
+
+std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
+                                                std::uint64_t fuel) {
+  const smt::TermStore &store = reading_.store();
+  GivenVariables given;
+  for (const auto &[variable, value] : reading_.entryValues()) {
+    const auto number = model.find(store[value.number].name);
+    const auto vacant =
+        store[value.vacant].kind == smt::TermKind::Variable ? model.find(store[value.vacant].name) : model.end();
+    if (vacant != model.end() && std::get<bool>(vacant->second))
+      continue;
+    if (number != model.end())
+      given.set(variable, ConcreteValue::of(std::get<smt::Number>(number->second).toDouble()));
+    else if (vacant != model.end())
+      given.set(variable, ConcreteValue::of(0));
+  }
+  const auto found = tried(given, violation, fuel);
+  return found ? std::optional(plainest(*found, violation, fuel)) : std::nullopt;
+}
+
+/// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.
+Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const {
+  for (const std::uint32_t variable : inputs()) {
+    const ConcreteValue *held = witness.variables.find(variable);
+    if (!held)
+      continue;
+    const double value = held->number;
+    GivenVariables without = witness.variables;
+    without.erase(variable);
+    std::vector<GivenVariables> plainer{without};
+    for (const double plain : {0.0, 1.0, rounded(value, 10), rounded(value, 1), rounded(value, 0.1),
+                               rounded(value, 0.01), rounded(value, 0.001)}) {
+      if (plain == value)
+        break;
+      plainer.push_back(without);
+      plainer.back().set(variable, ConcreteValue::of(plain));
+    }
+    for (const GivenVariables &given : plainer)
+      if (auto found = tried(given, violation, fuel)) {
+        witness = std::move(*found);
+        break;
+      }
+  }
+  return witness;
+}
+
+} // namespace feedhold::prove

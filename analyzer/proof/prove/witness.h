@@ -1,0 +1,48 @@
+// Witnesses: inputs that the concrete machine runs to the violation of a claim.
+#pragma once
+
+#include "proof/prove/obligation.h"
+#include "proof/prove/symbolic_reading.h"
+
+#include <functional>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// Whether a run breaks the claim; says what happened if it does.
+using Violation = std::function<std::optional<std::string>(const RunResult &)>;
+
+class WitnessSearch {
+public:
+  /// `demands`: what the inputs have to satisfy.
+  WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry, std::vector<smt::TermId> demands,
+                std::vector<double> constants);
+
+  /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
+  void sample();
+  /// Among the sampled runs.
+  std::optional<Witness> amongSamples(const Violation &violation);
+  /// The inputs that a model of the solver names, then made as plain as they can be.
+  std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation, std::uint64_t fuel = kFuel);
+
+  static constexpr std::uint64_t kFuel = 20'000;
+
+private:
+  std::vector<std::uint32_t> inputs() const;
+  bool allowed(const GivenVariables &given) const;
+  std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
+  Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
+
+  SymbolicReading &reading_;
+  const ProgramSet &programs_;
+  Callee entry_;
+  std::vector<smt::TermId> demands_;
+  std::vector<double> constants_; // that the program and its contract write
+  struct Sample {
+    GivenVariables given;
+    RunResult result;
+  };
+  std::vector<Sample> samples_;
+};
+
+} // namespace feedhold::prove
