@@ -7,6 +7,13 @@ import jsonschema
 
 from harness import BAD, GOOD, ROOT, Scratch
 
+UNSET_ON_A_WAY = """O1002
+IF[#100EQ1]GOTO10
+#1=5.
+N10 G90 G00 X#1
+M30
+"""
+
 
 class Formats(Scratch):
     def setUp(self):
@@ -49,6 +56,17 @@ class Formats(Scratch):
 
     def test_github_names_file_and_line(self):
         self.assertIn("::error file=bad.nc,line=3", self.output("github"))
+
+    def test_way_to_a_finding(self):
+        self.write("way.nc", UNSET_ON_A_WAY)
+        rule = ("--select", "possibly-unset-variable", "way.nc")
+        finding = json.loads(self.check("--format", "json", *rule).stdout)["findings"][0]
+        self.assertEqual([(step["path"], step["line"], step["message"]) for step in finding["way"]],
+                         [("way.nc", 2, "the condition holds")])
+        result = json.loads(self.check("--format", "sarif", *rule).stdout)["runs"][0]["results"][0]
+        steps = result["codeFlows"][0]["threadFlows"][0]["locations"]
+        self.assertEqual([step["location"]["physicalLocation"]["region"]["startLine"] for step in steps], [2, 4])
+        self.assertIn("the way there: line 2 `IF[#100EQ1]GOTO10`: the condition holds", self.check(*rule).stdout)
 
     def test_sarif_has_what_its_readers_need(self):
         run = json.loads(self.output("sarif"))["runs"][0]

@@ -37,6 +37,7 @@ class SarifSchema(Scratch):
                 self.write(f"pages/{page.stem}_{number}.nc", part.split("\n", 1)[1].split("\n```")[0] + "\n")
         report = self.sarif("--dialect", "fanuc-30i", "pages")
         self.assertGreater(len(report["runs"][0]["results"]), 20)
+        self.assertTrue(any("codeFlows" in result for result in report["runs"][0]["results"]))
         self.assertValid(report)
 
     def test_validator_refuses_what_is_wrong(self):

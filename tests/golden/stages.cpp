@@ -3,11 +3,15 @@
 #include "golden/stages.h"
 
 #include "dialects/registry.h"
+#include "findings/session/ranges.h"
 #include "findings/session/session.h"
+#include "golden/run_stage.h"
+#include "findings/session/sidecars.h"
 #include "language/lex/lexer.h"
 #include "language/parse/parse.h"
 #include "meaning/cfg/cfg.h"
 #include "rules/registry.h"
+#include "surface/sink/ranges_sink.h"
 #include "surface/sink/sink.h"
 
 #include <cstdlib>
@@ -42,11 +46,17 @@ std::string cfg(const SourceFile &source, const Dialect &dialect) {
   return dump(lower(source, syntax, programs, dialect), syntax, source, programs);
 }
 
+/// `O9100.contract`: beside the programs, no program itself.
+bool isSidecar(const InputFile &file) { return file.name.ends_with(".contract"); }
+
 /// Text for each file, under the file's name when there are several.
 std::string eachFile(const Input &input, const std::function<std::string(const InputFile &)> &textOf) {
   std::string text;
+  const auto programs = std::count_if(input.files.begin(), input.files.end(), std::not_fn(isSidecar));
   for (const InputFile &file : input.files) {
-    if (input.files.size() > 1)
+    if (isSidecar(file))
+      continue;
+    if (programs > 1)
       text += fmt::format("== {} ==\n", file.name);
     text += textOf(file);
   }
@@ -93,7 +103,8 @@ KnownNames knownNames() { return {allDialects(), allRules()}; }
 CheckOptions optionsFor(const Input &input) {
   CheckOptions options;
   for (const InputFile &file : input.files)
-    options.paths.push_back(file.name);
+    if (!isSidecar(file))
+      options.paths.push_back(file.name);
   if (!input.guess)
     options.dialect = std::string(input.dialect->id);
   options.select = input.rules;
@@ -109,6 +120,18 @@ std::string problemsOf(const CheckResult &result) {
   for (const SkippedFile &file : result.skipped)
     text += fmt::format("{}: skipped: {}\n", file.path, file.reason);
   return text;
+}
+
+/// The contracts of each file, with those beside it.
+std::string contract(const Input &input) {
+  const Folder folder(input);
+  return eachFile(input, [&](const InputFile &file) {
+    const SourceFile source = SourceFile::fromText(file.name, file.text);
+    const SyntaxTree syntax = parse(source, *input.dialect);
+    const ProgramModel programs = resolve(source, syntax, *input.dialect);
+    return dump(readContracts(source, syntax, programs, *input.dialect, sidecarsOf(file.name, programs)), programs,
+                syntax);
+  });
 }
 
 std::string report(const Input &input, Format format) {
@@ -131,6 +154,25 @@ std::string fixed(const Input &input, FixWish wish) {
                   [&](const InputFile &file) { return after.contains(file.name) ? after[file.name] : file.text; });
 }
 
+/// As `feedhold ranges` tells of the first file, called programs included.
+std::string invariants(const Input &input) {
+  const Folder folder(input);
+  ProgramsWish wish{.path = input.files.front().name};
+  if (!input.guess)
+    wish.dialect = std::string(input.dialect->id);
+  wish.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
+  const auto programs = loadPrograms(wish, knownNames());
+  if (!programs)
+    return programs.error().message + "\n";
+  const Result<BlockStates> states = rangesOf(*programs.value(), {.files = RangesWish::Files::All});
+  if (!states)
+    return states.error().message + "\n";
+  std::vector<std::string> shown;
+  for (const auto &file : programs.value()->files)
+    shown.push_back(file->shown);
+  return writeRangesText({*programs.value()->set, shown, states.value()});
+}
+
 } // namespace
 
 std::optional<std::string> runStage(std::string_view stage, const Input &input) {
@@ -142,6 +184,14 @@ std::optional<std::string> runStage(std::string_view stage, const Input &input) 
     return dumps(input, model);
   if (stage == "cfg")
     return dumps(input, cfg);
+  if (stage == "contract")
+    return contract(input);
+  if (stage == "invariants")
+    return invariants(input);
+  if (stage == "run" || stage.starts_with("run ")) {
+    const Folder folder(input);
+    return runStageOf(input, stage.substr(3));
+  }
   if (stage == "findings")
     return report(input, Format::Text);
   if (stage == "fixed")

@@ -19,11 +19,28 @@ std::string bounds(const Interval &interval) {
   return interval.lo == interval.hi ? text(interval.lo) : text(interval.lo) + " to " + text(interval.hi);
 }
 
+constexpr std::size_t kFewValues = 4;
+
+/// `0 to 8 in steps of 2` for values that are no few, and stand at equal distances; otherwise empty.
+std::string stepsText(std::span<const double> values) {
+  const double step = values.size() > 1 ? values[1] - values[0] : 0;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] - values[i - 1] != step)
+      return {};
+  if (values.size() <= kFewValues)
+    return {};
+  const std::string range = text(values.front()) + " to " + text(values.back());
+  return step == 1 && values.front() == std::floor(values.front()) ? range + ", whole"
+                                                                   : range + " in steps of " + text(step);
+}
+
 std::string numberText(const AbstractNumber &number) {
   if (const auto constant = number.constantValue())
     return text(*constant);
   if (!number.set().isMany()) {
     const auto values = number.set().values();
+    if (std::string steps = stepsText(values); !steps.empty())
+      return steps;
     std::string all;
     for (std::size_t i = 0; i < values.size(); ++i)
       all += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + text(values[i]);

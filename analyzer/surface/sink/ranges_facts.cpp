@@ -39,7 +39,7 @@ public:
   StateFacts write() {
     variables();
     for (const Axis axis : kAllAxes)
-      add(facts_.positions, std::string(1, letterOf(axis)), state_.at(axis), symbolOfPosition(indexOf(axis)));
+      add(facts_.positions, std::string(1, letterOf(axis)), state_.at(axis), symbolOfPosition(indexOf(axis)), true);
     groups();
     spindle();
     words();
@@ -56,28 +56,46 @@ private:
   void variables() {
     for (std::uint32_t local = 1; local <= kLocalVariables; ++local) {
       const AbstractValue &value = state_.locals[local];
-      if (!value.isVacant() || isMentioned(local))
-        add(facts_.variables, programs_.nameOfVariable(local), value, symbolOfVariable(local));
+      if (isMentioned(local) || !(value.isVacant() || isAnything(value)))
+        variable(local, value);
     }
     for (const auto &[number, value] : state_.variables.entries())
-      add(facts_.variables, programs_.nameOfVariable(number), value, symbolOfVariable(number));
+      variable(number, value);
+    facts_.othersAreUnknown = !state_.forgotten.empty();
+  }
+  void variable(std::uint32_t number, const AbstractValue &value) {
+    const VariableRange *range =
+        number < kFirstNamedVariable ? findVariable(*programs_.file(context_.file).dialect, number) : nullptr;
+    const bool isCell = range && range->kind == VariableKind::System; // holds some number at any time
+    const bool isOwn = number > kLocalVariables || sharesLocals();
+    add(facts_.variables, programs_.nameOfVariable(number), value,
+        isOwn ? std::optional(symbolOfVariable(number)) : std::nullopt, isCell);
+  }
+  /// Its locals are those of the program that was started.
+  bool sharesLocals() const {
+    return std::all_of(context_.calls.begin(), context_.calls.end(), [&](Place place) {
+      const auto *node = std::get_if<CallProgram>(&programs_.node(place).instruction);
+      if (!node)
+        return false; // a modal call
+      const CallKind kind = programs_.file(place.file).model->calls[node->call].kind;
+      return kind == CallKind::Subprogram || kind == CallKind::Local || kind == CallKind::External;
+    });
   }
   bool isMentioned(std::uint32_t variable) const {
     const auto uses = programs_.file(context_.file).model->variablesOf(context_.program);
     return std::any_of(uses.begin(), uses.end(), [&](const VariableUse &use) { return use.number == variable; });
   }
-  /// `own`: the symbol of the thing itself at the start.
-  void add(std::vector<ValueFact> &facts, std::string name, const AbstractValue &value, std::uint32_t own) {
-    const bool hasLevels = !context_.calls.empty() && own <= kLocalVariables; // the start's local is another one
-    const bool asAtStart = !hasLevels && value.origin() == Origin{own, Rational()};
-    const bool isUnknown = isAnything(value) || isAnyNumber(value);
-    if (asAtStart && isUnknown)
+  /// Unless it is as it was at the start, when nothing was known of it but perhaps that it is a number.  `own`: the
+  /// symbol of the thing itself at the start.
+  void add(std::vector<ValueFact> &facts, std::string name, const AbstractValue &value,
+           std::optional<std::uint32_t> own, bool isAlwaysNumber) {
+    const bool asAtStart = own && value.origin() == Origin{*own, Rational()};
+    if (asAtStart && (isAnything(value) || (isAlwaysNumber && isAnyNumber(value))))
       return;
     auto relation = relationOf(name, value);
     if (relation && asAtStart)
       relation->isItself = true;
-    if (!isUnknown || relation)
-      facts.push_back({std::move(name), value, std::move(relation)});
+    facts.push_back({std::move(name), value, std::move(relation), isAlwaysNumber});
   }
   /// To the start, or to the first value of the same symbol.
   std::optional<KnownRelation> relationOf(const std::string &name, const AbstractValue &value) {
@@ -130,6 +148,7 @@ private:
       for (std::size_t i = 0; i < rows.size(); ++i)
         if (codes.contains(i))
           fact.codes.push_back(codeName('G', rows[i]->tenths));
+      fact.isAnyCode = fact.codes.size() == rows.size();
       facts_.modes.push_back(std::move(fact));
     }
   }
@@ -146,6 +165,7 @@ private:
     for (std::size_t i = 0; i < kCodes.size(); ++i)
       if (state_.spindle.contains(i))
         fact.codes.emplace_back(kCodes[i]);
+    fact.isAnyCode = fact.codes.size() == kCodes.size();
     facts_.modes.push_back(std::move(fact));
   }
   void modalCalls() {
@@ -160,33 +180,37 @@ private:
 
   // ---- settings ----
 
+  void known(std::string name, const AbstractValue &value) {
+    if (!isAnything(value) && !isAnyNumber(value))
+      setting(std::move(name), value);
+  }
   void setting(std::string name, const AbstractValue &value) {
-    if (isAnything(value) || isAnyNumber(value))
-      return;
     auto relation = relationOf(name, value);
-    facts_.settings.push_back({std::move(name), value, std::move(relation)});
+    facts_.settings.push_back({std::move(name), value, std::move(relation), true});
   }
   void words() {
     for (std::size_t i = 0; i < kModalWords.size(); ++i)
       add(facts_.settings, std::string(1, kModalWords[i]), state_.words[i],
-          kWordSymbols + static_cast<std::uint32_t>(i));
+          kWordSymbols + static_cast<std::uint32_t>(i), false);
   }
   void cycle() {
     const auto group = modes_.groupOf(ModalKind::Cycle);
     if (!group || (state_.codes[*group].codes() & modes_.maskOf(ModalKind::Cycle, kCycles)) == 0)
       return;
-    setting("cycle Z", state_.cycle.bottom);
-    setting("cycle R", state_.cycle.retract);
-    setting("cycle initial level", state_.cycle.initial);
-    setting("cycle Q", state_.cycle.peck);
-    setting("cycle P", state_.cycle.dwell);
+    known("cycle Z", state_.cycle.bottom);
+    known("cycle R", state_.cycle.retract);
+    known("cycle initial level", state_.cycle.initial);
+    if (!state_.cycle.peck.isVacant())
+      known("cycle Q", state_.cycle.peck);
+    if (!state_.cycle.dwell.isVacant())
+      known("cycle P", state_.cycle.dwell);
   }
   void offsets() {
     for (const Axis axis : kAllAxes) {
-      setting(fmt::format("G52 {}", letterOf(axis)), state_.local[indexOf(axis)]);
-      setting(fmt::format("G92 {}", letterOf(axis)), state_.shift[indexOf(axis)]);
+      known(fmt::format("G52 {}", letterOf(axis)), state_.local[indexOf(axis)]);
+      known(fmt::format("G92 {}", letterOf(axis)), state_.shift[indexOf(axis)]);
     }
-    setting("length offset", state_.lengthOffset);
+    known("length offset", state_.lengthOffset);
   }
   void mappings() {
     if (!mayBeTrue(state_.transformed))
@@ -234,10 +258,14 @@ std::string textOf(const KnownRelation &relation) {
                      std::fabs(relation.offset));
 }
 
+bool isUnknown(const ValueFact &fact) {
+  return !fact.relation && (isAnything(fact.value) || (fact.isAlwaysNumber && isAnyNumber(fact.value)));
+}
+
 std::string textOf(const ValueFact &fact) {
   if (!fact.relation)
-    return describe(fact.value);
-  if (isAnything(fact.value) || isAnyNumber(fact.value))
+    return isUnknown(fact) ? "not known" : describe(fact.value);
+  if ((isAnything(fact.value) || isAnyNumber(fact.value)) && !fact.relation->isItself)
     return textOf(*fact.relation);
   return fmt::format("{} ({})", describe(fact.value), textOf(*fact.relation));
 }
@@ -245,6 +273,8 @@ std::string textOf(const ValueFact &fact) {
 std::string textOf(const ModeFact &fact) {
   if (fact.codes.empty())
     return "as at start";
+  if (fact.isAnyCode)
+    return "any code";
   return listed(fact.codes) + (fact.maybeAsAtStart ? ", or as at start" : "");
 }
 

@@ -21,17 +21,20 @@ struct ValueFact {
   std::string name; // `#1`, `X`, `F`, `cycle R`, `G52 X`
   AbstractValue value;
   std::optional<KnownRelation> relation = std::nullopt;
+  bool isAlwaysNumber = false; // never vacant: that it is a number is no news
 };
 
 struct ModeFact {
   std::string name;               // `distance`, `plane`
   std::vector<std::string> codes; // `G90`; those that are set on some way
   bool maybeAsAtStart;            // or nothing has set it
+  bool isAnyCode = false;         // all that the control has
 };
 
-/// Only things of which something is known, or that are no more as they were at the start.
+/// What is not named is as it was at the start, when nothing was known of it.
 struct StateFacts {
   std::vector<ValueFact> variables;
+  bool othersAreUnknown = false; // variables that are not named, local ones apart
   std::vector<ValueFact> positions;
   std::vector<ModeFact> modes;
   std::vector<ValueFact> settings;     // words in force, levels of a cycle, offsets, mappings
@@ -42,6 +45,7 @@ struct StateFacts {
 StateFacts factsOf(const AbstractState &state, const ContextStates &context, const ProgramSet &programs,
                    const ModalTable &modes);
 
+bool isUnknown(const ValueFact &fact);
 /// `= #1 + 17`, `as at start`, `= X at start - 5`.
 std::string textOf(const KnownRelation &relation);
 /// `0 to 17, whole (= #1 + 17)`

@@ -66,6 +66,7 @@ private:
 
   static Json factsToJson(const StateFacts &facts) {
     Json row = {{"variables", valuesToJson(facts.variables)}, {"positions", valuesToJson(facts.positions)}};
+    row["otherVariablesUnknown"] = facts.othersAreUnknown;
     row["modes"] = Json::array();
     for (const ModeFact &fact : facts.modes)
       row["modes"].push_back({{"name", fact.name}, {"codes", fact.codes}, {"asAtStart", fact.maybeAsAtStart}});

@@ -14,36 +14,90 @@ namespace feedhold {
 
 namespace {
 
-using Lines = std::vector<std::pair<std::string, std::string>>; // a name, and what is known
+struct Line {
+  std::string name;
+  std::string text;
+  std::string_view otherwise;  // what holds where there is no such line
+  bool isToldTogether = false; // by another line
+  friend bool operator==(const Line &, const Line &) = default;
+};
+using Lines = std::vector<Line>;
+
+constexpr std::string_view kAsAtStart = "as at start";
+constexpr std::string_view kNotKnown = "not known";
+constexpr std::string_view kNone = "none";
+constexpr std::string_view kOtherVariables = "other variables";
+constexpr std::size_t kFew = 4; // things of which nothing is known, named one by one
+
+/// Many unknown things get one line.
+void addTogether(Lines &lines, Lines some, std::string name, std::string_view unknown) {
+  const auto isUnknownLine = [&](const Line &line) { return line.text == unknown; };
+  const bool isMany = std::count_if(some.begin(), some.end(), isUnknownLine) > static_cast<std::ptrdiff_t>(kFew);
+  const std::string_view otherwise = some.empty() ? kNone : some.front().otherwise;
+  for (Line &line : some) {
+    line.isToldTogether = isMany && isUnknownLine(line);
+    lines.push_back(std::move(line));
+  }
+  if (isMany)
+    lines.push_back({std::move(name), std::string(unknown), otherwise});
+}
+
+std::string_view otherwiseOf(const ValueFact &setting) {
+  const bool isOffset = setting.name.starts_with("G") || setting.name == "length offset";
+  return isOffset || setting.name.starts_with("cycle") ? kNotKnown : kNone;
+}
 
 Lines linesOf(const StateFacts &facts) {
   Lines lines;
-  for (const auto *values : {&facts.variables, &facts.positions})
-    for (const ValueFact &fact : *values)
-      lines.emplace_back(fact.name, textOf(fact));
+  for (const ValueFact &fact : facts.variables)
+    lines.push_back({fact.name, textOf(fact), kAsAtStart});
+  if (facts.othersAreUnknown)
+    lines.push_back({std::string(kOtherVariables), std::string(kNotKnown), kAsAtStart});
+  Lines axes;
+  for (const ValueFact &fact : facts.positions)
+    axes.push_back({fact.name, textOf(fact), kAsAtStart});
+  addTogether(lines, std::move(axes), "other axes", kNotKnown);
+  Lines modes;
   for (const ModeFact &fact : facts.modes)
-    lines.emplace_back(fact.name, textOf(fact));
+    modes.push_back({fact.name, textOf(fact), kAsAtStart});
+  addTogether(lines, std::move(modes), "other modes", "any code");
+  Lines words;
+  Lines settings;
   for (const ValueFact &fact : facts.settings)
-    lines.emplace_back(fact.name, textOf(fact));
+    if (fact.name.size() == 1)
+      words.push_back({fact.name, textOf(fact), kAsAtStart});
+    else
+      settings.push_back({fact.name, textOf(fact), otherwiseOf(fact)});
+  addTogether(lines, std::move(words), "other words", kNotKnown);
+  addTogether(lines, std::move(settings), "scaling, mirror, rotation", kNotKnown);
   std::string calls;
   for (const std::string &call : facts.modalCalls)
     calls += (calls.empty() ? "" : ", ") + call;
   if (facts.maybeOtherModalCalls)
     calls += calls.empty() ? "one may be active" : ", or another";
   if (!calls.empty())
-    lines.emplace_back("modal call", calls);
+    lines.push_back({"modal call", calls, kNone});
   return lines;
 }
 
-/// The lines that are new or say something else, and those of which nothing is known any more.
+/// The lines that are new or say something else, and what has become of those that are gone.
 Lines changesFrom(const Lines &before, const Lines &now) {
+  const auto named = [](const Lines &lines, const std::string &name) {
+    return std::any_of(lines.begin(), lines.end(), [&](const Line &line) { return line.name == name; });
+  };
   Lines changes;
-  for (const auto &line : now)
-    if (std::find(before.begin(), before.end(), line) == before.end())
-      changes.push_back(line);
-  for (const auto &[name, text] : before)
-    if (std::none_of(now.begin(), now.end(), [&](const auto &line) { return line.first == name; }))
-      changes.emplace_back(name, "not known");
+  for (const Line &line : now)
+    if (std::find(before.begin(), before.end(), line) == before.end() &&
+        (!line.isToldTogether || named(before, line.name)))
+      changes.push_back({line.name, line.text, line.otherwise});
+  const bool variablesAreUnknown = named(now, std::string(kOtherVariables));
+  const auto ofCycle = [](const Line &line) { return line.name.starts_with("cycle"); };
+  const bool cycleEnded = std::none_of(now.begin(), now.end(), ofCycle); // the mode says so
+  for (const Line &line : before)
+    if (!named(now, line.name) && !line.isToldTogether && !(cycleEnded && ofCycle(line))) {
+      const bool isUnknownVariable = line.name.starts_with('#') && variablesAreUnknown;
+      changes.push_back({line.name, std::string(isUnknownVariable ? kNotKnown : line.otherwise), {}});
+    }
   return changes;
 }
 
@@ -126,10 +180,11 @@ private:
   }
   void writeFacts(const Lines &lines) {
     std::size_t width = 0;
-    for (const auto &line : lines)
-      width = std::max(width, line.first.size());
-    for (const auto &[name, text] : lines)
-      text_ += fmt::format("          {:<{}}  {}\n", name, width, text);
+    for (const Line &line : lines)
+      width = std::max(width, line.isToldTogether ? 0 : line.name.size());
+    for (const Line &line : lines)
+      if (!line.isToldTogether)
+        text_ += fmt::format("          {:<{}}  {}\n", line.name, width, line.text);
   }
 
   // ---- places ----
