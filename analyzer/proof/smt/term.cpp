@@ -62,6 +62,12 @@ TermId TermStore::variable(std::string_view name, Sort sort) {
   return id;
 }
 
+TermId TermStore::variableNamed(std::string_view name) const {
+  auto known = variables_.find(name);
+  FEEDHOLD_CHECK(known != variables_.end(), "no variable of that name");
+  return known->second;
+}
+
 TermId TermStore::intern(Term term) {
   TermId id = terms_.add(std::move(term));
   auto [known, isNew] = known_.insert(id);

@@ -86,6 +86,8 @@ public:
   TermId number(const Number &value);
   /// One name has one sort in one store.
   TermId variable(std::string_view name, Sort sort);
+  /// Of a variable that exists.
+  TermId variableNamed(std::string_view name) const;
 
   TermId add(std::span<const TermId> terms);
   TermId add(TermId left, TermId right);
@@ -157,6 +159,9 @@ std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> te
 /// The Variables below a term, ascending.
 std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> terms);
 std::vector<TermId> variablesOf(const TermStore &store, TermId term);
+
+/// The same kind of term (and function) over other arguments, folded.
+TermId withArguments(TermStore &store, TermId term, const std::vector<TermId> &arguments);
 
 using Substitution = std::map<TermId, TermId>;
 /// Each key (any term, mostly a Variable) replaced by its value, all at once; then folded again.

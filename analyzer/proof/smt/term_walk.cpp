@@ -6,31 +6,6 @@
 #include <algorithm>
 
 namespace feedhold::smt {
-namespace {
-
-TermId rebuilt(TermStore &store, TermId id, const std::vector<TermId> &arguments) {
-  const TermKind kind = store[id].kind;
-  switch (kind) {
-  case TermKind::True:
-  case TermKind::False:
-  case TermKind::Number:
-  case TermKind::Variable: return id;
-  case TermKind::Add: return store.add(arguments);
-  case TermKind::Multiply: return store.multiply(arguments);
-  case TermKind::Divide: return store.divide(arguments[0], arguments[1]);
-  case TermKind::Less: return store.less(arguments[0], arguments[1]);
-  case TermKind::LessOrEqual: return store.lessOrEqual(arguments[0], arguments[1]);
-  case TermKind::Equal: return store.equal(arguments[0], arguments[1]);
-  case TermKind::And: return store.logicalAnd(arguments);
-  case TermKind::Or: return store.logicalOr(arguments);
-  case TermKind::Not: return store.logicalNot(arguments[0]);
-  case TermKind::Ite: return store.ite(arguments[0], arguments[1], arguments[2]);
-  case TermKind::Apply: return store.apply(store[id].function, arguments);
-  }
-  FEEDHOLD_UNREACHABLE("a new kind of term needs its factory");
-}
-
-} // namespace
 
 std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> terms) {
   std::vector<bool> seen(store.size(), false);
@@ -62,6 +37,28 @@ std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> 
 
 std::vector<TermId> variablesOf(const TermStore &store, TermId term) { return variablesOf(store, std::span(&term, 1)); }
 
+TermId withArguments(TermStore &store, TermId id, const std::vector<TermId> &arguments) {
+  const TermKind kind = store[id].kind;
+  switch (kind) {
+  case TermKind::True:
+  case TermKind::False:
+  case TermKind::Number:
+  case TermKind::Variable: return id;
+  case TermKind::Add: return store.add(arguments);
+  case TermKind::Multiply: return store.multiply(arguments);
+  case TermKind::Divide: return store.divide(arguments[0], arguments[1]);
+  case TermKind::Less: return store.less(arguments[0], arguments[1]);
+  case TermKind::LessOrEqual: return store.lessOrEqual(arguments[0], arguments[1]);
+  case TermKind::Equal: return store.equal(arguments[0], arguments[1]);
+  case TermKind::And: return store.logicalAnd(arguments);
+  case TermKind::Or: return store.logicalOr(arguments);
+  case TermKind::Not: return store.logicalNot(arguments[0]);
+  case TermKind::Ite: return store.ite(arguments[0], arguments[1], arguments[2]);
+  case TermKind::Apply: return store.apply(store[id].function, arguments);
+  }
+  FEEDHOLD_UNREACHABLE("a new kind of term needs its factory");
+}
+
 TermId substitute(TermStore &store, TermId term, const Substitution &substitution) {
   Substitution done = substitution;
   for (TermId id : reachable(store, std::span(&term, 1))) {
@@ -70,7 +67,7 @@ TermId substitute(TermStore &store, TermId term, const Substitution &substitutio
     std::vector<TermId> arguments = store[id].arguments;
     for (TermId &argument : arguments)
       argument = done.at(argument);
-    done.emplace(id, arguments == store[id].arguments ? id : rebuilt(store, id, arguments));
+    done.emplace(id, arguments == store[id].arguments ? id : withArguments(store, id, arguments));
   }
   return done.at(term);
 }

@@ -1,0 +1,38 @@
+// Child processes: programs run to their end, and functions that may have to be killed.  With files, the only door to
+// the operating system.
+#pragma once
+
+#include "base/support/result.h"
+
+#include <cstdint>
+#include <functional>
+#include <shared_mutex>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+struct ProcessLimits {
+  std::uint32_t processorSeconds = 60;
+  /// By the clock: against children that wait for ever.
+  std::uint32_t watchdogSeconds = 120;
+};
+
+struct ProcessOutput {
+  enum class End : std::uint8_t { Exited, Killed };
+  End end;
+  int exitCode; ///< after Exited
+  std::string output;
+};
+
+/// Runs a program (looked up in PATH) with a text as its standard input, and gives what it wrote to standard output.
+/// Refused when there is no such program.
+Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const std::string &input,
+                                 const ProcessLimits &limits);
+
+/// Runs a function in a copy of this process and gives the text that it returns.  No other thread may hold a lock that
+/// the function takes while the copy is made: the caller's gate is held for that moment.
+Result<ProcessOutput> runInChild(const std::function<std::string()> &function, const ProcessLimits &limits,
+                                 std::shared_mutex &gate);
+
+} // namespace feedhold

@@ -1,0 +1,144 @@
+// The order of attack: folding, certificate, Z3, cvc5.  What each answer is worth is decided here alone.
+#include "proof/prove/discharge.h"
+
+#include "base/support/check.h"
+#include "base/support/match.h"
+#include "proof/check/certificate.h"
+#include "proof/prove/discharge_search.h"
+#include "proof/smt/purify.h"
+#include "proof/smt/solver.h"
+
+namespace feedhold::prove {
+namespace {
+
+using smt::TermId;
+
+Proved certified(const check::Claim &claim, const check::Certificate &certificate) {
+  const std::optional<Error> wrong = check::verify(claim, certificate);
+  FEEDHOLD_CHECK(!wrong, "the search gave a certificate that does not hold");
+  return {Grade::Certified, CertificateEvidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)}};
+}
+
+/// Of formulas that are plainly false.
+Proved byFolding() {
+  const check::Claim claim{{}, {{{check::constant(-1), check::Relation::NonNegative}}, {}}};
+  return certified(claim, {check::Combination{{{check::Number(1), {0}, {}}}, {}}, {}});
+}
+
+/// All that must not hold together.
+std::vector<TermId> refutable(smt::TermStore &store, const Query &query) {
+  std::vector<TermId> formulas = query.assumptions;
+  formulas.push_back(store.logicalNot(query.goal));
+  const TermId whole = store.logicalAnd(formulas);
+  if (store[whole].kind == smt::TermKind::And)
+    return store[whole].arguments;
+  return {whole};
+}
+
+/// Without the new variables, and with those of the query that the model leaves open.
+smt::Model modelOf(const smt::TermStore &store, const std::vector<TermId> &variables, const smt::Model &found) {
+  smt::Model model;
+  for (TermId variable : variables) {
+    const smt::Term &term = store[variable];
+    auto known = found.find(term.name);
+    if (known != found.end())
+      model.emplace(term.name, known->second);
+    else
+      model.emplace(term.name, term.sort == smt::Sort::Bool ? smt::Value(false) : smt::Value(smt::Number(0)));
+  }
+  return model;
+}
+
+smt::Model modelOf(const smt::TermStore &store, const std::vector<TermId> &variables, const check::Claim &claim,
+                   const std::vector<check::Number> &values) {
+  smt::Model found;
+  for (std::size_t index = 0; index < values.size(); ++index) {
+    const std::string &name = claim.variables[index].name;
+    if (name.starts_with('.'))
+      continue;
+    const bool isBool = store.sort(store.variableNamed(name)) == smt::Sort::Bool;
+    found.emplace(name, isBool ? smt::Value(!values[index].isZero()) : smt::Value(values[index]));
+  }
+  return modelOf(store, variables, found);
+}
+
+class Discharge {
+public:
+  Discharge(smt::TermStore &store, const Query &query, const Budget &budget)
+      : store_(store), budget_(budget), formulas_(refutable(store, query)),
+        variables_(smt::variablesOf(store, formulas_)) {}
+
+  Outcome run() {
+    if (formulas_.size() == 1 && formulas_[0] == store_.no())
+      return {byFolding(), "folding", 0};
+    smt::Purified purified = smt::purify(store_, formulas_);
+    pure_ = std::move(purified.formulas);
+    pure_.insert(pure_.end(), purified.facts.begin(), purified.facts.end());
+    if (std::optional<Outcome> outcome = byCertificate())
+      return std::move(*outcome);
+    return bySolvers();
+  }
+
+private:
+  std::optional<Outcome> byCertificate() {
+    Result<check::Claim> claim = check::claimOf(store_, pure_);
+    if (!claim) {
+      reason_ = claim.error().message;
+      return std::nullopt;
+    }
+    const SearchResult search = searchCertificate(claim.value(), budget_.search);
+    effort_ += search.work;
+    const bool isLinear = search.reasoning == SearchResult::Reasoning::Linear;
+    const std::string method = isLinear ? "linear" : "products";
+    return match(
+        search.answer,
+        [&](const Found &found) -> std::optional<Outcome> {
+          return Outcome{certified(claim.value(), found.certificate), method, effort_};
+        },
+        [&](const Satisfied &point) -> std::optional<Outcome> {
+          return Outcome{Counterexample{modelOf(store_, variables_, claim.value(), point.values)}, method, effort_};
+        },
+        [&](const NotFound &failure) -> std::optional<Outcome> {
+          reason_ = failure.reason;
+          return std::nullopt;
+        });
+  }
+
+  Outcome bySolvers() {
+    if (budget_.z3 == 0)
+      return {Unknown{reason_}, "linear", effort_};
+    const std::string text = smt::writeSmtLib(store_, pure_);
+    const smt::Answer z3 = smt::askZ3(text, smt::arithmeticOf(store_, pure_), budget_.z3);
+    effort_ += z3.effort;
+    if (const auto *sat = std::get_if<smt::Sat>(&z3.result))
+      return {Counterexample{modelOf(store_, variables_, sat->model)}, "z3", effort_};
+    if (budget_.cvc5 == 0)
+      return {Unknown{z3.isUnsat() ? "one solver only" : reason_}, "z3", effort_};
+    if (!z3.isUnsat())
+      return {Unknown{reason_ + "; " + std::get<smt::NoAnswer>(z3.result).reason}, "z3", effort_};
+    const smt::Answer cvc5 = smt::askCvc5(text, budget_.cvc5);
+    effort_ += cvc5.effort;
+    if (const auto *none = std::get_if<smt::NoAnswer>(&cvc5.result))
+      return {Unknown{"one solver only: " + none->reason}, "z3+cvc5", effort_};
+    if (!cvc5.isUnsat())
+      return {Unknown{"the solvers contradict each other"}, "z3+cvc5", effort_};
+    const SolverEvidence evidence{text, {smt::z3Version(), smt::cvc5Version().value_or("cvc5")}};
+    return {Proved{Grade::TwoSolvers, evidence}, "z3+cvc5", effort_};
+  }
+
+  smt::TermStore &store_;
+  const Budget &budget_;
+  std::vector<TermId> formulas_;
+  std::vector<TermId> variables_;
+  std::vector<TermId> pure_;
+  std::string reason_;
+  std::uint64_t effort_ = 0;
+};
+
+} // namespace
+
+Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
+  return Discharge(store, query, budget).run();
+}
+
+} // namespace feedhold::prove

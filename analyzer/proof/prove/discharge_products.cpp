@@ -1,0 +1,179 @@
+#include "proof/prove/discharge_products.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+namespace {
+
+using check::Constraint;
+using check::Relation;
+
+constexpr std::size_t kRowsAtOnce = 12;
+/// Combinations of more hypotheses than this grow too many; measured: the deep products that proofs need have few.
+constexpr std::size_t kMostForTriples = 14;
+
+bool isStrict(const Constraint &constraint) { return constraint.relation == Relation::Positive; }
+
+Relation relationOf(bool strict) { return strict ? Relation::Positive : Relation::NonNegative; }
+
+std::vector<ActiveHypothesis> only(const std::vector<ActiveHypothesis> &hypotheses, bool equalities) {
+  std::vector<ActiveHypothesis> found;
+  for (const ActiveHypothesis &hypothesis : hypotheses)
+    if ((hypothesis.constraint->relation == Relation::Zero) == equalities &&
+        !check::isConstant(hypothesis.constraint->polynomial))
+      found.push_back(hypothesis);
+  return found;
+}
+
+/// The monomials of the nonlinear part, and the variables in them: only those can cancel what a product brings in.
+std::set<Monomial> multipliers(const std::vector<ActiveHypothesis> &hypotheses, std::size_t degree) {
+  std::set<Monomial> found{Monomial()};
+  for (const ActiveHypothesis &hypothesis : hypotheses) {
+    for (const auto &[monomial, coefficient] : hypothesis.constraint->polynomial) {
+      if (monomial.size() <= degree)
+        found.insert(monomial);
+      for (std::uint32_t index : monomial)
+        found.insert(Monomial{index});
+    }
+  }
+  return found;
+}
+
+/// A plain fraction near a value: certificates with small numbers are faster and easier to read.
+Number plain(const Number &value, const Number &grain) { return smt::floor(value / grain + Number(1) / 2) * grain; }
+
+} // namespace
+
+std::vector<Candidate> Products::violated(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses,
+                                          const ProductLimits &limits) {
+  found_.clear();
+  equalities(rows, hypotheses, limits);
+  pairs(rows, hypotheses, limits);
+  squares(rows, hypotheses, limits);
+  if (limits.factors > 2)
+    triples(rows, hypotheses, limits);
+  std::stable_sort(found_.begin(), found_.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<Candidate> chosen;
+  for (auto &[cost, candidate] : found_) {
+    if (chosen.size() >= kRowsAtOnce || cost > found_.front().first + 1)
+      break;
+    chosen.push_back(std::move(candidate));
+  }
+  return chosen;
+}
+
+void Products::offer(const Rows &rows, Candidate candidate) {
+  work_ += candidate.polynomial.size();
+  if (isViolated(rows, candidate))
+    found_.emplace_back(rows.newMonomials(candidate.polynomial), std::move(candidate));
+}
+
+const Polynomial &Products::product(const ActiveHypothesis &left, const ActiveHypothesis &right) {
+  auto [place, isNew] = known_.try_emplace({left.index, right.index});
+  if (isNew) {
+    place->second = check::multiply(left.constraint->polynomial, right.constraint->polynomial);
+    work_ += left.constraint->polynomial.size() * right.constraint->polynomial.size() * 4;
+  }
+  return place->second;
+}
+
+void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
+  const std::vector<ActiveHypothesis> inequalities = only(hypotheses, false);
+  for (std::size_t i = 0; i < inequalities.size(); ++i) {
+    for (std::size_t j = i; j < inequalities.size(); ++j) {
+      const Constraint &left = *inequalities[i].constraint, &right = *inequalities[j].constraint;
+      if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)
+        continue;
+      offer(rows, {{{inequalities[i].index, inequalities[j].index}, {}, {}},
+                   product(inequalities[i], inequalities[j]),
+                   relationOf(isStrict(left) && isStrict(right))});
+    }
+  }
+}
+
+void Products::triples(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
+  const std::vector<ActiveHypothesis> inequalities = only(hypotheses, false);
+  if (inequalities.size() > kMostForTriples)
+    return;
+  for (std::size_t i = 0; i < inequalities.size(); ++i) {
+    for (std::size_t j = i; j < inequalities.size(); ++j) {
+      const Polynomial &pair = product(inequalities[i], inequalities[j]);
+      for (std::size_t k = j; k < inequalities.size(); ++k) {
+        const Polynomial &third = inequalities[k].constraint->polynomial;
+        if (check::degree(pair) + check::degree(third) > limits.degree)
+          continue;
+        const bool strict = isStrict(*inequalities[i].constraint) && isStrict(*inequalities[j].constraint) &&
+                            isStrict(*inequalities[k].constraint);
+        work_ += pair.size() * third.size() * 4;
+        offer(rows, {{{inequalities[i].index, inequalities[j].index, inequalities[k].index}, {}, {}},
+                     check::multiply(pair, third),
+                     relationOf(strict)});
+      }
+    }
+  }
+}
+
+void Products::equalities(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses,
+                          const ProductLimits &limits) {
+  const std::set<Monomial> factors = multipliers(hypotheses, limits.degree - 1);
+  for (const ActiveHypothesis &equality : only(hypotheses, true)) {
+    const Polynomial &polynomial = equality.constraint->polynomial;
+    for (const Monomial &factor : factors) {
+      if (factor.empty() || check::degree(polynomial) + factor.size() > std::max<std::size_t>(limits.degree, 3))
+        continue;
+      work_ += polynomial.size() * 2;
+      offer(rows, {{{equality.index}, {}, factor},
+                   check::multiply(polynomial, Polynomial{{factor, Number(1)}}),
+                   Relation::Zero});
+    }
+  }
+}
+
+/// Where the point has x*x < 0, or x*x * y*y < (x*y)^2: the square of x - f*y, for the f that is broken most.  With y =
+/// 1 this is the tangent of the parabola.  Deeper: the same, times a hypothesis.
+void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
+  std::set<Monomial> bases{Monomial()};
+  for (const Monomial &monomial : rows.quadraticMonomials())
+    for (std::uint32_t index : monomial)
+      bases.insert(Monomial{index});
+  auto square = [&](const Monomial &x, const Monomial &y, const std::vector<std::uint32_t> &by,
+                    const Polynomial &factor) {
+    auto moment = [&](const Monomial &a, const Monomial &b) {
+      Polynomial product = check::multiply(factor, Polynomial{{check::multiply(a, b), Number(1)}});
+      work_ += product.size() + 1;
+      return rows.value(product).real;
+    };
+    const Number yy = moment(y, y), xy = moment(x, y), xx = moment(x, x);
+    Polynomial base{{x, Number(1)}};
+    if (xx.sign() >= 0) {
+      if (yy.sign() <= 0 || xx * yy >= xy * xy)
+        return;
+      const Number best = xy / yy;
+      Number share = best;
+      for (const Number &grain : {Number(1), Number(1) / 10, Number(1) / 1000}) {
+        share = plain(best, grain);
+        if ((xx - share * xy * 2 + share * share * yy).sign() < 0)
+          break;
+        share = best;
+      }
+      check::addTo(base, Polynomial{{y, Number(1)}}, -share);
+    }
+    offer(rows, {{by, {base}, {}}, check::multiply(factor, check::multiply(base, base)), Relation::NonNegative});
+  };
+  std::vector<ActiveHypothesis> inequalities;
+  if (limits.factors > 2)
+    inequalities = only(hypotheses, false);
+  for (const Monomial &x : bases) {
+    for (const Monomial &y : bases) {
+      if (x == y || x.empty())
+        continue;
+      square(x, y, {}, check::constant(1));
+      for (const ActiveHypothesis &hypothesis : inequalities)
+        if (check::degree(hypothesis.constraint->polynomial) + 2 <= limits.degree &&
+            inequalities.size() <= kMostForTriples)
+          square(x, y, {hypothesis.index}, hypothesis.constraint->polynomial);
+    }
+  }
+}
+
+} // namespace feedhold::prove

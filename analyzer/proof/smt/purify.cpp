@@ -1,0 +1,192 @@
+#include "proof/smt/purify.h"
+
+#include "base/support/check.h"
+#include "proof/smt/exact_angles.h"
+
+namespace feedhold::smt {
+namespace {
+
+class Purifier {
+public:
+  explicit Purifier(TermStore &store) : store_(store) {}
+
+  Purified run(std::span<const TermId> formulas) {
+    for (TermId variable : variablesOf(store_, formulas))
+      FEEDHOLD_CHECK(!store_[variable].name.starts_with('.'), "names that begin with a dot are for new variables");
+    Purified result;
+    for (TermId formula : formulas)
+      result.formulas.push_back(pure(formula));
+    // Facts may speak of further functions (an arc sine of its sine); those have facts of their own.
+    for (std::size_t next = 0; next < definitions_.size(); ++next)
+      state(definitions_[next]);
+    result.facts = std::move(facts_);
+    result.definitions = std::move(definitions_);
+    return result;
+  }
+
+private:
+  TermId pure(TermId formula) {
+    for (TermId id : reachable(store_, std::span(&formula, 1))) {
+      if (done_.contains(id))
+        continue;
+      const TermKind kind = store_[id].kind;
+      std::vector<TermId> arguments = store_[id].arguments;
+      for (TermId &argument : arguments)
+        argument = done_.at(argument);
+      const TermId over = withArguments(store_, id, arguments);
+      done_.emplace(id, kind == TermKind::Divide || kind == TermKind::Apply ? named(over) : over);
+    }
+    return done_.at(formula);
+  }
+
+  /// Folding may have left a number, or a sum with an application in it.
+  TermId named(TermId id) {
+    Substitution inside;
+    for (TermId part : reachable(store_, std::span(&id, 1)))
+      if (store_[part].kind == TermKind::Divide || store_[part].kind == TermKind::Apply)
+        inside.emplace(part, variableFor(part));
+    return inside.empty() ? id : substitute(store_, id, inside);
+  }
+
+  TermId variableFor(TermId application) {
+    if (auto known = variables_.find(application); known != variables_.end())
+      return known->second;
+    const Term &term = store_[application];
+    const std::string kind = term.kind == TermKind::Divide ? "quotient" : std::string(nameOf(term.function));
+    const Sort sort = term.sort;
+    TermId variable = store_.variable("." + kind + std::to_string(definitions_.size() + 1), sort);
+    variables_.emplace(application, variable);
+    definitions_.push_back({variable, application});
+    return variable;
+  }
+
+  TermId number(const Number &value) { return store_.number(value); }
+  TermId equal(TermId left, TermId right) { return store_.equal(left, right); }
+  TermId atMost(TermId left, TermId right) { return store_.lessOrEqual(left, right); }
+  TermId less(TermId left, TermId right) { return store_.less(left, right); }
+  TermId times(TermId left, TermId right) { return store_.multiply(left, right); }
+  TermId within(TermId low, TermId term, TermId high) {
+    return store_.logicalAnd(atMost(low, term), atMost(term, high));
+  }
+  TermId within(int low, TermId term, int high) { return within(number(low), term, number(high)); }
+  void fact(TermId formula) {
+    TermId pureFormula = pure(formula);
+    if (pureFormula != store_.yes())
+      facts_.push_back(pureFormula);
+  }
+  void factWhere(TermId condition, TermId formula) { fact(store_.implies(condition, formula)); }
+
+  void state(Definition definition) {
+    const std::vector<TermId> arguments = store_[definition.application].arguments;
+    const TermId value = definition.variable, x = arguments[0];
+    if (store_[definition.application].kind == TermKind::Divide)
+      return quotient(value, x, arguments[1]);
+    switch (store_[definition.application].function) {
+    case Function::Floor: return fact(store_.logicalAnd(atMost(value, x), less(x, store_.add(value, number(1)))));
+    case Function::Sqrt: return squareRoot(value, x);
+    case Function::Sin: return sine(value, x);
+    case Function::Cos: return cosine(value, x);
+    case Function::Tan: return tangent(value, x);
+    case Function::Asin: return arcSine(value, x);
+    case Function::Acos: return arcCosine(value, x);
+    case Function::Atan2: return direction(value, x, arguments[1]);
+    case Function::Ln: return logarithm(value, x);
+    case Function::Exp: return exponential(value, x);
+    case Function::Power: return factWhere(less(number(0), x), less(number(0), value));
+    case Function::BitAnd:
+    case Function::BitOr:
+    case Function::BitXor: return;
+    }
+  }
+
+  void quotient(TermId value, TermId dividend, TermId divisor) {
+    factWhere(store_.notEqual(divisor, number(0)), equal(times(value, divisor), dividend));
+  }
+
+  void squareRoot(TermId value, TermId x) {
+    factWhere(atMost(number(0), x), store_.logicalAnd(atMost(number(0), value), equal(times(value, value), x)));
+  }
+
+  void sine(TermId value, TermId angle) {
+    fact(within(-1, value, 1));
+    circle(value, store_.apply(Function::Cos, angle));
+    if (store_.isNumber(angle))
+      return enclose(value, store_[angle].number);
+    signWithin(angle, 0, 180, atMost(number(0), value));
+    signWithin(angle, 180, 360, atMost(value, number(0)));
+    signWithin(angle, -180, 0, atMost(value, number(0)));
+  }
+
+  void cosine(TermId value, TermId angle) {
+    fact(within(-1, value, 1));
+    circle(value, store_.apply(Function::Sin, angle));
+    if (store_.isNumber(angle))
+      return enclose(value, store_[angle].number + 90);
+    signWithin(angle, -90, 90, atMost(number(0), value));
+    signWithin(angle, 90, 270, atMost(value, number(0)));
+    signWithin(angle, 270, 360, atMost(number(0), value));
+  }
+
+  void tangent(TermId value, TermId angle) {
+    const TermId cos = store_.apply(Function::Cos, angle);
+    factWhere(store_.notEqual(cos, number(0)), equal(times(value, cos), store_.apply(Function::Sin, angle)));
+  }
+
+  void circle(TermId value, TermId other) {
+    fact(equal(store_.add(times(value, value), times(other, other)), number(1)));
+  }
+
+  void enclose(TermId value, const Number &angle) {
+    const Enclosure bounds = encloseSine(angle);
+    fact(within(number(bounds.low), value, number(bounds.high)));
+  }
+
+  void signWithin(TermId angle, int low, int high, TermId sign) { factWhere(within(low, angle, high), sign); }
+
+  void arcSine(TermId value, TermId x) {
+    const TermId defined = within(-1, x, 1);
+    factWhere(defined, store_.logicalAnd(within(-90, value, 90), equal(store_.apply(Function::Sin, value), x)));
+    factWhere(defined, atMost(number(0), store_.apply(Function::Cos, value)));
+  }
+
+  void arcCosine(TermId value, TermId x) {
+    const TermId defined = within(-1, x, 1);
+    factWhere(defined, store_.logicalAnd(within(0, value, 180), equal(store_.apply(Function::Cos, value), x)));
+    factWhere(defined, atMost(number(0), store_.apply(Function::Sin, value)));
+  }
+
+  void direction(TermId value, TermId y, TermId x) {
+    const TermId zero = number(0);
+    const TermId defined = store_.logicalOr(store_.notEqual(x, zero), store_.notEqual(y, zero));
+    factWhere(defined, store_.logicalAnd(less(number(-180), value), atMost(value, number(180))));
+    factWhere(store_.logicalAnd(defined, atMost(zero, y)), atMost(zero, value));
+    factWhere(less(y, zero), less(value, zero));
+    factWhere(less(zero, x), store_.logicalAnd(less(number(-90), value), less(value, number(90))));
+    const TermId radius = store_.apply(Function::Sqrt, store_.add(times(x, x), times(y, y)));
+    factWhere(defined, store_.logicalAnd(equal(y, times(radius, store_.apply(Function::Sin, value))),
+                                         equal(x, times(radius, store_.apply(Function::Cos, value)))));
+  }
+
+  void logarithm(TermId value, TermId x) {
+    factWhere(less(number(0), x), atMost(value, store_.subtract(x, number(1))));
+    factWhere(less(number(1), x), less(number(0), value));
+    factWhere(store_.logicalAnd(less(number(0), x), less(x, number(1))), less(value, number(0)));
+  }
+
+  void exponential(TermId value, TermId x) {
+    fact(store_.logicalAnd(less(number(0), value), atMost(store_.add(x, number(1)), value)));
+    factWhere(less(x, number(0)), less(value, number(1)));
+  }
+
+  TermStore &store_;
+  Substitution done_;
+  std::map<TermId, TermId> variables_; ///< by application over pure arguments
+  std::vector<Definition> definitions_;
+  std::vector<TermId> facts_;
+};
+
+} // namespace
+
+Purified purify(TermStore &store, std::span<const TermId> formulas) { return Purifier(store).run(formulas); }
+
+} // namespace feedhold::smt
