@@ -81,8 +81,9 @@ bool Engine::isOpen(Callee entry) const {
   return std::any_of(open_.begin(), open_.end(), [&](const Callee &other) { return keyOf(other) == keyOf(entry); });
 }
 
-bool Engine::spend() {
-  if (++spent_ > options_.budget && !gaveUp_)
+bool Engine::spend(std::uint64_t cost) {
+  spent_ += cost;
+  if (spent_ > options_.budget && !gaveUp_)
     gaveUp_ = "the programs are too involved to be followed within the budget";
   return !gaveUp_;
 }

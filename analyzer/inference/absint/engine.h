@@ -69,9 +69,10 @@ private:
   bool isOpen(Callee entry) const;
   bool isStraight(const ProgramFacts &facts) const;
   /// False when the budget is used up.
-  bool spend();
+  bool spend(std::uint64_t cost = 1);
 
   static constexpr std::size_t kMostContexts = 12;
+  static constexpr std::uint64_t kCostOfJump = 4; // a search through the program, and a copy of the state
   static constexpr std::ptrdiff_t kMostLoops = 5000; // a state takes some 20 KiB
 
   const ProgramSet &programs_;

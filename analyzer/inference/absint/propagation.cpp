@@ -240,6 +240,8 @@ bool Propagation::jump(NodeId node, const JumpTo &target, AbstractState &state) 
     if (!mayBeTrue(isEqual(number.number(), AbstractNumber::constant(static_cast<double>(label.number)))) ||
         !reached.insert(label.number).second)
       continue;
+    if (!engine_.spend(Engine::kCostOfJump))
+      return false;
     const auto place =
         findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
     AbstractState there = state;

@@ -233,6 +233,8 @@ void Propagation::returnTo(NodeId node, const AbstractValue &target, const Abstr
     if (!mayBeTrue(isEqual(target.number(), AbstractNumber::constant(static_cast<double>(label.number)))) ||
         !reached.insert(label.number).second)
       continue;
+    if (!engine_.spend(Engine::kCostOfJump))
+      return;
     const auto place = findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
     if (!place)
       continue;

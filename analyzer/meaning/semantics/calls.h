@@ -52,6 +52,7 @@ public:
     case CallKind::Modal:
     case CallKind::ModalEach:
       request.action = CallAction::SetModal;
+      requireRoom();
       passArguments(request);
       readRepeats(request);
       context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.repeats, request.locals});
@@ -74,6 +75,13 @@ public:
   }
 
 private:
+  /// Modal calls nest as deep as other macro calls do.
+  void requireRoom() {
+    const auto unknown = context_.state.modalCallsUnknown;
+    const bool isFull = context_.state.modalCalls.size() >= context_.dialect().limits.macroCallDepth;
+    reading_.alarm(isFull ? reading_.negation(unknown) : reading_.both(unknown, reading_.unknownTruth()),
+                   {AlarmKind::MacroNesting, context_.place()});
+  }
   CallRequest<R> endModal(CallRequest<R> request) {
     request.action = CallAction::EndModal;
     if (!context_.state.modalCalls.empty())

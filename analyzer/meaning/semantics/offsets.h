@@ -129,7 +129,9 @@ private:
         return std::nullopt;
       row = *inForce + 1;
     }
-    return kFirstWorkOffset + kWorkOffsetStride * row;
+    const std::uint32_t first = kFirstWorkOffset + kWorkOffsetStride * row;
+    const VariableRange *range = findVariable(context_.dialect(), first);
+    return range && range->role == VariableRole::WorkOffset ? std::optional(first) : std::nullopt;
   }
   void setWorkOffset(std::uint32_t first) {
     const Truth always = reading_.truth(true);
