@@ -95,7 +95,7 @@ void ClauseReader::expected(std::string what) { fail(ContractIssueKind::Malforme
 
 void ClauseReader::expectEnd() {
   if (!atEnd())
-    expected("nothing more");
+    expected("the end of the clause");
 }
 
 Span ClauseReader::ahead() const {

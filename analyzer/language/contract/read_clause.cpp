@@ -323,7 +323,7 @@ private:
     if (!isRead())
       return;
     if (place)
-      return refuseSecond(*place, std::string(nameOf(reading_.result.clauses[id_].kind)));
+      return refuseSecond(*place, fmt::format("`{}`", nameOf(reading_.result.clauses[id_].kind)));
     place = id_;
   }
 
@@ -445,24 +445,33 @@ void refuseUnknown(ContractReading &reading, const RawClause &raw, const ClauseH
                      std::string(nearest.value_or("")), std::nullopt, raw.program});
 }
 
+void refuse(ContractReading &reading, const RawClause &raw, Span span, std::string expected) {
+  contractOf(reading, raw.program).isSound = false;
+  addIssue(reading, {ContractIssueKind::Malformed, raw.source, span, std::move(expected), std::nullopt, raw.program});
+}
+
 } // namespace
 
 void readClause(ContractReading &reading, const RawClause &raw) {
   const SourceFile source = reading.result.source(raw.source);
   const ClauseHead head = headOf(source.text(), raw);
+  const bool inProgram = raw.source == kProgramText;
+  if (isSuppression(head.name) && inProgram)
+    return; // read by those who suppress
   if (isSuppression(head.name))
-    return;
+    return refuse(reading, raw, head.keyword, "a clause of a contract; a suppression is a comment of the program");
+  if (head.name == "@AT")
+    return refuse(reading, raw, head.keyword, "a clause without its place, which is where the comment stands");
+  if (raw.number && raw.span.empty())
+    return refuse(reading, raw, raw.span, "a clause behind the place");
   const auto found = std::ranges::find(kClauseNames, head.name);
   if (found == std::end(kClauseNames))
     return refuseUnknown(reading, raw, head, source.text());
   const auto kind = static_cast<ClauseKind>(found - std::begin(kClauseNames));
   const ClauseId id = reading.result.clauses.add({kind, raw.source, raw.span, source.utf8(raw.span), raw.program});
   if (raw.number && kind != ClauseKind::Invariant && kind != ClauseKind::Variant) {
-    addIssue(reading,
-             {ContractIssueKind::Malformed, raw.source, *raw.number,
-              fmt::format("no place: `{}` speaks of the whole program", head.name), std::nullopt, raw.program});
-    contractOf(reading, reading.result.clauses[id].program).isSound = false;
-    return;
+    return refuse(reading, raw, *raw.number,
+                  fmt::format("no `@AT`, since `{}` speaks of the whole program", head.name));
   }
   ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
 }

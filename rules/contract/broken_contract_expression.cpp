@@ -1,0 +1,25 @@
+// broken-contract-expression: `(@REQUIRE #7 <= #2)`, `(@REQUIRE [#7*2 LT #2)`.
+#include "rules/contract/contract_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("the expression cannot be read: {}", issue.detail),
+                   .span = issue.span,
+                   .notes = {std::string(kClauseNotUsed)}});
+}
+
+constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Expression};
+
+} // namespace
+
+extern const Rule brokenContractExpression;
+const Rule brokenContractExpression{
+    .info = {"broken-contract-expression", Category::Contract, Severity::Error,
+             "Reports a condition or value of a contract that is no expression of the control."},
+    .hooks = {.contract = check, .contractKinds = kKinds}};
+
+} // namespace feedhold::rules

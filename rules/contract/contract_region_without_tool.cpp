@@ -1,0 +1,26 @@
+// contract-region-without-tool: `@KEEPIN` without `@TOOL`.
+#include "rules/contract/contract_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("the contract of {} has the region `{}` and no tool",
+                                          programOf(issue, context), issue.detail),
+                   .span = issue.span,
+                   .notes = {"whether the tool stays there depends on its radius: `(@TOOL FLAT RADIUS #7)`"}});
+}
+
+constexpr ContractIssueKind kKinds[] = {ContractIssueKind::RegionWithoutTool};
+
+} // namespace
+
+extern const Rule contractRegionWithoutTool;
+const Rule contractRegionWithoutTool{
+    .info = {"contract-region-without-tool", Category::Contract, Severity::Warning,
+             "Reports a region of a contract without the tool that has to stay in it or out of it."},
+    .hooks = {.contract = check, .contractKinds = kKinds}};
+
+} // namespace feedhold::rules

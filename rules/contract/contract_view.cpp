@@ -1,0 +1,23 @@
+#include "rules/contract/contract_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+
+std::string programOf(const ContractIssue &issue, const FileContext &context) {
+  const std::string name = issue.program ? toString(context.model.programs[*issue.program].name) : std::string();
+  return name.empty() ? "the program" : name;
+}
+
+void pointAt(ClauseId id, std::string label, const FileContext &context, Diagnostic &diagnostic) {
+  const FileContracts &contracts = context.contracts[context.file.index()];
+  const Clause &clause = contracts.clauses[id];
+  if (clause.source == context.contractSource) {
+    diagnostic.labels.push_back({clause.span, std::move(label)});
+    return;
+  }
+  const SourceFile &source = contracts.source(clause.source);
+  diagnostic.notes.push_back(fmt::format("{}: {} line {}", label, source.path(), source.lineOf(clause.span.begin)));
+}
+
+} // namespace feedhold::rules

@@ -1,0 +1,21 @@
+// What the rules about contracts share.
+#pragma once
+
+#include "findings/rule/rule.h"
+
+#include <string>
+#include <string_view>
+
+namespace feedhold::rules {
+
+/// Behind a clause that could not be read.
+inline constexpr std::string_view kClauseNotUsed =
+    "the clause is not used, and nothing is proved from this contract until it is right";
+
+/// "O9100", or "the program" for one without a name.
+std::string programOf(const ContractIssue &issue, const FileContext &context);
+
+/// Points at a clause: a label where it stands in the text of the finding, else a note that says where.
+void pointAt(ClauseId clause, std::string label, const FileContext &context, Diagnostic &diagnostic);
+
+} // namespace feedhold::rules

@@ -1,0 +1,28 @@
+// unknown-contract-clause: `(@PARM #21 0..5)`.
+#include "rules/contract/contract_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
+  Diagnostic diagnostic{.message = fmt::format("{} is no clause of a contract", context.quoted(issue.span)),
+                        .span = issue.span,
+                        .notes = {"`@` begins a clause; leave it out of other comments"}};
+  if (!issue.detail.empty())
+    diagnostic.fixes = {
+        {FixSafety::NeedsReview, fmt::format("write `{}`", issue.detail), {{issue.span, issue.detail}}}};
+  reporter.report(std::move(diagnostic));
+}
+
+constexpr ContractIssueKind kKinds[] = {ContractIssueKind::UnknownClause};
+
+} // namespace
+
+extern const Rule unknownContractClause;
+const Rule unknownContractClause{.info = {"unknown-contract-clause", Category::Contract, Severity::Error,
+                                          "Reports a comment that begins with `@` and is no clause of a contract."},
+                                 .hooks = {.contract = check, .contractKinds = kKinds}};
+
+} // namespace feedhold::rules

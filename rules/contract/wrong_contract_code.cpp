@@ -1,0 +1,26 @@
+// wrong-contract-code: `(@MODAL G04)`, `(@MODAL G90 G91)`.
+#include "rules/contract/contract_view.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
+  Diagnostic diagnostic{.message = fmt::format("{} cannot be promised: {}", context.quoted(issue.span), issue.detail),
+                        .span = issue.span};
+  if (issue.other)
+    pointAt(*issue.other, "the first one", context, diagnostic);
+  reporter.report(std::move(diagnostic));
+}
+
+constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Code};
+
+} // namespace
+
+extern const Rule wrongContractCode;
+const Rule wrongContractCode{.info = {"wrong-contract-code", Category::Contract, Severity::Error,
+                                      "Reports a code in a contract that cannot be in force."},
+                             .hooks = {.contract = check, .contractKinds = kKinds}};
+
+} // namespace feedhold::rules
