@@ -127,6 +127,7 @@ Behaviour behaviour() {
   behaviour.bareReferenceReturn = true;
   behaviour.dataIsAbsolute = true;
   behaviour.positionByData = true;
+  behaviour.endRestoresModes = true;
   behaviour.repeatsByK = false;
   behaviour.equalTolerance = 1e-4;
   return behaviour;

@@ -27,7 +27,9 @@ struct Range {
   bool isEmpty() const {
     if (isSignal)
       return !allows(0) && !allows(1);
-    return lo > hi || (lo == hi && !allows(lo));
+    // Who writes GE 56 and LE 55 has whole numbers in mind.
+    const bool isGap = withoutLo && withoutHi && lo + 1 == hi && lo == std::floor(lo);
+    return lo > hi || (lo == hi && !allows(lo)) || isGap;
   }
   std::string text() const {
     std::string all = subject + '[' + std::to_string(lo) + ',' + std::to_string(hi) + (withoutLo ? '(' : '.') +

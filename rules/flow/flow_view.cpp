@@ -294,6 +294,11 @@ std::optional<ExpressionId> expressionAt(const FlowFacts &facts, BlockId block, 
   return std::nullopt;
 }
 
+bool isTooLarge(const FlowFacts &facts) {
+  constexpr std::size_t kMostNodes = 20'000;
+  return facts.end().index() - facts.entry().index() > kMostNodes;
+}
+
 std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program) {
   std::vector<BlockId> blocks;
   for (BlockId block = file.model->programs[program].first; block < file.model->programs[program].last;

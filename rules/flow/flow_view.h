@@ -64,6 +64,8 @@ std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_
 std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block);
 /// The first expression in the block that covers exactly the span.
 std::optional<ExpressionId> expressionAt(const FlowFacts &facts, BlockId block, Span span);
+/// A larger graph than any that a person wrote: rules that search ways for each variable leave it alone.
+bool isTooLarge(const FlowFacts &facts);
 /// The blocks of the program.
 std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program);
 

@@ -7,9 +7,6 @@
 namespace feedhold::rules {
 namespace {
 
-/// A larger graph than any that a person wrote.
-constexpr std::size_t kMostNodes = 20'000;
-
 /// Nothing but the program itself can have set the variable before: it is a main program, or no letter passes it.
 bool startsVacant(const FlowFacts &facts, bool isMain, std::uint32_t variable) {
   if (variable == kVacantVariable || !isLocal(facts.file, variable))
@@ -23,6 +20,21 @@ std::optional<Span> firstSetting(const FlowFacts &facts, const UnsetPaths &paths
     if (paths.sets(node))
       return facts.file.tree->blocks[facts.node(node).block].span();
   return std::nullopt;
+}
+
+/// `IF[#7EQ12]THEN#30=..` one after the other, and none of them holds: cases of a value that the writer takes for all
+/// that there are.
+bool passesCases(const FlowFacts &facts, const UnsetPaths &paths, std::span<const NodeId> way) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const auto isCase = [&](const Statement &statement) {
+    const auto condition = conditionOf(statement);
+    const auto *relation = condition ? asInside<BinaryOperation>(tree, *condition) : nullptr;
+    return relation && relation->op == OperatorKind::Equal;
+  };
+  return std::ranges::any_of(way, [&](NodeId node) {
+    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+    return test && paths.sets(test->taken) && std::ranges::any_of(tree.statementsOf(facts.node(node).block), isCase);
+  });
 }
 
 void checkRead(const Read &read, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -40,13 +52,14 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
                    .labels = {{*setting, "set here"}},
                    .way = describeWay(facts, *way),
                    .notes = {"where it is not, it is vacant: arithmetic takes it for 0, and a word with it counts as "
-                             "not written"}});
+                             "not written"}},
+                  passesCases(facts, paths, *way) ? Severity::Info : Severity::Warning);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const bool isMain = isMainProgram(facts);
   const bool returns = facts.file.model->programs[facts.program].returns;
-  if ((!isMain && !returns) || facts.end().index() - facts.entry().index() > kMostNodes)
+  if ((!isMain && !returns) || isTooLarge(facts))
     return;
   std::vector<std::uint32_t> done;
   for (const Read &read : readsOf(facts.file, facts.program)) {

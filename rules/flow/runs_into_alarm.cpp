@@ -45,6 +45,21 @@ bool moves(const FileContext &context, BlockId block) {
   });
 }
 
+/// A call that surely comes back: the program is in the run, and has no M30.
+bool comesBack(const FlowFacts &facts, const CallProgram &call) {
+  const auto callee = facts.programs.callee(facts.file.file, call.call);
+  if (!callee)
+    return false;
+  const ProgramFile &file = facts.programs.file(callee->file);
+  for (const BlockId block : blocksOf(file, callee->program)) {
+    const NodeId node = file.cfg.nodeOf(block);
+    const auto *end = std::get_if<EndProgram>(&file.cfg.nodes[node].instruction);
+    if (end && end->end != ProgramEnd::EndOfFile && file.cfg.nodes[node].block == block)
+      return false;
+  }
+  return true;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (const UserAlarmFact &alarm : facts.userAlarms()) {
     const BlockId block = facts.node(alarm.node).block;
@@ -53,7 +68,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const BlockId last = facts.node(*before).block;
     const auto *call = std::get_if<CallProgram>(&facts.node(*before).instruction);
-    const bool isCall = call && facts.programs.callee(context.file, call->call); // an unknown one may end the run
+    const bool isCall = call && comesBack(facts, *call);
     if ((!isCall && !moves(context, last)) || isRetreat(facts, *before))
       continue;
     reporter.report({.message = "the program runs into this alarm at its end",

@@ -25,7 +25,8 @@ public:
     if (!usesLengthOffset(facts))
       return;
     for (NodeId change = facts.entry(); change < facts.end(); change = change.next())
-      if (facts.isReached(change) && view_.findAction(change, {CodeAction::ToolChange}))
+      if (facts.isReached(change) && view_.findAction(change, {CodeAction::ToolChange}) &&
+          !view_.findAction(change, kOffsets)) // `T5 M6 G43`
         tell(change, facts, context, reporter);
   }
 

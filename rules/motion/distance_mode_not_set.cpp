@@ -36,7 +36,8 @@ public:
     else
       diagnostic.notes = {"the caller's mode decides whether this is a coordinate or a distance",
                           "save #4003, write G90 or G91, and restore the mode at the end"};
-    reporter.report(std::move(diagnostic), isMain ? Severity::Warning : Severity::Info);
+    reporter.report(std::move(diagnostic),
+                    isMain && !context.dialect.behaviour.endRestoresModes ? Severity::Warning : Severity::Info);
   }
 
 private:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::rules {
 namespace {
@@ -35,9 +36,54 @@ std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const Left
 }
 
 bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
-  if (exit.end == PathEnd::Alarm || (exit.end == PathEnd::Ends && !mode.atProgramEnd))
+  const bool isRestored = exit.end == PathEnd::Ends && view.context().dialect.behaviour.endRestoresModes;
+  if (exit.end == PathEnd::Alarm || isRestored || (exit.end == PathEnd::Ends && !mode.atProgramEnd))
     return false;
   return view.wasSet(exit.state, mode.kind, mode.actions);
+}
+
+/// Behind the call the program moves and comes to its end without putting the mode right.
+bool neverPutsRight(const MotionView &view, const ProgramFile &file, NodeId call, const LeftOn &mode) {
+  std::set<NodeId> seen;
+  std::vector<NodeId> open{call};
+  bool moves = false;
+  bool isEnded = false;
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    isEnded = isEnded || std::holds_alternative<EndProgram>(view.node(node).instruction) ||
+              std::holds_alternative<ReturnFromProgram>(view.node(node).instruction);
+    forEachSuccessor(file.cfg, *file.model, node, ProgramUse::Called, [&](NodeId next) {
+      if (view.sets(next, mode.kind) || !seen.insert(next).second)
+        return;
+      moves = moves || !view.modalMotionWords(next).empty();
+      open.push_back(next);
+    });
+  }
+  return moves && isEnded;
+}
+
+/// Some caller in this run goes on moving in the mode that is left to it.
+bool reachesACaller(const LeftOn &mode, const FlowFacts &facts, const FileContext &context) {
+  for (const CallGraph::Caller &caller : context.callGraph.callers({context.file, facts.program})) {
+    const ProgramFile &file = facts.programs.file(caller.file);
+    const Call &call = file.model->calls[caller.call];
+    const FileContext other{file.file,   *file.source,      *file.dialect,   *file.tree,
+                            *file.model, context.callGraph, context.programs};
+    const MotionView view(call.caller, other);
+    for (NodeId node = file.cfg.nodeOf(call.block);
+         node.index() < file.cfg.nodes.size() && file.cfg.nodes[node].block == call.block; node = node.next())
+      if (std::holds_alternative<CallProgram>(file.cfg.nodes[node].instruction) &&
+          neverPutsRight(view, file, node, mode))
+        return true;
+  }
+  return false;
+}
+
+Severity severityAt(const ExitFact &exit, const LeftOn &mode, const FlowFacts &facts, const FileContext &context) {
+  if (exit.end == PathEnd::Ends)
+    return mode.atProgramEnd.value_or(Severity::Warning);
+  return reachesACaller(mode, facts, context) ? Severity::Warning : Severity::Info;
 }
 
 void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
@@ -49,7 +95,7 @@ void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, cons
                    .labels = {{view.blockSpan(leaving.exit), returns ? "returns here" : "ends here"}},
                    .way = describeWay(facts, leaving.way),
                    .notes = {std::string(mode.consequence), std::string(mode.remedy)}},
-                  returns ? Severity::Warning : mode.atProgramEnd.value_or(Severity::Warning));
+                  severityAt(exit, mode, facts, view.context()));
 }
 
 } // namespace

@@ -15,6 +15,9 @@ struct LeftOn {
   std::string_view remedy;                   // "cancel it by G40 before the end"
 };
 
+/// What is left to a caller is a warning where a caller in the run goes on
+/// moving with it up to its end, else a remark.
+///
 /// Reports each code that puts it on and from which an end can be reached with it still on; for each end the last such
 /// code in the text.
 void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext &context, const Reporter &reporter);

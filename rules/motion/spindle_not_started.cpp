@@ -1,6 +1,7 @@
 // spindle-not-started: a cutting move of a main program with the spindle at rest.
 #include "rules/motion/motion_view.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules {
@@ -34,12 +35,23 @@ public:
                      .span = word.span(),
                      .way = wayFromEntry(facts, *first_.node(), starts),
                      .notes = {"the tool is pushed into the part while the spindle stands still",
-                               "start the spindle by S and M03 before the first cut"}});
+                               "start the spindle by S and M03 before the first cut"}},
+                    speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
   }
 
 private:
   static constexpr std::size_t kStopped = 0; // in kSpindleActions
 
+  /// Without any word about it the machine may be a plotter or a laser, and the text a piece of a program.
+  bool speaksOfSpindle(const FlowFacts &facts) const {
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+      const auto words = view_.wordsOf(node);
+      if (std::ranges::any_of(words, [](const Word *word) { return word->address() == 'S'; }) ||
+          view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}))
+        return true;
+    }
+    return false;
+  }
   bool cuts(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Motion,
                         {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});

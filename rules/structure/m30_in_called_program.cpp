@@ -56,7 +56,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule m30InCalledProgram;
-const Rule m30InCalledProgram{.info = {"m30-in-called-program", Category::Structure, Severity::Warning,
+const Rule m30InCalledProgram{.info = {"m30-in-called-program", Category::Structure, Severity::Info,
                                        "Reports `M02` or `M30` in a program that another program calls."},
                               .hooks = {.program = check}};
 

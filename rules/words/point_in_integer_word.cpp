@@ -46,7 +46,7 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
        .notes = {knownToStop ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))
                              : std::string("other controls stop here; whether this one does is not documented")},
        .fixes = fixesFor(word, knownToStop ? FixSafety::Safe : FixSafety::NeedsReview)},
-      knownToStop ? Severity::Error : Severity::Warning);
+      knownToStop ? Severity::Error : Severity::Info);
 }
 
 } // namespace

@@ -330,6 +330,7 @@ struct Behaviour {
   bool dataIsAbsolute = false;        // G10 L2 sets the offset under G91 too
   bool positionByData = false;        // G10 L20: the axes stand at the given coordinates
   bool returnTargetIsLocal = false;   // `M99 P` jumps within its own program, also in a subprogram
+  bool endRestoresModes = false;      // M02 and M30 put G17, G40, G80, G90 and G94 back
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
   double equalTolerance = 0;          // EQ and NE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end

@@ -55,11 +55,29 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
   for (const ProgramFile &each : files_) {
     findNames(each);
     findModalCallees(each);
+    findWritten(each);
   }
+  std::sort(written_.begin(), written_.end());
+  written_.erase(std::unique(written_.begin(), written_.end()), written_.end());
   const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
   std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
   std::sort(names_.begin(), names_.end());
   names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+}
+
+bool ProgramSet::isWrittenInCalled(std::uint32_t variable) const {
+  return std::binary_search(written_.begin(), written_.end(), variable);
+}
+
+void ProgramSet::findWritten(const ProgramFile &file) {
+  for (std::size_t i = 0; i < file.model->programs.size(); ++i) {
+    const ProgramId program(i);
+    if (!file.model->programs[program].returns && !callGraph_.isCalled({file.file, program}))
+      continue;
+    for (const VariableUse &use : file.model->variablesOf(program))
+      if (use.write && use.number)
+        written_.push_back(*use.number);
+  }
 }
 
 void ProgramSet::findModalCallees(const ProgramFile &from) {

@@ -53,6 +53,8 @@ public:
   std::optional<Callee> callee(FileId file, CallId call) const;
   /// As callee, for a number that is known only when the call is made.
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
+  /// Some program that others call, or that returns to a caller, assigns to the variable by its number.
+  bool isWrittenInCalled(std::uint32_t variable) const;
   /// What the modal calls of all programs call.
   const std::vector<Callee> &modalCallees() const { return modalCallees_; }
   /// Where the `M99 P` of all programs may return to.
@@ -72,6 +74,7 @@ public:
 private:
   void findNames(const ProgramFile &file);
   void findModalCallees(const ProgramFile &from);
+  void findWritten(const ProgramFile &file);
   std::optional<Callee> entryOf(std::optional<ProgramRef> program) const;
   std::optional<Callee> localCallee(FileId file, const Call &call) const;
 
@@ -79,6 +82,7 @@ private:
   CallGraph callGraph_;
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_;
+  std::vector<std::uint32_t> written_; // sorted
   std::vector<std::string> names_;                                  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };

@@ -1,0 +1,106 @@
+// dead-assignment: `#3=5.` and then `#3=7.`, with nothing between that reads it.
+#include "rules/flow/flow_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::rules {
+namespace {
+
+/// From one assignment; programs that people write read or overwrite a variable long before.
+constexpr std::size_t kMostSteps = 300;
+
+class DeadAssignments {
+public:
+  DeadAssignments(const FlowFacts &facts, const FileContext &context) : facts_(facts), context_(context) {}
+
+  /// What overwrites the value on every way, none of which reads it; absent when it is read, or nothing overwrites it.
+  std::optional<NodeId> overwriter(NodeId from, std::uint32_t variable) const {
+    std::vector<NodeId> open{from};
+    std::set<NodeId> seen;
+    std::optional<NodeId> found;
+    bool isRead = false;
+    while (!open.empty() && !isRead && seen.size() < kMostSteps) {
+      const NodeId node = open.back();
+      open.pop_back();
+      forEachSuccessor(facts_.file.cfg, *facts_.file.model, node, ProgramUse::Called, [&](NodeId next) {
+        if (next < facts_.entry() || next >= facts_.end() || !seen.insert(next).second)
+          return;
+        if (mayRead(next, variable))
+          isRead = true;
+        else if (writes(next, variable))
+          found = found ? std::min(*found, next) : next;
+        else
+          open.push_back(next);
+      });
+    }
+    return isRead || seen.size() >= kMostSteps ? std::nullopt : found;
+  }
+
+private:
+  bool mayRead(NodeId node, std::uint32_t variable) const {
+    const auto &instruction = facts_.node(node).instruction;
+    if (std::holds_alternative<Havoc>(instruction) || std::holds_alternative<ReturnFromProgram>(instruction))
+      return true; // a caller by M98 sees it
+    if (const auto *call = std::get_if<CallProgram>(&instruction))
+      if (const CallKind kind = context_.model.calls[call->call].kind;
+          kind != CallKind::Macro && kind != CallKind::Modal && kind != CallKind::ModalCancel)
+        return true;
+    return std::ranges::any_of(readsOf(facts_.file, facts_.node(node).block),
+                               [&](const Read &read) { return read.number == variable; });
+  }
+  bool writes(NodeId node, std::uint32_t variable) const {
+    const auto assignments = assignmentsOf(facts_, node);
+    return std::ranges::any_of(assignments, [&](const Assignment &assignment) {
+      return variableNumber(context_.tree, unwrapped(context_.tree, assignment.target)) == variable;
+    });
+  }
+
+  const FlowFacts &facts_;
+  const FileContext &context_;
+};
+
+/// Nothing but the text of the program reads its local variables by number.
+bool isTransparent(const FlowFacts &facts) {
+  const auto uses = facts.file.model->variablesOf(facts.program);
+  return std::ranges::all_of(uses, [&](const VariableUse &use) {
+    return (use.number || use.write) && !facts.file.tree->blocks[use.block].has(Block::kBroken);
+  });
+}
+
+/// A habit at the head of a program: nothing is lost.
+bool isCleared(const FileContext &context, const Assignment &assignment) {
+  const auto literal = literalValue(context.tree, assignment.value);
+  return isVacant(context, assignment.value) || (literal && literal->isZero());
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isTooLarge(facts) || !isTransparent(facts))
+    return;
+  const DeadAssignments dead(facts, context);
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    for (const Assignment &assignment : assignmentsOf(facts, node)) {
+      const auto variable = variableNumber(context.tree, unwrapped(context.tree, assignment.target));
+      if (!facts.isReached(node) || !variable || !isLocal(facts.file, *variable) || isCleared(context, assignment))
+        continue;
+      const auto overwriter = dead.overwriter(node, *variable);
+      if (!overwriter || *overwriter == node)
+        continue;
+      const Span span = context.tree.expressions[assignment.target].span;
+      reporter.report(
+          {.message = fmt::format("this value of {} is overwritten before anything reads it", context.quoted(span)),
+           .span = span,
+           .labels = {{context.tree.blocks[facts.node(*overwriter).block].span(), "overwritten here"}},
+           .notes = {"one of the two may have been meant for another variable"}});
+    }
+}
+
+} // namespace
+
+extern const Rule deadAssignment;
+const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::Info,
+                                   "Reports a value of a local variable that is overwritten before anything reads it."},
+                          .hooks = {.flow = check}};
+
+} // namespace feedhold::rules

@@ -1,0 +1,86 @@
+// unset-common-variable: `X#110`, and no program of the run sets `#110`.
+#include "rules/flow/flow_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules {
+namespace {
+
+// A T word that calls a program leaves its number in `#149`, other codes theirs in the three before it.
+constexpr std::uint32_t kFirstOfCodeCalls = 146;
+constexpr std::uint32_t kLastOfCodeCalls = 149;
+
+std::optional<VariableKind> commonKind(const FileContext &context, std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(context.dialect, variable);
+  const bool isCommon = range && (range->kind == VariableKind::Common || range->kind == VariableKind::Retentive);
+  const bool byCodeCall = variable >= kFirstOfCodeCalls && variable <= kLastOfCodeCalls;
+  return isCommon && !byCodeCall ? std::optional(range->kind) : std::nullopt;
+}
+
+/// Something that the program calls, or an assignment to a computed number, may set any common variable.
+bool setsUnseen(const FlowFacts &facts, const FileContext &context) {
+  const auto calls = context.model.callsOf(facts.program);
+  return std::ranges::any_of(calls,
+                             [&](const Call &call) {
+                               return call.kind != CallKind::ModalCancel &&
+                                      !context.callGraph.callee(context.file, call);
+                             }) ||
+         std::ranges::any_of(context.model.variablesOf(facts.program),
+                             [](const VariableUse &use) { return use.write && !use.number; });
+}
+
+bool isSet(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
+  return facts.programs.isWrittenInCalled(variable) ||
+         std::ranges::any_of(context.model.variablesOf(facts.program),
+                             [&](const VariableUse &use) { return use.write && use.number == variable; });
+}
+
+/// What goes missing when an argument is vacant.
+std::string effectOn(const Read &read, const FileContext &context) {
+  for (const Call &call : context.model.callsIn(read.block, read.block.next()))
+    for (const Argument &argument : call.arguments) {
+      const Word &word = context.tree.words[argument.word];
+      if (word.form() == WordForm::Expression && word.span().contains(context.tree.expressions[read.expression].span))
+        return fmt::format("when it is vacant the call does not pass {}: `#{}` of the macro is then vacant, too",
+                           word.address(), argument.variable);
+    }
+  return read.use == ReadUse::Word ? "when it is vacant the word counts as not written"
+                                   : "what an earlier program or the operator has left there counts";
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (!isMainProgram(facts))
+    return;
+  const bool unseen = setsUnseen(facts, context);
+  std::vector<std::uint32_t> done;
+  for (const Read &read : readsOf(facts.file, facts.program)) {
+    const auto kind = read.number ? commonKind(context, *read.number) : std::nullopt;
+    if (!kind || std::ranges::find(done, *read.number) != done.end())
+      continue;
+    done.push_back(*read.number);
+    const bool isPassed = read.use == ReadUse::Argument;
+    if (isSet(facts, context, *read.number) || (unseen && !isPassed) ||
+        isTestedForVacancy(facts.file, facts.program, *read.number) || !reachedNode(facts, read.block))
+      continue;
+    const bool mustBeSet =
+        *kind == VariableKind::Common && !unseen && !isTested(facts.file, facts.program, *read.number);
+    const Span span = context.tree.expressions[read.expression].span;
+    reporter.report(
+        {.message = fmt::format("{} is {} here, and no program of this run sets it", context.quoted(span),
+                                isPassed ? "passed" : "used"),
+         .span = span,
+         .notes = {effectOn(read, context), "set it at the head of the program, or name the variable that was meant"}},
+        mustBeSet ? Severity::Warning : Severity::Info);
+  }
+}
+
+} // namespace
+
+extern const Rule unsetCommonVariable;
+const Rule unsetCommonVariable{.info = {"unset-common-variable", Category::Flow, Severity::Warning,
+                                        "Reports a common variable that a main program uses and no program of the run "
+                                        "sets."},
+                               .hooks = {.flow = check}};
+
+} // namespace feedhold::rules
