@@ -44,6 +44,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
              fmt::format("{} computes with `#{}` ({}), which this call does not pass", name, vacant.variable, *letter),
          .span = call.span,
          .labels = {{file.tree->expressions[vacant.expression].span, "vacant here, counts as 0", vacant.read.file}},
+         .way = wayFromEntry(facts, vacant.call),
          .notes = {fmt::format("pass {}, or let {} ask `[#{} EQ #0]` first", *letter, name, vacant.variable)}});
   }
 }

@@ -35,6 +35,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         {.message = fmt::format("nothing makes sure that {} is not 0", describeVariable(context.dialect, *argument)),
          .span = alarm.place,
          .label = "divides by it",
+         .way = wayFromEntry(facts, alarm.node),
          .notes = {
              fmt::format("without the argument, or with 0, the control {}",
                          stopsWith(context.dialect, AlarmKind::DivideByZero)),

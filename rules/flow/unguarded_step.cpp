@@ -46,6 +46,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                               describeVariable(context.dialect, found->argument)),
                        .span = found->step,
                        .labels = {{context.tree.expressions[exit.condition].span, "ends the loop"}},
+                       .way = wayFromEntry(facts, exit.test),
                        .notes = {"without the argument, or with 0, the loop never ends",
                                  fmt::format("ask `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
                                              found->argument, found->argument)}});

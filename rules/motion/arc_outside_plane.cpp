@@ -33,7 +33,7 @@ public:
       at->second = nullptr;
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, plane] : places_) {
       const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
       if (!outside || isZero(*outside))
@@ -41,6 +41,7 @@ public:
       reporter.report({.message = fmt::format("{} belongs to no arc of `{}`, the plane in force",
                                               context.quoted(outside->span()), plane->code),
                        .span = outside->span(),
+                       .way = wayFromEntry(facts, node),
                        .notes = {"the control stops, or cuts the arc in a plane where it was not meant",
                                  "select the plane of the arc before it, by G17, G18 or G19"}});
     }

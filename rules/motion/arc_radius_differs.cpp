@@ -23,6 +23,7 @@ public:
         continue;
       reporter.report({.message = "the end of this arc does not lie on the circle of its start",
                        .span = alarm.place,
+                       .way = wayFromEntry(facts, alarm.node),
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcRadius)),
                                  "I, J and K are distances from the start of the arc to its centre"}});
     }

@@ -26,7 +26,7 @@ public:
       at->second = {at->second.depth && missing.depth, at->second.retract && missing.retract};
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, missing] : places_) {
       if (!missing.depth && !missing.retract)
         continue;
@@ -36,6 +36,7 @@ public:
                                               : missing.depth                  ? "depth"
                                                                                : "`R`"),
                        .span = cycle->span(),
+                       .way = wayFromEntry(facts, node),
                        .notes = {"the levels of an earlier cycle ended with it: the control stops, or drills to 0",
                                  "write the depth and R in the first block of the cycle"}});
     }

@@ -26,10 +26,12 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, always] : places_) {
       const Word &word = *view_.modalMotionWords(node).front();
+      const auto arc = arcBefore(node, facts);
       reporter.report({.message = fmt::format("{} inherits `G02` or `G03`{}, and has neither `R` nor `I J K`",
                                               context.quoted(word.span()), always ? "" : " on some path"),
                        .span = word.span(),
-                       .labels = arcsBefore(node, facts),
+                       .labels = arc ? std::vector<Label>{arc->label} : std::vector<Label>{},
+                       .way = arc ? arc->way : std::vector<Label>{},
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre)),
                                  "for a straight move write G01 or G00 in this block"}},
                       always ? Severity::Error : Severity::Warning);
@@ -45,16 +47,24 @@ private:
       return std::string_view("IJKR").find(word->address()) != std::string_view::npos;
     });
   }
+  struct ArcBefore {
+    Label label;
+    std::vector<Label> way; // from the head of the program
+  };
   /// The nearest arc in the text from which the node is reached without another code of motion.
-  std::vector<Label> arcsBefore(NodeId node, const FlowFacts &facts) const {
+  std::optional<ArcBefore> arcBefore(NodeId node, const FlowFacts &facts) const {
     const auto sets = [&](NodeId other) { return view_.sets(other, ModalKind::Motion); };
     for (NodeId arc = node; arc != facts.entry();) {
       arc = NodeId(arc.index() - 1);
       const Word *word = view_.findAction(arc, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
-      if (word && facts.isReached(arc) && findWay(facts, arc, node, sets))
-        return {{word->span(), "in force since here"}};
+      const auto way = word && facts.isReached(arc) ? findWay(facts, arc, node, sets) : std::nullopt;
+      if (!way)
+        continue;
+      std::vector<Label> all = wayFromEntry(facts, arc);
+      std::ranges::move(describeWay(facts, *way), std::back_inserter(all));
+      return ArcBefore{{word->span(), "in force since here"}, std::move(all)};
     }
-    return {};
+    return std::nullopt;
   }
 
   MotionView view_;

@@ -43,6 +43,7 @@ private:
         {.message = fmt::format("every pass of this loop moves to the same {}", context.quoted((*depth)->span())),
          .span = (*depth)->span(),
          .labels = {{context.tree.statements[loop.doStatement].span, "the loop"}},
+         .way = wayFromEntry(facts, *move),
          .notes = {absolute_.contains(*move) ? "G90 is in force: the second pass does not move any more"
                                              : "unless the caller has set G91, the second pass does not move any more",
                    "for steps write G91 before the loop, or compute the coordinate from the counter"}});

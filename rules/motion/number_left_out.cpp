@@ -21,7 +21,7 @@ public:
     at->second = at->second && (isNew || never);
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, never] : places_) {
       if (!never)
         continue;
@@ -29,6 +29,7 @@ public:
       reporter.report(
           {.message = fmt::format("{} has no `{}`, and none comes before it", context.quoted(word->span()), letter_),
            .span = word->span(),
+           .way = wayFromEntry(facts, node),
            .notes = {fmt::format("{} is that of the program that ran before, or none", offset_),
                      fmt::format("write {} in this block", letter_)}});
     }

@@ -20,7 +20,7 @@ public:
     at->second = at->second && (isNew || absolute);
   }
 
-  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, absolute] : places_) {
       if (!absolute)
         continue;
@@ -29,6 +29,7 @@ public:
           {.message =
                fmt::format("{} under `G90` is a place on the way: the zero of the part", context.quoted(word.span())),
            .span = word.span(),
+           .way = wayFromEntry(facts, node),
            .notes = {"the tool goes down to Z0 at rapid before it goes to the reference point",
                      "write G91 in this block: Z0 is then no way at all"},
            .fixes = {{.title = "write `G91` before it", .edits = {{{word.span().begin, word.span().begin}, "G91"}}}}});
