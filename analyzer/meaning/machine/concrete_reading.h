@@ -43,6 +43,7 @@ public:
     AlarmKind alarm{};
     double number = 0; // of `#3000=`
     Span place;
+    explicit operator bool() const { return kind != Stop::None; }
   };
   const Stopped &stopped() const { return stopped_; }
   std::vector<Move<Value>> takeMoves() { return std::exchange(moves_, {}); }
@@ -107,10 +108,10 @@ public:
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
   Value toolLength(State &state, const Value &number) const;
-  Value readAnyOf(State &, const Value &, Span) const { return {}; }      // the index is always one number
-  void writeAnyOf(State &, const Value &, const Value &, Span) const {}   // likewise
-  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {} // they keep what they hold: a note says so
-  Value between(const Value &, const Value &end) const { return end; } // no signal comes
+  Value readAnyOf(State &, const Value &, Span) const { return {}; }    // the index is always one number
+  void writeAnyOf(State &, const Value &, const Value &, Span) const {} // likewise
+  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so
+  Value between(const Value &, const Value &end) const { return end; }  // no signal comes
   void join(State &state, bool truth, const State &second) const {
     if (truth)
       state = second;

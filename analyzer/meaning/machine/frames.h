@@ -16,13 +16,14 @@ struct Frame {
   bool ownLocals = false;
   std::array<ConcreteValue, kLocalVariables + 1> callerLocals = {}; // of ownLocals, as the next one
   std::vector<VariableMap<ConcreteValue>::Entry> callerNames = {};  // named variables that only the caller sees
-  std::vector<std::pair<std::uint8_t, bool>> callerLoops = {}; // as entered in the caller
+  std::vector<std::pair<std::uint8_t, bool>> callerLoops = {};      // as entered in the caller
   std::optional<std::size_t> modal = {};      // the modal call that this is: its index in MachineState::modalCalls
   std::optional<std::size_t> modalLimit = {}; // only modal calls below this one apply inside; absent: all
 
   friend bool operator==(const Frame &a, const Frame &b) {
     return a.call == b.call && a.repeatsLeft == b.repeatsLeft && a.callerLocals == b.callerLocals &&
-           a.callerNames == b.callerNames && a.callerLoops == b.callerLoops && a.modal == b.modal && a.modalLimit == b.modalLimit;
+           a.callerNames == b.callerNames && a.callerLoops == b.callerLoops && a.modal == b.modal &&
+           a.modalLimit == b.modalLimit;
   }
 };
 

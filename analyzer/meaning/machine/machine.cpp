@@ -85,8 +85,10 @@ private:
   // ---- what an instruction has brought ----
 
   void takeEffects(Place here) {
+    const bool refused = reading_.stopped().kind == ConcreteReading::Stop::ControlAlarm;
     for (Move<ConcreteValue> &move : reading_.takeMoves())
-      result_.moves.push_back({std::move(move), unitInForce(), here});
+      if (!refused) // the control does not begin a block that it does not understand
+        result_.moves.push_back({std::move(move), unitInForce(), here});
     for (const std::string_view reason : reading_.takeNotes())
       if (noted_.insert({here, reason}).second)
         result_.notes.push_back({reason, here});

@@ -71,6 +71,8 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
         introduceName(context, assignment->target);
       values.push_back(evaluate(context, assignment->value));
     }
+  if (context.reading.stopped())
+    return; // with an alarm, and nothing has been assigned
   auto value = values.begin();
   for (std::uint32_t i = 0; i < assign.count; ++i)
     if (const Assignment *assignment = assignmentAt(i))

@@ -9,10 +9,12 @@
 #include "surface/sink/run_sink.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,7 +43,9 @@ void addOptions(CLI::App &app, RunArguments &arguments) {
   app.add_option("--arg", arguments.arguments, "an argument as a call passes it: A=10")->allow_extra_args(false);
   app.add_option("--var", arguments.variables, "a variable at the start: 500=3, <depth>=2.5")->allow_extra_args(false);
   app.add_option("--start", arguments.start, "where the tool stands at the start: X0 Y0 Z5");
-  app.add_option("--fuel", arguments.fuel, "give up after this many instructions")->capture_default_str();
+  app.add_option("--fuel", arguments.fuel, "give up after this many instructions")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_flag("--block-skip", arguments.blockSkip, "pass over blocks with a /");
   app.add_flag("--trace", arguments.trace, "show every block that is executed");
   app.add_option("--dialect", arguments.dialect, "the control that runs it; `feedhold dialects` lists them");
@@ -118,8 +122,9 @@ Result<GivenVariables> givenVariables(const RunArguments &arguments, const Loade
 
 Result<std::array<double, kAxisCount>> startPosition(const RunArguments &arguments) {
   std::array<double, kAxisCount> start{};
-  for (const std::string &word : arguments.start) {
-    const auto axis = word.empty() ? std::nullopt : axisOf(toUpper(word.front()));
+  std::istringstream words(fmt::format("{}", fmt::join(arguments.start, " "))); // `--start X0 Y0` and `--start "X0 Y0"`
+  for (std::string word; words >> word;) {
+    const auto axis = axisOf(toUpper(word.front()));
     const auto value = axis ? numberFrom(std::string_view(word).substr(1)) : std::nullopt;
     if (!value)
       return Error{fmt::format("--start: `{}` is no coordinate such as X10.5", word)};

@@ -1,0 +1,153 @@
+"""`feedhold run`: options, alarms with their calls, endless loops, JSON against its schema."""
+import json
+import unittest
+
+import jsonschema
+
+from harness import ROOT, Scratch
+
+SCHEMA = json.loads((ROOT / "docs" / "schemas" / "run.schema.json").read_text())
+MAIN = """O1
+G90 G00 X#500 Y#1
+/G01 X5. F100.
+G65 P2 A1. B#2
+M30
+"""
+CALLED = """O2
+G04 P500
+#100=#1/#2
+M99
+"""
+
+
+class Run(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.write("O1.nc", MAIN)
+        self.write("O2.nc", CALLED)
+
+    def run_program(self, *arguments):
+        return self.feedhold("run", "--dialect", "fanuc-30i", "--isolated", *arguments)
+
+    def report(self, *arguments):
+        report = json.loads(self.run_program("--format", "json", *arguments).stdout)
+        jsonschema.Draft7Validator.check_schema(SCHEMA)
+        jsonschema.validate(report, SCHEMA)
+        return report
+
+    def lines_run(self, report):
+        return [(block["file"], block["line"], block["depth"]) for block in report["trace"]]
+
+    def loop(self, body):
+        return self.write("O3.nc", f"O3\n{body}\n")
+
+    # ---- what a run starts with ----
+
+    def test_arguments_and_variables(self):
+        report = self.report("O1.nc", "--arg", "A=10", "--arg", "B=4", "--var", "500=3")
+        self.assertEqual(report["end"], "M30")
+        self.assertEqual(report["variables"]["100"], 0.25)
+        self.assertEqual(report["moves"][0]["to"], {"X": 3, "Y": 10, "Z": 0})
+
+    def test_start_position(self):
+        self.write("O4.nc", "O4\nG90 G00 X9.\nM30\n")
+        for words in (["X1", "Y2", "Z5"], ["X1 Y2 Z5"], ["x1 y+2", "z5.0"]):
+            move = self.report("O4.nc", "--start", *words)["moves"][0]
+            self.assertEqual(move["from"], {"X": 1, "Y": 2, "Z": 5})
+
+    def test_block_skip(self):
+        arguments = ("O1.nc", "--arg", "A=1", "--arg", "B=1")
+        self.assertEqual([move["kind"] for move in self.report(*arguments)["moves"]], ["rapid", "feed", "dwell"])
+        self.assertEqual([move["kind"] for move in self.report(*arguments, "--block-skip")["moves"]], ["rapid", "dwell"])
+
+    def test_program_of_the_file(self):
+        self.write("both.nc", MAIN + CALLED)
+        self.assertEqual(self.report("both.nc", "--program", "O2", "--arg", "B=2")["end"], "M99")
+        self.assertExit(self.run_program("both.nc", "--program", "O9"), 2)
+
+    def test_what_is_refused(self):
+        for words in (["--arg", "G=1"], ["--arg", "A"], ["--arg", "A=x"], ["--var", "nothing=1"], ["--start", "Q1"],
+                      ["--start", "X"], ["--fuel", "-1"], ["--fuel", "many"], ["--format", "xml"]):
+            with self.subTest(words=words):
+                self.assertExit(self.run_program("O1.nc", *words), 2)
+
+    # ---- what it does ----
+
+    def test_trace(self):
+        arguments = ("O1.nc", "--arg", "A=1", "--arg", "B=2", "--trace")
+        self.assertEqual(self.lines_run(self.report(*arguments)),
+                         [("O1.nc", 1, 0), ("O1.nc", 2, 0), ("O1.nc", 3, 0), ("O1.nc", 4, 0),
+                          ("O2.nc", 1, 1), ("O2.nc", 2, 1), ("O2.nc", 3, 1), ("O2.nc", 4, 1), ("O1.nc", 5, 0)])
+        text = self.run_program(*arguments).stdout
+        self.assertIn("O2.nc:3   #100=#1/#2\n", text)
+        self.assertIn("O1.nc:3 /G01 X5. F100.\nO1.nc:3 feed     X5 Y1 Z0 F100\n", text)
+
+    def test_alarm_of_the_control_names_its_calls(self):
+        result = self.run_program("O1.nc")
+        self.assertExit(result, 1)
+        self.assertTrue(result.stdout.endswith("alarm PS0112 (divided by zero), line 3 of O2.nc\n  O2 line 3: #100=#1/#2\n"
+                                               "  called from O1 line 4: G65 P2 A1. B#2\n"), result.stdout)
+        report = self.report("O1.nc")
+        self.assertEqual((report["end"], report["alarm"]["by"], report["alarm"]["number"]), ("alarm", "control", "PS0112"))
+        self.assertEqual(report["calls"], [{"file": "O1.nc", "program": "O1", "line": 4}])
+        self.assertNotIn("100", report["variables"], "the block that raises an alarm assigns nothing")
+
+    def test_alarm_of_the_program(self):
+        self.write("O2.nc", "O2\n#3000=5(NO DEPTH)\nM99\n")
+        alarm = self.report("O1.nc")["alarm"]
+        self.assertEqual((alarm["by"], alarm["number"], alarm["message"], alarm["line"]), ("program", 5, "NO DEPTH", 2))
+        self.assertIn("alarm #3000=5 (NO DEPTH), line 2 of O2.nc\n", self.run_program("O1.nc").stdout)
+
+    def test_vacant_is_null(self):
+        self.loop("#2=#1\nM30")
+        self.assertEqual(self.report("O3.nc")["variables"], {"1": None, "2": None})
+
+    def test_what_is_not_followed_is_noted(self):
+        self.loop("G87 X1. Y1. Z-1. R1. Q.1 F10.\nM30")
+        report = self.report("O3.nc")
+        self.assertEqual((report["end"], len(report["notes"])), ("M30", 1))
+
+    # ---- loops without end ----
+
+    def test_state_that_comes_back(self):
+        self.loop("N1 #1=1\nG00 X#1\nGOTO1")
+        self.assertEqual(self.report("O3.nc")["end"], "endless")
+        result = self.run_program("O3.nc")
+        self.assertExit(result, 1)
+        self.assertIn("runs for ever", result.stdout)
+
+    def test_long_way_around(self):
+        self.loop("N1 #1=[#1+1]MOD977\nGOTO1")
+        self.assertEqual(self.report("O3.nc")["end"], "endless")
+
+    def test_counting_without_end_uses_up_the_fuel(self):
+        self.loop("N1 #1=#1+1\nGOTO1")
+        report = self.report("O3.nc", "--fuel", "1000")
+        self.assertEqual((report["end"], report["steps"]), ("fuel", 1000))
+        self.assertIn("still running after 1000 instructions", self.run_program("O3.nc", "--fuel", "1000").stdout)
+
+    def test_waiting_for_an_input_is_not_endless(self):
+        self.loop("N1 IF[#1000EQ0]GOTO1\nM30")
+        self.assertEqual(self.report("O3.nc", "--fuel", "5000")["end"], "fuel")
+
+    def test_movements_without_end(self):
+        self.loop("G91 G01 F100.\nN1 X1.\nGOTO1")
+        report = self.report("O3.nc", "--fuel", "300")
+        self.assertEqual((report["end"], report["steps"]), ("fuel", 300))
+
+    # ---- the schema ----
+
+    def test_every_kind_of_move_follows_the_schema(self):
+        self.loop("G90 G17 G02 X10. Y0 R5. F100.\nG03 I-5.\nG31 Z-5.\nG04 X1.\nG00 A5.\nM30")
+        kinds = {move["kind"] for move in self.report("O3.nc")["moves"]}
+        self.assertEqual(kinds, {"arc-clockwise", "arc-counterclockwise", "probe", "dwell", "rapid"})
+
+    def test_schema_refuses_what_is_no_run(self):
+        report = self.report("O1.nc")
+        for key, value in (("end", "crash"), ("alarm", {}), ("moves", [{"kind": "rapid", "file": "O1.nc", "line": 1}])):
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate({**report, key: value}, SCHEMA)
+
+
+if __name__ == "__main__":
+    unittest.main()
