@@ -1,0 +1,85 @@
+#include "golden/run_stage.h"
+
+#include "base/support/text.h"
+#include "dialects/registry.h"
+#include "findings/session/programs.h"
+#include "rules/registry.h"
+#include "surface/sink/run_sink.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace feedhold::golden {
+
+namespace {
+
+struct Wish {
+  RunOptions options;
+  bool trace = false;
+};
+
+/// Takes down one word of what follows the name of the stage; false when it means nothing.
+bool take(const std::string &word, const Dialect &dialect, Wish &wish) {
+  const std::size_t equals = word.find('=');
+  const double value = std::strtod(word.c_str() + (equals == std::string::npos ? 1 : equals + 1), nullptr);
+  if (word == "trace")
+    wish.trace = true;
+  else if (word == "block-skip")
+    wish.options.blockSkip = BlockSkipSwitch::On;
+  else if (word.starts_with("fuel="))
+    wish.options.fuel = static_cast<std::uint64_t>(value);
+  else if (word.starts_with('#'))
+    wish.options.variables.set(static_cast<std::uint32_t>(std::atoi(word.c_str() + 1)), ConcreteValue::of(value));
+  else if (equals == 1 && isLetter(word.front()))
+    wish.options.variables.set(dialect.argumentVariables[static_cast<std::size_t>(word.front() - 'A')],
+                               ConcreteValue::of(value));
+  else if (const auto axis = axisOf(word.front()))
+    wish.options.start[indexOf(*axis)] = value;
+  else
+    return false;
+  return true;
+}
+
+/// The first instruction of each block that is executed.
+std::vector<TracedBlock> traceOf(const ProgramSet &programs, Callee entry, RunOptions options) {
+  std::vector<TracedBlock> blocks;
+  std::optional<Place> last;
+  options.trace = [&](const RunMoment &moment) {
+    const auto blockOf = [&](Place place) { return programs.node(place).block; };
+    const bool goesOn = last && last->file == moment.place.file && blockOf(*last) == blockOf(moment.place) &&
+                        last->node < moment.place.node;
+    last = moment.place;
+    if (!goesOn)
+      blocks.push_back({moment.place, moment.depth, moment.moves});
+  };
+  run(programs, entry, options);
+  return blocks;
+}
+
+} // namespace
+
+std::string runStageOf(const Input &input, std::string_view wishes) {
+  ProgramsWish asked{.path = input.files.front().name, .dialect = std::string(input.dialect->id)};
+  asked.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
+  const auto loaded = loadPrograms(asked, {allDialects(), allRules()});
+  if (!loaded)
+    return loaded.error().message + "\n";
+  const LoadedPrograms &programs = *loaded.value();
+  Wish wish;
+  std::istringstream words{std::string(wishes)};
+  for (std::string word; words >> word;)
+    if (!take(word, programs.dialect, wish))
+      return fmt::format("`{}` says nothing about a run\n", word);
+  const std::optional<Callee> start = startOf(programs, std::nullopt);
+  if (!start)
+    return "no program\n";
+  const RunResult result = run(*programs.set, *start, wish.options);
+  const auto trace = wish.trace ? traceOf(*programs.set, *start, wish.options) : std::vector<TracedBlock>{};
+  std::vector<std::string> shown;
+  for (const auto &file : programs.files)
+    shown.push_back(file->shown);
+  return writeRunText({*programs.set, shown, *start, result, trace});
+}
+
+} // namespace feedhold::golden
