@@ -4,6 +4,16 @@
 
 namespace feedhold::smt {
 
+namespace {
+
+/// Of reckoning with a number: digits multiply in a tableau.
+std::uint64_t costOf(const Number &number) {
+  const std::uint64_t words = number.words();
+  return 1 + words * words / 8;
+}
+
+} // namespace
+
 Simplex::Column Simplex::addColumn(const Number &start) {
   variables_.emplace_back();
   variables_.back().value.real = start;
@@ -116,7 +126,7 @@ void Simplex::shift(Index index, const DeltaNumber &step) {
     if (found == variable.row.end())
       continue;
     variable.value += step * found->second;
-    work_ += 1;
+    work_ += costOf(variable.value.real);
   }
 }
 
@@ -205,10 +215,10 @@ void Simplex::pivot(Index basic, Index nonbasic) {
     for (const auto &[index, coefficient] : row) {
       auto [place, isNew] = variable.row.try_emplace(index);
       place->second += coefficient * factor;
+      work_ += costOf(place->second);
       if (place->second.isZero())
         variable.row.erase(place);
     }
-    work_ += row.size();
   }
   variables_[nonbasic].row = std::move(row);
   variables_[nonbasic].place = Place::Basic;
