@@ -18,7 +18,8 @@ class Containment {
 public:
   Containment(const ConcreteState &state, const AbstractState &abstract, const EntryValues &entry,
               const ModalTable &modes, const Dialect &dialect)
-      : state_(state), abstract_(abstract), entry_(entry), modes_(modes), dialect_(dialect), reading_(dialect, entry.given) {}
+      : state_(state), abstract_(abstract), entry_(entry), modes_(modes), dialect_(dialect),
+        reading_(dialect, entry.given) {}
 
   std::optional<std::string> run() {
     for (std::uint32_t local = 1; local <= kLocalVariables && reading_.isLocal(local); ++local)
@@ -100,7 +101,7 @@ private:
       return entry_.state.words[symbol - kWordSymbols];
     if (symbol >= kModalSymbols)
       return reading_.numberOfCode(entry_.state.codes[symbol - kModalSymbols], modes_,
-                        static_cast<std::uint8_t>(symbol - kModalSymbols));
+                                   static_cast<std::uint8_t>(symbol - kModalSymbols));
     if (symbol >= kPositionSymbols)
       return entry_.state.position[symbol - kPositionSymbols];
     return reading_.isLocal(symbol) ? entry_.state.locals[symbol] : reading_.given(symbol);
@@ -190,7 +191,9 @@ std::optional<std::string> whyOutside(const ConcreteState &state, const Abstract
 
 bool overflows(const ConcreteState &state) {
   bool found = false;
-  forEachValue(state, [&found](const ConcreteValue &value) { found = found || std::fabs(value.number) > 1e200 || std::isnan(value.number); });
+  forEachValue(state, [&found](const ConcreteValue &value) {
+    found = found || std::fabs(value.number) > 1e200 || std::isnan(value.number);
+  });
   return found;
 }
 

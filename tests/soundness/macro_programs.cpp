@@ -68,8 +68,8 @@ private:
 
   std::string label() { return random_.of<const char *>({"10", "20", "30", "40"}); }
   std::string number() {
-    return random_.of<const char *>({"0", "1", "2", "3", "-1", "-2.5", ".5", "1.5", "0.1", ".001", "10", "17.", "90.",
-                                     "45", "100.", "0.3", "7", "30.", "99999999", "-.1", "20"});
+    return random_.of<const char *>({"0",   "1",   "2",  "3",    "-1",  "-2.5", ".5",  "1.5",      "0.1", ".001", "10",
+                                     "17.", "90.", "45", "100.", "0.3", "7",    "30.", "99999999", "-.1", "20"});
   }
   std::string variable() {
     if (random_.oneIn(25))
@@ -94,7 +94,8 @@ private:
     case 2: return function(depth - 1);
     case 3: return "[" + expression(depth - 1) + random_.of<const char *>({" MOD ", "/"}) + expression(depth - 1) + "]";
     default:
-      return "[" + expression(depth - 1) + random_.of<const char *>({"+", "-", "+", "-", "*", "/", " AND ", " OR ", " XOR "}) +
+      return "[" + expression(depth - 1) +
+             random_.of<const char *>({"+", "-", "+", "-", "*", "/", " AND ", " OR ", " XOR "}) +
              expression(depth - 1) + "]";
     }
   }
@@ -147,7 +148,8 @@ private:
     const std::string step = random_.of<const char *>({"1", ".5", "2", "0.1", "#7"});
     const std::string other = random_.of<const char *>({"#1", "#2", "#3", "#101"});
     lines_.push_back(counter + "=" + random_.of<const char *>({"0", "1", "#1", "-3"}));
-    lines_.push_back(fmt::format("WHILE[{} LT {}]DO{}", counter, random_.of<const char *>({"5", "3.5", "#2", "10"}), loops_));
+    lines_.push_back(
+        fmt::format("WHILE[{} LT {}]DO{}", counter, random_.of<const char *>({"5", "3.5", "#2", "10"}), loops_));
     if (random_.oneIn(2))
       lines_.push_back(other + "=" + other + random_.of<const char *>({"+", "-"}) + step);
     body(random_.below(3));
@@ -184,19 +186,24 @@ private:
     case 2: return random_.of<const char *>({"GOTO0", "GOTO99", "GOTO[#1/0]", "GOTO-1", "GOTO99999999", "GOTO"});
     case 3: return "IF" + condition() + "M99" + (random_.oneIn(2) ? "P" + label() : "");
     case 4: return "IF" + condition() + "THEN" + random_.of<const char *>({"G91", "S900", "G0X#1", "M98P2", ""});
-    case 5: return random_.of<const char *>({"X", "G", "#1=", "#=1", "X1X2", "G0G1X1", "G90G91", "X#", "X[#1", "#1=[1+"});
+    case 5:
+      return random_.of<const char *>({"X", "G", "#1=", "#=1", "X1X2", "G0G1X1", "G90G91", "X#", "X[#1", "#1=[1+"});
     case 6: return "G1X" + operand() + "/Y" + operand();
     case 7: return random_.of<const char *>({"M97P10", "M97P20L2", "M97P#1", "M98P2Q10", "G66.1P2A1", "G66P3L2A#1"});
     case 8: return random_.of<const char *>({"G200", "G200.1X1", "M150", "G65P#1", "G10L50", "G11", "G12.1", "G13.1"});
-    default: return random_.of<const char *>({"#1=ADP[#2]", "#2=PRM[10]", "DPRNT[X#1[53]]", "SETVN500[ABC]", "#3=[#ABC]",
-                                              "#1=#1+1 GOTO10", "WHILE[#1 LT 3]DO1 END1", "#30=30 #[#30]=1"});
+    default:
+      return random_.of<const char *>({"#1=ADP[#2]", "#2=PRM[10]", "DPRNT[X#1[53]]", "SETVN500[ABC]", "#3=[#ABC]",
+                                       "#1=#1+1 GOTO10", "WHILE[#1 LT 3]DO1 END1", "#30=30 #[#30]=1"});
     }
   }
   std::string call() {
-    const std::string program = random_.oneIn(20) ? random_.of<const char *>({"9", "#1", "1"})
+    const std::string program = random_.oneIn(20)  ? random_.of<const char *>({"9", "#1", "1"})
                                 : random_.oneIn(8) ? fmt::format("{}", inside_)
                                                    : fmt::format("{}", 2 + random_.below(3));
-    const std::string repeats = random_.oneIn(5) ? "L" + (random_.oneIn(4) ? "#" + fmt::format("{}", 1 + random_.below(3)) : random_.of<const char *>({"0", "2", "3", "7"})) : "";
+    const std::string repeats = random_.oneIn(5)
+                                    ? "L" + (random_.oneIn(4) ? "#" + fmt::format("{}", 1 + random_.below(3))
+                                                              : random_.of<const char *>({"0", "2", "3", "7"}))
+                                    : "";
     switch (random_.below(6)) {
     case 0:
     case 1: return "M98P" + program + repeats;
@@ -209,7 +216,9 @@ private:
     std::string text;
     for (const char letter : {'A', 'B', 'C', 'I', 'J', 'D', 'X', 'Z', 'F', 'K', 'I', 'J'})
       if (random_.oneIn(3))
-        text += letter + (random_.oneIn(2) ? number() : random_.oneIn(3) ? "[" + expression(1) + "]" : simpleVariable());
+        text += letter + (random_.oneIn(2)   ? number()
+                          : random_.oneIn(3) ? "[" + expression(1) + "]"
+                                             : simpleVariable());
     return text;
   }
   std::string simpleVariable() { return random_.of<const char *>({"#1", "#2", "#3", "#4", "#100", "#500", "#0"}); }
@@ -229,21 +238,24 @@ private:
     return text;
   }
   std::string motion() {
-    const std::string code = random_.of<const char *>({"G0", "G1", "", "", "G91", "G90", "G91G1", "G90G0", "G28", "G31",
-                                                       "G53G0", "G4", "G30", "G94", "G40", "G41"});
+    const std::string code = random_.of<const char *>(
+        {"G0", "G1", "", "", "G91", "G90", "G91G1", "G90G0", "G28", "G31", "G53G0", "G4", "G30", "G94", "G40", "G41"});
     if (random_.oneIn(30))
       return code + words("UWCAH");
-    return code + words("XYZ") + (random_.oneIn(4) ? words("FSTDH") : "") + random_.of<const char *>({"", "", "M3", "M5", "M8"});
+    return code + words("XYZ") + (random_.oneIn(4) ? words("FSTDH") : "") +
+           random_.of<const char *>({"", "", "M3", "M5", "M8"});
   }
   std::string modes() {
-    return random_.of<const char *>({"G90", "G91", "G17", "G18", "G19", "G20", "G21", "G54", "G55", "G59", "G98", "G99",
-                                     "G80", "G94", "G95", "G49", "G43H1", "G43H#1", "G15", "G16", "G54.1P1", "G96S100",
-                                     "G97", "G0", "G1", "M3S500", "F100", "F#2", "S#3", "T#1", "G#1", "G[#100]", "M#2", "G54.1P#2", "G43H2Z1.",
-                                     "G44H1", "G90G17G54", "G112", "G96", "G92S500", "T0101", "G40G49G80", "G94F#3"});
+    return random_.of<const char *>(
+        {"G90",       "G91",  "G17",     "G18",     "G19",     "G20",       "G21",      "G54",      "G55",
+         "G59",       "G98",  "G99",     "G80",     "G94",     "G95",       "G49",      "G43H1",    "G43H#1",
+         "G15",       "G16",  "G54.1P1", "G96S100", "G97",     "G0",        "G1",       "M3S500",   "F100",
+         "F#2",       "S#3",  "T#1",     "G#1",     "G[#100]", "M#2",       "G54.1P#2", "G43H2Z1.", "G44H1",
+         "G90G17G54", "G112", "G96",     "G92S500", "T0101",   "G40G49G80", "G94F#3"});
   }
   std::string shifts() {
-    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1", "G10L12P1", "G10L20P1", "G10L20P2",
-                                     "G92.1", "G69", "G50.1", "G50"}) +
+    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1",
+                                     "G10L12P1", "G10L20P1", "G10L20P2", "G92.1", "G69", "G50.1", "G50"}) +
            words("XYZ") + (random_.oneIn(3) ? "R" + operand() : "") + (random_.oneIn(6) ? "P" + number() : "");
   }
   std::string arcOrCycle() {
@@ -254,11 +266,11 @@ private:
            words("XYZRQ") + (random_.oneIn(5) ? random_.of<const char *>({"K2", "K0", "K#1", "L3"}) : "");
   }
   std::string system() {
-    return random_.of<const char *>({"#3000=1(STOP)", "#3000=#1", "#5221=#1", "#5222=[#5222+1]", "#5201=.5", "#2001=#2",
-                                     "#3003=0", "#3006=1", "#1100=1", "#3901=#3", "#[#1]=5", "#[#1+100]=#2",
-                                     "#[99+#3]=#0", "#3000=#0", "#4001=1", "#5001=0", "#1=#3012",
-                                     "#[5220+#1]=.5", "#[5200+#2]=#3", "#[#1]=#[#2]", "#[#100+3000]=1", "#33=#[33]",
-                                     "#5061=1", "#1=#5043", "#2=#5061", "#3=#5002-#5022", "#149=#1", "#0=1"});
+    return random_.of<const char *>(
+        {"#3000=1(STOP)", "#3000=#1", "#5221=#1", "#5222=[#5222+1]", "#5201=.5",       "#2001=#2",    "#3003=0",
+         "#3006=1",       "#1100=1",  "#3901=#3", "#[#1]=5",         "#[#1+100]=#2",   "#[99+#3]=#0", "#3000=#0",
+         "#4001=1",       "#5001=0",  "#1=#3012", "#[5220+#1]=.5",   "#[5200+#2]=#3",  "#[#1]=#[#2]", "#[#100+3000]=1",
+         "#33=#[33]",     "#5061=1",  "#1=#5043", "#2=#5061",        "#3=#5002-#5022", "#149=#1",     "#0=1"});
   }
   void saveAndRestore() {
     const std::string group = random_.of<const char *>({"4001", "4002", "4003", "4006", "4014", "4010"});

@@ -17,7 +17,9 @@ public:
   /// Below the limit.
   std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(next() % limit); }
   bool oneIn(std::uint32_t chances) { return below(chances) == 0; }
-  template <typename T> T of(std::initializer_list<T> choices) { return *(choices.begin() + below(static_cast<std::uint32_t>(choices.size()))); }
+  template <typename T> T of(std::initializer_list<T> choices) {
+    return *(choices.begin() + below(static_cast<std::uint32_t>(choices.size())));
+  }
 
 private:
   std::uint64_t state_;

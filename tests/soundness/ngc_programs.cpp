@@ -31,7 +31,8 @@ private:
     callees_ = number - 1; // and, seldom, itself
     body(1 + random_.below(5), 2);
     if (random_.oneIn(3))
-      branchTo(random_.oneIn(2) ? fmt::format("o{} return", number) : fmt::format("o{} return [{}]", number, expression(1)));
+      branchTo(random_.oneIn(2) ? fmt::format("o{} return", number)
+                                : fmt::format("o{} return [{}]", number, expression(1)));
     say(fmt::format("o{} endsub", number) + (random_.oneIn(3) ? " [" + expression(1) + "]" : ""));
   }
   void body(std::uint32_t statements, int depth) {
@@ -58,8 +59,8 @@ private:
   // ---- expressions ----
 
   std::string number() {
-    return random_.of<const char *>({"0", "1", "2", "3", "-1", "-2.5", ".5", "1.5", "0.1", ".001", "10", "90", "45",
-                                     "100", "0.3", "7", "-.1", "20", "1e3", "0.0001"});
+    return random_.of<const char *>({"0",  "1",  "2",  "3",   "-1",  "-2.5", ".5",  "1.5", "0.1", ".001",
+                                     "10", "90", "45", "100", "0.3", "7",    "-.1", "20",  "1e3", "0.0001"});
   }
   std::string variable() {
     if (random_.oneIn(25))
@@ -78,11 +79,13 @@ private:
     case 1: return "-" + variable();
     case 2: return function(depth - 1);
     case 3:
-      return "[" + expression(depth - 1) + random_.of<const char *>({" mod ", "/", " ** "}) + expression(depth - 1) + "]";
+      return "[" + expression(depth - 1) + random_.of<const char *>({" mod ", "/", " ** "}) + expression(depth - 1) +
+             "]";
     case 4: return "[" + relation() + "]";
     default:
-      return "[" + expression(depth - 1) + random_.of<const char *>({"+", "-", "+", "-", "*", " and ", " or ", " xor "}) +
-             expression(depth - 1) + "]";
+      return "[" + expression(depth - 1) +
+             random_.of<const char *>({"+", "-", "+", "-", "*", " and ", " or ", " xor "}) + expression(depth - 1) +
+             "]";
     }
   }
   std::string function(int depth) {
@@ -95,8 +98,8 @@ private:
            std::string("[") + expression(depth) + "]";
   }
   std::string relation() {
-    return (random_.oneIn(2) ? expression(1) : variable()) + random_.of<const char *>({" eq ", " ne ", " gt ", " ge ", " lt ", " le "}) +
-           expression(1);
+    return (random_.oneIn(2) ? expression(1) : variable()) +
+           random_.of<const char *>({" eq ", " ne ", " gt ", " ge ", " lt ", " le "}) + expression(1);
   }
   std::string condition() {
     if (random_.oneIn(5))
@@ -135,7 +138,8 @@ private:
     const std::string name = label();
     const std::string counter = fmt::format("#<n{}>", labels_);
     const bool counted = !random_.oneIn(4);
-    const std::string test = counted ? "[" + counter + " lt " + random_.of<const char *>({"3", "2.5", "#1", "10"}) + "]" : condition();
+    const std::string test =
+        counted ? "[" + counter + " lt " + random_.of<const char *>({"3", "2.5", "#1", "10"}) + "]" : condition();
     if (counted)
       lines_.push_back(counter + "=" + random_.of<const char *>({"0", "-1", "#2"}));
     const std::uint32_t kind = random_.below(3);
@@ -150,7 +154,9 @@ private:
   void call() {
     if (random_.oneIn(12))
       return say("m98 p50" + std::string(random_.oneIn(2) ? " l2" : ""));
-    const std::uint32_t callee = random_.oneIn(15) ? 1 + random_.below(4) : callees_ == 0 ? 0 : 1 + random_.below(static_cast<std::uint32_t>(callees_));
+    const std::uint32_t callee = random_.oneIn(15) ? 1 + random_.below(4)
+                                 : callees_ == 0   ? 0
+                                                   : 1 + random_.below(static_cast<std::uint32_t>(callees_));
     if (callee == 0)
       return say(assignment());
     std::string arguments;
@@ -167,24 +173,28 @@ private:
     std::string text;
     for (const char letter : letters)
       if (random_.oneIn(2))
-        text += fmt::format(" {}", letter) + (random_.oneIn(2) ? number() : random_.oneIn(3) ? "[" + expression(1) + "]" : variable());
+        text += fmt::format(" {}", letter) + (random_.oneIn(2)   ? number()
+                                              : random_.oneIn(3) ? "[" + expression(1) + "]"
+                                                                 : variable());
     return text;
   }
   std::string motion() {
     switch (random_.below(6)) {
     case 0: return random_.of<const char *>({"g2", "g3", "g17 g2", "g18 g3", "g90.1 g2"}) + words("xyzijk");
-    case 1: return random_.of<const char *>({"g81", "g83", "g73", "g82", "g98 g81", "g99 g85", "g91 g81"}) + words("xyzrql");
+    case 1:
+      return random_.of<const char *>({"g81", "g83", "g73", "g82", "g98 g81", "g99 g85", "g91 g81"}) + words("xyzrql");
     case 2:
-      return random_.of<const char *>({"g92", "g52", "g10 l2 p1", "g10 l20 p1", "g10 l2 p2", "g92.1", "g92.2", "g92.3", "g28",
-                                       "g30", "g28.1", "g43.1", "g53 g0"}) +
+      return random_.of<const char *>({"g92", "g52", "g10 l2 p1", "g10 l20 p1", "g10 l2 p2", "g92.1", "g92.2", "g92.3",
+                                       "g28", "g30", "g28.1", "g43.1", "g53 g0"}) +
              words("xyz");
     default: return random_.of<const char *>({"g0", "g1", "", "", "g38.2", "g91 g1", "g90 g0"}) + words("xyz");
     }
   }
   std::string mode() {
-    return random_.of<const char *>({"g90", "g91", "g17", "g18", "g19", "g20", "g21", "g54", "g55", "g59.1", "g98", "g99",
-                                     "g80", "g93", "g94", "g49", "g90.1", "g91.1", "g0", "g1", "m3 s500", "m5", "f100",
-                                     "f#2", "s#3", "g[#100]", "m[#2]", "g61", "g64 p0.1", "m70", "m72", "m73"});
+    return random_.of<const char *>({"g90",   "g91",     "g17",   "g18", "g19",      "g20", "g21",  "g54",
+                                     "g55",   "g59.1",   "g98",   "g99", "g80",      "g93", "g94",  "g49",
+                                     "g90.1", "g91.1",   "g0",    "g1",  "m3 s500",  "m5",  "f100", "f#2",
+                                     "s#3",   "g[#100]", "m[#2]", "g61", "g64 p0.1", "m70", "m72",  "m73"});
   }
 
   Random &random_;

@@ -31,7 +31,9 @@ public:
     return {FileId(0), set.file(FileId(0)).cfg.entryOf(main), main};
   }
   bool isEmpty() const { return model_.programs.empty(); }
-  std::string blockOf(Place place) const { return std::string(source_.text(tree_.blocks[set.node(place).block].span())); }
+  std::string blockOf(Place place) const {
+    return std::string(source_.text(tree_.blocks[set.node(place).block].span()));
+  }
   const Dialect &dialect() const { return dialect_; }
 
 private:
@@ -57,7 +59,9 @@ Dialect machineOf(const Sample &sample, Random &random) {
 /// All that the analysis tells.
 class Foreseen : public AnalysisVisitor {
 public:
-  void visit(Place place, const AbstractState &state, std::span<const Place>) override { states[place].push_back(state); }
+  void visit(Place place, const AbstractState &state, std::span<const Place>) override {
+    states[place].push_back(state);
+  }
   void alarm(Truth truth, const AlarmReport &report) override {
     if (mayBeTrue(truth))
       alarms.push_back(report);
@@ -162,9 +166,8 @@ private:
   void ending(const RunResult &result) {
     if (result.end == RunEnd::Alarm && !foreseen_.hasAlarm(result.alarm, result.alarmSpan))
       why_ = fmt::format("alarm {} at {}", static_cast<int>(result.alarm), machine_.blockOf(result.place));
-    if (result.end == RunEnd::UserAlarm &&
-        std::find(foreseen_.userAlarms.begin(), foreseen_.userAlarms.end(), result.alarmSpan) ==
-            foreseen_.userAlarms.end())
+    if (result.end == RunEnd::UserAlarm && std::find(foreseen_.userAlarms.begin(), foreseen_.userAlarms.end(),
+                                                     result.alarmSpan) == foreseen_.userAlarms.end())
       why_ = "an alarm of the program at " + machine_.blockOf(result.place);
   }
 

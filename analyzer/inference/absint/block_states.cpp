@@ -44,8 +44,8 @@ public:
     const auto known = context.blocks.find(block);
     if (known != context.blocks.end())
       joinInto(*reading_, known->second, state);
-    else if (count_ < BlockStates::kMostBlocks && ++count_ > 0)
-      context.blocks.emplace(block, state);
+    else if (values_ < BlockStates::kMostValues)
+      keep(context, block, state);
     else
       result_.isCutShort = true;
   }
@@ -59,6 +59,11 @@ public:
 
 private:
   static constexpr std::size_t kMostNotes = 100;
+
+  void keep(ContextStates &context, BlockId block, const AbstractState &state) {
+    forEachValue(state, [this](const AbstractValue &) { ++values_; });
+    context.blocks.emplace(block, state);
+  }
 
   const std::vector<bool> &entriesOf(FileId file) {
     std::vector<bool> &entries = entries_[file.index()];
@@ -85,8 +90,8 @@ private:
   BlockStates &result_;
   std::optional<Callee> start_;
   AbstractReading *reading_ = nullptr;
-  std::size_t first_ = 0; // of the contexts of this start
-  std::size_t count_ = 0;
+  std::size_t first_ = 0;  // of the contexts of this start
+  std::size_t values_ = 0; // kept
   Place place_{FileId(0), NodeId(0)};
   std::map<std::size_t, std::vector<bool>> entries_; // by file
 };

@@ -27,9 +27,9 @@ struct NotFollowedNote {
 struct BlockStates {
   std::vector<ContextStates> contexts; // in the order in which they are reached
   std::vector<NotFollowedNote> notFollowed;
-  std::optional<std::string_view> gaveUp;            // then there are no contexts
-  bool isCutShort = false;                           // there are more than kMostBlocks: the others are left out
-  static constexpr std::size_t kMostBlocks = 10'000; // a state takes some 20 KiB
+  std::optional<std::string_view> gaveUp; // then there are no contexts
+  bool isCutShort = false;                // the states of all blocks would be more than kMostValues: some are left out
+  static constexpr std::size_t kMostValues = 1'500'000; // of some 130 bytes each
 };
 
 /// Analyses the programs one by one, each started with nothing known.  `wants`: the blocks that are asked for.
