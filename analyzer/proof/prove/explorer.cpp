@@ -93,8 +93,7 @@ const Wto &Explorer::wtoOf(const Path &path) {
   auto &wto = wtos_[{callee.file.index(), callee.entry.index()}];
   if (!wto) {
     const ProgramFile &file = programs_.file(callee.file);
-    wto = std::make_unique<Wto>(file.cfg, *file.model, callee.entry,
-                                path.frames.size() == 1 ? ProgramUse::Started : ProgramUse::Called);
+    wto = std::make_unique<Wto>(file.cfg, *file.model, callee.entry);
   }
   return *wto;
 }

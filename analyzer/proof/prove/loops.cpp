@@ -39,6 +39,7 @@ struct LoopOpener::Work {
   LoopShape shape = {};
   TermId moved{0};
   std::vector<TermId> facts = {};
+  std::size_t before = 0; // conditions of the last trial's start
   std::vector<Path> found = {};
   std::vector<std::vector<TermId>> left = {}; // by pass: its parts
 
@@ -54,26 +55,65 @@ void LoopOpener::build(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId isFirst = store.equal(work.passes, store.number(Number(0)));
   for (LoopPart &part : work.parts())
-    switch (part.kind) {
-    case PartKind::Kept: part.generic = part.arrival; break;
-    case PartKind::Free: part.generic = part.symbol; break;
-    case PartKind::Closed: part.generic = store.add(part.arrival, store.multiply(work.passes, part.step)); break;
-    case PartKind::Derived: part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step)); break;
-    }
+    if (part.kind == PartKind::Kept)
+      part.generic = part.arrival;
+    else if (part.kind == PartKind::Free)
+      part.generic = part.symbol;
+    else if (part.kind == PartKind::Closed)
+      part.generic = store.add(part.arrival, travelled(work, part.step));
+  for (LoopPart &part : work.parts()) // from the closed ones
+    if (part.kind == PartKind::Derived)
+      part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step));
   work.shape.state = work.arrival.state;
   auto part = work.parts().begin();
   forEachPart(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
   work.moved = part->generic;
 }
 
+/// passes * step
+TermId LoopOpener::travelled(Work &work, TermId step) {
+  smt::TermStore &store = explorer_.store_;
+  if (store.isNumber(step))
+    return store.multiply(work.passes, step);
+  for (const Travel &travel : work.shape.travels)
+    if (travel.step == step)
+      return travel.distance;
+  return work.shape.travels.emplace_back(Travel{step, explorer_.reading_.fresh("travel", Sort::Real)}).distance;
+}
+
+/// What a distance is, and on which side of 0, if that is known of its step.
+void LoopOpener::addTravels(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId zero = store.number(Number(0));
+  const auto known = [&](TermId condition) {
+    return entails(store, explorer_.reading_.facts(), work.arrival.conditions, condition, Budget::quick());
+  };
+  for (const Travel &travel : work.shape.travels) {
+    work.facts.push_back(store.equal(travel.distance, store.multiply(work.passes, travel.step)));
+    if (known(store.lessOrEqual(zero, travel.step)))
+      work.facts.push_back(store.lessOrEqual(zero, travel.distance));
+    else if (known(store.lessOrEqual(travel.step, zero)))
+      work.facts.push_back(store.lessOrEqual(travel.distance, zero));
+  }
+}
+
+/// From the passes before now to those before a pass that comes so much later.
+smt::Substitution LoopOpener::atPass(const Work &work, int later) const {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution other{{work.passes, store.add(work.passes, store.number(Number(later)))}};
+  for (const Travel &travel : work.shape.travels)
+    other.emplace(travel.distance, store.add(travel.distance, store.scale(Number(later), travel.step)));
+  return other;
+}
+
 /// Over the symbols of closed parts: what it was at the last pass.
 TermId LoopOpener::lastPass(const Work &work, TermId term) const {
   smt::TermStore &store = explorer_.store_;
-  const TermId before = store.subtract(work.passes, store.number(Number(1)));
+  const smt::Substitution earlier = atPass(work, -1);
   smt::Substitution closed;
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Closed)
-      closed.emplace(part.symbol, store.add(part.arrival, store.multiply(before, part.step)));
+      closed.emplace(part.symbol, smt::substitute(store, part.generic, earlier));
   return smt::substitute(store, term, closed);
 }
 
@@ -88,6 +128,7 @@ bool LoopOpener::tryPasses(Work &work) {
       work.found.clear();
       return true;
     }
+  work.before = start.conditions.size();
   start.loops.push_back({start.at.node, start.frames.size(), work.instance});
   start.atOpenedHead = true;
   Explorer::Trial trial{work.instance, {}};
@@ -247,8 +288,9 @@ bool LoopOpener::findKinds(Work &work) {
     work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
     const std::size_t values = valueParts(work.arrival.state, work.parts().size());
     build(work);
+    addTravels(work);
     for (std::size_t i = 0; i + 1 < values; i += 2) // vacant counts as 0
-      if (work.parts()[i].kind != PartKind::Kept || work.parts()[i + 1].kind != PartKind::Kept)
+      if (work.parts()[i].kind == PartKind::Free || work.parts()[i + 1].kind == PartKind::Free)
         work.facts.push_back(
             store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
     bool grew = false;
@@ -269,15 +311,14 @@ bool LoopOpener::findKinds(Work &work) {
 /// Before the first pass, or some pass has come before: what let it come back to the head held then.
 void LoopOpener::addLastPass(Work &work) {
   smt::TermStore &store = explorer_.store_;
-  const std::size_t known = work.arrival.conditions.size();
-  const smt::Substitution earlier{{work.passes, store.subtract(work.passes, store.number(Number(1)))}};
+  const smt::Substitution earlier = atPass(work, -1);
   std::vector<TermId> cases{store.equal(work.passes, store.number(Number(0)))};
   for (const Path &pass : work.found) {
     std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.passes)};
-    for (std::size_t i = known; i < pass.conditions.size(); ++i) {
+    for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
       const auto variables = smt::variablesOf(store, pass.conditions[i]);
       if (std::all_of(variables.begin(), variables.end(),
-                      [&](TermId variable) { return variable == work.passes || isOutside(work, variable); }))
+                      [&](TermId variable) { return earlier.contains(variable) || isOutside(work, variable); }))
         held.push_back(smt::substitute(store, pass.conditions[i], earlier));
     }
     cases.push_back(store.logicalAnd(held));
@@ -315,7 +356,7 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
     }
   }
   for (const Path &pass : work.found)
-    for (std::size_t i = work.arrival.conditions.size(); i < pass.conditions.size(); ++i) {
+    for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
       const TermKind kind = store[pass.conditions[i]].kind;
       if (kind == TermKind::Not && store[store[pass.conditions[i]].arguments[0]].kind == TermKind::Equal) {
         const auto &sides = store[store[pass.conditions[i]].arguments[0]].arguments; // a loop that ends at one value
@@ -337,7 +378,10 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
 
 bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
-  smt::Substitution first{{work.passes, store.number(Number(0))}};
+  const TermId zero = store.number(Number(0));
+  smt::Substitution first{{work.passes, zero}};
+  for (const Travel &travel : work.shape.travels)
+    first.emplace(travel.distance, zero);
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       first.emplace(part.symbol, part.arrival);
@@ -347,7 +391,7 @@ bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
 
 bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
-  smt::Substitution next{{work.passes, store.add(work.passes, store.number(Number(1)))}};
+  smt::Substitution next = atPass(work, 1);
   const auto &left = work.left[static_cast<std::size_t>(&pass - work.found.data())];
   for (std::size_t i = 0; i < work.parts().size(); ++i)
     if (work.parts()[i].kind == PartKind::Free)
@@ -362,18 +406,18 @@ void LoopOpener::addInvariants(Work &work) {
   std::vector<TermId> left = candidates(work);
   std::sort(left.begin(), left.end());
   left.erase(std::unique(left.begin(), left.end()), left.end());
+  const smt::Substitution counted = atPass(work, 1);
   std::erase_if(left, [&](TermId candidate) {
     const auto variables = smt::variablesOf(explorer_.store_, candidate);
-    const bool speaks = std::any_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &part) {
-      return part.kind == PartKind::Free &&
-             std::find(variables.begin(), variables.end(), part.symbol) != variables.end();
-    });
-    const bool known = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
-      return variable == work.passes || isOutside(work, variable) ||
+    const auto changes = [&](TermId variable) {
+      return counted.contains(variable) ||
              std::any_of(work.parts().begin(), work.parts().end(),
                          [&](const LoopPart &part) { return part.kind == PartKind::Free && part.symbol == variable; });
-    });
-    return !speaks || !known || !holdsAtArrival(work, candidate);
+    };
+    return std::none_of(variables.begin(), variables.end(), changes) ||
+           !std::all_of(variables.begin(), variables.end(),
+                        [&](TermId variable) { return changes(variable) || isOutside(work, variable); }) ||
+           !holdsAtArrival(work, candidate);
   });
   for (int round = 0; round < kMostRounds && !left.empty(); ++round) {
     work.facts = always;
@@ -445,6 +489,8 @@ bool LoopOpener::record(std::size_t instance, const Path &path) {
   if (left.size() != shape.parts.size())
     return false;
   Transition transition{path.conditions, {{loop.passes, store.add(loop.passes, store.number(Number(1)))}}};
+  for (const Travel &travel : shape.travels)
+    transition.next.emplace(travel.distance, store.add(travel.distance, travel.step));
   smt::Substitution closed;
   for (const LoopPart &part : shape.parts)
     if (part.kind == PartKind::Closed)

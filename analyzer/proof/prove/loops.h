@@ -26,10 +26,18 @@ struct LoopPart {
   smt::TermId step;    // of Closed: what a pass adds; of Derived: what a pass leaves, over the symbols of closed parts
 };
 
+/// How far the passes before have gone by one step: passes * step, under a name of its own, so that a proof need not
+/// multiply.  A step that is a number needs none.
+struct Travel {
+  smt::TermId step;
+  smt::TermId distance;
+};
+
 /// What is known of a loop that has been opened.
 struct LoopShape {
   SymbolicState state;         // before any pass
   std::vector<LoopPart> parts; // of `state`, then whether an axis has moved
+  std::vector<Travel> travels;
 };
 
 class LoopOpener {
@@ -56,6 +64,9 @@ private:
 
   bool tryPasses(Work &work);
   void build(Work &work);
+  smt::TermId travelled(Work &work, smt::TermId step);
+  void addTravels(Work &work);
+  smt::Substitution atPass(const Work &work, int distance) const;
   bool relayout(Work &work, bool &grew);
   bool isOutside(const Work &work, smt::TermId term) const;
   smt::TermId lastPass(const Work &work, smt::TermId term) const;

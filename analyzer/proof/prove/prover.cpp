@@ -14,9 +14,8 @@ using smt::TermId;
 std::string_view nameOf(ObligationKind kind) {
   switch (kind) {
 #define OBLIGATION(kind, name)                                                                                         \
-  case ObligationKind::kind:                                                                                           \
-    return name;
-#include "proof/prove/obligation_kinds.def"
+  case ObligationKind::kind: return name;                                                                              \
+      #include "proof/prove/obligation_kinds.def"
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
