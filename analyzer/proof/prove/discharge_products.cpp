@@ -146,9 +146,9 @@ void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hy
     const Number yy = moment(y, y), xy = moment(x, y), xx = moment(x, x);
     Polynomial base{{x, Number(1)}};
     if (xx.sign() >= 0) {
-      if (yy.sign() <= 0 || xx * yy >= xy * xy)
+      if (xy.isZero() || xx * yy >= xy * xy)
         return;
-      const Number best = xy / yy;
+      const Number best = yy.sign() > 0 ? xy / yy : (xx + 1) / (xy * 2);
       Number share = best;
       for (const Number &grain : {Number(1), Number(1) / 10, Number(1) / 1000}) {
         share = plain(best, grain);

@@ -14,6 +14,12 @@ smt::LinearRelation linear(check::Relation relation) {
   return smt::LinearRelation::Zero;
 }
 
+/// Long fractions would breed longer ones.
+Number plain(const Number &value) {
+  constexpr int kGrain = 1024;
+  return value.words() <= 2 ? value : smt::floor(value * kGrain) / kGrain;
+}
+
 } // namespace
 
 Rows::Rows(std::size_t variables) : variableCount_(variables) {
@@ -28,7 +34,7 @@ void Rows::add(RowSource source, const Polynomial &polynomial, check::Relation r
       continue;
     auto known = columns_.find(monomial);
     if (known == columns_.end())
-      known = columns_.emplace(monomial, simplex_.addColumn(value(monomial).real)).first;
+      known = columns_.emplace(monomial, simplex_.addColumn(plain(value(monomial).real))).first;
     form.emplace_back(known->second, coefficient);
   }
   std::sort(form.begin(), form.end(), [](const auto &a, const auto &b) { return a.first < b.first; });

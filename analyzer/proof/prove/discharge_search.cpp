@@ -76,6 +76,7 @@ public:
 private:
   struct Depth {
     std::size_t steps = 0, integerSplits = 0, signSplits = 0;
+    std::set<std::uint32_t> atZero; ///< variables whose sign was split
   };
 
   std::uint64_t work() const { return rows_.work() + products_.work() + work_; }
@@ -273,13 +274,45 @@ private:
         return splitInteger(check::variable(index), smt::floor(point[index]), depth);
     if (std::optional<Polynomial> difference = integersThatMeet())
       return splitInteger(*difference, smt::ceiling(valueAt(*difference, point)) - 1, depth);
+    if (std::optional<std::uint32_t> variable = variableToSignSplit(point, depth)) {
+      depth.atZero.insert(*variable);
+      if (++depth.signSplits > kMostSignSplits)
+        return giveUp("no certificate of low degree");
+      if (claim_.variables[*variable].range == check::Range::Integer)
+        return splitInteger(check::variable(*variable), -1, depth);
+      return splitSign(check::variable(*variable), depth);
+    }
     if (std::optional<Polynomial> border = signToSplit(point)) {
       if (++depth.signSplits > kMostSignSplits)
         return giveUp("no certificate of low degree");
-      return splitTwoWays(check::SignSplit{*border}, {*border, Relation::NonNegative},
-                          {check::scaled(*border, -1), Relation::Positive}, depth);
+      return splitSign(*border, depth);
     }
     return giveUp("no certificate of low degree");
+  }
+
+  Tree splitSign(const Polynomial &border, const Depth &depth) {
+    return splitTwoWays(check::SignSplit{border}, {border, Relation::NonNegative},
+                        {check::scaled(border, -1), Relation::Positive}, depth);
+  }
+
+  /// A factor of a product that is not what its factors say: knowing its sign helps most.
+  std::optional<std::uint32_t> variableToSignSplit(const std::vector<Number> &point, const Depth &depth) const {
+    for (const Monomial &monomial : rows_.quadraticMonomials())
+      if (rows_.value(monomial).real != point[monomial[0]] * point[monomial[1]])
+        for (std::uint32_t index : monomial)
+          if (!depth.atZero.contains(index) && !hasSign(index))
+            return index;
+    return std::nullopt;
+  }
+
+  bool hasSign(std::uint32_t index) const {
+    return std::any_of(active_.begin(), active_.end(), [&](const ActiveHypothesis &hypothesis) {
+      const Polynomial &polynomial = hypothesis.constraint->polynomial;
+      auto found = polynomial.find(Monomial{index});
+      const Number constant = check::constantOf(polynomial);
+      return hypothesis.constraint->relation != Relation::Zero && found != polynomial.end() &&
+             polynomial.size() == (constant.isZero() ? 1 : 2) && constant.sign() <= 0;
+    });
   }
 
   Tree splitInteger(const Polynomial &polynomial, const Number &bound, Depth depth) {

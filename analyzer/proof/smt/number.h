@@ -39,7 +39,7 @@ public:
   /// `-3/4`, `5`
   std::string toString() const { return value_.get_str(); }
   std::size_t hash() const;
-  /// Machine words that it takes: what reckoning with it costs grows with the square of that.
+  /// Machine words in it: what arithmetic with it costs.
   std::size_t words() const { return mpz_size(value_.get_num_mpz_t()) + mpz_size(value_.get_den_mpz_t()); }
 
   Number operator-() const { return Number(mpq_class(-value_)); }

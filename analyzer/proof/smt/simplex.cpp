@@ -3,7 +3,6 @@
 #include "base/support/check.h"
 
 namespace feedhold::smt {
-
 namespace {
 
 /// Of reckoning with a number: digits multiply in a tableau.
@@ -81,6 +80,7 @@ void Simplex::attach(Index index) {
   for (const auto &[column, factor] : variables_[index].definition) {
     const Variable &variable = variables_[column];
     value += variable.value * factor;
+    work_ += costOf(value.real);
     if (variable.place == Place::Nonbasic)
       add(column, factor);
     else
@@ -145,13 +145,41 @@ void Simplex::undo(Mark mark) {
     }
     trail_.pop_back();
   }
+  if (feasibleMark_ < mark)
+    return;
+  feasibleMark_ = mark;
+  restore();
+}
+
+/// The last feasible point satisfies what is left of the bounds; where a failed check stopped, need not.
+void Simplex::restore() {
+  for (const auto &[column, value] : feasible_)
+    variables_[column].value = value;
+  for (Variable &variable : variables_) {
+    if (variable.definition.empty() || variable.place == Place::Detached)
+      continue;
+    variable.value = {};
+    for (const auto &[column, factor] : variable.definition)
+      variable.value += variables_[column].value * factor;
+    work_ += variable.definition.size();
+  }
+}
+
+void Simplex::remember() {
+  feasibleMark_ = trail_.size();
+  feasible_.clear();
+  for (Index index = 0; index < variables_.size(); ++index)
+    if (variables_[index].definition.empty())
+      feasible_.emplace_back(index, variables_[index].value);
 }
 
 Simplex::Status Simplex::check(std::uint64_t workLimit) {
   while (!infeasible_) {
     std::optional<Index> leaving = violated();
-    if (!leaving)
+    if (!leaving) {
+      remember();
       return Status::Feasible;
+    }
     if (work_ > workLimit)
       return Status::OutOfBudget;
     const Variable &basic = variables_[*leaving];

@@ -97,6 +97,8 @@ private:
   void pivot(Index basic, Index nonbasic);
   std::optional<Index> violated() const;
   std::optional<Index> entering(const Variable &leaving, Change::Side side) const;
+  void remember();
+  void restore();
   void explain(const Variable &basic, Change::Side side);
   void addTo(Conflict &conflict, const Bound &bound, const Number &factor) const;
 
@@ -104,6 +106,8 @@ private:
   std::map<Form, Index> rows_;
   std::vector<Change> trail_;
   Conflict conflict_;
+  std::vector<std::pair<Column, DeltaNumber>> feasible_; ///< where the columns stood at the last Feasible
+  Mark feasibleMark_ = 0;                                ///< and of which bounds that is known
   bool infeasible_ = false;
   std::uint64_t work_ = 0;
 };
