@@ -29,10 +29,18 @@ void run(std::string text, const Dialect &dialect) {
   const ProgramModel model = resolve(source, tree, dialect);
   FEEDHOLD_CHECK(dump(tree, source).size() + dump(model, tree, source).size() > 0, "a dump is empty");
   const CallGraph graph({{FileId(0), "", "fuzz", &model}});
-  const FileContext context{FileId(0), source, dialect, tree, model, graph};
+  const std::vector<Sidecar> sidecars = {{source, std::nullopt}}; // the same lines as a file beside the program
+  const std::vector<FileContracts> contracts = {readContracts(source, tree, model, dialect, sidecars)};
+  FEEDHOLD_CHECK(dump(contracts.front(), model, tree).empty() == contracts.front().contracts.empty(),
+                 "a contract is lost");
+  const FileContext context{FileId(0), source, dialect, tree, model, graph, nullptr, contracts};
   for (const RawFinding &finding :
        applySuppressions(runRules(everyRule(), context), context, allRules(), everyRule()).kept)
     FEEDHOLD_CHECK(finding.diagnostic.span.end <= source.text().size(), "a finding outside of the text");
+  FileContext beside = context;
+  beside.contractSource = ContractSourceId(1);
+  for (const RawFinding &finding : runContractRules(everyRule(), beside))
+    FEEDHOLD_CHECK(finding.diagnostic.span.end <= source.text().size(), "a finding outside of a contract");
 }
 
 } // namespace

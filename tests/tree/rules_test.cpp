@@ -75,5 +75,13 @@ TEST(Rules, ReportEverySyntaxIssue) {
 #include "language/syntax/issues.def"
 }
 
+TEST(Rules, ReportEveryContractIssue) {
+  std::set<ContractIssueKind> reported;
+  for (const auto &[rule, text] : allRules().rules)
+    reported.insert(rule->hooks.contractKinds.begin(), rule->hooks.contractKinds.end());
+#define CONTRACT_ISSUE(kind) EXPECT_TRUE(reported.contains(ContractIssueKind::kind)) << "no rule reports " #kind;
+#include "language/contract/issues.def"
+}
+
 } // namespace
 } // namespace feedhold
