@@ -195,7 +195,7 @@ private:
     std::size_t fewest = 0;
     for (std::uint32_t index : activeClauses_) {
       const Clause &clause = *clausePool_[index];
-      if (isSatisfiedByRows(clause))
+      if (openSplits_.contains(index) || isSatisfiedByRows(clause))
         continue;
       std::size_t ways = 0;
       for (const Conjunction &alternative : clause.alternatives)
@@ -233,7 +233,14 @@ private:
     return open;
   }
 
-  Tree splitClause(std::uint32_t index, Depth depth) {
+  Tree splitClause(std::uint32_t index, const Depth &depth) {
+    openSplits_.insert(index);
+    Tree tree = splitAlternatives(index, depth);
+    openSplits_.erase(index);
+    return tree;
+  }
+
+  Tree splitAlternatives(std::uint32_t index, Depth depth) {
     ++depth.steps;
     std::vector<Branch> branches;
     for (const Conjunction &alternative : clausePool_[index]->alternatives) {
@@ -369,6 +376,7 @@ private:
   std::vector<std::uint32_t> activeClauses_;
   std::vector<std::unique_ptr<Constraint>> owned_;
   std::vector<std::unique_ptr<Conjunction>> ownedConjunctions_;
+  std::set<std::uint32_t> openSplits_; ///< clauses of which an alternative is assumed
   std::set<std::pair<std::uint32_t, std::uint32_t>> splitPairs_;
   std::optional<std::vector<Number>> satisfied_;
   std::string failure_;
