@@ -85,12 +85,22 @@ private:
       if (const auto *entry = words_.find(letter)) {
         if (context_.certain(reading_.negation(entry->present)))
           continue;
-        const std::optional<double> count = reading_.constantOf(reading_.asNumber(entry->value));
+        std::optional<double> count = reading_.constantOf(reading_.asNumber(entry->value));
+        if (const std::optional<double> literal = literalOf(letter))
+          count = literal;
         const double most = reading_.wantsMoves() ? kMostRepeats : kMostFollowed;
         return count && *count <= most && context_.certain(entry->present) ? count : std::nullopt;
       }
     }
     return 1;
+  }
+  /// As it is written: K is a length elsewhere, and a number without a point would be taken for increments.
+  std::optional<double> literalOf(char letter) const {
+    std::optional<double> literal;
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (word.address() == letter && word.isNumber())
+        literal = word.number().toDouble();
+    return literal;
   }
   void drillUnknownTimes() {
     const auto notDrilled = state_;

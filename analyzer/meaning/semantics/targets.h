@@ -34,7 +34,8 @@ template <ValueAlgebra R> typename R::Truth isAbsolute(StepContext<R> &context) 
 
 /// G16: the first axis of the plane is a radius, the second an angle, about the zero point of the program.
 template <ValueAlgebra R>
-void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words, std::array<typename R::Value, kAxisCount> &target) {
+void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
+               std::array<typename R::Value, kAxisCount> &target) {
   R &reading = context.reading;
   const auto polar = context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false));
   if (!reading.mayBe(polar))
@@ -49,9 +50,10 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words, std::arra
   auto &first = target[indexOf(plane->first)];
   auto &second = target[indexOf(plane->second)];
   if (!radius || !angle || !context.certain(isAbsolute(context)) || !context.certain(polar)) {
-    if (radius || angle)
-      first = second = reading.anyNumber();
-    return;
+    if (!radius && !angle)
+      return;
+    first = second = reading.anyNumber();
+    return reading.notModelled("polar coordinates of which one is not written, or incremental ones", context.place());
   }
   first = reading.multiply(radius->value, reading.function(FunctionKind::Cos, angle->value));
   second = reading.multiply(radius->value, reading.function(FunctionKind::Sin, angle->value));
@@ -74,8 +76,8 @@ template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
   R &reading = context.reading;
   auto target = toProgrammed(context, context.state.position);
-  const bool incrementsByLetter = context.dialect().machine == MachineKind::Turning &&
-                                  !context.modes.groupOf(ModalKind::Distance);
+  const bool incrementsByLetter =
+      context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
   for (const Axis axis : kAllAxes)
     if (const auto *entry = words.find(letterOf(axis)))
       if (!incrementsByLetter || (axis != Axis::U && axis != Axis::V && axis != Axis::W))
