@@ -210,6 +210,10 @@ private:
   }
 
   void add(const Word &word, Truth present, Value value) {
+    if (word.address() < 'A' || word.address() > 'Z') { // `@` and `^`, polar coordinates of LinuxCNC; `$`
+      words_.unfollowed = true;
+      return reading_.havoc(context_.state, "a word whose address is no letter", word.span());
+    }
     std::uint8_t &slot = words_.slots[static_cast<std::size_t>(word.address() - 'A')];
     if (slot == ExecutedWords<R>::kNone) {
       slot = static_cast<std::uint8_t>(words_.entries.size());
