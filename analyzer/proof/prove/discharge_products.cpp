@@ -9,6 +9,8 @@ using check::Constraint;
 using check::Relation;
 
 constexpr std::size_t kRowsAtOnce = 12;
+/// There are always more of them; a point moves away from a few.
+constexpr std::size_t kSquaresAtOnce = 2;
 /// Combinations of more hypotheses than this grow too many; measured: the deep products that proofs need have few.
 constexpr std::size_t kMostForTriples = 14;
 
@@ -54,9 +56,12 @@ std::vector<Candidate> Products::violated(const Rows &rows, const std::vector<Ac
     triples(rows, hypotheses, limits);
   std::stable_sort(found_.begin(), found_.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   std::vector<Candidate> chosen;
+  std::size_t squares = 0;
   for (auto &[cost, candidate] : found_) {
     if (chosen.size() >= kRowsAtOnce || cost > found_.front().first + 1)
       break;
+    if (!candidate.source.squares.empty() && ++squares > kSquaresAtOnce)
+      continue;
     chosen.push_back(std::move(candidate));
   }
   return chosen;
@@ -149,13 +154,16 @@ void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hy
       if (xy.isZero() || xx * yy >= xy * xy)
         return;
       const Number best = yy.sign() > 0 ? xy / yy : (xx + 1) / (xy * 2);
-      Number share = best;
-      for (const Number &grain : {Number(1), Number(1) / 10, Number(1) / 1000}) {
+      Number share;
+      bool breaks = false;
+      for (const Number &grain : {Number(1), Number(1) / 16, Number(1) / 1024}) {
         share = plain(best, grain);
-        if ((xx - share * xy * 2 + share * share * yy).sign() < 0)
+        breaks = (xx - share * xy * 2 + share * share * yy).sign() < 0;
+        if (breaks)
           break;
-        share = best;
       }
+      if (!breaks)
+        return;
       check::addTo(base, Polynomial{{y, Number(1)}}, -share);
     }
     offer(rows, {{by, {base}, {}}, check::multiply(factor, check::multiply(base, base)), Relation::NonNegative});

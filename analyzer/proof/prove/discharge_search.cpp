@@ -7,6 +7,8 @@
 #include "proof/prove/discharge_tree.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace feedhold::prove {
 namespace {
@@ -18,6 +20,8 @@ using check::Relation;
 
 constexpr std::size_t kDeepest = 250;
 constexpr std::size_t kMostRounds = 60;
+/// At one level of products: tangents can go on for ever.
+constexpr std::size_t kMostRoundsOfSquares = 6;
 constexpr std::size_t kMostSignSplits = 5;
 constexpr std::size_t kMostIntegerSplits = 24;
 
@@ -155,6 +159,7 @@ private:
   Tree refute(const Depth &depth) {
     if (depth.steps > kDeepest)
       return giveUp("too many cases");
+    std::array<std::size_t, std::size(kProductLevels)> roundsOfSquares{};
     for (std::size_t round = 0; round < kMostRounds; ++round) {
       const smt::Simplex::Status status = rows_.check(rows_.work() + remaining());
       if (status == smt::Simplex::Status::Infeasible)
@@ -168,7 +173,7 @@ private:
       }
       if (std::optional<std::uint32_t> clause = clauseToSplit())
         return splitClause(*clause, depth);
-      if (!addProducts())
+      if (!addProducts(roundsOfSquares))
         return splitDomain(point, depth);
     }
     return giveUp("products of hypotheses do not converge");
@@ -176,10 +181,13 @@ private:
 
   std::uint64_t remaining() const { return work() >= workLimit_ ? 0 : workLimit_ - work(); }
 
-  bool addProducts() {
-    for (const ProductLimits &limits : kProductLevels) {
+  bool addProducts(std::span<std::size_t> roundsOfSquares) {
+    for (std::size_t level = 0; level < std::size(kProductLevels); ++level) {
+      const ProductLimits &limits = kProductLevels[level];
       std::vector<Candidate> rows = products_.violated(rows_, active_, limits);
-      if (rows.empty())
+      const bool onlySquares =
+          std::all_of(rows.begin(), rows.end(), [](const Candidate &row) { return !row.source.squares.empty(); });
+      if (rows.empty() || (onlySquares && ++roundsOfSquares[level] > kMostRoundsOfSquares))
         continue;
       reasoning_ = SearchResult::Reasoning::Products;
       for (Candidate &row : rows)
