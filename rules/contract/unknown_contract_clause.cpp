@@ -10,7 +10,10 @@ void check(const ContractIssue &issue, const FileContext &context, const Reporte
   Diagnostic diagnostic{.message = fmt::format("{} is no clause of a contract", context.quoted(issue.span)),
                         .span = issue.span,
                         .notes = {"`@` begins a clause; leave it out of other comments"}};
-  if (!issue.detail.empty())
+  // Only programs are repaired, not the files beside them.
+  if (!issue.detail.empty() && issue.source != kProgramText)
+    diagnostic.notes.push_back(fmt::format("did you mean `{}`?", issue.detail));
+  else if (!issue.detail.empty())
     diagnostic.fixes = {
         {FixSafety::NeedsReview, fmt::format("write `{}`", issue.detail), {{issue.span, issue.detail}}}};
   reporter.report(std::move(diagnostic));
