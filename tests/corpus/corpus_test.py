@@ -9,7 +9,7 @@ from pathlib import Path
 
 CORPUS = Path(__file__).resolve().parents[2] / "corpus"
 FEEDHOLD = os.environ["FEEDHOLD"]
-NO_PROGRAM = {".md", ".toml"}
+NO_PROGRAM = {".md", ".toml", ".contract"}
 
 
 def manifest():

@@ -251,7 +251,7 @@ struct FileContracts {
 /// A file beside the program, one clause a line.
 struct Sidecar {
   SourceFile source;
-  std::optional<std::uint32_t> program; // of `O9100.contract`; absent: the first program of the file
+  std::optional<std::uint32_t> program;    // of `O9100.contract`; absent: the first program of the file
   std::optional<std::string> problem = {}; // why it could not be read; its text is empty then
 };
 
