@@ -52,7 +52,7 @@ private:
     switch (term.kind) {
     case TermKind::Number: polynomials_[id] = constant(term.number); return;
     case TermKind::Variable: prepareVariable(id); return;
-    case TermKind::Ite: polynomials_[id] = newVariable(".ite" + std::to_string(++ites_), term.sort); return;
+    case TermKind::Ite: polynomials_[id] = newVariable("!ite" + std::to_string(++ites_), term.sort); return;
     case TermKind::Add:
     case TermKind::Multiply: prepareArithmetic(id); return;
     case TermKind::Divide:

@@ -4,6 +4,7 @@
 #include "base/support/check.h"
 #include "base/support/match.h"
 #include "proof/check/certificate.h"
+#include "proof/prove/discharge_eliminate.h"
 #include "proof/prove/discharge_search.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
@@ -35,31 +36,16 @@ std::vector<TermId> refutable(smt::TermStore &store, const Query &query) {
   return {whole};
 }
 
-/// Without the new variables, and with those of the query that the model leaves open.
-smt::Model modelOf(const smt::TermStore &store, const std::vector<TermId> &variables, const smt::Model &found) {
+smt::Model modelOf(const smt::TermStore &store, const check::Claim &claim, const std::vector<check::Number> &values) {
   smt::Model model;
-  for (TermId variable : variables) {
-    const smt::Term &term = store[variable];
-    auto known = found.find(term.name);
-    if (known != found.end())
-      model.emplace(term.name, known->second);
-    else
-      model.emplace(term.name, term.sort == smt::Sort::Bool ? smt::Value(false) : smt::Value(smt::Number(0)));
-  }
-  return model;
-}
-
-smt::Model modelOf(const smt::TermStore &store, const std::vector<TermId> &variables, const check::Claim &claim,
-                   const std::vector<check::Number> &values) {
-  smt::Model found;
   for (std::size_t index = 0; index < values.size(); ++index) {
     const std::string &name = claim.variables[index].name;
-    if (name.starts_with('.'))
+    if (name.starts_with('!'))
       continue;
     const bool isBool = store.sort(store.variableNamed(name)) == smt::Sort::Bool;
-    found.emplace(name, isBool ? smt::Value(!values[index].isZero()) : smt::Value(values[index]));
+    model.emplace(name, isBool ? smt::Value(!values[index].isZero()) : smt::Value(values[index]));
   }
-  return modelOf(store, variables, found);
+  return model;
 }
 
 class Discharge {
@@ -71,7 +57,10 @@ public:
   Outcome run() {
     if (formulas_.size() == 1 && formulas_[0] == store_.no())
       return {byFolding(), "folding", 0};
-    smt::Purified purified = smt::purify(store_, formulas_);
+    eliminated_ = eliminate(store_, formulas_);
+    if (eliminated_.formulas == std::vector{store_.no()})
+      return {byFolding(), "folding", 0};
+    smt::Purified purified = smt::purify(store_, eliminated_.formulas);
     pure_ = std::move(purified.formulas);
     pure_.insert(pure_.end(), purified.facts.begin(), purified.facts.end());
     if (std::optional<Outcome> outcome = byCertificate())
@@ -96,12 +85,25 @@ private:
           return Outcome{certified(claim.value(), found.certificate), method, effort_};
         },
         [&](const Satisfied &point) -> std::optional<Outcome> {
-          return Outcome{Counterexample{modelOf(store_, variables_, claim.value(), point.values)}, method, effort_};
+          return Outcome{Counterexample{completed(modelOf(store_, claim.value(), point.values))}, method, effort_};
         },
         [&](const NotFound &failure) -> std::optional<Outcome> {
           reason_ = failure.reason;
           return std::nullopt;
         });
+  }
+
+  /// The variables of the query, none missing and no other.
+  smt::Model completed(const smt::Model &found) const {
+    smt::Model model;
+    for (TermId variable : variables_) {
+      const smt::Term &term = store_[variable];
+      auto known = found.find(term.name);
+      const smt::Value any = term.sort == smt::Sort::Bool ? smt::Value(false) : smt::Value(smt::Number(0));
+      model.emplace(term.name, known == found.end() ? any : known->second);
+    }
+    complete(store_, eliminated_, model);
+    return model;
   }
 
   Outcome bySolvers() {
@@ -111,7 +113,7 @@ private:
     const smt::Answer z3 = smt::askZ3(text, smt::arithmeticOf(store_, pure_), budget_.z3);
     effort_ += z3.effort;
     if (const auto *sat = std::get_if<smt::Sat>(&z3.result))
-      return {Counterexample{modelOf(store_, variables_, sat->model)}, "z3", effort_};
+      return {Counterexample{completed(sat->model)}, "z3", effort_};
     if (budget_.cvc5 == 0)
       return {Unknown{z3.isUnsat() ? "one solver only" : reason_}, "z3", effort_};
     if (!z3.isUnsat())
@@ -130,6 +132,7 @@ private:
   const Budget &budget_;
   std::vector<TermId> formulas_;
   std::vector<TermId> variables_;
+  Eliminated eliminated_;
   std::vector<TermId> pure_;
   std::string reason_;
   std::uint64_t effort_ = 0;

@@ -26,7 +26,7 @@ struct Budget {
   /// Resource units of Z3 (about a million in a second); 0: Z3 is not asked.
   std::uint64_t z3 = 2'000'000;
   /// Resource units of cvc5; 0: cvc5 is not asked.
-  std::uint64_t cvc5 = 200'000;
+  std::uint64_t cvc5 = 40'000;
 
   /// For the many small questions of a search for invariants: linear reasoning and few splits, no solver.
   static Budget quick() { return {.search = 300'000, .z3 = 0, .cvc5 = 0}; }

@@ -12,7 +12,7 @@ public:
 
   Purified run(std::span<const TermId> formulas) {
     for (TermId variable : variablesOf(store_, formulas))
-      FEEDHOLD_CHECK(!store_[variable].name.starts_with('.'), "names that begin with a dot are for new variables");
+      FEEDHOLD_CHECK(!store_[variable].name.starts_with('!'), "names that begin with `!` are for new variables");
     Purified result;
     for (TermId formula : formulas)
       result.formulas.push_back(pure(formula));
@@ -54,7 +54,7 @@ private:
     const Term &term = store_[application];
     const std::string kind = term.kind == TermKind::Divide ? "quotient" : std::string(nameOf(term.function));
     const Sort sort = term.sort;
-    TermId variable = store_.variable("." + kind + std::to_string(definitions_.size() + 1), sort);
+    TermId variable = store_.variable("!" + kind + std::to_string(definitions_.size() + 1), sort);
     variables_.emplace(application, variable);
     definitions_.push_back({variable, application});
     return variable;

@@ -26,7 +26,7 @@ public:
       std::string expression = write(store_[id]);
       const bool isLeaf = store_[id].arguments.empty();
       if (!isLeaf && (users_[id] > 1 || expression.size() > kLongest)) {
-        const std::string name = "|.t" + std::to_string(id.index()) + "|";
+        const std::string name = "|!t" + std::to_string(id.index()) + "|";
         text_ += "(define-fun " + name + " () " + sortName(store_.sort(id)) + " " + expression + ")\n";
         expression = name;
       }

@@ -12,7 +12,7 @@ namespace feedhold::smt {
 namespace {
 
 /// Against a Z3 that ignores its budget; far above what any budget takes, so that it decides nothing else.
-constexpr ProcessLimits kLimits{.processorSeconds = 20, .watchdogSeconds = 60};
+constexpr ProcessLimits kLimits{.processorSeconds = 6, .watchdogSeconds = 60};
 
 /// A copy of the process must not be made while another thread holds a lock within Z3: queries in this process share
 /// the gate, the making of a copy has it alone.
