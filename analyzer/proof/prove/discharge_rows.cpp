@@ -97,6 +97,18 @@ std::vector<Monomial> Rows::quadraticMonomials() const {
   return found;
 }
 
+std::vector<std::pair<Monomial, Number>> Rows::brokenProducts(const std::vector<Number> &point) const {
+  const Number delta = simplex_.smallDelta();
+  std::vector<std::pair<Monomial, Number>> broken;
+  for (const Monomial &monomial : quadraticMonomials()) {
+    const DeltaNumber &stands = simplex_.value(columns_.at(monomial));
+    const Number error = stands.real + stands.infinitesimal * delta - point[monomial[0]] * point[monomial[1]];
+    if (!error.isZero())
+      broken.emplace_back(monomial, abs(error));
+  }
+  return broken;
+}
+
 bool isViolated(const Rows &rows, const Candidate &candidate) {
   const DeltaNumber value = rows.value(candidate.polynomial);
   const DeltaNumber zero;

@@ -40,6 +40,8 @@ public:
   std::vector<Number> point() const;
   /// The monomials of degree 2 that rows have.
   std::vector<Monomial> quadraticMonomials() const;
+  /// Those that are not, at the point, the product of their factors; by how much.
+  std::vector<std::pair<Monomial, Number>> brokenProducts(const std::vector<Number> &point) const;
 
   smt::Simplex::Mark mark() const { return simplex_.mark(); }
   void undo(smt::Simplex::Mark mark) { simplex_.undo(mark); }

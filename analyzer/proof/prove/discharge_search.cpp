@@ -81,6 +81,7 @@ private:
   struct Depth {
     std::size_t steps = 0, integerSplits = 0, signSplits = 0;
     std::set<std::uint32_t> atZero; ///< variables whose sign was split
+    std::set<Polynomial> borders;   ///< what was split elsewhere
   };
 
   std::uint64_t work() const { return rows_.work() + products_.work() + work_; }
@@ -297,7 +298,8 @@ private:
         return splitInteger(check::variable(*variable), -1, depth);
       return splitSign(check::variable(*variable), depth);
     }
-    if (std::optional<Polynomial> border = signToSplit(point)) {
+    if (std::optional<Polynomial> border = signToSplit(point, depth)) {
+      depth.borders.insert(*border);
       if (++depth.signSplits > kMostSignSplits)
         return giveUp("no certificate of low degree");
       return splitSign(*border, depth);
@@ -312,11 +314,10 @@ private:
 
   /// A factor of a product that is not what its factors say: knowing its sign helps most.
   std::optional<std::uint32_t> variableToSignSplit(const std::vector<Number> &point, const Depth &depth) const {
-    for (const Monomial &monomial : rows_.quadraticMonomials())
-      if (rows_.value(monomial).real != point[monomial[0]] * point[monomial[1]])
-        for (std::uint32_t index : monomial)
-          if (!depth.atZero.contains(index) && !hasSign(index))
-            return index;
+    for (const auto &[monomial, error] : rows_.brokenProducts(point))
+      for (std::uint32_t index : monomial)
+        if (!depth.atZero.contains(index) && !hasSign(index))
+          return index;
     return std::nullopt;
   }
 
@@ -359,17 +360,19 @@ private:
     return std::nullopt;
   }
 
-  /// x - v for the product x*y that is farthest from what its factors say, v being where x stands.
-  std::optional<Polynomial> signToSplit(const std::vector<Number> &point) const {
+  /// x - v for the product x*y that is farthest from what its factors say, v being near where x stands.
+  std::optional<Polynomial> signToSplit(const std::vector<Number> &point, const Depth &depth) const {
     std::optional<Polynomial> border;
     Number farthest;
-    for (const Monomial &monomial : rows_.quadraticMonomials()) {
-      const Number error = abs(rows_.value(monomial).real - point[monomial[0]] * point[monomial[1]]);
-      if (error <= farthest)
-        continue;
-      farthest = error;
-      border = check::variable(monomial[0]);
-      check::addTo(*border, check::constant(-smt::floor(point[monomial[0]] * 8) / 8));
+    for (const auto &[monomial, error] : rows_.brokenProducts(point)) {
+      for (std::uint32_t index : monomial) {
+        Polynomial here = check::variable(index);
+        check::addTo(here, check::constant(-smt::floor(point[index] * 8) / 8));
+        if (error <= farthest || depth.borders.contains(here))
+          continue;
+        farthest = error;
+        border = std::move(here);
+      }
     }
     return border;
   }
