@@ -24,6 +24,8 @@ std::vector<ActiveHypothesis> only(const std::vector<ActiveHypothesis> &hypothes
     if ((hypothesis.constraint->relation == Relation::Zero) == equalities &&
         !check::isConstant(hypothesis.constraint->polynomial))
       found.push_back(hypothesis);
+  // The newest first: they stem from the goal.
+  std::reverse(found.begin(), found.end());
   return found;
 }
 
@@ -84,7 +86,7 @@ const Polynomial &Products::product(const ActiveHypothesis &left, const ActiveHy
 
 void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
   const std::vector<ActiveHypothesis> inequalities = only(hypotheses, false);
-  for (std::size_t i = 0; i < inequalities.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(limits.newest, inequalities.size()); ++i) {
     for (std::size_t j = i; j < inequalities.size(); ++j) {
       const Constraint &left = *inequalities[i].constraint, &right = *inequalities[j].constraint;
       if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)

@@ -16,6 +16,7 @@ struct ActiveHypothesis {
 struct ProductLimits {
   std::size_t degree;
   std::size_t factors; ///< hypotheses in one product, a square not counted
+  std::size_t newest;  ///< one of them is among so many that were assumed last
 };
 
 class Products {

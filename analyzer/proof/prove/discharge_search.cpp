@@ -25,8 +25,14 @@ constexpr std::size_t kMostRoundsOfSquares = 6;
 constexpr std::size_t kMostSignSplits = 5;
 constexpr std::size_t kMostIntegerSplits = 24;
 
-constexpr ProductLimits kProductLevels[] = {
-    {.degree = 2, .factors = 2}, {.degree = 3, .factors = 2}, {.degree = 3, .factors = 3}, {.degree = 4, .factors = 3}};
+constexpr std::size_t kAll = 1'000'000;
+constexpr ProductLimits kProductLevels[] = {{.degree = 2, .factors = 2, .newest = 2},
+                                            {.degree = 2, .factors = 2, .newest = kAll},
+                                            {.degree = 3, .factors = 2, .newest = kAll},
+                                            {.degree = 3, .factors = 3, .newest = kAll},
+                                            {.degree = 4, .factors = 3, .newest = kAll}};
+/// Before integers are split: degree 2.
+constexpr std::size_t kPlainLevels = 2;
 
 Number valueAt(const Polynomial &polynomial, const std::vector<Number> &values) {
   Number sum;
@@ -174,7 +180,11 @@ private:
       }
       if (std::optional<std::uint32_t> clause = clauseToSplit())
         return splitClause(*clause, depth);
-      if (!addProducts(roundsOfSquares))
+      if (addProducts(0, kPlainLevels, roundsOfSquares))
+        continue;
+      if (std::optional<Polynomial> difference = integersThatMeet())
+        return splitInteger(*difference, smt::ceiling(valueAt(*difference, point)) - 1, depth);
+      if (!addProducts(kPlainLevels, std::size(kProductLevels), roundsOfSquares))
         return splitDomain(point, depth);
     }
     return giveUp("products of hypotheses do not converge");
@@ -182,8 +192,8 @@ private:
 
   std::uint64_t remaining() const { return work() >= workLimit_ ? 0 : workLimit_ - work(); }
 
-  bool addProducts(std::span<std::size_t> roundsOfSquares) {
-    for (std::size_t level = 0; level < std::size(kProductLevels); ++level) {
+  bool addProducts(std::size_t firstLevel, std::size_t endLevel, std::span<std::size_t> roundsOfSquares) {
+    for (std::size_t level = firstLevel; level < endLevel; ++level) {
       const ProductLimits &limits = kProductLevels[level];
       std::vector<Candidate> rows = products_.violated(rows_, active_, limits);
       const bool onlySquares =
@@ -288,8 +298,6 @@ private:
     for (std::uint32_t index = 0; index < point.size(); ++index)
       if (claim_.variables[index].range == check::Range::Integer && !point[index].isInteger())
         return splitInteger(check::variable(index), smt::floor(point[index]), depth);
-    if (std::optional<Polynomial> difference = integersThatMeet())
-      return splitInteger(*difference, smt::ceiling(valueAt(*difference, point)) - 1, depth);
     if (std::optional<std::uint32_t> variable = variableToSignSplit(point, depth)) {
       depth.atZero.insert(*variable);
       if (++depth.signSplits > kMostSignSplits)
@@ -298,6 +306,9 @@ private:
         return splitInteger(check::variable(*variable), -1, depth);
       return splitSign(check::variable(*variable), depth);
     }
+    for (std::uint32_t index : activeClauses_)
+      if (!openSplits_.contains(index) && clausePool_[index]->alternatives.size() > 1)
+        return splitClause(index, depth);
     if (std::optional<Polynomial> border = signToSplit(point, depth)) {
       depth.borders.insert(*border);
       if (++depth.signSplits > kMostSignSplits)
@@ -342,10 +353,11 @@ private:
   std::optional<Polynomial> integersThatMeet() {
     auto isInteger = [&](std::uint32_t index) { return claim_.variables[index].range == check::Range::Integer; };
     std::map<std::uint32_t, std::set<std::uint32_t>> beside;
-    for (const Monomial &monomial : rows_.quadraticMonomials())
-      for (std::size_t side : {0u, 1u})
-        if (isInteger(monomial[side]) && !isInteger(monomial[1 - side]))
-          beside[monomial[1 - side]].insert(monomial[side]);
+    for (const ActiveHypothesis &hypothesis : active_)
+      for (const auto &[monomial, coefficient] : hypothesis.constraint->polynomial)
+        for (std::size_t side = 0; monomial.size() == 2 && side < 2; ++side)
+          if (isInteger(monomial[side]) && !isInteger(monomial[1 - side]))
+            beside[monomial[1 - side]].insert(monomial[side]);
     for (const auto &[real, integers] : beside) {
       for (std::uint32_t first : integers) {
         for (std::uint32_t second : integers) {
