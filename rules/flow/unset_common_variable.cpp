@@ -30,10 +30,20 @@ bool setsUnseen(const FlowFacts &facts, const FileContext &context) {
                              [](const VariableUse &use) { return use.write && !use.number; });
 }
 
+/// `#110-1.5` is no statement: it may have been meant to set the variable.
+bool isMeantAsAssignment(const FileContext &context, const VariableUse &use) {
+  const auto statements = context.tree.statementsOf(use.block);
+  return context.tree.blocks[use.block].has(Block::kBroken) ||
+         std::ranges::any_of(statements, [](const Statement &statement) {
+           return std::holds_alternative<LoneExpression>(statement.node);
+         });
+}
+
 bool isSet(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
   return facts.programs.isWrittenInCalled(variable) ||
-         std::ranges::any_of(context.model.variablesOf(facts.program),
-                             [&](const VariableUse &use) { return use.write && use.number == variable; });
+         std::ranges::any_of(context.model.variablesOf(facts.program), [&](const VariableUse &use) {
+           return use.number == variable && (use.write || isMeantAsAssignment(context, use));
+         });
 }
 
 /// What goes missing when an argument is vacant.

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSlip = "%\nO1001(SLIP)\nN10 #510-#501\nM30\n%\n";
+constexpr std::string_view kSlip = "%\nO1001(SLIP)\nN10 #510-1.5\nM30\n%\n";
 
 class Session : public testing::Test {
 protected:
@@ -127,16 +127,16 @@ TEST_F(Session, FingerprintsOutliveEditsElsewhere) {
   write("part.nc", kSlip);
   const std::string before = onlyFingerprint();
   EXPECT_EQ(before.size(), 16U);
-  write("part.nc", "%\nO1001(SLIP)\n(NEW)\nN20  #510 - #501\nM30\n%\n");
+  write("part.nc", "%\nO1001(SLIP)\n(NEW)\nN20  #510 - 1.5\nM30\n%\n");
   EXPECT_EQ(onlyFingerprint(), before);
-  write("part.nc", "%\nO1001(SLIP)\nN10 #511-#501\nM30\n%\n");
+  write("part.nc", "%\nO1001(SLIP)\nN10 #511-1.5\nM30\n%\n");
   EXPECT_NE(onlyFingerprint(), before);
-  write("part.nc", "%\nO1002(SLIP)\nN10 #510-#501\nM30\n%\n");
+  write("part.nc", "%\nO1002(SLIP)\nN10 #510-1.5\nM30\n%\n");
   EXPECT_NE(onlyFingerprint(), before);
 }
 
 TEST_F(Session, EqualFindingsHaveDifferentFingerprints) {
-  write("part.nc", "O1\n#510-#501\n#510-#501\nM30\n");
+  write("part.nc", "O1\n#510-1.5\n#510-1.5\nM30\n");
   const CheckResult result = run();
   ASSERT_EQ(result.files[0].findings.size(), 2U);
   EXPECT_NE(result.files[0].findings[0].fingerprint, result.files[0].findings[1].fingerprint);
@@ -159,7 +159,7 @@ TEST_F(Session, UnsafeFixesOnlyWhenAskedFor) {
   const FixResult all = fix(options(), FixWish::All, known());
   ASSERT_EQ(all.files.size(), 1U);
   EXPECT_EQ(all.files[0].before, kSlip);
-  EXPECT_EQ(all.files[0].after, "%\nO1001(SLIP)\nN10 #510=#501\nM30\n%\n");
+  EXPECT_EQ(all.files[0].after, "%\nO1001(SLIP)\nN10 #510=1.5\nM30\n%\n");
   EXPECT_EQ(all.files[0].fixes, 1U);
   EXPECT_TRUE(all.remaining.files[0].findings.empty());
   EXPECT_EQ(read("part.nc"), kSlip);
@@ -170,7 +170,7 @@ TEST_F(Session, WritingKeepsThePermissionsAndLeavesNothingBehind) {
   fs::permissions(folder_ / "part.nc", fs::perms::owner_all);
   const FixResult fixed = fix(options(), FixWish::All, known());
   EXPECT_TRUE(writeFixes(fixed.files).empty());
-  EXPECT_EQ(read("part.nc"), "%\nO1001(SLIP)\nN10 #510=#501\nM30\n%\n");
+  EXPECT_EQ(read("part.nc"), "%\nO1001(SLIP)\nN10 #510=1.5\nM30\n%\n");
   EXPECT_EQ(fs::status(folder_ / "part.nc").permissions(), fs::perms::owner_all);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
