@@ -9,8 +9,6 @@ using check::Constraint;
 using check::Relation;
 
 constexpr std::size_t kRowsAtOnce = 12;
-/// There are always more of them; a point moves away from a few.
-constexpr std::size_t kSquaresAtOnce = 2;
 /// Combinations of more hypotheses than this grow too many; measured: the deep products that proofs need have few.
 constexpr std::size_t kMostForTriples = 14;
 
@@ -24,8 +22,6 @@ std::vector<ActiveHypothesis> only(const std::vector<ActiveHypothesis> &hypothes
     if ((hypothesis.constraint->relation == Relation::Zero) == equalities &&
         !check::isConstant(hypothesis.constraint->polynomial))
       found.push_back(hypothesis);
-  // The newest first: they stem from the goal.
-  std::reverse(found.begin(), found.end());
   return found;
 }
 
@@ -62,7 +58,7 @@ std::vector<Candidate> Products::violated(const Rows &rows, const std::vector<Ac
   for (auto &[cost, candidate] : found_) {
     if (chosen.size() >= kRowsAtOnce || cost > found_.front().first + 1)
       break;
-    if (!candidate.source.squares.empty() && ++squares > kSquaresAtOnce)
+    if (!candidate.source.squares.empty() && ++squares > strategy_.squares)
       continue;
     chosen.push_back(std::move(candidate));
   }
@@ -75,6 +71,13 @@ void Products::offer(const Rows &rows, Candidate candidate) {
     found_.emplace_back(rows.newMonomials(candidate.polynomial), std::move(candidate));
 }
 
+std::vector<ActiveHypothesis> Products::inequalities(const std::vector<ActiveHypothesis> &hypotheses) const {
+  std::vector<ActiveHypothesis> found = only(hypotheses, false);
+  if (strategy_.order == Strategy::Order::NewestFirst)
+    std::reverse(found.begin(), found.end());
+  return found;
+}
+
 const Polynomial &Products::product(const ActiveHypothesis &left, const ActiveHypothesis &right) {
   auto [place, isNew] = known_.try_emplace({left.index, right.index});
   if (isNew) {
@@ -85,34 +88,35 @@ const Polynomial &Products::product(const ActiveHypothesis &left, const ActiveHy
 }
 
 void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
-  const std::vector<ActiveHypothesis> inequalities = only(hypotheses, false);
-  for (std::size_t i = 0; i < std::min(limits.newest, inequalities.size()); ++i) {
-    for (std::size_t j = i; j < inequalities.size(); ++j) {
-      const Constraint &left = *inequalities[i].constraint, &right = *inequalities[j].constraint;
+  const std::vector<ActiveHypothesis> factors = inequalities(hypotheses);
+  const std::size_t first = limits.factors == 1 ? std::min(strategy_.newest, factors.size()) : factors.size();
+  for (std::size_t i = 0; i < first; ++i) {
+    for (std::size_t j = i; j < factors.size(); ++j) {
+      const Constraint &left = *factors[i].constraint, &right = *factors[j].constraint;
       if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)
         continue;
-      offer(rows, {{{inequalities[i].index, inequalities[j].index}, {}, {}},
-                   product(inequalities[i], inequalities[j]),
+      offer(rows, {{{factors[i].index, factors[j].index}, {}, {}},
+                   product(factors[i], factors[j]),
                    relationOf(isStrict(left) && isStrict(right))});
     }
   }
 }
 
 void Products::triples(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits) {
-  const std::vector<ActiveHypothesis> inequalities = only(hypotheses, false);
-  if (inequalities.size() > kMostForTriples)
+  const std::vector<ActiveHypothesis> factors = inequalities(hypotheses);
+  if (factors.size() > kMostForTriples)
     return;
-  for (std::size_t i = 0; i < inequalities.size(); ++i) {
-    for (std::size_t j = i; j < inequalities.size(); ++j) {
-      const Polynomial &pair = product(inequalities[i], inequalities[j]);
-      for (std::size_t k = j; k < inequalities.size(); ++k) {
-        const Polynomial &third = inequalities[k].constraint->polynomial;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    for (std::size_t j = i; j < factors.size(); ++j) {
+      const Polynomial &pair = product(factors[i], factors[j]);
+      for (std::size_t k = j; k < factors.size(); ++k) {
+        const Polynomial &third = factors[k].constraint->polynomial;
         if (check::degree(pair) + check::degree(third) > limits.degree)
           continue;
-        const bool strict = isStrict(*inequalities[i].constraint) && isStrict(*inequalities[j].constraint) &&
-                            isStrict(*inequalities[k].constraint);
+        const bool strict =
+            isStrict(*factors[i].constraint) && isStrict(*factors[j].constraint) && isStrict(*factors[k].constraint);
         work_ += pair.size() * third.size() * 4;
-        offer(rows, {{{inequalities[i].index, inequalities[j].index, inequalities[k].index}, {}, {}},
+        offer(rows, {{{factors[i].index, factors[j].index, factors[k].index}, {}, {}},
                      check::multiply(pair, third),
                      relationOf(strict)});
       }
@@ -170,17 +174,16 @@ void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hy
     }
     offer(rows, {{by, {base}, {}}, check::multiply(factor, check::multiply(base, base)), Relation::NonNegative});
   };
-  std::vector<ActiveHypothesis> inequalities;
+  std::vector<ActiveHypothesis> factors;
   if (limits.factors > 2)
-    inequalities = only(hypotheses, false);
+    factors = inequalities(hypotheses);
   for (const Monomial &x : bases) {
     for (const Monomial &y : bases) {
       if (x == y || x.empty())
         continue;
       square(x, y, {}, check::constant(1));
-      for (const ActiveHypothesis &hypothesis : inequalities)
-        if (check::degree(hypothesis.constraint->polynomial) + 2 <= limits.degree &&
-            inequalities.size() <= kMostForTriples)
+      for (const ActiveHypothesis &hypothesis : factors)
+        if (check::degree(hypothesis.constraint->polynomial) + 2 <= limits.degree && factors.size() <= kMostForTriples)
           square(x, y, {hypothesis.index}, hypothesis.constraint->polynomial);
     }
   }

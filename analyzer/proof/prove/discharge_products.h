@@ -15,12 +15,20 @@ struct ActiveHypothesis {
 /// How far products go.
 struct ProductLimits {
   std::size_t degree;
-  std::size_t factors; ///< hypotheses in one product, a square not counted
-  std::size_t newest;  ///< one of them is among so many that were assumed last
+  std::size_t factors; ///< hypotheses in one product, a square not counted; 1: two, one of them among the newest
+};
+
+/// Which products come first.  No order suits all claims, so that the search tries several for a while.
+struct Strategy {
+  enum class Order : std::uint8_t { NewestFirst, OldestFirst } order; ///< the newest stem from the goal
+  std::size_t newest;                                                 ///< at first, one factor is among so many newest
+  std::size_t squares;                                                ///< rows of squares added at once
 };
 
 class Products {
 public:
+  explicit Products(const Strategy &strategy) : strategy_(strategy) {}
+
   /// The rows that the point of `rows` breaks, a few, the most useful first: those without new monomials.
   std::vector<Candidate> violated(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses,
                                   const ProductLimits &limits);
@@ -33,7 +41,9 @@ private:
   void equalities(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits);
   void squares(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses, const ProductLimits &limits);
   void offer(const Rows &rows, Candidate candidate);
+  std::vector<ActiveHypothesis> inequalities(const std::vector<ActiveHypothesis> &hypotheses) const;
 
+  const Strategy strategy_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Polynomial> known_;
   std::vector<std::pair<std::size_t, Candidate>> found_;
   std::uint64_t work_ = 0;

@@ -25,12 +25,17 @@ constexpr std::size_t kMostRoundsOfSquares = 6;
 constexpr std::size_t kMostSignSplits = 5;
 constexpr std::size_t kMostIntegerSplits = 24;
 
+constexpr ProductLimits kProductLevels[] = {{.degree = 2, .factors = 1},
+                                            {.degree = 2, .factors = 2},
+                                            {.degree = 3, .factors = 2},
+                                            {.degree = 3, .factors = 3},
+                                            {.degree = 4, .factors = 3}};
+
 constexpr std::size_t kAll = 1'000'000;
-constexpr ProductLimits kProductLevels[] = {{.degree = 2, .factors = 2, .newest = 2},
-                                            {.degree = 2, .factors = 2, .newest = kAll},
-                                            {.degree = 3, .factors = 2, .newest = kAll},
-                                            {.degree = 3, .factors = 3, .newest = kAll},
-                                            {.degree = 4, .factors = 3, .newest = kAll}};
+constexpr Strategy kStrategies[] = {{Strategy::Order::NewestFirst, 2, 0},
+                                    {Strategy::Order::OldestFirst, kAll, 2},
+                                    {Strategy::Order::NewestFirst, kAll, 2},
+                                    {Strategy::Order::OldestFirst, kAll, 12}};
 /// Before integers are split: degree 2.
 constexpr std::size_t kPlainLevels = 2;
 
@@ -66,8 +71,8 @@ bool holds(const Conjunction &conjunction, const std::vector<Number> &values) {
 
 class Search {
 public:
-  Search(const check::Claim &claim, std::uint64_t workLimit)
-      : claim_(claim), workLimit_(workLimit), rows_(claim.variables.size()) {}
+  Search(const check::Claim &claim, const Strategy &strategy, std::uint64_t workLimit)
+      : claim_(claim), workLimit_(workLimit), rows_(claim.variables.size()), products_(strategy) {}
 
   SearchResult run() {
     SearchResult result;
@@ -417,7 +422,24 @@ bool satisfies(const check::Claim &claim, const std::vector<Number> &values) {
 }
 
 SearchResult searchCertificate(const check::Claim &claim, std::uint64_t workLimit) {
-  return Search(claim, workLimit).run();
+  SearchResult result{NotFound{"no budget"}};
+  std::uint64_t spent = 0;
+  // All of them for a short while, then all for longer.
+  for (const std::uint64_t slice : {workLimit / 16, workLimit / 4}) {
+    for (const Strategy &strategy : kStrategies) {
+      if (spent >= workLimit)
+        break;
+      result = Search(claim, strategy, std::min(slice, workLimit - spent)).run();
+      spent += result.work;
+      result.work = spent;
+      if (!std::holds_alternative<NotFound>(result.answer))
+        return result;
+      // Without products, the strategies do the same.
+      if (result.reasoning == SearchResult::Reasoning::Linear && spent < slice)
+        return result;
+    }
+  }
+  return result;
 }
 
 } // namespace feedhold::prove
