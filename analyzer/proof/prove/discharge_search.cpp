@@ -188,7 +188,7 @@ private:
       if (addProducts(0, kPlainLevels, roundsOfSquares))
         continue;
       if (std::optional<Polynomial> difference = integersThatMeet())
-        return splitInteger(*difference, smt::ceiling(valueAt(*difference, point)) - 1, depth);
+        return splitInteger(*difference, 0, depth);
       if (!addProducts(kPlainLevels, std::size(kProductLevels), roundsOfSquares))
         return splitDomain(point, depth);
     }
