@@ -38,7 +38,8 @@ struct Obligation {
   std::string id; // `O9100.loop-ends.N20`, the same from run to run
   Place place;
   Span span;
-  std::string claim; // what is claimed, in shop words
+  std::string claim;                          // what is claimed, in shop words
+  std::optional<AlarmKind> alarm = {};        // of NoControlAlarm
   Verdict verdict = Verdict::Unknown;
   std::optional<Grade> grade = {};     // of Proved and Unreachable
   std::string method = {};             // of the same: how, for instance `linear`

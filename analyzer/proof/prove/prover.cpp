@@ -203,6 +203,7 @@ void Prover::stops() {
     Obligation &obligation =
         add(kind, check.place, check.span,
             check.alarm ? fmt::format("no {} here", meaningOf(*check.alarm)) : "this alarm is never raised");
+    obligation.alarm = check.alarm;
     settle(obligation, queries, violated(check));
   }
 }

@@ -117,10 +117,6 @@ CheckOptions toOptions(const CheckArguments &arguments) {
   return options;
 }
 
-ColourWish colourWish(std::string_view name) {
-  return name == "always" ? ColourWish::Always : name == "never" ? ColourWish::Never : ColourWish::Auto;
-}
-
 int exitCodeOf(const CheckResult &result, const CheckArguments &arguments) {
   if (!result.errors.empty())
     return kExitCouldNotRun;
@@ -161,7 +157,7 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
                       .root = std::filesystem::current_path(),
                       .exitCode = exitCode,
                       .showSuppressed = arguments.showSuppressed ? ShowSuppressed::Yes : ShowSuppressed::No,
-                      .colour = arguments.output.empty() && useColour(colourWish(arguments.color))};
+                      .colour = arguments.output.empty() && useColour(colourWishFrom(arguments.color))};
   const std::string text = arguments.statistics ? statistics(report) : write(format, report);
   printProblems(result);
   if (arguments.output.empty()) {

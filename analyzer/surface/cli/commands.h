@@ -10,6 +10,7 @@ namespace feedhold {
 inline constexpr int kExitClean = 0;
 inline constexpr int kExitFindings = 1;
 inline constexpr int kExitCouldNotRun = 2;
+inline constexpr int kExitUnknown = 3; // of `prove`: nothing is refuted, not all is proved
 
 /// A sub-command on the command line, and what it does: returns the exit code.
 struct Command {
@@ -27,5 +28,6 @@ Command addTreeCommand(CLI::App &parent);
 Command addModelCommand(CLI::App &parent);
 Command addCfgCommand(CLI::App &parent);
 Command addRangesCommand(CLI::App &parent);
+Command addProveCommand(CLI::App &parent);
 
 } // namespace feedhold

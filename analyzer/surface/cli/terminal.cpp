@@ -14,6 +14,10 @@ void writeTo(std::FILE *stream, std::string_view text) { std::fwrite(text.data()
 
 } // namespace
 
+ColourWish colourWishFrom(std::string_view name) {
+  return name == "always" ? ColourWish::Always : name == "never" ? ColourWish::Never : ColourWish::Auto;
+}
+
 bool useColour(ColourWish wish) {
   switch (wish) {
   case ColourWish::Always: return true;

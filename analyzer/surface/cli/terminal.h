@@ -11,6 +11,8 @@ namespace feedhold {
 
 enum class ColourWish { Auto, Always, Never };
 
+/// From `auto`, `always` or `never`.
+ColourWish colourWishFrom(std::string_view name);
 /// Auto: standard output is a terminal and NO_COLOR is not set (no-color.org).
 bool useColour(ColourWish wish);
 bool isErrorTerminal();

@@ -1,0 +1,75 @@
+// Finds the files as `check` does, loads each with its folder, then proves all programs in parallel.
+#include "findings/session/proofs.h"
+
+#include "base/support/parallel.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+namespace {
+
+using Loaded = Result<std::unique_ptr<const LoadedPrograms>>;
+
+Loaded load(const ProofsWish &wish, const WorkItem &item, const KnownNames &known) {
+  ProgramsWish programs{.path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config};
+  if (item.path.empty())
+    programs.piped = wish.files.piped;
+  return loadPrograms(programs, known);
+}
+
+/// A clause that was left out for a mistake in it would be a promise that nobody proves.
+std::optional<PathProblem> contractMistake(const LoadedFile &file, ProgramId program) {
+  const Contract *contract = file.contracts.of(program);
+  if (contract == nullptr || contract->isSound)
+    return std::nullopt;
+  return PathProblem{file.shown, fmt::format("the contract of {} has mistakes, so that it is not proved; `feedhold "
+                                             "check` shows them",
+                                             toString(file.model.programs[program].name))};
+}
+
+struct Job {
+  const LoadedPrograms *loaded;
+  ProvedProgram *result;
+};
+
+} // namespace
+
+ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
+  Workload workload = loadWorkload(wish.files, known);
+  ProofsResult result{{}, std::move(workload.skipped), std::move(workload.errors)};
+  std::vector<const WorkItem *> items;
+  for (const WorkItem &item : workload.items)
+    if (item.foreign != nullptr)
+      result.skipped.push_back({item.shown, fmt::format("{}, which is not read", item.foreign->name)});
+    else
+      items.push_back(&item);
+
+  std::vector<std::optional<Loaded>> loaded(items.size());
+  parallelFor(items.size(), wish.files.jobs, [&](std::size_t i) { loaded[i] = load(wish, *items[i], known); });
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!*loaded[i]) {
+      result.errors.push_back({items[i]->shown, loaded[i]->error().message});
+      continue;
+    }
+    ProvedFile &file = result.files.emplace_back(ProvedFile{loaded[i]->take(), {}});
+    for (std::size_t program = 0; program < file.file().model.programs.size(); ++program)
+      if (auto mistake = contractMistake(file.file(), ProgramId(program)))
+        result.errors.push_back(std::move(*mistake));
+      else
+        file.programs.push_back({ProgramId(program), {}});
+  }
+
+  std::vector<Job> jobs;
+  for (ProvedFile &file : result.files)
+    for (ProvedProgram &program : file.programs)
+      jobs.push_back({file.loaded.get(), &program});
+  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) {
+    const auto &[programs, proved] = jobs[i];
+    const Callee callee{FileId(0), programs->set->file(FileId(0)).cfg.entryOf(proved->program), proved->program};
+    proved->proof = prove::prove(*programs->set, callee, &programs->file(FileId(0)).contracts, wish.prove);
+  });
+  return result;
+}
+
+} // namespace feedhold

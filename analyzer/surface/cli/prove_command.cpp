@@ -1,0 +1,148 @@
+// `feedhold prove [PATHS]`: verdicts on the obligations of programs, for every input that their contracts allow.
+#include "dialects/registry.h"
+#include "rules/registry.h"
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
+#include "surface/sink/prove_sink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+namespace {
+
+struct ProveArguments {
+  std::vector<std::string> paths;
+  std::vector<std::string> only;
+  std::string dialect;
+  std::string config;
+  std::string format = "text";
+  std::string color = "auto";
+  std::string stdinFilename = "<stdin>";
+  unsigned jobs = 0;
+  bool isolated = false;
+  bool verbose = false;
+  bool quiet = false;
+};
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) prove::ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+std::vector<std::string> namesOfKinds() {
+  std::vector<std::string> names;
+  for (const prove::ObligationKind kind : kKinds)
+    names.emplace_back(nameOf(kind));
+  return names;
+}
+
+void addOptions(CLI::App &app, ProveArguments &arguments) {
+  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: the current folder)");
+  app.add_option("--only", arguments.only, "prove only this kind of obligation (may be given again)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(namesOfKinds()));
+  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
+  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
+  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  app.add_option("--format", arguments.format, "text, json or sarif")->check(CLI::IsMember({"text", "json", "sarif"}));
+  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
+  app.add_option("--color", arguments.color, "auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
+  app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
+  app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
+}
+
+ProofsWish toWish(const ProveArguments &arguments) {
+  ProofsWish wish;
+  wish.files.paths = arguments.paths;
+  if (std::erase(wish.files.paths, "-") != 0)
+    wish.files.piped = PipedText{arguments.stdinFilename, readStandardInput()};
+  else if (wish.files.paths.empty())
+    wish.files.paths = {"."};
+  if (!arguments.dialect.empty())
+    wish.files.dialect = arguments.dialect;
+  if (arguments.isolated)
+    wish.files.config.source = ConfigSource::None;
+  else if (!arguments.config.empty())
+    wish.files.config = {ConfigSource::Named, arguments.config};
+  wish.files.jobs = arguments.jobs;
+  for (const prove::ObligationKind kind : kKinds)
+    if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
+      wish.prove.only.push_back(kind);
+  return wish;
+}
+
+/// What a replay of a witness has to be told, too.
+std::string readingOptions(const ProveArguments &arguments) {
+  std::string text;
+  if (!arguments.dialect.empty())
+    text += " --dialect " + arguments.dialect;
+  if (arguments.isolated)
+    text += " --isolated";
+  else if (!arguments.config.empty())
+    text += " --config " + arguments.config;
+  return text;
+}
+
+int exitCodeOf(const ProofsResult &result) {
+  if (!result.errors.empty())
+    return kExitCouldNotRun;
+  bool isRefuted = false;
+  bool isUnknown = false;
+  for (const ProvedFile &file : result.files)
+    for (const ProvedProgram &program : file.programs)
+      for (const prove::Obligation &obligation : program.proof.obligations) {
+        isRefuted = isRefuted || obligation.verdict == prove::Verdict::Refuted;
+        isUnknown = isUnknown || obligation.verdict == prove::Verdict::Unknown;
+      }
+  return isRefuted ? kExitFindings : isUnknown ? kExitUnknown : kExitClean;
+}
+
+/// Being asked to prove something and finding no program is a mistake in the call.
+void complainIfNothingWasProved(ProofsResult &result) {
+  if (result.files.empty() && result.errors.empty() && !result.skipped.empty())
+    result.errors.push_back({result.skipped.front().path, "nothing to prove: " + result.skipped.front().reason});
+}
+
+int runProve(const ProveArguments &arguments) {
+  if (!arguments.dialect.empty())
+    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects())) {
+      printError(*complaint);
+      return kExitCouldNotRun;
+    }
+  ProofsResult result = proveAll(toWish(arguments), {allDialects(), allRules()});
+  complainIfNothingWasProved(result);
+  const ProveReport report{.result = result,
+                           .version = FEEDHOLD_VERSION,
+                           .root = std::filesystem::current_path(),
+                           .exitCode = exitCodeOf(result),
+                           .readingOptions = readingOptions(arguments),
+                           .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
+                           .colour = useColour(colourWishFrom(arguments.color))};
+  for (const PathProblem &problem : result.errors)
+    printError(problem.path + ": " + problem.message);
+  print(writeProveText(report));
+  if (!arguments.quiet && arguments.format == "text")
+    print(proveSummary(report));
+  return report.exitCode;
+}
+
+} // namespace
+
+Command addProveCommand(CLI::App &parent) {
+  CLI::App *app = parent.add_subcommand("prove", "prove what programs promise, for every input");
+  const auto arguments = std::make_shared<ProveArguments>();
+  addOptions(*app, *arguments);
+  return {app, [arguments] { return runProve(*arguments); }};
+}
+
+} // namespace feedhold

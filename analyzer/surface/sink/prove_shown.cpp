@@ -1,0 +1,135 @@
+#include "surface/sink/prove_shown.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feedhold {
+
+using prove::Obligation;
+using prove::ObligationKind;
+using prove::Verdict;
+
+namespace {
+
+constexpr std::array kVerdicts = {Verdict::Proved, Verdict::Refuted, Verdict::Unknown, Verdict::Unreachable};
+
+/// The shortest text that is read as the same number, without an exponent.
+std::string shortest(double value) {
+  std::string text = fmt::format("{:.17f}", value);
+  for (int decimals = 0; decimals < 17; ++decimals)
+    if (std::string rounded = fmt::format("{:.{}f}", value, decimals); std::stod(rounded) == value) {
+      text = std::move(rounded);
+      break;
+    }
+  return text == "-0" ? "0" : text;
+}
+
+/// A number without a point counts in the least increment on many controls.
+std::string withPoint(double value) {
+  std::string text = shortest(value);
+  return text.find('.') == std::string::npos ? text + "." : text;
+}
+
+std::optional<char> letterFor(const Dialect &dialect, std::uint32_t variable) {
+  for (std::size_t i = 0; i < dialect.argumentVariables.size(); ++i)
+    if (dialect.argumentVariables[i] == variable && variable != 0)
+      return static_cast<char>('A' + i);
+  return std::nullopt;
+}
+
+/// As a shell takes it for one word.
+std::string quoted(const std::string &word) {
+  const bool isPlain = !word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                                               "0123456789_-+=./,:%@") == std::string::npos;
+  if (isPlain)
+    return word;
+  std::string text = "'";
+  for (const char c : word)
+    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
+  const auto number = alarmNumber(dialect, kind);
+  return number ? fmt::format("{} ({})", *number, meaningOf(kind)) : std::string(meaningOf(kind));
+}
+
+} // namespace
+
+void VerdictCounts::add(const prove::ProgramProof &proof) {
+  for (const Obligation &obligation : proof.obligations)
+    ++byVerdict[static_cast<std::size_t>(obligation.verdict)];
+}
+
+std::string textOf(const VerdictCounts &counts) {
+  std::string text;
+  for (const Verdict verdict : kVerdicts)
+    if (counts.of(verdict) != 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts.of(verdict), nameOf(verdict));
+  return text.empty() ? "nothing to prove" : text;
+}
+
+std::string programName(const ProvedFile &file, const ProvedProgram &program) {
+  const std::string name = toString(file.file().model.programs[program.program].name);
+  return name.empty() ? "a program without a number" : name;
+}
+
+TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
+                   const ProveReport &report) {
+  const ProgramModel &model = file.file().model;
+  const ProgramName &name = model.programs[program.program].name;
+  TypedWitness result;
+  std::string letters;
+  result.replay = "feedhold run " + quoted(file.file().shown);
+  if (model.programs.size() > 1 && !toString(name).empty())
+    result.replay += " --program " + quoted(toString(name));
+  for (const auto &[variable, value] : witness.variables.entries()) {
+    if (value.vacant)
+      continue;
+    if (const auto letter = letterFor(file.loaded->dialect, variable); letter && name.number) {
+      letters += fmt::format(" {}{}", *letter, withPoint(value.number));
+      result.replay += fmt::format(" --arg {}={}", *letter, shortest(value.number));
+      continue;
+    }
+    const std::string shown = file.loaded->set->nameOfVariable(variable);
+    result.others.emplace_back(shown, shortest(value.number));
+    result.variables.emplace_back(shown.substr(1), value.number);
+    result.replay += " --var " + quoted(shown.substr(1) + "=" + shortest(value.number));
+  }
+  result.replay += report.readingOptions;
+  if (name.number)
+    result.call = fmt::format("G65 P{}{}", *name.number, letters);
+  return result;
+}
+
+std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
+  const bool isRefuted = obligation.verdict == Verdict::Refuted;
+  const std::string_view open = isRefuted ? "" : "it is not known whether ";
+  switch (obligation.kind) {
+  case ObligationKind::LoopEnds:
+    return isRefuted ? "this loop can run for ever" : "it is not known whether this loop always ends";
+  case ObligationKind::ProgramEnds:
+    return isRefuted ? "this program can run for ever" : "it is not known whether this program always comes to an end";
+  case ObligationKind::AlarmUnreachable: return fmt::format("{}this alarm can be raised", open);
+  case ObligationKind::NoControlAlarm:
+    return fmt::format("{}the control can stop here{}", open,
+                       obligation.alarm ? " with " + controlAlarm(dialect, *obligation.alarm) : "");
+  case ObligationKind::AlarmIff:
+  case ObligationKind::Ensures:
+  case ObligationKind::Assigns:
+  case ObligationKind::ModalPreserved:
+    return isRefuted ? fmt::format("`{}` is not kept", obligation.claim)
+                     : fmt::format("it is not known whether `{}` is always kept", obligation.claim);
+  case ObligationKind::Guarded:
+    return isRefuted ? "a call outside of the contract gets past the guards"
+                     : "it is not known whether the guards stop every call outside of the contract";
+  case ObligationKind::CallMeetsContract:
+    return isRefuted ? "this call breaks the contract of the program that it calls"
+                     : "it is not known whether this call always keeps the contract of the program that it calls";
+  case ObligationKind::ContractSatisfiable: return "no call satisfies this contract";
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind");
+}
+
+} // namespace feedhold

@@ -1,0 +1,40 @@
+// What the outputs of proofs have in common: counts, places, witnesses as calls.  Internal to sink/.
+#pragma once
+
+#include "surface/sink/prove_sink.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace feedhold {
+
+/// How many obligations have each verdict.
+struct VerdictCounts {
+  std::array<std::size_t, 4> byVerdict{};
+
+  void add(const prove::ProgramProof &proof);
+  std::size_t of(prove::Verdict verdict) const { return byVerdict[static_cast<std::size_t>(verdict)]; }
+  std::size_t all() const { return byVerdict[0] + byVerdict[1] + byVerdict[2] + byVerdict[3]; }
+};
+/// `5 proved, 1 refuted, 1 unknown`; verdicts that nothing has are left out.
+std::string textOf(const VerdictCounts &counts);
+
+/// `O9100`; `a program without a number`
+std::string programName(const ProvedFile &file, const ProvedProgram &program);
+
+/// A witness as a machinist types it.
+struct TypedWitness {
+  std::optional<std::string> call;                         // `G65 P9100 D6. U12.`; absent: it has no number
+  std::vector<std::pair<std::string, std::string>> others; // `#500`, `-3.5`: what no letter of the call sets
+  std::vector<std::pair<std::string, double>> variables;   // the same, by name without `#`
+  std::string replay;                                      // the command that runs the program on it
+};
+TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
+                   const ProveReport &report);
+
+/// What was seen, in one sentence: `this alarm can be raised`.
+std::string messageOf(const prove::Obligation &obligation, const Dialect &dialect);
+
+} // namespace feedhold

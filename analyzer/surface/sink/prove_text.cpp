@@ -1,0 +1,106 @@
+// Verdicts for people: what is refuted with the call that shows it, what is unknown with what is missing, then what is
+// proved.
+#include "base/diag/render.h"
+#include "surface/sink/prove_shown.h"
+
+#include <fmt/format.h>
+
+namespace feedhold {
+
+using prove::Obligation;
+using prove::Verdict;
+
+namespace {
+
+class ProgramText {
+public:
+  ProgramText(const ProveReport &report, const ProvedFile &file, const ProvedProgram &program)
+      : report_(report), file_(file), program_(program) {}
+
+  std::string write() {
+    VerdictCounts counts;
+    counts.add(program_.proof);
+    text_ = fmt::format("{}: {}: {}\n", file_.file().shown, programName(file_, program_), textOf(counts));
+    if (program_.proof.incomplete)
+      text_ += fmt::format("  not all ways were followed: {}\n", *program_.proof.incomplete);
+    text_ += '\n';
+    forEach(Verdict::Refuted, [&](const Obligation &obligation) { picture(obligation, witnessNotes(obligation)); });
+    forEach(Verdict::Unknown, [&](const Obligation &obligation) {
+      picture(obligation, {fmt::format("{}", obligation.reason)});
+    });
+    const std::size_t before = text_.size();
+    forEach(Verdict::Proved, [&](const Obligation &obligation) { line(obligation); });
+    forEach(Verdict::Unreachable, [&](const Obligation &obligation) { line(obligation); });
+    if (text_.size() != before)
+      text_ += '\n';
+    return std::move(text_);
+  }
+
+private:
+  template <typename Visit> void forEach(Verdict verdict, Visit visit) {
+    for (const Obligation &obligation : program_.proof.obligations)
+      if (obligation.verdict == verdict)
+        visit(obligation);
+  }
+
+  void picture(const Obligation &obligation, std::vector<std::string> notes) {
+    const Diagnostic diagnostic{.message = messageOf(obligation, file_.loaded->dialect),
+                                .span = obligation.span,
+                                .notes = std::move(notes)};
+    const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.loaded->file(id).source; };
+    text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
+                    file_.loaded->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
+    text_ += '\n';
+  }
+
+  std::vector<std::string> witnessNotes(const Obligation &obligation) const {
+    if (!obligation.witness)
+      return {obligation.reason};
+    const TypedWitness witness = typed(*obligation.witness, file_, program_, report_);
+    std::string call = witness.call.value_or("a run of this program");
+    for (const auto &[name, value] : witness.others)
+      call += fmt::format("{}{}={}", name == witness.others.front().first ? " with " : ", ", name, value);
+    if (obligation.witness->variables.entries().empty())
+      call += " with nothing set";
+    return {fmt::format("`{}`: {}", call, obligation.witness->happened), "see it: " + witness.replay};
+  }
+
+  void line(const Obligation &obligation) {
+    const std::uint32_t at = file_.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
+    const std::string_view grade = obligation.grade ? nameOf(*obligation.grade) : "";
+    text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
+                         obligation.claim, obligation.id);
+    if (!obligation.reason.empty())
+      text_ += fmt::format("            {}\n", obligation.reason);
+    if (report_.showMethods == ShowMethods::Yes && !obligation.method.empty())
+      text_ += fmt::format("            by {}, effort {}\n", obligation.method, obligation.effort);
+  }
+
+  const ProveReport &report_;
+  const ProvedFile &file_;
+  const ProvedProgram &program_;
+  std::string text_;
+};
+
+} // namespace
+
+std::string writeProveText(const ProveReport &report) {
+  std::string text;
+  for (const ProvedFile &file : report.result.files)
+    for (const ProvedProgram &program : file.programs)
+      text += ProgramText(report, file, program).write();
+  return text;
+}
+
+std::string proveSummary(const ProveReport &report) {
+  VerdictCounts counts;
+  std::size_t programs = 0;
+  for (const ProvedFile &file : report.result.files)
+    for (const ProvedProgram &program : file.programs) {
+      counts.add(program.proof);
+      ++programs;
+    }
+  return fmt::format("{} in {} program{}\n", textOf(counts), programs, programs == 1 ? "" : "s");
+}
+
+} // namespace feedhold
