@@ -217,7 +217,8 @@ private:
   std::optional<std::uint32_t> clauseToSplit() {
     std::optional<std::uint32_t> best;
     std::size_t fewest = 0;
-    for (std::uint32_t index : activeClauses_) {
+    const std::vector<std::uint32_t> clauses = activeClauses_; // which grow and shrink while alternatives are tried
+    for (std::uint32_t index : clauses) {
       const Clause &clause = *clausePool_[index];
       if (openSplits_.contains(index) || isSatisfiedByRows(clause))
         continue;
