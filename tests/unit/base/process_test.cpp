@@ -1,0 +1,65 @@
+#include "base/support/process.h"
+
+#include <gtest/gtest.h>
+
+namespace feedhold {
+namespace {
+
+TEST(Process, ReadsAndWrites) {
+  const std::string text(200'000, 'x');
+  Result<ProcessOutput> output = runProgram({"cat"}, text, {});
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().end, ProcessOutput::End::Exited);
+  EXPECT_EQ(output.value().exitCode, 0);
+  EXPECT_EQ(output.value().output, text);
+}
+
+TEST(Process, EndsBeforeItsInput) {
+  Result<ProcessOutput> output = runProgram({"false"}, std::string(200'000, 'x'), {});
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().exitCode, 1);
+}
+
+TEST(Process, SaysThatAProgramIsMissing) {
+  Result<ProcessOutput> output = runProgram({"feedhold-no-such-program"}, "", {});
+  ASSERT_FALSE(output.ok());
+  EXPECT_EQ(output.error().message, "the program `feedhold-no-such-program` is not installed");
+}
+
+TEST(Process, WatchdogStopsWhatWaits) {
+  Result<ProcessOutput> output = runProgram({"sleep", "100"}, "", {.processorSeconds = 5, .watchdogSeconds = 1});
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().end, ProcessOutput::End::Killed);
+}
+
+TEST(Process, ChildGivesItsText) {
+  std::shared_mutex gate;
+  Result<ProcessOutput> output = runInChild([] { return std::string("done"); }, {}, gate);
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().output, "done");
+  EXPECT_TRUE(gate.try_lock());
+  gate.unlock();
+}
+
+TEST(Process, ChildThatReckonsForEverIsStopped) {
+  std::shared_mutex gate;
+  Result<ProcessOutput> output = runInChild(
+      [] {
+        for (volatile unsigned count = 0;; count = count + 1) {
+        }
+        return std::string();
+      },
+      {.processorSeconds = 1, .watchdogSeconds = 20}, gate);
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().end, ProcessOutput::End::Killed);
+}
+
+TEST(Process, ChildThatThrowsIsNoSecondProcess) {
+  std::shared_mutex gate;
+  Result<ProcessOutput> output = runInChild([]() -> std::string { throw 1; }, {}, gate);
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().exitCode, 1);
+}
+
+} // namespace
+} // namespace feedhold
