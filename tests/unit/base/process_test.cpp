@@ -45,7 +45,8 @@ TEST(Process, ChildThatReckonsForEverIsStopped) {
   std::shared_mutex gate;
   Result<ProcessOutput> output = runInChild(
       [] {
-        for (volatile unsigned count = 0;; count = count + 1) {
+        volatile bool forEver = true;
+        while (forEver) {
         }
         return std::string();
       },
