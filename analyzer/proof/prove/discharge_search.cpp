@@ -435,8 +435,13 @@ SearchResult searchCertificate(const check::Claim &claim, std::uint64_t workLimi
       result.work = spent;
       if (!std::holds_alternative<NotFound>(result.answer))
         return result;
-      // Without products, the strategies do the same.
-      if (result.reasoning == SearchResult::Reasoning::Linear && spent < slice)
+      // Without products, all strategies do the same: one of them may have what is left.
+      if (result.reasoning == SearchResult::Reasoning::Linear && spent >= slice && slice < workLimit / 4) {
+        result = Search(claim, strategy, workLimit - spent).run();
+        result.work += spent;
+        return result;
+      }
+      if (result.reasoning == SearchResult::Reasoning::Linear)
         return result;
     }
   }

@@ -14,6 +14,8 @@ namespace {
 /// Against a Z3 that ignores its budget; far above what any budget takes, so that it decides nothing else.
 constexpr ProcessLimits kLimits{.processorSeconds = 6, .watchdogSeconds = 60};
 
+constexpr int kMegabytes = 800;
+
 /// A copy of the process must not be made while another thread holds a lock within Z3: queries in this process share
 /// the gate, the making of a copy has it alone.
 std::shared_mutex &gate() {
@@ -117,7 +119,11 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
     std::shared_lock shared(gate());
     return readAnswer(solve(smtlib, arithmetic, resources));
   }
-  Result<ProcessOutput> output = runInChild([&] { return solve(smtlib, arithmetic, resources); }, kLimits, gate());
+  auto inTheChild = [&] {
+    z3::set_param("memory_max_size", kMegabytes);
+    return solve(smtlib, arithmetic, resources);
+  };
+  Result<ProcessOutput> output = runInChild(inTheChild, kLimits, gate());
   if (!output)
     return {noAnswer(output.error().message)};
   if (output.value().end == ProcessOutput::End::Killed)
