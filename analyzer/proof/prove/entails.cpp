@@ -59,12 +59,18 @@ Query relevantQuery(const smt::TermStore &store, std::span<const TermId> facts, 
   return {relevant.take(), goal};
 }
 
-bool entails(smt::TermStore &store, std::span<const TermId> facts, std::span<const TermId> conditions, TermId goal,
-             const Budget &budget) {
-  if (goal == store.yes() || std::find(conditions.begin(), conditions.end(), goal) != conditions.end())
+bool Entailment::operator()(std::span<const TermId> facts, std::span<const TermId> conditions, TermId goal) {
+  if (goal == store_.yes() || std::find(conditions.begin(), conditions.end(), goal) != conditions.end())
     return true;
-  const Query query = relevantQuery(store, facts, conditions, goal);
-  return discharge(store, query, budget).proved();
+  const Query query = relevantQuery(store_, facts, conditions, goal);
+  std::vector<TermId> key = query.assumptions;
+  key.push_back(goal);
+  const auto known = known_.find(key);
+  if (known != known_.end())
+    return known->second;
+  const bool holds = discharge(store_, query, Budget::quick()).proved();
+  known_.emplace(std::move(key), holds);
+  return holds;
 }
 
 } // namespace feedhold::prove

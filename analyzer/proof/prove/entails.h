@@ -3,7 +3,9 @@
 
 #include "proof/prove/discharge.h"
 
+#include <map>
 #include <span>
+#include <vector>
 
 namespace feedhold::prove {
 
@@ -12,7 +14,15 @@ namespace feedhold::prove {
 Query relevantQuery(const smt::TermStore &store, std::span<const smt::TermId> facts,
                     std::span<const smt::TermId> conditions, smt::TermId goal);
 
-bool entails(smt::TermStore &store, std::span<const smt::TermId> facts, std::span<const smt::TermId> conditions,
-             smt::TermId goal, const Budget &budget);
+/// Quick answers for whoever follows paths, each given once.
+class Entailment {
+public:
+  explicit Entailment(smt::TermStore &store) : store_(store) {}
+  bool operator()(std::span<const smt::TermId> facts, std::span<const smt::TermId> conditions, smt::TermId goal);
+
+private:
+  smt::TermStore &store_;
+  std::map<std::vector<smt::TermId>, bool> known_; // by assumptions, the goal last
+};
 
 } // namespace feedhold::prove

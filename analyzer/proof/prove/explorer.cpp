@@ -34,7 +34,7 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 // ---- Explorer ------------------------------------------------------------------------------------------------------
 
 Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options)
-    : reading_(reading), store_(reading.store()), programs_(programs), options_(options) {
+    : reading_(reading), store_(reading.store()), programs_(programs), options_(options), entails_(store_) {
   reading_.usePath(this);
 }
 
@@ -64,14 +64,14 @@ void Explorer::giveUp(std::string_view reason) {
 bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
 
 bool Explorer::proves(TermId condition) {
-  return path_ && entails(store_, reading_.facts(), path_->conditions, condition, Budget::quick());
+  return path_ && entails_(reading_.facts(), path_->conditions, condition);
 }
 
 bool Explorer::isPossible(const Path &path, TermId condition) {
   const TermId opposite = store_.logicalNot(condition);
   if (condition == store_.no() || path.says(store_, opposite))
     return false;
-  return !entails(store_, reading_.facts(), path.conditions, opposite, Budget::quick());
+  return !entails_(reading_.facts(), path.conditions, opposite);
 }
 
 StepContext<SymbolicReading> Explorer::contextOf(Path &path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/cfg/wto.h"
+#include "proof/prove/entails.h"
 #include "proof/prove/exploration.h"
 #include "proof/prove/loops.h"
 
@@ -74,6 +75,7 @@ private:
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const ExploreOptions &options_;
+  Entailment entails_;
   const Path *path_ = nullptr; // on which the present step is made
   Purpose purpose_ = Purpose::Record;
   Exploration result_;

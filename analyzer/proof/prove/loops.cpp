@@ -86,7 +86,7 @@ void LoopOpener::addTravels(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId zero = store.number(Number(0));
   const auto known = [&](TermId condition) {
-    return entails(store, explorer_.reading_.facts(), work.arrival.conditions, condition, Budget::quick());
+    return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, condition);
   };
   for (const Travel &travel : work.shape.travels) {
     work.facts.push_back(store.equal(travel.distance, store.multiply(work.passes, travel.step)));
@@ -385,8 +385,7 @@ bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       first.emplace(part.symbol, part.arrival);
-  return entails(store, explorer_.reading_.facts(), work.arrival.conditions, smt::substitute(store, candidate, first),
-                 Budget::quick());
+  return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, smt::substitute(store, candidate, first));
 }
 
 bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
@@ -396,8 +395,7 @@ bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate
   for (std::size_t i = 0; i < work.parts().size(); ++i)
     if (work.parts()[i].kind == PartKind::Free)
       next.emplace(work.parts()[i].symbol, left[i]);
-  return entails(store, explorer_.reading_.facts(), pass.conditions, smt::substitute(store, candidate, next),
-                 Budget::quick());
+  return explorer_.entails_(explorer_.reading_.facts(), pass.conditions, smt::substitute(store, candidate, next));
 }
 
 /// Houdini: candidates that do not hold are dropped until all that are left hold together.

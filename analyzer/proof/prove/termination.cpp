@@ -201,6 +201,7 @@ Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, con
 
 std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
                                          const LoopInstance &loop) {
+  Entailment entails(store);
   for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
     const Transition &pass = loop.transitions[i];
     const bool holdsAgain = std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](TermId condition) {
@@ -208,8 +209,8 @@ std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::Te
       const bool isOfTheLoop = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
         return variable.index() < loop.mark || reading.isFromEntry(variable) || pass.next.contains(variable);
       });
-      return isOfTheLoop && entails(store, reading.facts(), pass.conditions,
-                                    smt::substitute(store, condition, pass.next), Budget::quick());
+      return isOfTheLoop && entails(reading.facts(), pass.conditions,
+                                    smt::substitute(store, condition, pass.next));
     });
     if (holdsAgain)
       return i;
