@@ -78,6 +78,8 @@ RC_GTEST_PROP(ProofLaws, ProvedHasNoCounterexampleOnAGrid, ()) {
   const smt::Model *model = outcome.counterexample();
   if (model != nullptr && isDefined(store, whole, *model))
     RC_ASSERT(smt::evaluate(store, whole, *model) != smt::Value(false));
+  if (const auto *unknown = std::get_if<prove::Unknown>(&outcome.answer))
+    RC_ASSERT(unknown->reason.find("does not hold") == std::string::npos);
   RC_CLASSIFY(outcome.proved(), "proved");
   RC_CLASSIFY(model != nullptr, "refuted");
   if (!outcome.proved())

@@ -14,16 +14,21 @@ namespace {
 
 using smt::TermId;
 
-Proved certified(const check::Claim &claim, const check::Certificate &certificate) {
-  const std::optional<Error> wrong = check::verify(claim, certificate);
-  FEEDHOLD_CHECK(!wrong, "the search gave a certificate that does not hold");
-  return {Grade::Certified, CertificateEvidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)}};
+/// Absent when the certificate does not hold: the search is not to be believed.
+std::optional<Proved> certified(const check::Claim &claim, const check::Certificate &certificate) {
+  if (check::verify(claim, certificate))
+    return std::nullopt;
+  return Proved{Grade::Certified,
+                CertificateEvidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)}};
 }
 
 /// Of formulas that are plainly false.
-Proved byFolding() {
+Outcome byFolding() {
   const check::Claim claim{{}, {{{check::constant(-1), check::Relation::NonNegative}}, {}}};
-  return certified(claim, {check::Combination{{{check::Number(1), {0}, {}}}, {}}, {}});
+  const check::Certificate certificate{check::Combination{{{check::Number(1), {0}, {}}}, {}}, {}};
+  std::optional<Proved> proved = certified(claim, certificate);
+  FEEDHOLD_CHECK(proved.has_value(), "-1 >= 0 is no contradiction");
+  return {std::move(*proved), "folding", 0};
 }
 
 /// All that must not hold together.
@@ -56,10 +61,10 @@ public:
 
   Outcome run() {
     if (formulas_.size() == 1 && formulas_[0] == store_.no())
-      return {byFolding(), "folding", 0};
+      return byFolding();
     eliminated_ = eliminate(store_, formulas_);
     if (eliminated_.formulas == std::vector{store_.no()})
-      return {byFolding(), "folding", 0};
+      return byFolding();
     smt::Purified purified = smt::purify(store_, eliminated_.formulas);
     pure_ = std::move(purified.formulas);
     pure_.insert(pure_.end(), purified.facts.begin(), purified.facts.end());
@@ -82,7 +87,10 @@ private:
     return match(
         search.answer,
         [&](const Found &found) -> std::optional<Outcome> {
-          return Outcome{certified(claim.value(), found.certificate), method, effort_};
+          if (std::optional<Proved> proved = certified(claim.value(), found.certificate))
+            return Outcome{std::move(*proved), method, effort_};
+          reason_ = "the certificate that was found does not hold";
+          return std::nullopt;
         },
         [&](const Satisfied &point) -> std::optional<Outcome> {
           return Outcome{Counterexample{completed(modelOf(store_, claim.value(), point.values))}, method, effort_};
