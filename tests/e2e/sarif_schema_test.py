@@ -40,6 +40,14 @@ class SarifSchema(Scratch):
         self.assertTrue(any("codeFlows" in result for result in report["runs"][0]["results"]))
         self.assertValid(report)
 
+    def test_report_of_proofs(self):
+        self.write("O9100.nc", "O9100\n#1=#21/#22\nWHILE[#1000EQ0]DO1\nEND1\nM99\n")
+        self.write("picture.nc", bytes(range(256)) * 64)
+        report = json.loads(self.feedhold("prove", "--dialect", "fanuc-30i", "--format", "sarif", "O9100.nc",
+                                          "picture.nc").stdout)
+        self.assertGreaterEqual(len(report["runs"][0]["results"]), 2)
+        self.assertValid(report)
+
     def test_validator_refuses_what_is_wrong(self):
         self.write("bad.nc", BAD)
         report = self.sarif("bad.nc")

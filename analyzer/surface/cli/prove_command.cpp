@@ -130,7 +130,9 @@ int runProve(const ProveArguments &arguments) {
                            .colour = useColour(colourWishFrom(arguments.color))};
   for (const PathProblem &problem : result.errors)
     printError(problem.path + ": " + problem.message);
-  print(writeProveText(report));
+  print(arguments.format == "json"    ? writeProveJson(report)
+        : arguments.format == "sarif" ? writeProveSarif(report)
+                                      : writeProveText(report));
   if (!arguments.quiet && arguments.format == "text")
     print(proveSummary(report));
   return report.exitCode;

@@ -103,6 +103,23 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
   return result;
 }
 
+std::string textOf(const TypedWitness &witness) {
+  std::string text = witness.call.value_or("a run of this program");
+  for (std::size_t i = 0; i < witness.others.size(); ++i)
+    text += fmt::format("{}{}={}", i == 0 ? " with " : ", ", witness.others[i].first, witness.others[i].second);
+  return text;
+}
+
+std::string claimOf(const Obligation &obligation, const Dialect &dialect) {
+  return obligation.alarm ? "the control never stops here with " + controlAlarm(dialect, *obligation.alarm)
+                          : obligation.claim;
+}
+
+std::string happenedIn(const prove::Witness &witness, const Obligation &obligation, const Dialect &dialect) {
+  return obligation.alarm && witness.end == RunEnd::Alarm ? "stops with " + controlAlarm(dialect, *obligation.alarm)
+                                                          : witness.happened;
+}
+
 std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
   const bool isRefuted = obligation.verdict == Verdict::Refuted;
   const std::string_view open = isRefuted ? "" : "it is not known whether ";

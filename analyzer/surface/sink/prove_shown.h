@@ -34,7 +34,14 @@ struct TypedWitness {
 TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
                    const ProveReport &report);
 
-/// What was seen, in one sentence: `this alarm can be raised`.
+/// `G65 P9100 D6. with #500=3`
+std::string textOf(const TypedWitness &witness);
+
+/// What is claimed: `this loop ends`
+std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);
+/// What the run of the witness came to: `stops with PS0112 (divided by zero)`
+std::string happenedIn(const prove::Witness &witness, const prove::Obligation &obligation, const Dialect &dialect);
+/// Of what is not proved: what was seen, in one sentence: `this alarm can be raised`.
 std::string messageOf(const prove::Obligation &obligation, const Dialect &dialect);
 
 } // namespace feedhold

@@ -25,9 +25,8 @@ public:
       text_ += fmt::format("  not all ways were followed: {}\n", *program_.proof.incomplete);
     text_ += '\n';
     forEach(Verdict::Refuted, [&](const Obligation &obligation) { picture(obligation, witnessNotes(obligation)); });
-    forEach(Verdict::Unknown, [&](const Obligation &obligation) {
-      picture(obligation, {fmt::format("{}", obligation.reason)});
-    });
+    forEach(Verdict::Unknown,
+            [&](const Obligation &obligation) { picture(obligation, {fmt::format("{}", obligation.reason)}); });
     const std::size_t before = text_.size();
     forEach(Verdict::Proved, [&](const Obligation &obligation) { line(obligation); });
     forEach(Verdict::Unreachable, [&](const Obligation &obligation) { line(obligation); });
@@ -44,9 +43,8 @@ private:
   }
 
   void picture(const Obligation &obligation, std::vector<std::string> notes) {
-    const Diagnostic diagnostic{.message = messageOf(obligation, file_.loaded->dialect),
-                                .span = obligation.span,
-                                .notes = std::move(notes)};
+    const Diagnostic diagnostic{
+        .message = messageOf(obligation, file_.loaded->dialect), .span = obligation.span, .notes = std::move(notes)};
     const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.loaded->file(id).source; };
     text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
                     file_.loaded->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
@@ -57,19 +55,15 @@ private:
     if (!obligation.witness)
       return {obligation.reason};
     const TypedWitness witness = typed(*obligation.witness, file_, program_, report_);
-    std::string call = witness.call.value_or("a run of this program");
-    for (const auto &[name, value] : witness.others)
-      call += fmt::format("{}{}={}", name == witness.others.front().first ? " with " : ", ", name, value);
-    if (obligation.witness->variables.entries().empty())
-      call += " with nothing set";
-    return {fmt::format("`{}`: {}", call, obligation.witness->happened), "see it: " + witness.replay};
+    return {fmt::format("{}: {}", textOf(witness), happenedIn(*obligation.witness, obligation, file_.loaded->dialect)),
+            "see it: " + witness.replay};
   }
 
   void line(const Obligation &obligation) {
     const std::uint32_t at = file_.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
     const std::string_view grade = obligation.grade ? nameOf(*obligation.grade) : "";
     text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
-                         obligation.claim, obligation.id);
+                         claimOf(obligation, file_.loaded->dialect), obligation.id);
     if (!obligation.reason.empty())
       text_ += fmt::format("            {}\n", obligation.reason);
     if (report_.showMethods == ShowMethods::Yes && !obligation.method.empty())

@@ -1,8 +1,6 @@
 // SARIF 2.1.0 (OASIS), as code scanning services and editors read it.
+#include "surface/sink/sarif_parts.h"
 #include "surface/sink/shown.h"
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <map>
 
@@ -10,42 +8,10 @@ namespace feedhold {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
-constexpr std::string_view kSchema =
-    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
-constexpr std::string_view kRoot = "%SRCROOT%";
-
-/// RFC 3986: everything but unreserved characters and the separators of a path is escaped.
-std::string uriPath(std::string_view path) {
-  constexpr std::string_view kPlain = "-._~/";
-  std::string uri;
-  for (const char c : path) {
-    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                         kPlain.find(c) != std::string_view::npos;
-    uri += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri;
-}
-
-/// A path below the root is relative to it, any other is absolute.
-Json artifactLocation(const std::string &path, const fs::path &root) {
-  const fs::path absolute = fs::path(path).is_absolute() ? fs::path(path) : root / path;
-  const std::string relative = absolute.lexically_normal().lexically_relative(root).generic_string();
-  if (relative.empty() || relative.starts_with(".."))
-    return {{"uri", "file://" + uriPath(absolute.lexically_normal().generic_string())}};
-  return {{"uri", uriPath(relative)}, {"uriBaseId", kRoot}};
-}
-
-Json regionToJson(const SourceFile &source, Span span) {
-  const Position begin = source.positionUtf16(span.begin);
-  const Position end = source.positionUtf16(span.end);
-  return {{"startLine", begin.line}, {"startColumn", begin.column}, {"endLine", end.line}, {"endColumn", end.column}};
-}
+using sarif::Json;
 
 Json physicalLocation(const CheckedFile &file, Span span, const Report &report) {
-  return {{"artifactLocation", artifactLocation(file.path, report.root)}, {"region", regionToJson(file.source, span)}};
+  return sarif::physicalLocation(file.path, file.source, span, report.root);
 }
 
 std::string_view levelOf(Severity severity) {
@@ -81,9 +47,9 @@ Json ruleToJson(const RegisteredRule &entry) {
 Json fixToJson(const FixIt &fix, const CheckedFile &file, const Report &report) {
   Json replacements = Json::array();
   for (const Edit &edit : fix.edits)
-    replacements.push_back(
-        {{"deletedRegion", regionToJson(file.source, edit.span)}, {"insertedContent", {{"text", edit.replacement}}}});
-  Json change = {{"artifactLocation", artifactLocation(file.path, report.root)},
+    replacements.push_back({{"deletedRegion", sarif::regionOf(file.source, edit.span)},
+                            {"insertedContent", {{"text", edit.replacement}}}});
+  Json change = {{"artifactLocation", sarif::artifactLocation(file.path, report.root)},
                  {"replacements", std::move(replacements)}};
   return {{"description", {{"text", fix.title}}},
           {"artifactChanges", Json::array({std::move(change)})},
@@ -139,24 +105,6 @@ Json resultToJson(const Finding &finding, const CheckedFile &file, const Report 
   return row;
 }
 
-Json notification(std::string_view level, const std::string &path, const std::string &message, const Report &report) {
-  return {{"level", level},
-          {"message", {{"text", message}}},
-          {"locations",
-           Json::array({Json{{"physicalLocation", {{"artifactLocation", artifactLocation(path, report.root)}}}}})}};
-}
-
-Json invocation(const Report &report) {
-  Json notifications = Json::array();
-  for (const PathProblem &problem : report.result.errors)
-    notifications.push_back(notification("error", problem.path, problem.message, report));
-  for (const SkippedFile &skipped : report.result.skipped)
-    notifications.push_back(notification("note", skipped.path, "skipped: " + skipped.reason, report));
-  return {{"executionSuccessful", report.result.errors.empty()},
-          {"exitCode", report.exitCode},
-          {"toolExecutionNotifications", std::move(notifications)}};
-}
-
 Json driver(const Report &report) {
   Json row = {{"name", "Feedhold"}, {"semanticVersion", report.version}, {"rules", Json::array()}};
   for (const RegisteredRule &entry : report.rules.rules)
@@ -170,15 +118,12 @@ std::string writeSarif(const Report &report) {
   RuleIndex ruleIndex;
   for (const RegisteredRule &entry : report.rules.rules)
     ruleIndex.emplace(entry.rule->info.name, ruleIndex.size());
-  Json run = {{"tool", {{"driver", driver(report)}}}, {"columnKind", "utf16CodeUnits"}};
-  run["originalUriBaseIds"] = {{kRoot, {{"uri", "file://" + uriPath((report.root / "").generic_string())}}}};
-  run["invocations"] = Json::array({invocation(report)});
-  run["results"] = Json::array();
+  Json results = Json::array();
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
-    run["results"].push_back(resultToJson(finding, file, report, ruleIndex));
+    results.push_back(resultToJson(finding, file, report, ruleIndex));
   });
-  const Json document = {{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}};
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return sarif::document(driver(report), std::move(results),
+                         {report.result.errors, report.result.skipped, report.exitCode}, report.root);
 }
 
 } // namespace feedhold

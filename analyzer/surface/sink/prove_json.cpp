@@ -1,0 +1,94 @@
+// Verdicts for programs; their shape is docs/schemas/prove.schema.json.
+#include "surface/sink/prove_shown.h"
+
+#include <nlohmann/json.hpp>
+
+namespace feedhold {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using prove::Obligation;
+
+Json orNull(const std::string &text) { return text.empty() ? Json() : Json(text); }
+
+class FileJson {
+public:
+  FileJson(const ProveReport &report, const ProvedFile &file) : report_(report), file_(file) {}
+
+  Json write() {
+    Json programs = Json::array();
+    Json obligations = Json::array();
+    for (const ProvedProgram &program : file_.programs) {
+      programs.push_back(programToJson(program));
+      for (const Obligation &obligation : program.proof.obligations)
+        obligations.push_back(obligationToJson(obligation, program));
+    }
+    return {{"path", file_.file().shown},
+            {"dialect", file_.loaded->dialect.id},
+            {"programs", std::move(programs)},
+            {"obligations", std::move(obligations)}};
+  }
+
+private:
+  std::string nameOf(const ProvedProgram &program) const {
+    return toString(file_.file().model.programs[program.program].name);
+  }
+  Json programToJson(const ProvedProgram &program) const {
+    Json unfollowed = Json::array();
+    for (const prove::Unfollowed &each : program.proof.unfollowed) {
+      const LoadedFile &file = file_.loaded->file(each.place.file);
+      const Position at = file.source.position(each.span.begin);
+      unfollowed.push_back({{"reason", each.reason}, {"path", file.shown}, {"line", at.line}, {"column", at.column}});
+    }
+    return {{"name", nameOf(program)},
+            {"incomplete", program.proof.incomplete ? Json(*program.proof.incomplete) : Json()},
+            {"unfollowed", std::move(unfollowed)}};
+  }
+  Json obligationToJson(const Obligation &obligation, const ProvedProgram &program) const {
+    const Position at = file_.loaded->file(obligation.place.file).source.position(obligation.span.begin);
+    return {{"id", obligation.id},
+            {"program", nameOf(program)},
+            {"kind", prove::nameOf(obligation.kind)},
+            {"line", at.line},
+            {"column", at.column},
+            {"claim", claimOf(obligation, file_.loaded->dialect)},
+            {"verdict", prove::nameOf(obligation.verdict)},
+            {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
+            {"method", orNull(obligation.method)},
+            {"reason", orNull(obligation.reason)},
+            {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
+            {"rlimit", obligation.effort}};
+  }
+  Json witnessToJson(const Obligation &obligation, const ProvedProgram &program) const {
+    const prove::Witness &witness = *obligation.witness;
+    const TypedWitness call = typed(witness, file_, program, report_);
+    Json variables = Json::object();
+    for (const auto &[name, value] : call.variables)
+      variables[name] = value;
+    return {{"call", call.call ? Json(*call.call) : Json()},
+            {"variables", std::move(variables)},
+            {"run", call.replay},
+            {"end", feedhold::nameOf(witness.end)},
+            {"happened", happenedIn(witness, obligation, file_.loaded->dialect)}};
+  }
+
+  const ProveReport &report_;
+  const ProvedFile &file_;
+};
+
+} // namespace
+
+std::string writeProveJson(const ProveReport &report) {
+  Json document = {{"version", 1}, {"files", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  for (const ProvedFile &file : report.result.files)
+    document["files"].push_back(FileJson(report, file).write());
+  for (const SkippedFile &skipped : report.result.skipped)
+    document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}});
+  for (const PathProblem &problem : report.result.errors)
+    document["errors"].push_back({{"path", problem.path}, {"message", problem.message}});
+  // A path may hold bytes that are no UTF-8; they become U+FFFD.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace feedhold

@@ -1,0 +1,92 @@
+// Verdicts as SARIF 2.1.0: what is refuted is an error, what is unknown a warning; each kind of obligation is a rule.
+// What is proved is left out: services show every result as something to do.
+#include "surface/sink/prove_shown.h"
+#include "surface/sink/sarif_parts.h"
+
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+using prove::Obligation;
+using prove::ObligationKind;
+using prove::Verdict;
+using sarif::Json;
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+std::string_view summaryOf(ObligationKind kind) {
+  switch (kind) {
+  case ObligationKind::LoopEnds: return "every loop ends";
+  case ObligationKind::ProgramEnds: return "every run of a program comes to an end";
+  case ObligationKind::AlarmUnreachable: return "no call raises the alarm of a `#3000`";
+  case ObligationKind::NoControlAlarm: return "the control itself has no reason to stop";
+  case ObligationKind::AlarmIff: return "an alarm is raised for the calls for which it is promised";
+  case ObligationKind::Ensures: return "what is promised holds at the return";
+  case ObligationKind::Assigns: return "no other common variable is written";
+  case ObligationKind::ModalPreserved: return "the modal state at the return is that of the entry";
+  case ObligationKind::Guarded: return "calls outside of the contract raise an alarm before an axis moves";
+  case ObligationKind::CallMeetsContract: return "a call keeps the contract of the program that it calls";
+  case ObligationKind::ContractSatisfiable: return "some call satisfies the contract";
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind");
+}
+
+bool isOpen(const Obligation &obligation) {
+  return obligation.verdict == Verdict::Refuted || obligation.verdict == Verdict::Unknown;
+}
+
+std::string textFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
+                    const ProveReport &report) {
+  std::string text = messageOf(obligation, file.loaded->dialect);
+  if (!obligation.reason.empty())
+    text += "\n" + obligation.reason;
+  if (obligation.witness) {
+    const TypedWitness witness = typed(*obligation.witness, file, program, report);
+    text += "\n" + textOf(witness) + ": " + happenedIn(*obligation.witness, obligation, file.loaded->dialect) +
+            "\nsee it: " + witness.replay;
+  }
+  return text;
+}
+
+Json resultFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
+               const ProveReport &report) {
+  const LoadedFile &there = file.loaded->file(obligation.place.file);
+  Json location = {
+      {"physicalLocation", sarif::physicalLocation(there.shown, there.source, obligation.span, report.root)},
+      {"logicalLocations", Json::array({Json{{"fullyQualifiedName", obligation.id}}})}};
+  return {{"ruleId", nameOf(obligation.kind)},
+          {"ruleIndex", static_cast<std::size_t>(obligation.kind)},
+          {"kind", "fail"},
+          {"level", obligation.verdict == Verdict::Refuted ? "error" : "warning"},
+          {"message", {{"text", textFor(obligation, file, program, report)}}},
+          {"locations", Json::array({std::move(location)})},
+          {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},
+          {"properties", Json{{"verdict", nameOf(obligation.verdict)}}}};
+}
+
+Json driver(const ProveReport &report) {
+  Json row = {{"name", "Feedhold"}, {"semanticVersion", report.version}, {"rules", Json::array()}};
+  for (const ObligationKind kind : kKinds)
+    row["rules"].push_back({{"id", nameOf(kind)}, {"shortDescription", {{"text", summaryOf(kind)}}}});
+  return row;
+}
+
+} // namespace
+
+std::string writeProveSarif(const ProveReport &report) {
+  Json results = Json::array();
+  for (const ProvedFile &file : report.result.files)
+    for (const ProvedProgram &program : file.programs)
+      for (const Obligation &obligation : program.proof.obligations)
+        if (isOpen(obligation))
+          results.push_back(resultFor(obligation, file, program, report));
+  return sarif::document(driver(report), std::move(results),
+                         {report.result.errors, report.result.skipped, report.exitCode}, report.root);
+}
+
+} // namespace feedhold

@@ -1,0 +1,74 @@
+#include "surface/sink/sarif_parts.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::sarif {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSchema =
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
+constexpr std::string_view kRoot = "%SRCROOT%";
+
+/// RFC 3986: everything but unreserved characters and the separators of a path is escaped.
+std::string uriPath(std::string_view path) {
+  constexpr std::string_view kPlain = "-._~/";
+  std::string uri;
+  for (const char c : path) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                         kPlain.find(c) != std::string_view::npos;
+    uri += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri;
+}
+
+Json notification(std::string_view level, const std::string &path, const std::string &message, const fs::path &root) {
+  return {
+      {"level", level},
+      {"message", {{"text", message}}},
+      {"locations", Json::array({Json{{"physicalLocation", {{"artifactLocation", artifactLocation(path, root)}}}}})}};
+}
+
+Json toJson(const Invocation &invocation, const fs::path &root) {
+  Json notifications = Json::array();
+  for (const PathProblem &problem : invocation.errors)
+    notifications.push_back(notification("error", problem.path, problem.message, root));
+  for (const SkippedFile &skipped : invocation.skipped)
+    notifications.push_back(notification("note", skipped.path, "skipped: " + skipped.reason, root));
+  return {{"executionSuccessful", invocation.errors.empty()},
+          {"exitCode", invocation.exitCode},
+          {"toolExecutionNotifications", std::move(notifications)}};
+}
+
+} // namespace
+
+Json artifactLocation(const std::string &path, const fs::path &root) {
+  const fs::path absolute = fs::path(path).is_absolute() ? fs::path(path) : root / path;
+  const std::string relative = absolute.lexically_normal().lexically_relative(root).generic_string();
+  if (relative.empty() || relative.starts_with(".."))
+    return {{"uri", "file://" + uriPath(absolute.lexically_normal().generic_string())}};
+  return {{"uri", uriPath(relative)}, {"uriBaseId", kRoot}};
+}
+
+Json regionOf(const SourceFile &source, Span span) {
+  const Position begin = source.positionUtf16(span.begin);
+  const Position end = source.positionUtf16(span.end);
+  return {{"startLine", begin.line}, {"startColumn", begin.column}, {"endLine", end.line}, {"endColumn", end.column}};
+}
+
+Json physicalLocation(const std::string &path, const SourceFile &source, Span span, const fs::path &root) {
+  return {{"artifactLocation", artifactLocation(path, root)}, {"region", regionOf(source, span)}};
+}
+
+std::string document(Json driver, Json results, const Invocation &invocation, const fs::path &root) {
+  Json run = {{"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}};
+  run["originalUriBaseIds"] = {{kRoot, {{"uri", "file://" + uriPath((root / "").generic_string())}}}};
+  run["invocations"] = Json::array({toJson(invocation, root)});
+  run["results"] = std::move(results);
+  const Json whole = {{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}};
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace feedhold::sarif

@@ -1,0 +1,189 @@
+"""`feedhold prove`: exit codes, the text, JSON against its schema, witnesses that the machine replays."""
+import json
+import shlex
+import unittest
+
+import jsonschema
+
+from harness import ROOT, Scratch
+
+SCHEMA = json.loads((ROOT / "docs" / "schemas" / "prove.schema.json").read_text())
+
+COUNTS = """O1
+#1=3
+N20 WHILE[#1GT0]DO1
+#1=#1-1
+END1
+M30
+"""
+DIVIDES = """O9100(PECK)
+N10 #10=#21/#22
+M99
+"""
+UNKNOWN = """O3
+N10 WHILE[#1000EQ0]DO1
+END1
+M30
+"""
+ENDLESS = """O4
+N10 #2=1
+IF[#500GT3]GOTO10
+M30
+"""
+
+
+class Prove(Scratch):
+    def prove(self, *arguments):
+        return self.feedhold("prove", "--dialect", "fanuc-30i", "--isolated", *arguments)
+
+    def report(self, *arguments):
+        result = self.prove("--format", "json", *arguments)
+        report = json.loads(result.stdout)
+        jsonschema.Draft7Validator.check_schema(SCHEMA)
+        jsonschema.validate(report, SCHEMA)
+        return report
+
+    def obligations(self, *arguments):
+        return [row for file in self.report(*arguments)["files"] for row in file["obligations"]]
+
+    def one(self, identity, *arguments):
+        [row] = [row for row in self.obligations(*arguments) if row["id"] == identity]
+        return row
+
+    # ---- exit codes ----
+
+    def test_all_proved(self):
+        self.write("O1.nc", COUNTS)
+        self.assertExit(self.prove("O1.nc"), 0)
+
+    def test_something_refuted(self):
+        self.write("O1.nc", COUNTS)
+        self.write("O3.nc", UNKNOWN)
+        self.write("O9100.nc", DIVIDES)
+        self.assertExit(self.prove(), 1)
+
+    def test_something_unknown(self):
+        self.write("O1.nc", COUNTS)
+        self.write("O3.nc", UNKNOWN)
+        self.assertExit(self.prove(), 3)
+
+    def test_could_not_run(self):
+        self.write("O1.nc", COUNTS)
+        for words in (["missing.nc"], ["--only", "nothing", "O1.nc"], ["--dialect", "abacus"], ["--format", "xml"],
+                      ["--config", "missing.toml", "O1.nc"]):
+            with self.subTest(words=words):
+                self.assertExit(self.feedhold("prove", *words), 2)
+        self.write("picture.nc", bytes(range(256)))
+        self.assertExit(self.prove("picture.nc"), 2)
+
+    def test_contract_with_a_mistake_is_not_passed_over(self):
+        self.write("O1.nc", COUNTS.replace("O1\n", "O1\n(@PARM #1 DEPTH 1..2)\n"))
+        result = self.prove("O1.nc")
+        self.assertExit(result, 2)
+        self.assertIn("the contract of O1 has mistakes", result.stderr)
+
+    # ---- which programs ----
+
+    def test_every_program_of_every_file(self):
+        self.write("both.nc", COUNTS + DIVIDES)
+        self.write("below/O4.nc", ENDLESS)
+        files = self.report()["files"]
+        self.assertEqual([file["path"] for file in files], ["below/O4.nc", "both.nc"])
+        self.assertEqual([program["name"] for program in files[1]["programs"]], ["O1", "O9100"])
+
+    def test_only(self):
+        self.write("both.nc", COUNTS + DIVIDES)
+        kinds = {row["kind"] for row in self.obligations("--only", "loop-ends", "--only", "no-control-alarm")}
+        self.assertEqual(kinds, {"loop-ends", "no-control-alarm"})
+
+    def test_threads_change_nothing(self):
+        for name, text in (("O1", COUNTS), ("O3", UNKNOWN), ("O4", ENDLESS), ("O9100", DIVIDES)):
+            self.write(f"{name}.nc", text)
+        self.assertEqual(self.prove("--jobs", "1").stdout, self.prove("--jobs", "4").stdout)
+
+    # ---- verdicts ----
+
+    def test_loop_that_ends(self):
+        self.write("O1.nc", COUNTS)
+        row = self.one("O1.loop-ends.N20", "O1.nc")
+        self.assertEqual((row["verdict"], row["grade"], row["line"], row["column"]), ("proved", "certified", 3, 1))
+
+    def test_loop_that_may_wait_for_ever(self):
+        self.write("O3.nc", UNKNOWN)
+        self.assertEqual(self.one("O3.loop-ends.N10", "O3.nc")["verdict"], "unknown")
+
+    def test_contract_makes_the_proof(self):
+        self.write("O9100.nc", DIVIDES.replace("(PECK)\n", "(PECK)\n(@PARAM #22 STEP 0.5..20. MM)\n"))
+        self.assertEqual(self.one("O9100.no-control-alarm.N10", "O9100.nc")["verdict"], "proved")
+        self.write("O9100.nc", DIVIDES)
+        self.write("O9100.contract", "@PARAM #22 STEP 0.5..20. MM\n")
+        self.assertEqual(self.one("O9100.no-control-alarm.N10", "O9100.nc")["verdict"], "proved")
+
+    def test_witness_is_a_call_that_can_be_typed(self):
+        self.write("O9100.nc", DIVIDES.replace("N10", "IF[#21LT12]GOTO99\nN10").replace("M99", "N99M99"))
+        witness = self.one("O9100.no-control-alarm.N10", "O9100.nc")["witness"]
+        self.assertRegex(witness["call"], r"^G65 P9100 U[0-9]+\.[0-9]*")
+        self.assertEqual(witness["happened"], "stops with PS0112 (divided by zero)")
+        self.assertReplays(witness)
+
+    def test_witness_with_a_common_variable(self):
+        self.write("O4.nc", ENDLESS)
+        witness = self.one("O4.loop-ends.N10", "O4.nc")["witness"]
+        self.assertGreater(witness["variables"]["500"], 3)
+        self.assertEqual((witness["call"], witness["end"]), ("G65 P4", "endless"))
+        self.assertReplays(witness)
+
+    def assertReplays(self, witness):
+        words = shlex.split(witness["run"])[1:]
+        run = json.loads(self.feedhold(*words, "--format", "json").stdout)
+        self.assertEqual(run["end"], witness["end"])
+
+    # ---- the text ----
+
+    def test_text(self):
+        self.write("O9100.nc", "O9100(PECK)\nN10 #10=#21/#22\nN20 #11=1/2\nM99\n")
+        text = self.prove("O9100.nc").stdout
+        self.assertIn("O9100.nc: O9100: ", text)
+        self.assertIn("refuted: the control can stop here with PS0112 (divided by zero) [O9100.no-control-alarm.N10]\n"
+                      " --> O9100.nc:2:", text)
+        self.assertIn("G65 P9100: stops with PS0112 (divided by zero)\n", text)
+        self.assertIn("see it: feedhold run O9100.nc --dialect fanuc-30i --isolated\n", text)
+        self.assertLess(text.index("refuted: "), text.index("the program comes to an end"))
+
+    def test_unknown_says_why(self):
+        self.write("O3.nc", UNKNOWN)
+        text = self.prove("O3.nc").stdout
+        self.assertIn("unknown: it is not known whether this loop always ends [O3.loop-ends.N10]", text)
+
+    def test_quiet_and_verbose(self):
+        self.write("O1.nc", COUNTS)
+        self.assertIn("effort", self.prove("-v", "O1.nc").stdout)
+        self.assertNotIn("in 1 program", self.prove("-q", "O1.nc").stdout)
+
+    # ---- other formats ----
+
+    def test_schema_refuses_what_is_no_verdict(self):
+        self.write("O1.nc", COUNTS)
+        report = self.report("O1.nc")
+        for key, value in (("verdict", "maybe"), ("grade", None), ("kind", "style"), ("line", 0)):
+            changed = json.loads(json.dumps(report))
+            changed["files"][0]["obligations"][0][key] = value
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate(changed, SCHEMA)
+
+    def test_sarif(self):
+        self.write("O1.nc", COUNTS)
+        self.write("O3.nc", UNKNOWN)
+        self.write("O9100.nc", DIVIDES)
+        run = json.loads(self.prove("--format", "sarif").stdout)["runs"][0]
+        results = {result["locations"][0]["logicalLocations"][0]["fullyQualifiedName"]: result["level"]
+                   for result in run["results"]}
+        self.assertEqual(results["O9100.no-control-alarm.N10"], "error")
+        self.assertEqual(results["O3.loop-ends.N10"], "warning")
+        self.assertFalse(any(identity.startswith("O1.") for identity in results))
+        rules = run["tool"]["driver"]["rules"]
+        self.assertTrue(all(rules[row["ruleIndex"]]["id"] == row["ruleId"] for row in run["results"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
