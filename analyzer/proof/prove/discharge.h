@@ -21,8 +21,8 @@ struct Query {
 
 /// How much work may be done, in units that do not depend on the machine.
 struct Budget {
-  /// Steps of the certificate search: coefficients touched (about 10 million in a second).
-  std::uint64_t search = 8'000'000;
+  /// Steps of the certificate search: coefficients touched (about a million in a second).
+  std::uint64_t search = 1'000'000;
   /// Resource units of Z3 (about a million in a second); 0: Z3 is not asked.
   std::uint64_t z3 = 2'000'000;
   /// Resource units of cvc5; 0: cvc5 is not asked.

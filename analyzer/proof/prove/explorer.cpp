@@ -10,7 +10,7 @@ namespace feedhold::prove {
 using smt::TermId;
 using smt::TermKind;
 
-// ---- Path ----------------------------------------------------------------------------------------------------------
+// ---- Path ----
 
 bool Path::says(const smt::TermStore &store, TermId condition) const {
   if (condition == store.yes())
@@ -31,7 +31,7 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
   return true;
 }
 
-// ---- Explorer ------------------------------------------------------------------------------------------------------
+// ---- Explorer ----
 
 Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options)
     : reading_(reading), store_(reading.store()), programs_(programs), options_(options), entails_(store_) {
@@ -103,7 +103,7 @@ Path Explorer::to(Path path, NodeId node) const {
   return path;
 }
 
-// ---- the paths -----------------------------------------------------------------------------------------------------
+// ---- the paths ----
 
 void Explorer::follow(std::vector<Path> work, Purpose purpose, Trial *trial) {
   while (!work.empty() && !result_.incomplete) {
@@ -171,8 +171,7 @@ void Explorer::recordPass(const Path &path) {
     giveUp("what a loop leaves unchanged could not be told");
 }
 
-// ---- what a step may have stopped at
-// ---------------------------------------------------------------------------------
+// ---- what a step may have stopped at ----
 
 bool Explorer::takeChecks(Path &path) {
   for (const auto &[reason, span] : reading_.takeNotes())
@@ -207,7 +206,7 @@ void Explorer::exit(const Path &path, ExitKind kind) {
     result_.exits.push_back({kind, path.at, path.conditions, path.state, path.moved});
 }
 
-// ---- instructions --------------------------------------------------------------------------------------------------
+// ---- instructions ----
 
 std::vector<Path> Explorer::execute(Path path) {
   reading_.start();

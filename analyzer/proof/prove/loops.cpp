@@ -47,8 +47,7 @@ struct LoopOpener::Work {
   const std::vector<LoopPart> &parts() const { return shape.parts; }
 };
 
-// ---- trying
-// ----------------------------------------------------------------------------------------------------------
+// ---- trying ----
 
 /// The state before any pass, from the parts.
 void LoopOpener::build(Work &work) {
@@ -157,8 +156,7 @@ bool LoopOpener::relayout(Work &work, bool &grew) {
   return true;
 }
 
-// ---- which parts change, and how
-// -------------------------------------------------------------------------------------
+// ---- which parts change, and how ----
 
 bool LoopOpener::findChanged(Work &work) {
   smt::TermStore &store = explorer_.store_;
@@ -305,8 +303,7 @@ bool LoopOpener::findKinds(Work &work) {
   return false;
 }
 
-// ---- invariants
-// ------------------------------------------------------------------------------------------------------
+// ---- invariants ----
 
 /// Before the first pass, or some pass has come before: what let it come back to the head held then.
 void LoopOpener::addLastPass(Work &work) {
@@ -433,8 +430,7 @@ void LoopOpener::addInvariants(Work &work) {
   work.facts = always;
 }
 
-// ---- LoopOpener
-// ------------------------------------------------------------------------------------------------------
+// ---- LoopOpener ----
 
 bool LoopOpener::open(Path &path) {
   smt::TermStore &store = explorer_.store_;

@@ -38,6 +38,7 @@ const Contract *Prover::contract() const { return contracts_ ? contracts_->of(pr
 ProgramProof Prover::run() {
   explore();
   stops();
+  unmetAlarms();
   loops();
   programEnds();
   if (contract()) {
@@ -93,8 +94,7 @@ std::vector<double> Prover::constants() const {
   return {constants.begin(), constants.end()};
 }
 
-// ---- obligations and their verdicts
-// ----------------------------------------------------------------------------------
+// ---- obligations and their verdicts ----
 
 bool Prover::wanted(ObligationKind kind) const {
   return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), kind) != options_.only.end();
@@ -145,16 +145,21 @@ void Prover::takeProof(Obligation &obligation, Outcome outcome) {
   obligation.evidence.push_back(std::move(outcome));
 }
 
-void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
+/// By one of the sampled runs, or because paths are missing.
+bool Prover::isDecided(Obligation &obligation, const Violation &violation) {
   if (auto witness = witnesses_->amongSamples(violation)) {
     obligation.verdict = Verdict::Refuted;
     obligation.witness = std::move(witness);
-    return;
+    return true;
   }
-  if (found_.incomplete) {
+  if (found_.incomplete)
     obligation.reason = *found_.incomplete;
+  return found_.incomplete.has_value();
+}
+
+void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
+  if (isDecided(obligation, violation))
     return;
-  }
   obligation.verdict = queries.empty() ? Verdict::Unreachable : Verdict::Proved;
   obligation.grade = queries.empty() ? std::optional(Grade::Certified) : std::nullopt;
   for (const Query &query : queries) {
@@ -179,8 +184,7 @@ void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, c
   }
 }
 
-// ---- places where a run may stop
-// ---------------------------------------------------------------------------------------
+// ---- places where a run may stop ----
 
 void Prover::stops() {
   const auto violated = [this](const Check &check) {
@@ -208,20 +212,30 @@ void Prover::stops() {
   }
 }
 
-// ---- ends
-// ------------------------------------------------------------------------------------------------------------
+/// Alarms that no path comes to.
+void Prover::unmetAlarms() {
+  if (!wanted(ObligationKind::AlarmUnreachable))
+    return;
+  for (const VariableUse &use : file().model->variablesOf(program_.program)) {
+    const VariableRange *row = use.write && use.number ? findVariable(*file().dialect, *use.number) : nullptr;
+    if (!row || row->role != VariableRole::Alarm ||
+        std::any_of(found_.checks.begin(), found_.checks.end(), [&](const Check &check) {
+          return !check.alarm && check.place.file == program_.file && programs_.node(check.place).block == use.block;
+        }))
+      continue;
+    const Place place{program_.file, file().cfg.nodeOf(use.block)};
+    settle(add(ObligationKind::AlarmUnreachable, place, file().tree->expressions[use.expression].span,
+               "this alarm is never raised"),
+           {}, [](const RunResult &) { return std::optional<std::string>(); });
+  }
+}
+
+// ---- ends ----
 
 void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                         const Violation &violation) {
-  if (auto witness = witnesses_->amongSamples(violation)) {
-    obligation.verdict = Verdict::Refuted;
-    obligation.witness = std::move(witness);
+  if (isDecided(obligation, violation))
     return;
-  }
-  if (found_.incomplete) {
-    obligation.reason = *found_.incomplete;
-    return;
-  }
   obligation.verdict = instances.empty() ? Verdict::Unreachable : Verdict::Proved;
   for (const LoopInstance *instance : instances) {
     const auto known = std::find_if(ends_.begin(), ends_.end(), [&](const auto &end) { return end.first == instance; });

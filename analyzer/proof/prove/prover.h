@@ -20,6 +20,7 @@ private:
 
   // ---- obligations of the program's own text (prover.cpp) ----
   void stops();
+  void unmetAlarms();
   void loops();
   void programEnds();
   // ---- promises of the contract (prover_contract.cpp) ----
@@ -36,6 +37,7 @@ private:
   bool wanted(ObligationKind kind) const;
   /// Each query must hold; a counterexample is replayed.  Without queries the place is not reached.
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
+  bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);
   void settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                   const Violation &violation);

@@ -78,7 +78,7 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
   return value;
 }
 
-// ---- values --------------------------------------------------------------------------------------------------------
+// ---- values ----
 
 SymbolicValue SymbolicReading::literal(Decimal value) { return of(store_.number(numberOf(value))); }
 SymbolicValue SymbolicReading::number(double value) { return of(store_.number(Number::fromDouble(value))); }
@@ -106,7 +106,7 @@ SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
   return stop;
 }
 
-// ---- arithmetic ----------------------------------------------------------------------------------------------------
+// ---- arithmetic ----
 
 /// By its form: roots, absolute values, squares, and sums and products of such.
 bool SymbolicReading::isNeverNegative(TermId id) const {
@@ -210,7 +210,7 @@ bool SymbolicReading::mayBe(Truth a) {
   return a.term != store_.no() && !(path_ && path_->says(store_.logicalNot(a.term)));
 }
 
-// ---- modal codes ---------------------------------------------------------------------------------------------------
+// ---- modal codes ----
 
 Condition SymbolicReading::isOneOf(ModalCode code, CodeMask mask) {
   std::vector<TermId> cases;
@@ -242,7 +242,7 @@ std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicReading::codeFrom(c
   return known->second;
 }
 
-// ---- what happens --------------------------------------------------------------------------------------------------
+// ---- what happens ----
 
 void SymbolicReading::alarm(Truth truth, const AlarmReport &report) {
   if (!mayBe(truth) || stopped_)

@@ -129,7 +129,7 @@ void SymbolicReading::join(State &state, Truth truth, const State &second) {
   });
 }
 
-// ---- variables whose number is not one constant ---------------------------------------------------------------------
+// ---- variables whose number is not one constant ----
 
 TermId SymbolicReading::isVariable(const Value &index, std::uint32_t first, std::uint32_t last) {
   const TermId half = store_.number(Number(1) / Number(2));
@@ -178,7 +178,7 @@ void SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &
   }
 }
 
-// ---- what is not followed ------------------------------------------------------------------------------------------
+// ---- what is not followed ----
 
 void SymbolicReading::anyMapping(State &state) {
   for (auto *numbers : {&state.transform.scale, &state.transform.scaleCentre})
