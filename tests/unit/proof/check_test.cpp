@@ -55,6 +55,21 @@ TEST(Checker, RefusesWhatIsNotThere) {
   EXPECT_TRUE(verify(productClaim(), {IntegerSplit{kX, 0}, {productCertificate(), productCertificate()}}).has_value());
 }
 
+TEST(Checker, MultipliersAreNotNegative) {
+  const Polynomial above = sum(kX, constant(1));
+  const Claim claim{{{"x", Range::Real}}, {{{kX, Relation::NonNegative}, {above, Relation::NonNegative}}, {}}};
+  EXPECT_TRUE(verify(claim, {Combination{{{1, {0}, {}}, {-1, {1}, {}}}, {}}, {}}).has_value());
+}
+
+TEST(Checker, SquaresAreNotStrict) {
+  // -x*x >= 0 holds at x = 0.
+  const Constraint flat{scaled(multiply(kX, kX), -1), Relation::NonNegative};
+  const Claim claim{{{"x", Range::Real}}, {{flat}, {}}};
+  EXPECT_TRUE(verify(claim, {Combination{{{1, {}, {kX}}, {1, {0}, {}}}, {}}, {}}).has_value());
+  const Claim below{{{"x", Range::Real}}, {{{flat.polynomial, Relation::Positive}}, {}}};
+  EXPECT_FALSE(verify(below, {Combination{{{1, {}, {kX}}, {1, {0}, {}}}, {}}, {}}).has_value());
+}
+
 TEST(Checker, WeakHypothesesGiveNoStrictContradiction) {
   const Claim claim{{{"x", Range::Real}}, {{{kX, Relation::NonNegative}, {scaled(kX, -1), Relation::NonNegative}}, {}}};
   EXPECT_TRUE(verify(claim, {Combination{{{1, {0}, {}}, {1, {1}, {}}}, {}}, {}}).has_value()) << "x = 0 satisfies it";
