@@ -2,7 +2,6 @@
 // and signs.  A branch whose refutation does not use what the branch assumed refutes its parent at once.
 #include "proof/prove/discharge_search.h"
 
-#include "base/support/match.h"
 #include "proof/prove/discharge_products.h"
 #include "proof/prove/discharge_tree.h"
 
@@ -95,7 +94,7 @@ private:
     std::set<Polynomial> borders;   ///< what was split elsewhere
   };
 
-  std::uint64_t work() const { return rows_.work() + products_.work() + work_; }
+  std::uint64_t work() const { return rows_.work() + products_.work(); }
 
   Tree giveUp(std::string reason) {
     if (failure_.empty())
@@ -410,7 +409,6 @@ private:
   std::optional<std::vector<Number>> satisfied_;
   std::string failure_;
   SearchResult::Reasoning reasoning_ = SearchResult::Reasoning::Linear;
-  std::uint64_t work_ = 0;
 };
 
 } // namespace
