@@ -19,6 +19,8 @@ public:
     // Facts may speak of further functions (an arc sine of its sine); those have facts of their own.
     for (std::size_t next = 0; next < definitions_.size(); ++next)
       state(definitions_[next]);
+    for (const TermId square : std::vector<TermId>(squares_)) // a proof would have to guess which sum to square
+      fact(store_.lessOrEqual(number(Number(0)), square));
     result.facts = std::move(facts_);
     result.definitions = std::move(definitions_);
     return result;
@@ -34,9 +36,17 @@ private:
       for (TermId &argument : arguments)
         argument = done_.at(argument);
       const TermId over = withArguments(store_, id, arguments);
+      if (isSquareOfSum(over))
+        squares_.push_back(over);
       done_.emplace(id, kind == TermKind::Divide || kind == TermKind::Apply ? named(over) : over);
     }
     return done_.at(formula);
+  }
+
+  bool isSquareOfSum(TermId id) const {
+    const Term &term = store_[id];
+    return term.kind == TermKind::Multiply && term.arguments.size() == 2 && term.arguments[0] == term.arguments[1] &&
+           store_[term.arguments[0]].kind == TermKind::Add;
   }
 
   /// Folding may have left a number, or a sum with an application in it.
@@ -181,6 +191,7 @@ private:
   TermStore &store_;
   Substitution done_;
   std::map<TermId, TermId> variables_; ///< by application over pure arguments
+  std::vector<TermId> squares_;
   std::vector<Definition> definitions_;
   std::vector<TermId> facts_;
 };
