@@ -128,6 +128,9 @@ public:
   std::size_t size() const { return terms_.size(); }
   bool isNumber(TermId id) const { return terms_[id].kind == TermKind::Number; }
 
+  /// The Variables below a term, ascending; found once.
+  const std::vector<TermId> &variablesOf(TermId term) const;
+
   /// Any number as a sum; a term that is no sum is one term with factor 1.
   LinearSum linear(TermId term) const;
   TermId fromLinear(const LinearSum &sum);
@@ -152,13 +155,14 @@ private:
   Store<Term, TermId> terms_;
   std::unordered_set<TermId, Hash, Same> known_;
   std::map<std::string, TermId, std::less<>> variables_;
+  mutable std::map<TermId, std::vector<TermId>> variablesOf_; // of the terms that were asked for
 };
 
 /// All terms below some terms, and these: each once, arguments before their users.
 std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> terms);
 /// The Variables below a term, ascending.
 std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> terms);
-std::vector<TermId> variablesOf(const TermStore &store, TermId term);
+const std::vector<TermId> &variablesOf(const TermStore &store, TermId term);
 
 /// The same kind of term (and function) over other arguments, folded.
 TermId withArguments(TermStore &store, TermId term, const std::vector<TermId> &arguments);

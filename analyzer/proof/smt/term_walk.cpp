@@ -35,7 +35,14 @@ std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> 
   return found;
 }
 
-std::vector<TermId> variablesOf(const TermStore &store, TermId term) { return variablesOf(store, std::span(&term, 1)); }
+const std::vector<TermId> &variablesOf(const TermStore &store, TermId term) { return store.variablesOf(term); }
+
+const std::vector<TermId> &TermStore::variablesOf(TermId term) const {
+  const auto known = variablesOf_.find(term);
+  return known != variablesOf_.end()
+             ? known->second
+             : variablesOf_.emplace(term, smt::variablesOf(*this, std::span(&term, 1))).first->second;
+}
 
 TermId withArguments(TermStore &store, TermId id, const std::vector<TermId> &arguments) {
   const TermKind kind = store[id].kind;
