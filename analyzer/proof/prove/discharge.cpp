@@ -68,19 +68,29 @@ public:
     smt::Purified purified = smt::purify(store_, eliminated_.formulas);
     pure_ = std::move(purified.formulas);
     pure_.insert(pure_.end(), purified.facts.begin(), purified.facts.end());
-    if (std::optional<Outcome> outcome = byCertificate())
+    if (budget_.z3 == 0) {
+      std::optional<Outcome> outcome = byCertificate(budget_.search);
+      return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
+    }
+    // Most of what a short search does not prove is not so: a model is cheaper than a long search.
+    if (std::optional<Outcome> outcome = byCertificate(budget_.search / 10))
+      return std::move(*outcome);
+    text_ = smt::writeSmtLib(store_, pure_);
+    if (std::optional<Outcome> outcome = byModel(budget_.z3 / 5))
+      return std::move(*outcome);
+    if (std::optional<Outcome> outcome = byCertificate(budget_.search))
       return std::move(*outcome);
     return bySolvers();
   }
 
 private:
-  std::optional<Outcome> byCertificate() {
+  std::optional<Outcome> byCertificate(std::uint64_t work) {
     Result<check::Claim> claim = check::claimOf(store_, pure_);
     if (!claim) {
       reason_ = claim.error().message;
       return std::nullopt;
     }
-    const SearchResult search = searchCertificate(claim.value(), budget_.search);
+    const SearchResult search = searchCertificate(claim.value(), work);
     effort_ += search.work;
     const bool isLinear = search.reasoning == SearchResult::Reasoning::Linear;
     const std::string method = isLinear ? "linear" : "products";
@@ -114,25 +124,31 @@ private:
     return model;
   }
 
+  /// Values by Z3; its `unsat` is remembered.
+  std::optional<Outcome> byModel(std::uint64_t work) {
+    z3_ = smt::askZ3(text_, smt::arithmeticOf(store_, pure_), work);
+    effort_ += z3_.effort;
+    if (const auto *sat = std::get_if<smt::Sat>(&z3_.result))
+      return Outcome{Counterexample{completed(sat->model)}, "z3", effort_};
+    return std::nullopt;
+  }
+
   Outcome bySolvers() {
-    if (budget_.z3 == 0)
-      return {Unknown{reason_}, "linear", effort_};
-    const std::string text = smt::writeSmtLib(store_, pure_);
-    const smt::Answer z3 = smt::askZ3(text, smt::arithmeticOf(store_, pure_), budget_.z3);
-    effort_ += z3.effort;
-    if (const auto *sat = std::get_if<smt::Sat>(&z3.result))
-      return {Counterexample{completed(sat->model)}, "z3", effort_};
+    if (!z3_.isUnsat())
+      if (std::optional<Outcome> outcome = byModel(budget_.z3))
+        return std::move(*outcome);
+    const smt::Answer &z3 = z3_;
     if (budget_.cvc5 == 0)
       return {Unknown{z3.isUnsat() ? "one solver only" : reason_}, "z3", effort_};
     if (!z3.isUnsat())
       return {Unknown{reason_ + "; " + std::get<smt::NoAnswer>(z3.result).reason}, "z3", effort_};
-    const smt::Answer cvc5 = smt::askCvc5(text, budget_.cvc5);
+    const smt::Answer cvc5 = smt::askCvc5(text_, budget_.cvc5);
     effort_ += cvc5.effort;
     if (const auto *none = std::get_if<smt::NoAnswer>(&cvc5.result))
       return {Unknown{"one solver only: " + none->reason}, "z3+cvc5", effort_};
     if (!cvc5.isUnsat())
       return {Unknown{"the solvers contradict each other"}, "z3+cvc5", effort_};
-    const SolverEvidence evidence{text, {smt::z3Version(), smt::cvc5Version().value_or("cvc5")}};
+    const SolverEvidence evidence{text_, {smt::z3Version(), smt::cvc5Version().value_or("cvc5")}};
     return {Proved{Grade::TwoSolvers, evidence}, "z3+cvc5", effort_};
   }
 
@@ -142,6 +158,8 @@ private:
   std::vector<TermId> variables_;
   Eliminated eliminated_;
   std::vector<TermId> pure_;
+  std::string text_; // SMT-LIB
+  smt::Answer z3_ = {};
   std::string reason_;
   std::uint64_t effort_ = 0;
 };
