@@ -108,6 +108,23 @@ class Prove(Scratch):
         row = self.one("O1.loop-ends.N20", "O1.nc")
         self.assertEqual((row["verdict"], row["grade"], row["line"], row["column"]), ("proved", "certified", 3, 1))
 
+    def test_passes_at_most(self):
+        loops = {
+            "#10=FUP[ABS[#21/#22]]\nN20 WHILE[#10GT0]DO1\n#10=#10-1\nEND1": "FUP[ABS[#21/#22]]",
+            "#1=0\nN20 WHILE[#1LE#21]DO1\n#1=#1+#22\nEND1": "FIX[#21/#22]+1",
+            "#1=0\nN20 #1=#1+#22\nIF[#1LT#21]GOTO20": "FUP[#21/#22]",
+            "#5=10\nN20 #5=#5-0.25\nIF[#5NE0]GOTO20": "40",
+        }
+        for loop, bound in loops.items():
+            with self.subTest(loop=loop):
+                self.write("O9.nc", f"O9\n(@PARAM #21 DEPTH 1..9.)\n(@PARAM #22 STEP 0.1..2.)\n{loop}\nM99\n")
+                self.assertEqual(self.one("O9.loop-ends.N20", "O9.nc")["bound"], bound)
+
+    def test_why_a_loop_ends(self):
+        self.write("O1.nc", COUNTS)
+        self.assertIn("at most `3` passes: `#1` falls by `1` each pass and the loop stops at `0`\n",
+                      self.prove("O1.nc").stdout)
+
     def test_loop_that_may_wait_for_ever(self):
         self.write("O3.nc", UNKNOWN)
         self.assertEqual(self.one("O3.loop-ends.N10", "O3.nc")["verdict"], "unknown")

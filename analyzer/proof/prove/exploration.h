@@ -40,6 +40,14 @@ struct LoopInstance {
   std::vector<smt::TermId> variables = {}; // of the parts of the state of which no closed form is known
   std::vector<smt::TermId> facts = {};     // that hold before each pass
   std::vector<Transition> transitions = {};
+  smt::Substitution first = {}; // from `passes` and all that goes with them to what the arrival found
+  /// Of the variables of programs: their numbers at the arrival, and those before any pass.
+  struct Value {
+    std::uint32_t variable;
+    smt::TermId arrival;
+    smt::TermId generic;
+  };
+  std::vector<Value> values = {};
   bool isRecorded = false; // false: met only in a trial
 };
 

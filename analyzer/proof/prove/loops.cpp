@@ -29,6 +29,16 @@ std::size_t valueParts(const SymbolicState &state, std::size_t parts) {
   return parts - kFlags - state.enteredLoops.size() - 1;
 }
 
+std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const SymbolicState &generic) {
+  std::vector<LoopInstance::Value> values;
+  for (std::uint32_t local = 1; local < arrival.locals.size(); ++local)
+    values.push_back({local, arrival.locals[local].number, generic.locals[local].number});
+  for (const auto &[variable, value] : arrival.variables.entries())
+    if (const SymbolicValue *before = generic.variables.find(variable))
+      values.push_back({variable, value.number, before->number});
+  return values;
+}
+
 } // namespace
 
 struct LoopOpener::Work {
@@ -352,6 +362,15 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
           store.equal(store.subtract(part.symbol, other.symbol), store.subtract(part.arrival, other.arrival)));
     }
   }
+  smt::Substitution present; // what held of a variable at the arrival may hold of what becomes of it
+  for (const std::size_t i : free)
+    if (store[work.parts()[i].arrival].kind == TermKind::Variable)
+      present.emplace(work.parts()[i].arrival, work.parts()[i].symbol);
+  for (const TermId condition : work.arrival.conditions) {
+    all.push_back(smt::substitute(store, condition, present));
+    for (const auto &[arrival, symbol] : present)
+      all.push_back(smt::substitute(store, condition, {{arrival, symbol}}));
+  }
   for (const Path &pass : work.found)
     for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
       const TermKind kind = store[pass.conditions[i]].kind;
@@ -373,15 +392,20 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
   return all;
 }
 
-bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
-  smt::TermStore &store = explorer_.store_;
-  const TermId zero = store.number(Number(0));
+smt::Substitution LoopOpener::atArrival(const Work &work) const {
+  const TermId zero = explorer_.store_.number(Number(0));
   smt::Substitution first{{work.passes, zero}};
   for (const Travel &travel : work.shape.travels)
     first.emplace(travel.distance, zero);
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       first.emplace(part.symbol, part.arrival);
+  return first;
+}
+
+bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
+  smt::TermStore &store = explorer_.store_;
+  const smt::Substitution first = atArrival(work);
   return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, smt::substitute(store, candidate, first));
 }
 
@@ -460,6 +484,8 @@ bool LoopOpener::open(Path &path) {
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       loop.variables.push_back(part.symbol);
+  loop.first = atArrival(work);
+  loop.values = valuesOf(work.arrival.state, work.shape.state);
   path.state = work.shape.state;
   path.moved = work.moved;
   path.loops.push_back({path.at.node, path.frames.size(), instance});

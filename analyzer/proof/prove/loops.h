@@ -67,6 +67,7 @@ private:
   smt::TermId travelled(Work &work, smt::TermId step);
   void addTravels(Work &work);
   smt::Substitution atPass(const Work &work, int distance) const;
+  smt::Substitution atArrival(const Work &work) const;
   bool relayout(Work &work, bool &grew);
   bool isOutside(const Work &work, smt::TermId term) const;
   smt::TermId lastPass(const Work &work, smt::TermId term) const;

@@ -2,6 +2,7 @@
 
 #include "meaning/cfg/wto.h"
 #include "proof/prove/entails.h"
+#include "proof/prove/loop_account.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -266,6 +267,25 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
     obligation.grade = Grade::Certified;
 }
 
+/// When all that lead to the loop say the same.
+void Prover::explainEnd(Obligation &obligation, const std::vector<const LoopInstance *> &instances) {
+  std::optional<LoopAccount> account;
+  for (const auto &[instance, end] : ends_) {
+    if (std::find(instances.begin(), instances.end(), instance) == instances.end())
+      continue;
+    LoopAccount next = accountOf(reading_, programs_, *instance, end);
+    if (account && account->why != next.why)
+      return;
+    if (account && account->bound != next.bound)
+      next.bound.clear();
+    account = std::move(next);
+  }
+  if (account) {
+    obligation.reason = account->why;
+    obligation.bound = account->bound;
+  }
+}
+
 void Prover::loops() {
   if (!wanted(ObligationKind::LoopEnds))
     return;
@@ -293,6 +313,8 @@ void Prover::loops() {
     Obligation &obligation =
         add(ObligationKind::LoopEnds, place, file().tree->blocks[programs_.node(place).block].span(), "this loop ends");
     settleLoop(obligation, instances, violation);
+    if (obligation.verdict == Verdict::Proved)
+      explainEnd(obligation, instances);
   }
 }
 

@@ -41,6 +41,7 @@ private:
   void takeProof(Obligation &obligation, Outcome outcome);
   void settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                   const Violation &violation);
+  void explainEnd(Obligation &obligation, const std::vector<const LoopInstance *> &instances);
   /// All conditions of a path, and what is known of the variables in them.
   Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal) const;
 

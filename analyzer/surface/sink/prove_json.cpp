@@ -57,6 +57,7 @@ private:
             {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
             {"method", orNull(obligation.method)},
             {"reason", orNull(obligation.reason)},
+            {"bound", orNull(obligation.bound)},
             {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
             {"rlimit", obligation.effort}};
   }

@@ -59,13 +59,20 @@ private:
             "see it: " + witness.replay};
   }
 
+  static std::string whyOf(const Obligation &obligation) {
+    if (obligation.bound.empty())
+      return obligation.reason;
+    return fmt::format("at most `{}` passes{}{}", obligation.bound, obligation.reason.empty() ? "" : ": ",
+                       obligation.reason);
+  }
+
   void line(const Obligation &obligation) {
     const std::uint32_t at = file_.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
     const std::string_view grade = obligation.grade ? nameOf(*obligation.grade) : "";
     text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
                          claimOf(obligation, file_.loaded->dialect), obligation.id);
-    if (!obligation.reason.empty())
-      text_ += fmt::format("            {}\n", obligation.reason);
+    if (const std::string why = whyOf(obligation); !why.empty())
+      text_ += fmt::format("            {}\n", why);
     if (report_.showMethods == ShowMethods::Yes && !obligation.method.empty())
       text_ += fmt::format("            by {}, effort {}\n", obligation.method, obligation.effort);
   }

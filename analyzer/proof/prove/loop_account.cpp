@@ -1,0 +1,176 @@
+#include "proof/prove/loop_account.h"
+
+#include "proof/prove/entails.h"
+#include "proof/prove/shop_terms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+class Account {
+public:
+  Account(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop)
+      : reading_(reading), store_(reading.store()), programs_(programs), loop_(loop) {
+    for (const auto &[variable, value] : reading.entryValues())
+      atCall_.emplace(value.number, programs.nameOfVariable(variable));
+    for (const LoopInstance::Value &value : loop.values)
+      if (value.generic != value.arrival && !store_.isNumber(value.generic))
+        beforePass_.emplace(value.generic, programs.nameOfVariable(value.variable));
+  }
+
+  LoopAccount of(const Termination &end) {
+    if (end.measures.empty())
+      return {"no pass comes back to its start", ""};
+    if (end.measures.size() > 1)
+      return {inTurn(end), ""};
+    const Measure &measure = end.measures.front();
+    const bool isSteady = isConstantInLoop(measure.decrease) &&
+                          std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
+                            return store_.subtract(measure.measure, smt::substitute(store_, measure.measure,
+                                                                                    pass.next)) == measure.decrease;
+                          });
+    return isSteady ? LoopAccount{steady(measure), bound(measure)} : LoopAccount{unsteady(measure), ""};
+  }
+
+private:
+  /// Passes are made while the measure is not negative; or positive, where that is so before each of them.
+  std::string bound(const Measure &measure) {
+    const TermId quotient = inSteps(smt::substitute(store_, measure.measure, loop_.first), measure.decrease);
+    const TermId one = store_.number(Number(1));
+    TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
+    if (!testsFirst()) // what comes back to the start begins one pass more
+      most = store_.add(most, one);
+    return shopText(store_, most, atCall_).value_or("");
+  }
+  bool isPositive(const Measure &measure) {
+    const TermId goal = store_.less(store_.number(Number(0)), measure.measure);
+    return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
+      return discharge(store_, relevantQuery(store_, reading_.facts(), pass.conditions, goal), Budget::quick())
+          .proved();
+    });
+  }
+  bool testsFirst() const { return std::holds_alternative<Test>(programs_.node(loop_.head).instruction); }
+  /// distance / step, with whole steps taken out of it.
+  TermId inSteps(TermId distance, TermId step) {
+    const smt::LinearSum unit = store_.linear(step);
+    if (unit.terms.size() != 1 || !unit.constant.isZero())
+      return store_.divide(distance, step);
+    smt::LinearSum rest = store_.linear(distance);
+    Number steps;
+    std::erase_if(rest.terms, [&](const auto &term) {
+      const bool isStep = term.first == unit.terms[0].first;
+      if (isStep)
+        steps = term.second / unit.terms[0].second;
+      return isStep;
+    });
+    return store_.add(store_.divide(store_.fromLinear(rest), step), store_.number(steps));
+  }
+
+  /// The measure is a variable over or under a limit, mostly.
+  std::string steady(const Measure &measure) {
+    for (const LoopInstance::Value &value : loop_.values)
+      if (const auto ratio = ratioOf(value.generic, measure.measure))
+        if (std::string text = steady(value, *ratio, measure); !text.empty())
+          return text;
+    const auto step = shown(measure.decrease);
+    const auto text = shopText(store_, measure.measure, namesBeforePass());
+    return step && text ? fmt::format("`{}` falls by `{}` each pass and is never below 0 before one", *text, *step)
+                        : "";
+  }
+  /// value = ratio * measure + a limit.  What a loop tests at its end is the value behind the pass.
+  std::string steady(const LoopInstance::Value &value, const Number &ratio, const Measure &measure) {
+    const TermId step = store_.scale(ratio.sign() < 0 ? -ratio : ratio, measure.decrease);
+    const TermId tested =
+        testsFirst() ? value.generic : store_.subtract(value.generic, store_.scale(ratio, measure.decrease));
+    TermId limit = store_.subtract(tested, store_.scale(ratio, measure.measure));
+    bool isReached = isPositive(measure);
+    if (!isReached && store_.sort(measure.measure) == smt::Sort::Int) { // not negative: above -1
+      limit = store_.subtract(limit, store_.number(ratio));
+      isReached = true;
+    }
+    const auto stepText = shown(step);
+    const auto limitText = isConstantInLoop(limit) ? shown(limit) : std::nullopt;
+    if (!stepText || !limitText)
+      return "";
+    const bool falls = ratio.sign() > 0;
+    const std::string_view where = isReached ? "at" : falls ? "below" : "above";
+    return fmt::format("`{}` {} by `{}` each pass and the loop stops {} `{}`", programs_.nameOfVariable(value.variable),
+                       falls ? "falls" : "rises", *stepText, where, *limitText);
+  }
+  /// How much of the measure a value holds, when no pass changes the rest of it.
+  std::optional<Number> ratioOf(TermId value, TermId measure) {
+    const smt::LinearSum whole = store_.linear(value);
+    for (const auto &[term, factor] : store_.linear(measure).terms) {
+      if (isConstantInLoop(term))
+        continue;
+      for (const auto &[other, times] : whole.terms)
+        if (other == term)
+          return times / factor;
+      return std::nullopt;
+    }
+    return std::nullopt;
+  }
+  std::string unsteady(const Measure &measure) {
+    const auto text = shopText(store_, measure.measure, namesBeforePass());
+    return text ? fmt::format("`{}` falls each pass and is never below 0 before one", *text) : "";
+  }
+  std::string inTurn(const Termination &end) {
+    std::string text;
+    for (const Measure &measure : end.measures) {
+      const auto name = shopText(store_, measure.measure, namesBeforePass());
+      if (!name)
+        return "";
+      text += fmt::format("{}`{}`", text.empty() ? "every pass lowers " : ", or leaves it and lowers ", *name);
+    }
+    return text + "; each is at least 0 before the passes that lower it";
+  }
+
+  /// With the values at the call where nothing has written them since.
+  TermNames namesBeforePass() const {
+    TermNames names = beforePass_;
+    for (const LoopInstance::Value &value : loop_.values)
+      if (value.generic == value.arrival && atCall_.contains(value.arrival))
+        names.emplace(value.arrival, programs_.nameOfVariable(value.variable));
+    return names;
+  }
+  /// A value that no pass changes: from the values at the call, or by the variable that holds it.
+  std::optional<std::string> shown(TermId term) {
+    if (auto text = shopText(store_, term, atCall_))
+      return text;
+    TermNames names;
+    for (const LoopInstance::Value &value : loop_.values)
+      if (value.generic == value.arrival && !store_.isNumber(value.arrival))
+        names.emplace(value.arrival, programs_.nameOfVariable(value.variable));
+    return shopText(store_, term, names);
+  }
+
+  bool isConstantInLoop(TermId term) const {
+    const auto variables = smt::variablesOf(store_, term);
+    return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
+      return variable.index() < loop_.mark || reading_.isFromEntry(variable);
+    });
+  }
+
+  SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const ProgramSet &programs_;
+  const LoopInstance &loop_;
+  TermNames atCall_;
+  TermNames beforePass_;
+};
+
+} // namespace
+
+LoopAccount accountOf(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop,
+                      const Termination &end) {
+  return Account(reading, programs, loop).of(end);
+}
+
+} // namespace feedhold::prove
