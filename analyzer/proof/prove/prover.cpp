@@ -56,7 +56,21 @@ ProgramProof Prover::run() {
   for (Obligation &obligation : proof_.obligations)
     if (const int number = ++names[obligation.id]; number > 1)
       obligation.id += fmt::format(".{}", number);
+  if (contract() && !contract()->isSound)
+    withdraw("a clause of the contract could not be read");
   return std::move(proof_);
+}
+
+/// What rests on a contract that is not what its author meant is not told.
+void Prover::withdraw(std::string_view reason) {
+  for (Obligation &obligation : proof_.obligations) {
+    obligation.verdict = Verdict::Unknown;
+    obligation.grade.reset();
+    obligation.witness.reset();
+    obligation.evidence.clear();
+    obligation.method.clear();
+    obligation.reason = reason;
+  }
 }
 
 void Prover::explore() {
@@ -233,6 +247,25 @@ void Prover::unmetAlarms() {
 
 // ---- ends ----
 
+/// Inputs with which the loop is met in a state whose pass always leads to one like it, and the run was seen not to end.
+std::optional<Witness> Prover::endless(const LoopInstance &loop) {
+  const auto pass = recurrentPass(reading_, store_, loop);
+  if (!pass)
+    return std::nullopt;
+  std::vector<TermId> conditions;
+  for (const TermId condition : loop.transitions[*pass].conditions)
+    conditions.push_back(smt::substitute(store_, condition, loop.first));
+  const Outcome outcome = discharge(store_, onPath(conditions, store_.no()), options_.budget);
+  const smt::Model *model = outcome.counterexample();
+  if (model == nullptr)
+    return std::nullopt;
+  return witnesses_->fromModel(*model, [](const RunResult &run) -> std::optional<std::string> {
+    if (run.end == RunEnd::Repeats || run.end == RunEnd::Fuel)
+      return "each pass of the loop leads to another one like it, for ever";
+    return std::nullopt;
+  });
+}
+
 void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                         const Violation &violation) {
   if (isDecided(obligation, violation))
@@ -250,17 +283,11 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
     }
     obligation.verdict = Verdict::Unknown;
     obligation.reason = end.reason;
-    if (const auto pass = recurrentPass(reading_, store_, *instance)) {
-      const Outcome outcome =
-          discharge(store_, onPath(instance->transitions[*pass].conditions, store_.no()), options_.budget);
-      const smt::Model *model = outcome.counterexample();
-      if (model == nullptr)
-        continue;
-      if (auto witness = witnesses_->fromModel(*model, violation)) {
-        obligation.verdict = Verdict::Refuted;
-        obligation.witness = std::move(witness);
-        return;
-      }
+    if (auto witness = endless(*instance)) {
+      obligation.verdict = Verdict::Refuted;
+      obligation.reason.clear();
+      obligation.witness = std::move(witness);
+      return;
     }
   }
   if (obligation.verdict == Verdict::Proved && !obligation.grade)

@@ -17,6 +17,7 @@ public:
 
 private:
   void explore();
+  void withdraw(std::string_view reason);
 
   // ---- obligations of the program's own text (prover.cpp) ----
   void stops();
@@ -39,6 +40,7 @@ private:
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);
+  std::optional<Witness> endless(const LoopInstance &loop);
   void settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                   const Violation &violation);
   void explainEnd(Obligation &obligation, const std::vector<const LoopInstance *> &instances);
