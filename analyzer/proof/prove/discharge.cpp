@@ -113,15 +113,19 @@ private:
 
   /// The variables of the query, none missing and no other.
   smt::Model completed(const smt::Model &found) const {
+    smt::Model all = found;
+    for (TermId variable : smt::variablesOf(store_, eliminated_.formulas))
+      all.emplace(store_[variable].name, anyOf(variable));
+    complete(store_, eliminated_, all);
     smt::Model model;
     for (TermId variable : variables_) {
-      const smt::Term &term = store_[variable];
-      auto known = found.find(term.name);
-      const smt::Value any = term.sort == smt::Sort::Bool ? smt::Value(false) : smt::Value(smt::Number(0));
-      model.emplace(term.name, known == found.end() ? any : known->second);
+      const auto known = all.find(store_[variable].name);
+      model.emplace(store_[variable].name, known == all.end() ? anyOf(variable) : known->second);
     }
-    complete(store_, eliminated_, model);
     return model;
+  }
+  smt::Value anyOf(TermId variable) const {
+    return store_[variable].sort == smt::Sort::Bool ? smt::Value(false) : smt::Value(smt::Number(0));
   }
 
   /// Values by Z3; its `unsat` is remembered.

@@ -19,11 +19,29 @@ bool mayDefine(const smt::TermStore &store, TermId variable, TermId value) {
   return store.sort(variable) == Sort::Real || store.sort(value) == Sort::Int;
 }
 
+/// x = floor(x): x is an integer, and may as well be a variable of that sort.
+std::optional<Definition> integerIn(smt::TermStore &store, const LinearSum &sum) {
+  if (sum.terms.size() != 2 || !sum.constant.isZero() || !(sum.terms[0].second + sum.terms[1].second).isZero())
+    return std::nullopt;
+  for (const std::size_t at : {0U, 1U}) {
+    const TermId variable = sum.terms[at].first;
+    const smt::Term &other = store[sum.terms[1 - at].first];
+    if (store[variable].kind == TermKind::Variable && other.kind == TermKind::Apply &&
+        other.function == smt::Function::Floor && other.arguments.front() == variable) {
+      const std::string name = store[variable].name + " whole";
+      return Definition{variable, store.variable(name, Sort::Int)};
+    }
+  }
+  return std::nullopt;
+}
+
 /// x = value from an equality in which x stands alone once.
 std::optional<Definition> definitionIn(smt::TermStore &store, TermId formula) {
   if (store[formula].kind != TermKind::Equal)
     return std::nullopt;
   LinearSum sum = store.linear(store.subtract(store[formula].arguments[0], store[formula].arguments[1]));
+  if (auto integer = integerIn(store, sum))
+    return integer;
   for (std::size_t at = 0; at < sum.terms.size(); ++at) {
     const auto [variable, factor] = sum.terms[at];
     if (store[variable].kind != TermKind::Variable)
