@@ -7,62 +7,88 @@ namespace feedhold::prove {
 
 using smt::TermId;
 
+void FactIndex::add(std::span<const TermId> facts) {
+  for (; indexed_ < facts.size(); ++indexed_)
+    for (const TermId variable : smt::variablesOf(store_, facts[indexed_]))
+      users_[variable].push_back(indexed_);
+}
+
+const std::vector<std::size_t> *FactIndex::factsOn(TermId variable) const {
+  const auto found = users_.find(variable);
+  return found == users_.end() ? nullptr : &found->second;
+}
+
 namespace {
 
-/// Conditions with their variables, taken over as soon as one of those is wanted.
+/// Follows variables to what speaks of them, and on to its variables.
 class Relevant {
 public:
-  Relevant(const smt::TermStore &store, TermId goal) : store_(store) { want(smt::variablesOf(store, goal)); }
-
-  void offer(std::span<const TermId> conditions) {
-    for (const TermId condition : conditions)
-      offered_.push_back({condition, smt::variablesOf(store_, condition)});
+  Relevant(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
+           std::span<const TermId> conditions)
+      : store_(store), index_(index), facts_(facts), conditions_(conditions), ofConditions_(store),
+        takenFacts_(facts.size()), takenConditions_(conditions.size()) {
+    ofConditions_.add(conditions);
   }
-  std::vector<TermId> take() {
-    std::vector<TermId> taken;
-    for (bool more = true; more;) {
-      more = false;
-      for (Offer &offer : offered_) {
-        if (offer.taken || std::none_of(offer.variables.begin(), offer.variables.end(),
-                                        [&](TermId variable) { return wanted_.contains(variable); }))
-          continue;
-        offer.taken = more = true;
-        want(offer.variables);
-      }
+
+  std::vector<TermId> to(TermId goal) {
+    want(goal);
+    while (!open_.empty()) {
+      const TermId variable = open_.back();
+      open_.pop_back();
+      take(index_, variable, facts_, takenFacts_);
+      take(ofConditions_, variable, conditions_, takenConditions_);
     }
-    for (const Offer &offer : offered_)
-      if (offer.taken)
-        taken.push_back(offer.condition);
+    std::vector<TermId> taken;
+    collect(facts_, takenFacts_, taken);
+    collect(conditions_, takenConditions_, taken);
     return taken;
   }
 
 private:
-  struct Offer {
-    TermId condition;
-    std::vector<TermId> variables;
-    bool taken = false;
-  };
-  void want(const std::vector<TermId> &variables) { wanted_.insert(variables.begin(), variables.end()); }
+  void want(TermId term) {
+    for (const TermId variable : smt::variablesOf(store_, term))
+      if (wanted_.insert(variable).second)
+        open_.push_back(variable);
+  }
+  void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::vector<bool> &taken) {
+    if (const auto *users = index.factsOn(variable))
+      for (const std::size_t user : *users)
+        if (user < terms.size() && !taken[user]) {
+          taken[user] = true;
+          want(terms[user]);
+        }
+  }
+  static void collect(std::span<const TermId> terms, const std::vector<bool> &taken, std::vector<TermId> &into) {
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (taken[i])
+        into.push_back(terms[i]);
+  }
 
   const smt::TermStore &store_;
+  const FactIndex &index_;
+  std::span<const TermId> facts_;
+  std::span<const TermId> conditions_;
+  FactIndex ofConditions_;
+  std::vector<bool> takenFacts_;
+  std::vector<bool> takenConditions_;
   std::set<TermId> wanted_;
-  std::vector<Offer> offered_;
+  std::vector<TermId> open_;
 };
 
 } // namespace
 
 Query relevantQuery(const smt::TermStore &store, std::span<const TermId> facts, std::span<const TermId> conditions,
                     TermId goal) {
-  Relevant relevant(store, goal);
-  relevant.offer(facts);
-  relevant.offer(conditions);
-  return {relevant.take(), goal};
+  FactIndex index(store);
+  index.add(facts);
+  return {Relevant(store, index, facts, conditions).to(goal), goal};
 }
 
 bool Entailment::operator()(std::span<const TermId> facts, std::span<const TermId> conditions, TermId goal) {
   if (goal == store_.yes() || std::find(conditions.begin(), conditions.end(), goal) != conditions.end())
     return true;
-  const Query query = relevantQuery(store_, facts, conditions, goal);
+  index_.add(facts);
+  const Query query{Relevant(store_, index_, facts, conditions).to(goal), goal};
   std::vector<TermId> key = query.assumptions;
   key.push_back(goal);
   const auto known = known_.find(key);

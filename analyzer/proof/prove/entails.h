@@ -14,14 +14,31 @@ namespace feedhold::prove {
 Query relevantQuery(const smt::TermStore &store, std::span<const smt::TermId> facts,
                     std::span<const smt::TermId> conditions, smt::TermId goal);
 
+/// Which facts speak of a variable; the facts only ever grow.
+class FactIndex {
+public:
+  explicit FactIndex(const smt::TermStore &store) : store_(store) {}
+  /// All facts, those that are known already included.
+  void add(std::span<const smt::TermId> facts);
+  /// By number; null: none.
+  const std::vector<std::size_t> *factsOn(smt::TermId variable) const;
+
+private:
+  const smt::TermStore &store_;
+  std::size_t indexed_ = 0;
+  std::map<smt::TermId, std::vector<std::size_t>> users_;
+};
+
 /// Quick answers for whoever follows paths, each given once.
 class Entailment {
 public:
-  explicit Entailment(smt::TermStore &store) : store_(store) {}
+  explicit Entailment(smt::TermStore &store) : store_(store), index_(store) {}
+  /// The facts are those of the question before, and perhaps more.
   bool operator()(std::span<const smt::TermId> facts, std::span<const smt::TermId> conditions, smt::TermId goal);
 
 private:
   smt::TermStore &store_;
+  FactIndex index_;
   std::map<std::vector<smt::TermId>, bool> known_; // by assumptions, the goal last
 };
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -155,7 +156,7 @@ private:
   Store<Term, TermId> terms_;
   std::unordered_set<TermId, Hash, Same> known_;
   std::map<std::string, TermId, std::less<>> variables_;
-  mutable std::map<TermId, std::vector<TermId>> variablesOf_; // of the terms that were asked for
+  mutable std::unordered_map<std::uint32_t, std::vector<TermId>> variablesOf_; // of the terms that were asked for
 };
 
 /// All terms below some terms, and these: each once, arguments before their users.

@@ -38,10 +38,10 @@ std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> 
 const std::vector<TermId> &variablesOf(const TermStore &store, TermId term) { return store.variablesOf(term); }
 
 const std::vector<TermId> &TermStore::variablesOf(TermId term) const {
-  const auto known = variablesOf_.find(term);
+  const auto known = variablesOf_.find(term.index());
   return known != variablesOf_.end()
              ? known->second
-             : variablesOf_.emplace(term, smt::variablesOf(*this, std::span(&term, 1))).first->second;
+             : variablesOf_.emplace(term.index(), smt::variablesOf(*this, std::span(&term, 1))).first->second;
 }
 
 TermId withArguments(TermStore &store, TermId id, const std::vector<TermId> &arguments) {
