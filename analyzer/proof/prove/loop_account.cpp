@@ -28,6 +28,8 @@ public:
   LoopAccount of(const Termination &end) {
     if (end.measures.empty())
       return {"no pass comes back to its start", ""};
+    if (std::any_of(end.measures.begin(), end.measures.end(), [](const Measure &measure) { return measure.isLate; }))
+      return {late(end), ""};
     if (end.measures.size() > 1)
       return {inTurn(end), ""};
     const Measure &measure = end.measures.front();
@@ -120,6 +122,11 @@ private:
   std::string unsteady(const Measure &measure) {
     const auto text = shopText(store_, measure.measure, namesBeforePass());
     return text ? fmt::format("`{}` falls each pass and is never below 0 before one", *text) : "";
+  }
+  /// Of a loop with phases: what ends the last one.
+  std::string late(const Termination &end) {
+    const auto text = shopText(store_, end.measures.back().measure, namesBeforePass());
+    return text ? fmt::format("from some pass on `{}` falls each pass, and it is not below 0 before one", *text) : "";
   }
   std::string inTurn(const Termination &end) {
     std::string text;

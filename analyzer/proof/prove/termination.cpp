@@ -14,6 +14,10 @@ using smt::TermKind;
 namespace {
 
 constexpr std::size_t kMostMeasures = 60;
+constexpr std::size_t kMostPhases = 3;
+constexpr std::size_t kMostSinking = 16;
+/// A measure that needs more is seldom the right one; what is linear takes less.
+constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 
 class RankingSearch {
 public:
@@ -38,12 +42,44 @@ private:
       return true;
     if (lower(passes))
       return rank(passes);
-    if (passes.size() == 1 || passes.size() > 12)
+    if (passes.size() > 12)
       return false;
     const auto circles = circlesOf(passes);
     if (circles.size() == 1 && circles.front().size() == passes.size())
-      return false;
+      return afterPhase(passes);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+  }
+
+  /// What every pass lowers, without a bound, is below -1 after some passes and from then on: there the passes are ranked
+  /// again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking templates for linear
+  /// loops", 2015: multiphase).
+  bool afterPhase(const std::vector<std::size_t> &passes) {
+    if (phases_.size() == kMostPhases)
+      return false;
+    for (const TermId sinking : sinkingMeasures(passes)) {
+      std::vector<Outcome> evidence;
+      if (!std::all_of(passes.begin(), passes.end(),
+                       [&](std::size_t pass) { return falls(fallOf(sinking, pass), pass, evidence); }))
+        continue;
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+      phases_.push_back(store_.less(sinking, store_.number(Number(-1))));
+      const bool ranked = rank(passes);
+      phases_.pop_back();
+      if (ranked)
+        return true;
+    }
+    return false;
+  }
+  /// By how much a measure rises may be what sinks.
+  std::vector<TermId> sinkingMeasures(const std::vector<std::size_t> &passes) {
+    std::set<TermId> seen;
+    for (const TermId measure : candidates_)
+      for (const std::size_t pass : passes) {
+        const TermId rise = store_.negate(fallOf(measure, pass));
+        if (!isConstantInLoop(rise) && seen.size() < kMostSinking)
+          seen.insert(rise);
+      }
+    return {seen.begin(), seen.end()};
   }
 
   /// Takes away the passes that lower a measure which no other pass raises.
@@ -68,7 +104,7 @@ private:
       std::erase_if(passes, [&](std::size_t pass) {
         return std::find(lowering.begin(), lowering.end(), pass) != lowering.end();
       });
-      result_.measures.push_back({measure, *decrease, std::move(lowering)});
+      result_.measures.push_back({measure, *decrease, std::move(lowering), !phases_.empty()});
       std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
       return true;
     }
@@ -79,7 +115,10 @@ private:
   }
   /// By an amount that no pass changes and that is positive, or by a fixed one.
   bool lowers(TermId measure, TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
-    if (!mayLower(fall) || !holds(pass, store_.lessOrEqual(zero(), measure), evidence))
+    return mayLower(fall) && holds(pass, store_.lessOrEqual(zero(), measure), evidence) && falls(fall, pass, evidence);
+  }
+  bool falls(TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
+    if (!mayLower(fall))
       return false;
     if (isConstantInLoop(fall))
       return holds(pass, store_.less(zero(), fall), evidence);
@@ -101,8 +140,9 @@ private:
       return true;
     if (goal == store_.no())
       return false;
-    Outcome outcome =
-        discharge(store_, relevantQuery(store_, reading_.facts(), loop_.transitions[pass].conditions, goal), Budget{});
+    std::vector<TermId> conditions = loop_.transitions[pass].conditions;
+    conditions.insert(conditions.end(), phases_.begin(), phases_.end());
+    Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffort);
     const bool proved = outcome.proved();
     if (proved)
       evidence.push_back(std::move(outcome));
@@ -121,6 +161,11 @@ private:
     for (const Transition &transition : loop_.transitions)
       for (const TermId condition : transition.conditions)
         offerSides(condition, offer);
+    for (const TermId variable : loop_.variables)
+      if (store_.sort(variable) != smt::Sort::Bool) {
+        offer(variable);
+        offer(store_.negate(variable));
+      }
     const std::vector<TermId> single = all;
     for (std::size_t i = 0; i < single.size() && i < 8; ++i)
       for (std::size_t j = i + 1; j < single.size() && j < 8; ++j)
@@ -190,6 +235,7 @@ private:
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<TermId> candidates_;
+  std::vector<TermId> phases_; // hold from some pass on
   Termination result_;
 };
 

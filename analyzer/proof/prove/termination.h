@@ -16,6 +16,7 @@ struct Measure {
   smt::TermId measure;
   smt::TermId decrease; // of the first of its passes
   std::vector<std::size_t> passes;
+  bool isLate = false; // lowered only from some pass on
 };
 
 struct Termination {
