@@ -1,9 +1,8 @@
 #include "soundness/sample_runs.h"
 
-#include "dialects/registry.h"
 #include "inference/absint/analysis.h"
-#include "language/parse/parse.h"
 #include "soundness/containment.h"
+#include "soundness/sample_start.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -11,50 +10,6 @@
 namespace feedhold::soundness {
 
 namespace {
-
-/// The control as the analysis knows it, and as one machine has it: parameters that are unknown there are set here.
-class Loaded {
-public:
-  Loaded(const ProgramLines &lines, Dialect dialect)
-      : dialect_(std::move(dialect)), source_(SourceFile::fromText("sample.nc", textOf(lines))),
-        tree_(parse(source_, dialect_)), model_(resolve(source_, tree_, dialect_)),
-        set({{FileId(0), &source_, &tree_, &model_, &dialect_}}, CallGraph({{FileId(0), "", "", &model_}})) {}
-  Loaded(const Loaded &) = delete;
-  Loaded &operator=(const Loaded &) = delete;
-
-  /// The first program, but for subroutines that stand before it.
-  Callee main() const {
-    ProgramId main(0);
-    for (ProgramId id(0); id.index() < model_.programs.size(); id = id.next())
-      if (dialect_.grammar.oWords && model_.programs[id].first.index() < model_.programs[main].first.index())
-        main = id;
-    return {FileId(0), set.file(FileId(0)).cfg.entryOf(main), main};
-  }
-  bool isEmpty() const { return model_.programs.empty(); }
-  std::string blockOf(Place place) const {
-    return std::string(source_.text(tree_.blocks[set.node(place).block].span()));
-  }
-  const Dialect &dialect() const { return dialect_; }
-
-private:
-  Dialect dialect_;
-  SourceFile source_;
-  SyntaxTree tree_;
-  ProgramModel model_;
-
-public:
-  ProgramSet set;
-};
-
-const Dialect &controlOf(const Sample &sample) { return *findDialect(allDialects(), sample.dialect); }
-
-Dialect machineOf(const Sample &sample, Random &random) {
-  Dialect dialect = controlOf(sample);
-  for (Switch *unknown : {&dialect.switches.dpi, &dialect.switches.nat})
-    if (*unknown == Switch::Unknown)
-      *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
-  return dialect;
-}
 
 /// All that the analysis tells.
 class Foreseen : public AnalysisVisitor {
@@ -81,10 +36,9 @@ public:
 
 class OneRun {
 public:
-  OneRun(const Loaded &machine, const Loaded &analysed, const Foreseen &foreseen, Random &random)
-      : machine_(machine), analysed_(analysed), foreseen_(foreseen), modes_(machine.dialect()) {
-    start(random);
-  }
+  OneRun(const LoadedSample &machine, const LoadedSample &analysed, const Foreseen &foreseen, Random &random)
+      : machine_(machine), analysed_(analysed), foreseen_(foreseen), modes_(machine.dialect()),
+        entry_(randomEntry(machine, random)), skip_(random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off) {}
 
   std::optional<std::string> run(Tally &tally) {
     RunOptions options;
@@ -103,45 +57,6 @@ public:
   }
 
 private:
-  void start(Random &random) {
-    GivenVariables &given = entry_.given;
-    const bool vacancy = machine_.dialect().behaviour.variablesMayBeVacant;
-    const auto value = [&] {
-      return random.oneIn(3) ? (vacancy ? ConcreteValue{} : ConcreteValue::of(0)) : ConcreteValue::of(anyInput(random));
-    };
-    for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
-      if (findVariable(machine_.dialect(), local))
-        given.set(local, value());
-    for (const std::string_view result : {"_value", "_value_returned"}) // before any call has returned one
-      if (const auto variable = machine_.set.variableNamed(result))
-        given.set(*variable, ConcreteValue::of(0));
-    for (const std::uint32_t common : {100, 101, 102, 105, 110, 120, 130, 500, 501})
-      given.set(common, value());
-    for (const std::uint32_t cell : {1000, 2001, 3001, 3012, 5061, 5201, 5221, 5222, 5241, 3901})
-      given.set(cell, ConcreteValue::of(random.oneIn(3) ? 0 : anyInput(random)));
-    std::array<double, kAxisCount> position{};
-    for (double &axis : position)
-      axis = anyInput(random);
-    MachineState<ConcreteReading> &state = entry_.state =
-        startState(ConcreteReading(machine_.dialect(), given), modes_, position);
-    for (std::size_t group = 1; group < kModalGroups; ++group)
-      if (const std::size_t codes = modes_.group(group).codes.size();
-          codes != 0 && (!modes_.powerOn(group) || !random.oneIn(4)))
-        state.codes[group] = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(codes)));
-    if (const auto polar = modes_.groupOf(ModalKind::Polar)) // an assumption of the analysis: not in force at entry
-      state.codes[*polar] = modes_.powerOn(*polar).value_or(ConcreteReading::kNoCode);
-    for (ConcreteValue &word : state.words)
-      word = value();
-    for (auto *shifts : {&state.shift, &state.local})
-      for (ConcreteValue &shift : *shifts)
-        shift = ConcreteValue::of(random.oneIn(2) ? 0 : anyInput(random));
-    state.lengthOffset = ConcreteValue::of(random.oneIn(2) ? 0 : anyInput(random));
-    for (ConcreteValue *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck})
-      *level = value();
-    state.spindle = static_cast<std::uint8_t>(random.below(kSpindleActions.size()));
-    skip_ = random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off;
-  }
-
   void look(const RunMoment &moment) {
     if (why_ || overflown_)
       return;
@@ -171,12 +86,12 @@ private:
       why_ = "an alarm of the program at " + machine_.blockOf(result.place);
   }
 
-  const Loaded &machine_;
-  const Loaded &analysed_;
+  const LoadedSample &machine_;
+  const LoadedSample &analysed_;
   const Foreseen &foreseen_;
   ModalTable modes_;
   EntryValues entry_;
-  BlockSkipSwitch skip_{};
+  BlockSkipSwitch skip_;
   std::uint64_t steps_ = 0;
   bool overflown_ = false;
   std::optional<std::string> why_;
@@ -186,8 +101,8 @@ private:
 
 std::optional<std::string> unforeseen(const Sample &sample, std::uint64_t inputSeed, int runs, Tally &tally) {
   Random random(inputSeed);
-  const Loaded analysed(sample.lines, controlOf(sample));
-  const Loaded machine(sample.lines, machineOf(sample, random));
+  const LoadedSample analysed(sample.lines, controlOf(sample));
+  const LoadedSample machine(sample.lines, machineOf(sample, random));
   if (analysed.isEmpty())
     return std::nullopt;
   Foreseen foreseen;

@@ -175,6 +175,8 @@ private:
   std::optional<NodeId> follow(const CallProgram &call, const Node &here) {
     auto ctx = context();
     const CallRequest<ConcreteReading> request = prepareCall(ctx, call.call);
+    if (reading_.stopped())
+      return here.next;
     switch (request.action) {
     case CallAction::SetModal:
     case CallAction::EndModal: return here.next;
@@ -204,7 +206,8 @@ private:
     if (usable == 0)
       return false;
     auto ctx = context();
-    return enter(prepareModalCall(ctx, state_.modalCalls[usable - 1]), usable - 1);
+    const CallRequest<ConcreteReading> request = prepareModalCall(ctx, state_.modalCalls[usable - 1]);
+    return !reading_.stopped() && enter(request, usable - 1);
   }
 
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
@@ -257,6 +260,8 @@ private:
   std::optional<NodeId> follow(const ReturnFromProgram &from) {
     auto ctx = context();
     const auto target = returnTarget(ctx, from);
+    if (reading_.stopped())
+      return std::nullopt;
     Frame &frame = frames_.back();
     if (frames_.size() == 1) {
       if (target)

@@ -114,8 +114,15 @@ private:
   /// The variables of the query, none missing and no other.
   smt::Model completed(const smt::Model &found) const {
     smt::Model all = found;
-    for (TermId variable : smt::variablesOf(store_, eliminated_.formulas))
-      all.emplace(store_[variable].name, anyOf(variable));
+    const auto addRest = [&](std::span<const TermId> terms) {
+      for (TermId variable : smt::variablesOf(store_, terms))
+        if (!eliminated_.defines(variable))
+          all.emplace(store_[variable].name, anyOf(variable));
+    };
+    addRest(variables_);
+    addRest(eliminated_.formulas);
+    for (const auto &definition : eliminated_.definitions)
+      addRest(std::span(&definition.second, 1));
     complete(store_, eliminated_, all);
     smt::Model model;
     for (TermId variable : variables_) {

@@ -58,6 +58,11 @@ std::optional<Definition> definitionIn(smt::TermStore &store, TermId formula) {
 
 } // namespace
 
+bool Eliminated::defines(TermId variable) const {
+  return std::any_of(definitions.begin(), definitions.end(),
+                     [&](const Definition &definition) { return definition.first == variable; });
+}
+
 Eliminated eliminate(smt::TermStore &store, std::vector<TermId> formulas) {
   Eliminated result;
   for (;;) {

@@ -11,6 +11,8 @@ namespace feedhold::prove {
 struct Eliminated {
   std::vector<smt::TermId> formulas;
   std::vector<std::pair<smt::TermId, smt::TermId>> definitions; ///< variable, value; each over those that come later
+
+  bool defines(smt::TermId variable) const;
 };
 
 /// Satisfiable exactly where the formulas are.

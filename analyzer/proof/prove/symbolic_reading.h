@@ -189,7 +189,7 @@ bool align(SymbolicReading &reading, SymbolicState &a, SymbolicState &b);
 /// Calls visit(smt::TermId &) for each part of the state, in a fixed order; aligned states have the same parts.
 template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit);
 
-// ---- template -----------------------------------------------------------------------------------------------------
+// ---- template ----
 
 template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit) {
   const auto all = [&visit](auto &values) {

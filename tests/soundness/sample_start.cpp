@@ -1,0 +1,58 @@
+#include "soundness/sample_start.h"
+
+#include "dialects/registry.h"
+
+namespace feedhold::soundness {
+
+const Dialect &controlOf(const Sample &sample) { return *findDialect(allDialects(), sample.dialect); }
+
+Dialect machineOf(const Sample &sample, Random &random) {
+  Dialect dialect = controlOf(sample);
+  for (Switch *unknown : {&dialect.switches.dpi, &dialect.switches.nat})
+    if (*unknown == Switch::Unknown)
+      *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
+  return dialect;
+}
+
+EntryValues randomEntry(const LoadedSample &machine, Random &random) {
+  const ModalTable modes(machine.dialect());
+  EntryValues entry;
+  GivenVariables &given = entry.given;
+  const bool vacancy = machine.dialect().behaviour.variablesMayBeVacant;
+  const auto value = [&] {
+    return random.oneIn(3) ? (vacancy ? ConcreteValue{} : ConcreteValue::of(0)) : ConcreteValue::of(anyInput(random));
+  };
+  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+    if (findVariable(machine.dialect(), local))
+      given.set(local, value());
+  for (const std::string_view result : {"_value", "_value_returned"}) // before any call has returned one
+    if (const auto variable = machine.set.variableNamed(result))
+      given.set(*variable, ConcreteValue::of(0));
+  for (const std::uint32_t common : {100, 101, 102, 105, 110, 120, 130, 500, 501})
+    given.set(common, value());
+  for (const std::uint32_t cell : {1000, 2001, 3001, 3012, 5061, 5201, 5221, 5222, 5241, 3901})
+    given.set(cell, ConcreteValue::of(random.oneIn(3) ? 0 : anyInput(random)));
+  std::array<double, kAxisCount> position{};
+  for (double &axis : position)
+    axis = anyInput(random);
+  MachineState<ConcreteReading> &state = entry.state =
+      startState(ConcreteReading(machine.dialect(), given), modes, position);
+  for (std::size_t group = 1; group < kModalGroups; ++group)
+    if (const std::size_t codes = modes.group(group).codes.size();
+        codes != 0 && (!modes.powerOn(group) || !random.oneIn(4)))
+      state.codes[group] = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(codes)));
+  if (const auto polar = modes.groupOf(ModalKind::Polar)) // an assumption of the analysis: not in force at entry
+    state.codes[*polar] = modes.powerOn(*polar).value_or(ConcreteReading::kNoCode);
+  for (ConcreteValue &word : state.words)
+    word = value();
+  for (auto *shifts : {&state.shift, &state.local})
+    for (ConcreteValue &shift : *shifts)
+      shift = ConcreteValue::of(random.oneIn(2) ? 0 : anyInput(random));
+  state.lengthOffset = ConcreteValue::of(random.oneIn(2) ? 0 : anyInput(random));
+  for (ConcreteValue *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck})
+    *level = value();
+  state.spindle = static_cast<std::uint8_t>(random.below(kSpindleActions.size()));
+  return entry;
+}
+
+} // namespace feedhold::soundness
