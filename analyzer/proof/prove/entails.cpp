@@ -84,19 +84,27 @@ Query relevantQuery(const smt::TermStore &store, std::span<const TermId> facts, 
   return {Relevant(store, index, facts, conditions).to(goal), goal};
 }
 
+namespace {
+constexpr std::uint64_t kWorkOfTerm = 20; // to look at it, compared with a step of the search
+}
+
 bool Entailment::operator()(std::span<const TermId> facts, std::span<const TermId> conditions, TermId goal) {
   if (goal == store_.yes() || std::find(conditions.begin(), conditions.end(), goal) != conditions.end())
     return true;
+  if (work_ >= allowed_)
+    return false;
   index_.add(facts);
   const Query query{Relevant(store_, index_, facts, conditions).to(goal), goal};
   std::vector<TermId> key = query.assumptions;
   key.push_back(goal);
   const auto known = known_.find(key);
+  work_ += kWorkOfTerm * (key.size() + conditions.size());
   if (known != known_.end())
     return known->second;
-  const bool holds = discharge(store_, query, Budget::quick()).proved();
-  known_.emplace(std::move(key), holds);
-  return holds;
+  const Outcome outcome = discharge(store_, query, Budget::quick());
+  work_ += outcome.effort;
+  known_.emplace(std::move(key), outcome.proved());
+  return outcome.proved();
 }
 
 } // namespace feedhold::prove

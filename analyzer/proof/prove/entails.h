@@ -34,12 +34,19 @@ class Entailment {
 public:
   explicit Entailment(smt::TermStore &store) : store_(store), index_(store) {}
   /// The facts are those of the question before, and perhaps more.
+  /// False when there is no work left to find out.
   bool operator()(std::span<const smt::TermId> facts, std::span<const smt::TermId> conditions, smt::TermId goal);
+
+  /// How much work all questions together may still take; Outcome::effort and what putting a question takes.
+  void allow(std::uint64_t work) { allowed_ = work; }
+  std::uint64_t work() const { return work_; }
 
 private:
   smt::TermStore &store_;
   FactIndex index_;
   std::map<std::vector<smt::TermId>, bool> known_; // by assumptions, the goal last
+  std::uint64_t work_ = 0;
+  std::uint64_t allowed_ = ~std::uint64_t{0};
 };
 
 } // namespace feedhold::prove

@@ -84,6 +84,8 @@ struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
+  std::uint64_t mostWork = 20'000'000;
+  std::size_t mostTerms = 1'000'000;
 };
 
 /// Follows every path of the program; loops are met once, in the midst of any of their passes.

@@ -36,6 +36,7 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options)
     : reading_(reading), store_(reading.store()), programs_(programs), options_(options), entails_(store_) {
   reading_.usePath(this);
+  entails_.allow(options.mostWork);
 }
 
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
@@ -109,7 +110,8 @@ void Explorer::follow(std::vector<Path> work, Purpose purpose, Trial *trial) {
   while (!work.empty() && !result_.incomplete) {
     Path path = std::move(work.back());
     work.pop_back();
-    if (++result_.steps > options_.mostSteps)
+    if (++result_.steps > options_.mostSteps || entails_.work() >= options_.mostWork ||
+        store_.size() > options_.mostTerms)
       return giveUp("there are too many ways through the program");
     if (++path.steps > 20'000)
       return giveUp("a way through the program is too long");
