@@ -15,7 +15,7 @@ int run(int argc, char **argv) {
   const std::vector<Command> commands = {addCheckCommand(app),  addRunCommand(app),      addExplainCommand(app),
                                          addRulesCommand(app),  addDialectsCommand(app), addTokensCommand(app),
                                          addTreeCommand(app),   addModelCommand(app),    addCfgCommand(app),
-                                         addRangesCommand(app), addProveCommand(app)};
+                                         addRangesCommand(app), addProveCommand(app),    addRecheckCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

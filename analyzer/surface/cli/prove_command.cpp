@@ -1,6 +1,7 @@
 // `feedhold prove [PATHS]`: verdicts on the obligations of programs, for every input that their contracts allow.
 #include "dialects/registry.h"
 #include "rules/registry.h"
+#include "surface/cli/bundle_folder.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
@@ -22,6 +23,7 @@ struct ProveArguments {
   std::vector<std::string> only;
   std::string dialect;
   std::string config;
+  std::string certificate;
   std::string format = "text";
   std::string color = "auto";
   std::string stdinFilename = "<stdin>";
@@ -52,6 +54,8 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
   CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
   app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  app.add_option("--certificate", arguments.certificate,
+                 "write the evidence of all proofs to this folder, for `feedhold recheck`");
   app.add_option("--format", arguments.format, "text, json or sarif")->check(CLI::IsMember({"text", "json", "sarif"}));
   app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
   app.add_option("--color", arguments.color, "auto, always or never")
@@ -79,6 +83,14 @@ ProofsWish toWish(const ProveArguments &arguments) {
     if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
       wish.prove.only.push_back(kind);
   return wish;
+}
+
+BundleReading bundleReading(const ProofsWish &wish) {
+  BundleReading reading{.dialect = wish.files.dialect, .only = wish.prove.only};
+  reading.isolated = wish.files.config.source == ConfigSource::None;
+  if (wish.files.config.source == ConfigSource::Named)
+    reading.config = wish.files.config.file;
+  return reading;
 }
 
 /// What a replay of a witness has to be told, too.
@@ -113,14 +125,31 @@ void complainIfNothingWasProved(ProofsResult &result) {
     result.errors.push_back({result.skipped.front().path, "nothing to prove: " + result.skipped.front().reason});
 }
 
-int runProve(const ProveArguments &arguments) {
+std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
   if (!arguments.dialect.empty())
-    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects())) {
-      printError(*complaint);
-      return kExitCouldNotRun;
-    }
-  ProofsResult result = proveAll(toWish(arguments), {allDialects(), allRules()});
+    if (auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
+      return complaint;
+  if (arguments.certificate.empty())
+    return std::nullopt;
+  if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
+    return "standard input cannot be found again, so that --certificate has nothing to speak of";
+  if (const auto refusal = whyNoBundleFits(arguments.certificate))
+    return arguments.certificate + ": " + refusal->message;
+  return std::nullopt;
+}
+
+int runProve(const ProveArguments &arguments) {
+  if (const auto complaint = complaintAbout(arguments)) {
+    printError(*complaint);
+    return kExitCouldNotRun;
+  }
+  const ProofsWish wish = toWish(arguments);
+  ProofsResult result = proveAll(wish, {allDialects(), allRules()});
   complainIfNothingWasProved(result);
+  if (!arguments.certificate.empty())
+    if (const auto error = writeBundle(
+            arguments.certificate, makeBundle(result, bundleReading(wish), FEEDHOLD_VERSION, arguments.certificate)))
+      result.errors.push_back({arguments.certificate, error->message});
   const ProveReport report{.result = result,
                            .version = FEEDHOLD_VERSION,
                            .root = std::filesystem::current_path(),

@@ -1,0 +1,86 @@
+#include "surface/cli/bundle_folder.h"
+
+#include "base/source/source_file.h"
+#include "base/source/write_file.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+namespace feedhold {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Beside the folder, so that a move of it is one step.
+fs::path beside(const fs::path &folder, std::string_view what) {
+  fs::path path = fs::absolute(folder).lexically_normal();
+  if (!path.has_filename())
+    path = path.parent_path();
+  return path.string() + fmt::format(".{}-{}", what, ::getpid());
+}
+
+std::optional<Error> writeAll(const fs::path &folder, const Bundle &bundle) {
+  fs::create_directories(folder);
+  for (const auto &[name, text] : bundle) {
+    fs::create_directories((folder / name).parent_path());
+    if (auto error = writeFile(folder / name, text))
+      return error;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Error> whyNoBundleFits(const fs::path &folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error))
+    return std::nullopt;
+  if (!fs::is_directory(folder, error))
+    return Error{"is no folder"};
+  if (!fs::is_empty(folder, error) && !fs::exists(folder / kBundleIndex, error))
+    return Error{"holds other files; name a new folder or one with a bundle of proofs"};
+  return error ? std::optional(Error{error.message()}) : std::nullopt;
+}
+
+std::optional<Error> writeBundle(const fs::path &folder, const Bundle &bundle) {
+  const fs::path fresh = beside(folder, "new");
+  const fs::path old = beside(folder, "old");
+  std::error_code ignored;
+  try {
+    if (auto error = writeAll(fresh, bundle)) {
+      fs::remove_all(fresh, ignored);
+      return error;
+    }
+    if (fs::exists(folder))
+      fs::rename(folder, old);
+    fs::rename(fresh, folder);
+    fs::remove_all(old, ignored);
+    return std::nullopt;
+  } catch (const fs::filesystem_error &error) {
+    fs::remove_all(fresh, ignored);
+    if (fs::exists(old, ignored) && !fs::exists(folder, ignored))
+      fs::rename(old, folder, ignored);
+    return Error{error.code().message()};
+  }
+}
+
+Result<Bundle> readBundle(const fs::path &folder) {
+  Bundle bundle;
+  try {
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.is_directory())
+        continue;
+      const Result<SourceFile> file = SourceFile::open(entry.path());
+      if (!file)
+        return file.error();
+      bundle.emplace(entry.path().lexically_relative(folder).generic_string(), file.value().text());
+    }
+  } catch (const fs::filesystem_error &error) {
+    return Error{error.code().message()};
+  }
+  return bundle;
+}
+
+} // namespace feedhold

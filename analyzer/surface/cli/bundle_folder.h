@@ -1,0 +1,19 @@
+// Bundle folders: bundles of proofs on disk.
+#pragma once
+
+#include "surface/sink/proof_bundle.h"
+
+#include <filesystem>
+
+namespace feedhold {
+
+/// A folder is only taken when it is new, empty, or a bundle itself.  Absent: it can be taken.
+std::optional<Error> whyNoBundleFits(const std::filesystem::path &folder);
+
+/// Puts the whole bundle in place of what was there: a reader sees the old one or the new one.  Absent: it worked.
+std::optional<Error> writeBundle(const std::filesystem::path &folder, const Bundle &bundle);
+
+/// All files below the folder.
+Result<Bundle> readBundle(const std::filesystem::path &folder);
+
+} // namespace feedhold

@@ -1,0 +1,182 @@
+#include "surface/sink/proof_bundle.h"
+
+#include "base/support/match.h"
+#include "base/support/sha256.h"
+#include "surface/sink/prove_shown.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using prove::Obligation;
+namespace fs = std::filesystem;
+
+/// From the bundle; absolute where no way leads from there.
+std::string pathFrom(const fs::path &folder, const fs::path &path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  const std::string relative =
+      absolute.lexically_relative(fs::absolute(folder / "").lexically_normal()).generic_string();
+  return relative.empty() ? absolute.generic_string() : relative;
+}
+
+/// Ids hold names of programs, which may hold anything.
+std::string fileNameOf(std::size_t number, const std::string &id) {
+  constexpr std::size_t kLongest = 80;
+  std::string name = fmt::format("{:04}-", number);
+  for (const char c : id.substr(0, kLongest)) {
+    const bool isPlain =
+        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-' || c == '_';
+    name += isPlain ? c : '_';
+  }
+  return name;
+}
+
+class BundleWriter {
+public:
+  BundleWriter(const BundleReading &reading, std::string_view version, const fs::path &folder)
+      : reading_(reading), version_(version), folder_(folder) {}
+
+  Bundle write(const ProofsResult &result) {
+    std::vector<std::pair<std::string, const ProvedFile *>> files;
+    for (const ProvedFile &file : result.files)
+      files.emplace_back(pathFrom(folder_, file.file().path), &file);
+    std::sort(files.begin(), files.end());
+    Json rows = Json::array();
+    for (const auto &[path, file] : files)
+      rows.push_back(fileToJson(path, *file));
+    const Json index = {{"version", 1}, {"feedhold", version_}, {"reading", readingToJson()}, {"files", rows}};
+    bundle_.emplace(kBundleIndex, index.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    return std::move(bundle_);
+  }
+
+private:
+  Json readingToJson() const {
+    Json only = Json::array();
+    for (const prove::ObligationKind kind : reading_.only)
+      only.push_back(prove::nameOf(kind));
+    return {{"dialect", reading_.dialect ? Json(*reading_.dialect) : Json()},
+            {"isolated", reading_.isolated},
+            {"config", reading_.config ? Json(pathFrom(folder_, *reading_.config)) : Json()},
+            {"only", std::move(only)}};
+  }
+  Json fileToJson(const std::string &path, const ProvedFile &file) {
+    Json obligations = Json::array();
+    for (const ProvedProgram &program : file.programs)
+      for (const Obligation &obligation : program.proof.obligations)
+        obligations.push_back(obligationToJson(obligation, file, program));
+    return {{"path", path},
+            {"dialect", file.loaded->dialect.id},
+            {"sources", sourcesOf(file)},
+            {"obligations", std::move(obligations)}};
+  }
+  /// All that was read: the program, its contract files, the programs of its folder.
+  Json sourcesOf(const ProvedFile &file) const {
+    std::map<std::string, std::string> hashes;
+    for (const auto &loaded : file.loaded->files) {
+      hashes[pathFrom(folder_, loaded->path)] = sha256(loaded->source.text());
+      for (std::size_t i = 1; i < loaded->contracts.sources.size(); ++i) {
+        const SourceFile &contract = loaded->contracts.sources[i];
+        hashes[pathFrom(folder_, contract.path())] = sha256(contract.text());
+      }
+    }
+    Json rows = Json::array();
+    for (const auto &[path, hash] : hashes)
+      rows.push_back({{"path", path}, {"sha256", hash}});
+    return rows;
+  }
+
+  Json obligationToJson(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program) {
+    const std::string name = fileNameOf(++count_, obligation.id);
+    Json evidence = Json::array();
+    for (const prove::Outcome &outcome : obligation.evidence)
+      if (const auto *proved = std::get_if<prove::Proved>(&outcome.answer))
+        evidence.push_back(evidenceToJson(*proved, fmt::format("{}/{}", name, evidence.size() + 1)));
+    const auto orNull = [](const std::string &text) { return text.empty() ? Json() : Json(text); };
+    return {{"id", obligation.id},
+            {"program", toString(file.file().model.programs[program.program].name)},
+            {"kind", prove::nameOf(obligation.kind)},
+            {"line", file.file().source.lineOf(obligation.span.begin)},
+            {"claim", claimOf(obligation, file.loaded->dialect)},
+            {"verdict", prove::nameOf(obligation.verdict)},
+            {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
+            {"reason", orNull(obligation.reason)},
+            {"bound", orNull(obligation.bound)},
+            {"witness", obligation.witness ? witnessToJson(*obligation.witness, file) : Json()},
+            {"evidence", std::move(evidence)}};
+  }
+  static Json witnessToJson(const prove::Witness &witness, const ProvedFile &file) {
+    Json variables = Json::object();
+    for (const auto &[variable, value] : witness.variables.entries())
+      if (!value.vacant)
+        variables[file.loaded->set->nameOfVariable(variable).substr(1)] = value.number;
+    return {{"variables", std::move(variables)}, {"happened", witness.happened}};
+  }
+  Json evidenceToJson(const prove::Proved &proved, const std::string &name) {
+    return match(
+        proved.evidence,
+        [&](const prove::CertificateEvidence &evidence) -> Json {
+          return {{"claim", keep(name + ".claim", evidence.claim)},
+                  {"certificate", keep(name + ".certificate", evidence.certificate)}};
+        },
+        [&](const prove::SolverEvidence &evidence) -> Json {
+          return {{"smtlib", keep(name + ".smt2", evidence.smtlib)}, {"solvers", evidence.solvers}};
+        });
+  }
+  Json keep(const std::string &name, const std::string &text) {
+    bundle_.emplace(name, text);
+    return {{"file", name}, {"sha256", sha256(text)}};
+  }
+
+  const BundleReading &reading_;
+  std::string_view version_;
+  const fs::path &folder_;
+  Bundle bundle_;
+  std::size_t count_ = 0;
+};
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) prove::ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+} // namespace
+
+Bundle makeBundle(const ProofsResult &result, const BundleReading &reading, std::string_view version,
+                  const fs::path &folder) {
+  return BundleWriter(reading, version, folder).write(result);
+}
+
+Result<BundleOrigin> originOf(const Bundle &bundle, const fs::path &folder) {
+  const auto text = bundle.find(std::string(kBundleIndex));
+  if (text == bundle.end())
+    return Error{fmt::format("no bundle of proofs: it has no {}", kBundleIndex)};
+  try {
+    const Json index = Json::parse(text->second);
+    BundleOrigin origin{.version = index.at("feedhold"), .paths = {}, .reading = {}};
+    if (index.at("version") != 1)
+      return Error{"a bundle of another version"};
+    for (const Json &file : index.at("files"))
+      origin.paths.push_back((folder / std::string(file.at("path"))).lexically_normal());
+    const Json &reading = index.at("reading");
+    if (!reading.at("dialect").is_null())
+      origin.reading.dialect = std::string(reading.at("dialect"));
+    origin.reading.isolated = reading.at("isolated");
+    if (!reading.at("config").is_null())
+      origin.reading.config = (folder / std::string(reading.at("config"))).lexically_normal();
+    for (const prove::ObligationKind kind : kKinds)
+      for (const Json &name : reading.at("only"))
+        if (name == prove::nameOf(kind))
+          origin.reading.only.push_back(kind);
+    return origin;
+  } catch (const Json::exception &) {
+    return Error{fmt::format("{} cannot be read", kBundleIndex)};
+  }
+}
+
+} // namespace feedhold
