@@ -1,0 +1,61 @@
+"""corpus/manifest.toml says what becomes of each obligation of corpus/packages/; witnesses are run again."""
+import json
+import os
+import shlex
+import subprocess
+import time
+import tomllib
+import unittest
+from pathlib import Path
+
+CORPUS = Path(__file__).resolve().parents[3] / "corpus"
+FEEDHOLD = os.environ["FEEDHOLD"]
+VERDICTS = ("proved", "refuted", "unreachable", "unknown")
+
+
+def feedhold(*arguments):
+    return subprocess.run([FEEDHOLD, *arguments], cwd=CORPUS, capture_output=True, text=True, timeout=300)
+
+
+def expected():
+    """path -> the verdicts by id, and the most passes by id."""
+    programs = tomllib.loads((CORPUS / "manifest.toml").read_text())["program"]
+    return {program["path"]: ({identity: verdict for verdict in VERDICTS for identity in program.get(verdict, [])},
+                              program.get("passes", {}))
+            for program in programs if program["path"].startswith("packages/")}
+
+
+class Seeds(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        start = time.monotonic()
+        result = feedhold("prove", "--format", "json", "--isolated", "--dialect", "fanuc-30i", "packages")
+        print(f"all proofs: {time.monotonic() - start:.2f} s")
+        cls.files = {file["path"]: file["obligations"] for file in json.loads(result.stdout)["files"]}
+
+    def test_verdict_of_every_obligation(self):
+        found = {path: ({row["id"]: row["verdict"] for row in rows},
+                        {row["id"]: row["bound"] for row in rows if row["bound"]})
+                 for path, rows in self.files.items()}
+        self.assertEqual(found, expected())
+
+    def test_every_refutation_has_a_run_that_shows_it(self):
+        for path, rows in self.files.items():
+            for row in rows:
+                if row["verdict"] != "refuted":
+                    continue
+                with self.subTest(obligation=row["id"], path=path):
+                    shown = feedhold(*shlex.split(row["witness"]["run"])[1:])
+                    self.assertEqual(shown.returncode, 1, shown.stdout + shown.stderr)
+
+    def test_proofs_are_certified(self):
+        """But those for which only solvers are known to find the proof."""
+        grades = {(row["id"], row["grade"]) for rows in self.files.values() for row in rows
+                  if row["verdict"] in ("proved", "unreachable") and row["grade"] != "certified"}
+        self.assertEqual(grades, {("O9115.ensures.L2", "two-solvers")})
+
+
+if __name__ == "__main__":
+    unittest.main()
