@@ -41,13 +41,18 @@ std::optional<std::string> complaintAbout(const BundleOrigin &origin) {
   return origin.reading.dialect ? complaintAboutDialect(*origin.reading.dialect, allDialects()) : std::nullopt;
 }
 
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 int present(const BundleCheck &check, std::size_t obligations, const RecheckArguments &arguments) {
   for (const std::string &problem : check.problems)
     print(problem + "\n");
   if (!arguments.quiet)
-    print(fmt::format("{}: {} obligations proved again, {} certificates followed, {} texts solved again\n",
-                      check.problems.empty() ? "all as it was" : fmt::format("{} differences", check.problems.size()),
-                      obligations, check.certificates, check.solved));
+    print(fmt::format("{}: {} proved again, {} followed, {} solved again\n",
+                      check.problems.empty() ? "all as it was" : counted(check.problems.size(), "difference"),
+                      counted(obligations, "obligation"), counted(check.certificates, "certificate"),
+                      counted(check.solved, "text")));
   return check.problems.empty() ? kExitClean : kExitFindings;
 }
 
