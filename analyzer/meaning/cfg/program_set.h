@@ -32,6 +32,7 @@ struct Callee {
   FileId file;
   NodeId entry;
   ProgramId program; // in which a search for a sequence number takes place
+  friend bool operator==(const Callee &, const Callee &) = default;
 };
 
 /// Names of variables that are no numbers (`#<depth>`): from here on in the numbering of variables, so that every

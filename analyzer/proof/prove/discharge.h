@@ -4,6 +4,7 @@
 #include "proof/smt/model.h"
 #include "proof/smt/term.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -27,6 +28,12 @@ struct Budget {
   std::uint64_t z3 = 2'000'000;
   /// Resource units of cvc5; 0: cvc5 is not asked.
   std::uint64_t cvc5 = 40'000;
+
+  /// What is left of it after so much effort, of whatever kind.
+  Budget without(std::uint64_t effort) const {
+    const auto rest = [effort](std::uint64_t part) { return part - std::min(part, effort); };
+    return {.search = rest(search), .z3 = rest(z3), .cvc5 = cvc5};
+  }
 
   /// For the many small questions of a search for invariants: linear reasoning and few splits, no solver.
   static Budget quick() { return {.search = 40'000, .z3 = 0, .cvc5 = 0}; }

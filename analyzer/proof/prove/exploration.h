@@ -80,15 +80,19 @@ struct Exploration {
   std::size_t steps = 0;
 };
 
+/// Whether paths that meet go on as one (merging.h): fewer of them, of which less can be told.
+enum class PathMerging : std::uint8_t { No, Yes };
+
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 20'000'000;
-  std::size_t mostTerms = 1'000'000;
+  std::size_t mostTerms = 1'000'000; // of those that are made
 };
 
-/// Follows every path of the program; loops are met once, in the midst of any of their passes.
+/// Follows every path of the program; loops are met once, in the midst of any of their passes.  Paths are merged where
+/// they are too many for a quarter of the work.
 Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
                     const ExploreOptions &options);
 

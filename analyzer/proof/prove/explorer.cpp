@@ -10,6 +10,11 @@ namespace feedhold::prove {
 using smt::TermId;
 using smt::TermKind;
 
+namespace {
+constexpr std::string_view kTooMany = "there are too many ways through the program";
+constexpr std::uint32_t kLongestPath = 20'000; // steps
+} // namespace
+
 // ---- Path ----
 
 bool Path::says(const smt::TermStore &store, TermId condition) const {
@@ -33,8 +38,10 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 
 // ---- Explorer ----
 
-Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options)
-    : reading_(reading), store_(reading.store()), programs_(programs), options_(options), entails_(store_) {
+Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options,
+                   PathMerging merging)
+    : reading_(reading), store_(reading.store()), programs_(programs), options_(options), merging_(merging),
+      termsBefore_(store_.size()), entails_(store_) {
   reading_.usePath(this);
   entails_.allow(options.mostWork);
 }
@@ -50,7 +57,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   for (const TermId assumption : options_.assumptions)
     possible = possible && path.assume(store_, assumption);
   if (possible)
-    follow({std::move(path)}, Purpose::Record, nullptr);
+    follow(std::move(path), Purpose::Record, nullptr);
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
   result_.facts = reading_.facts();
   reading_.usePath(nullptr);
@@ -89,8 +96,7 @@ const ModalTable &Explorer::modesOf(FileId file) {
   return *modes;
 }
 
-const Wto &Explorer::wtoOf(const Path &path) {
-  const Callee &callee = path.frames.back().callee;
+const Wto &Explorer::wtoOf(const Callee &callee) {
   auto &wto = wtos_[{callee.file.index(), callee.entry.index()}];
   if (!wto) {
     const ProgramFile &file = programs_.file(callee.file);
@@ -106,25 +112,53 @@ Path Explorer::to(Path path, NodeId node) const {
 
 // ---- the paths ----
 
-void Explorer::follow(std::vector<Path> work, Purpose purpose, Trial *trial) {
-  while (!work.empty() && !result_.incomplete) {
-    Path path = std::move(work.back());
-    work.pop_back();
-    if (++result_.steps > options_.mostSteps || entails_.work() >= options_.mostWork ||
-        store_.size() > options_.mostTerms)
-      return giveUp("there are too many ways through the program");
-    if (++path.steps > 20'000)
-      return giveUp("a way through the program is too long");
-    purpose_ = purpose; // opening a loop tries it
-    if (!arrive(path, purpose, trial))
+void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
+  Worklist work;
+  work.add({}, std::move(start));
+  while (!work.empty() && !result_.incomplete)
+    for (Path &path : merged(work.takeFirst(), trial)) {
+      if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
+        return giveUp(kTooMany);
+      purpose_ = purpose; // opening a loop tries it
+      if (!arrive(path, purpose, trial))
+        continue;
+      purpose_ = purpose;
+      for (Path &next : execute(std::move(path))) {
+        Worklist::Position position = positionOf(next);
+        work.add(std::move(position), std::move(next));
+      }
+      path_ = nullptr;
+    }
+}
+
+bool Explorer::isTooMuch(std::size_t waiting) {
+  return ++result_.steps > options_.mostSteps || waiting > options_.mostPaths || entails_.work() >= options_.mostWork ||
+         store_.size() - termsBefore_ > options_.mostTerms;
+}
+
+Worklist::Position Explorer::positionOf(const Path &path) {
+  Worklist::Position position;
+  for (std::size_t depth = 1; depth < path.frames.size(); ++depth)
+    position.push_back(wtoOf(path.frames[depth - 1].callee).positionOf(path.frames[depth].call.node));
+  position.push_back(wtoOf(path.frames.back().callee).positionOf(path.at.node));
+  return position;
+}
+
+/// Those that can go on together; without those that have left the loop that is tried.
+std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) {
+  if (merging_ == PathMerging::No)
+    return paths;
+  std::vector<Path> left;
+  for (Path &path : paths) {
+    if (!path.atOpenedHead && !closeLeftLoops(path, trial))
       continue;
-    purpose_ = purpose;
-    for (Path &next : execute(std::move(path)))
-      work.push_back(std::move(next));
-    path_ = nullptr;
-    if (work.size() > options_.mostPaths)
-      return giveUp("there are too many ways through the program");
+    const auto same = std::find_if(left.begin(), left.end(), [&](const Path &other) { return canMerge(other, path); });
+    if (same == left.end())
+      left.push_back(std::move(path));
+    else
+      mergeInto(reading_, *same, std::move(path));
   }
+  return left;
 }
 
 /// A loop is left when the path leaves its program, or stands outside of its nodes.
@@ -134,7 +168,7 @@ bool Explorer::closeLeftLoops(Path &path, const Trial *trial) {
     if (path.frames.size() > loop.depth)
       return true;
     if (path.frames.size() == loop.depth) {
-      const Wto &wto = wtoOf(path);
+      const Wto &wto = wtoOf(path.frames.back().callee);
       const std::uint32_t at = wto.positionOf(path.at.node);
       if (wto.positionOf(loop.head) <= at && at < wto.endOf(loop.head))
         return true;
@@ -153,7 +187,7 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
   }
   if (!closeLeftLoops(path, trial))
     return false;
-  if (!wtoOf(path).isHead(path.at.node))
+  if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
     return true;
   const bool isOpen =
       !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
@@ -318,7 +352,15 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
 
 Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
                     const ExploreOptions &options) {
-  return Explorer(reading, programs, options).run(entry, start);
+  ExploreOptions first = options;
+  first.mostSteps /= 4;
+  first.mostPaths /= 4;
+  first.mostWork /= 4;
+  first.mostTerms /= 4;
+  Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
+  if (found.incomplete != kTooMany)
+    return found;
+  return Explorer(reading, programs, options, PathMerging::Yes).run(entry, start);
 }
 
 } // namespace feedhold::prove

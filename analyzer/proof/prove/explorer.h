@@ -5,6 +5,7 @@
 #include "proof/prove/entails.h"
 #include "proof/prove/exploration.h"
 #include "proof/prove/loops.h"
+#include "proof/prove/merging.h"
 
 #include <memory>
 
@@ -12,7 +13,7 @@ namespace feedhold::prove {
 
 class Explorer : public PathKnowledge {
 public:
-  Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options);
+  Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options, PathMerging merging);
 
   Exploration run(Callee entry, const SymbolicState &start);
 
@@ -30,7 +31,7 @@ private:
     std::size_t instance;
     std::vector<Path> passes;
   };
-  void follow(std::vector<Path> work, Purpose purpose, Trial *trial);
+  void follow(Path start, Purpose purpose, Trial *trial);
   /// False: the path has ended here.
   bool arrive(Path &path, Purpose purpose, Trial *trial);
   bool closeLeftLoops(Path &path, const Trial *trial);
@@ -62,12 +63,15 @@ private:
   void stopsWhen(Path &path, Condition when, AlarmKind alarm);
   void exit(const Path &path, ExitKind kind);
   void giveUp(std::string_view reason);
+  bool isTooMuch(std::size_t waiting);
+  Worklist::Position positionOf(const Path &path);
+  std::vector<Path> merged(std::vector<Path> paths, const Trial *trial);
   bool isPossible(const Path &path, smt::TermId condition);
 
   StepContext<SymbolicReading> contextOf(Path &path);
   const Node &nodeOf(const Path &path) const { return programs_.node(path.at); }
   const ProgramFile &fileOf(const Path &path) const { return programs_.file(path.at.file); }
-  const Wto &wtoOf(const Path &path);
+  const Wto &wtoOf(const Callee &callee);
   const ModalTable &modesOf(FileId file);
   Path to(Path path, NodeId node) const;
 
@@ -75,6 +79,8 @@ private:
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const ExploreOptions &options_;
+  PathMerging merging_;
+  std::size_t termsBefore_;
   Entailment entails_;
   const Path *path_ = nullptr; // on which the present step is made
   Purpose purpose_ = Purpose::Record;

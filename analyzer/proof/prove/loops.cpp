@@ -141,7 +141,7 @@ bool LoopOpener::tryPasses(Work &work) {
   start.loops.push_back({start.at.node, start.frames.size(), work.instance});
   start.atOpenedHead = true;
   Explorer::Trial trial{work.instance, {}};
-  explorer_.follow({std::move(start)}, Explorer::Purpose::Trial, &trial);
+  explorer_.follow(std::move(start), Explorer::Purpose::Trial, &trial);
   work.found = std::move(trial.passes);
   return !explorer_.result_.incomplete;
 }

@@ -21,6 +21,8 @@ struct SymbolicFrame {
   std::vector<SymbolicValue> callerCounters = {};
   std::optional<std::size_t> modal = {}; // the modal call that this is: its index in MachineState::modalCalls
   std::optional<std::size_t> modalLimit = {};
+
+  friend bool operator==(const SymbolicFrame &, const SymbolicFrame &) = default;
 };
 
 /// A loop in which the path is: any of its passes.
@@ -28,6 +30,8 @@ struct OpenLoop {
   NodeId head;
   std::size_t depth;    // how many frames there were at its head
   std::size_t instance; // Exploration::loops
+
+  friend bool operator==(const OpenLoop &, const OpenLoop &) = default;
 };
 
 struct Path {

@@ -18,6 +18,8 @@ constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostSinking = 16;
 /// A measure that needs more is seldom the right one; what is linear takes less.
 constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
+/// For all questions about one loop.
+constexpr std::uint64_t kMostWork = 4'000'000;
 
 class RankingSearch {
 public:
@@ -138,12 +140,13 @@ private:
   bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
-    if (goal == store_.no())
+    if (goal == store_.no() || work_ > kMostWork)
       return false;
     std::vector<TermId> conditions = loop_.transitions[pass].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
     Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffort);
     const bool proved = outcome.proved();
+    work_ += outcome.effort;
     if (proved)
       evidence.push_back(std::move(outcome));
     return proved;
@@ -236,6 +239,7 @@ private:
   const LoopInstance &loop_;
   std::vector<TermId> candidates_;
   std::vector<TermId> phases_; // hold from some pass on
+  std::uint64_t work_ = 0;
   Termination result_;
 };
 
