@@ -2,6 +2,7 @@
 
 #include "proof/prove/entails.h"
 #include "proof/prove/explorer.h"
+#include "proof/prove/invariant_candidates.h"
 
 #include <algorithm>
 
@@ -334,62 +335,11 @@ void LoopOpener::addLastPass(Work &work) {
 }
 
 std::vector<TermId> LoopOpener::candidates(const Work &work) const {
-  smt::TermStore &store = explorer_.store_;
-  std::vector<TermId> all;
-  const TermId zero = store.number(Number(0));
-  std::vector<std::size_t> free;
-  for (std::size_t i = 0; i < work.parts().size(); ++i)
-    if (work.parts()[i].kind == PartKind::Free)
-      free.push_back(i);
-  for (const std::size_t i : free) {
-    const LoopPart &part = work.parts()[i];
-    if (store.sort(part.symbol) == Sort::Bool) {
-      all.push_back(store.logicalNot(part.symbol));
-      continue;
-    }
-    all.push_back(store.lessOrEqual(part.arrival, part.symbol));
-    all.push_back(store.lessOrEqual(part.symbol, part.arrival));
-    all.push_back(store.lessOrEqual(zero, part.symbol));
-    all.push_back(store.lessOrEqual(part.symbol, zero));
-    for (const std::size_t j : free) {
-      const LoopPart &other = work.parts()[j];
-      if (j <= i || store.sort(other.symbol) == Sort::Bool ||
-          std::any_of(work.left.begin(), work.left.end(), [&](const auto &left) {
-            return store.subtract(left[i], part.symbol) != store.subtract(left[j], other.symbol);
-          }))
-        continue;
-      all.push_back(
-          store.equal(store.subtract(part.symbol, other.symbol), store.subtract(part.arrival, other.arrival)));
-    }
-  }
-  smt::Substitution present; // what held of a variable at the arrival may hold of what becomes of it
-  for (const std::size_t i : free)
-    if (store[work.parts()[i].arrival].kind == TermKind::Variable)
-      present.emplace(work.parts()[i].arrival, work.parts()[i].symbol);
-  for (const TermId condition : work.arrival.conditions) {
-    all.push_back(smt::substitute(store, condition, present));
-    for (const auto &[arrival, symbol] : present)
-      all.push_back(smt::substitute(store, condition, {{arrival, symbol}}));
-  }
+  LoopTrial trial{work.passes, work.shape, work.left, work.arrival.conditions, {}};
   for (const Path &pass : work.found)
-    for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
-      const TermKind kind = store[pass.conditions[i]].kind;
-      if (kind == TermKind::Not && store[store[pass.conditions[i]].arguments[0]].kind == TermKind::Equal) {
-        const auto &sides = store[store[pass.conditions[i]].arguments[0]].arguments; // a loop that ends at one value
-        const TermId left = sides[0];
-        const TermId right = sides[1];
-        all.push_back(store.lessOrEqual(left, right));
-        all.push_back(store.lessOrEqual(right, left));
-      }
-      if (free.empty() || (kind != TermKind::Less && kind != TermKind::LessOrEqual))
-        continue;
-      all.push_back(pass.conditions[i]);
-      all.push_back(store.logicalNot(pass.conditions[i]));
-      const TermId left = store[pass.conditions[i]].arguments[0];
-      const TermId right = store[pass.conditions[i]].arguments[1];
-      all.push_back(store.lessOrEqual(left, right));
-    }
-  return all;
+    trial.conditions.insert(trial.conditions.end(), pass.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
+                            pass.conditions.end());
+  return invariantCandidates(explorer_.store_, trial);
 }
 
 smt::Substitution LoopOpener::atArrival(const Work &work) const {
@@ -406,7 +356,8 @@ smt::Substitution LoopOpener::atArrival(const Work &work) const {
 bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
   const smt::Substitution first = atArrival(work);
-  return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, smt::substitute(store, candidate, first));
+  return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions,
+                            smt::substitute(store, candidate, first));
 }
 
 bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
@@ -423,8 +374,6 @@ bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate
 void LoopOpener::addInvariants(Work &work) {
   const std::vector<TermId> always = work.facts;
   std::vector<TermId> left = candidates(work);
-  std::sort(left.begin(), left.end());
-  left.erase(std::unique(left.begin(), left.end()), left.end());
   const smt::Substitution counted = atPass(work, 1);
   std::erase_if(left, [&](TermId candidate) {
     const auto variables = smt::variablesOf(explorer_.store_, candidate);
