@@ -27,7 +27,7 @@ public:
   RunResult run() {
     while (!ended_) {
       if (result_.steps == options_.fuel || result_.moves.size() >= options_.mostMoves)
-        end(RunEnd::Fuel);
+        endWithoutFuel();
       else
         one();
     }
@@ -49,6 +49,8 @@ private:
   void one() {
     if (options_.trace)
       options_.trace({at_, state_, frames_.size() - 1, result_.moves.size()});
+    if (circle_)
+      circle_->places.insert(frames_.size() == 1 ? at_ : frames_[1].call);
     ++result_.steps;
     const Place here = at_;
     const Node &current = node();
@@ -73,13 +75,34 @@ private:
   }
   void watch() {
     using Outside = RepeatWatch::Outside;
+    if (circle_) {
+      if (circle_->at == at_ && circle_->frames == frames_ && circle_->state == state_)
+        endCircle();
+      return;
+    }
     const Outside outside = reading_.takeVolatileReads() ? Outside::Read : Outside::Unread;
     if (watch_.comesBack(at_, state_, frames_, outside))
-      end(RunEnd::Repeats);
+      circle_ = std::make_unique<Circle>(Circle{at_, state_, frames_, result_.steps, result_.moves.size(), {}});
   }
   void end(RunEnd how) {
     result_.end = how;
     ended_ = true;
+  }
+  /// The run is told up to where its state came back first.
+  void endCircle() {
+    result_.circle.assign(circle_->places.begin(), circle_->places.end());
+    result_.steps = circle_->steps;
+    result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(circle_->moves), result_.moves.end());
+    end(RunEnd::Repeats);
+  }
+  void endWithoutFuel() {
+    if (!circle_)
+      return end(RunEnd::Fuel);
+    circle_->places.clear();
+    at_ = circle_->at;
+    state_ = std::move(circle_->state);
+    frames_ = std::move(circle_->frames);
+    endCircle();
   }
 
   // ---- what an instruction has brought ----
@@ -308,6 +331,16 @@ private:
   std::vector<Frame> frames_;
   ExecutedWords<ConcreteReading> words_;
   RepeatWatch watch_;
+  /// A state that came back, and what the run meets on its way round to it.
+  struct Circle {
+    Place at;
+    State state;
+    std::vector<Frame> frames;
+    std::uint64_t steps;
+    std::size_t moves;
+    std::set<Place> places;
+  };
+  std::unique_ptr<Circle> circle_; // null until a state has come back
   std::set<std::pair<Place, std::string_view>> noted_;
   RunResult result_;
   bool ended_ = false;

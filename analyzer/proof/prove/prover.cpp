@@ -321,25 +321,27 @@ void Prover::loops() {
     if (!wto.isHead(head))
       continue;
     const Place place{program_.file, head};
+    const auto isInside = [&wto, place](Place at) {
+      const std::uint32_t position = at.file == place.file ? wto.positionOf(at.node) : Wto::kUnreachable;
+      return wto.positionOf(place.node) <= position && position < wto.endOf(place.node);
+    };
     std::vector<const LoopInstance *> instances;
-    for (const LoopInstance &loop : found_.loops)
+    std::vector<const LoopInstance *> within; // a pass that stays in one of these for ever does not end
+    for (const LoopInstance &loop : found_.loops) {
       if (loop.head == place)
         instances.push_back(&loop);
-    const Violation violation = [this, place, &wto](const RunResult &run) -> std::optional<std::string> {
-      const auto isInside = [&](Place at) {
-        const std::uint32_t position = at.file == place.file ? wto.positionOf(at.node) : Wto::kUnreachable;
-        return wto.positionOf(place.node) <= position && position < wto.endOf(place.node);
-      };
-      const bool inside =
-          isInside(run.place) ||
-          std::any_of(run.calls.begin(), run.calls.end(), [&](const OpenCall &call) { return isInside(call.place); });
-      if (run.end == RunEnd::Repeats && inside)
+      if (isInside(loop.calls.empty() ? loop.head : loop.calls.front()))
+        within.push_back(&loop);
+    }
+    const Violation violation = [&isInside](const RunResult &run) -> std::optional<std::string> {
+      const bool staysInside = !run.circle.empty() && std::all_of(run.circle.begin(), run.circle.end(), isInside);
+      if (run.end == RunEnd::Repeats && staysInside)
         return "the run comes back to the same state and goes on for ever";
       return std::nullopt;
     };
     Obligation &obligation =
         add(ObligationKind::LoopEnds, place, file().tree->blocks[programs_.node(place).block].span(), "this loop ends");
-    settleLoop(obligation, instances, violation);
+    settleLoop(obligation, within, violation);
     if (obligation.verdict == Verdict::Proved)
       explainEnd(obligation, instances);
   }
