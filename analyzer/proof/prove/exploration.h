@@ -4,6 +4,7 @@
 #include "proof/prove/path.h"
 
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace feedhold::prove {
@@ -48,7 +49,8 @@ struct LoopInstance {
     smt::TermId generic;
   };
   std::vector<Value> values = {};
-  bool isRecorded = false; // false: met only in a trial
+  bool isRecorded = false;   // false: met only in a trial
+  bool callsUnknown = false; // a pass may stay in a program that is not followed
 };
 
 enum class ExitKind : std::uint8_t { Returns, Ends };
@@ -69,11 +71,25 @@ struct Unfollowed {
   Span span;
 };
 
+/// A call that is not followed: the run may stop in it with any alarm, behind any movement, or never come back.
+struct UnfollowedCall {
+  std::vector<smt::TermId> conditions; // of the way there
+  std::vector<std::size_t> loops;      // that the call is in: their instances
+};
+
+/// A loop is met once, in the midst of any of its passes; or its passes are followed one after the other, which ends
+/// only where their number is known, or where a path comes back to a state in which it has been.
+enum class LoopTreatment : std::uint8_t { AnyPass, EachPass };
+
 struct Exploration {
   std::vector<Check> checks;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
+  LoopTreatment treatment = LoopTreatment::AnyPass;
+  std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
+  std::set<Place> heads;      // of EachPass: those that were met
   std::vector<Unfollowed> unfollowed;
+  std::vector<UnfollowedCall> unfollowedCalls;
   std::vector<smt::TermId> facts;             // about all variables
   std::optional<std::string_view> incomplete; // why paths are missing; then nothing is proved
   std::size_t paths = 0;
@@ -85,14 +101,15 @@ enum class PathMerging : std::uint8_t { No, Yes };
 
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
+  LoopTreatment loops = LoopTreatment::AnyPass;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
-  std::uint64_t mostWork = 20'000'000;
+  std::uint64_t mostWork = 6'000'000;
   std::size_t mostTerms = 1'000'000; // of those that are made
 };
 
-/// Follows every path of the program; loops are met once, in the midst of any of their passes.  Paths are merged where
-/// they are too many for a quarter of the work.
+/// Follows every path of the program.  Paths are merged where they are too many for a quarter of the work, unless each
+/// pass is followed.
 Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
                     const ExploreOptions &options);
 

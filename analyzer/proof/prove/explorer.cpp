@@ -47,6 +47,7 @@ Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const E
 }
 
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
+  result_.treatment = options_.loops;
   Path path{.at = {entry.file, entry.entry},
             .state = start,
             .conditions = {},
@@ -58,6 +59,9 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     possible = possible && path.assume(store_, assumption);
   if (possible)
     follow(std::move(path), Purpose::Record, nullptr);
+  for (const UnfollowedCall &call : result_.unfollowedCalls)
+    for (const std::size_t loop : call.loops)
+      result_.loops[loop].callsUnknown = true;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
   result_.facts = reading_.facts();
   reading_.usePath(nullptr);
@@ -189,6 +193,8 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
     return false;
   if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
     return true;
+  if (options_.loops == LoopTreatment::EachPass)
+    return !comesBack(path);
   const bool isOpen =
       !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
   if (isOpen) {
@@ -199,6 +205,23 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
     return false;
   }
   return LoopOpener(*this).open(path);
+}
+
+/// In the state of an earlier visit: whatever comes has been followed from there.
+bool Explorer::comesBack(Path &path) {
+  result_.heads.insert(path.at);
+  const auto &known = path.landmark;
+  if (known && known->at == path.at && known->moved == path.moved && known->frames == path.frames &&
+      known->state == path.state) {
+    result_.repeats.push_back(path.at);
+    return true;
+  }
+  if (!known || ++path.visits >= path.mostVisits) {
+    path.landmark = std::make_shared<const Landmark>(Landmark{path.at, path.state, path.frames, path.moved});
+    path.visits = 0;
+    path.mostVisits *= 2;
+  }
+  return false;
 }
 
 void Explorer::recordPass(const Path &path) {
@@ -352,6 +375,8 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
 
 Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
                     const ExploreOptions &options) {
+  if (options.loops == LoopTreatment::EachPass)
+    return Explorer(reading, programs, options, PathMerging::No).run(entry, start);
   ExploreOptions first = options;
   first.mostSteps /= 4;
   first.mostPaths /= 4;

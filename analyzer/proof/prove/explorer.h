@@ -35,6 +35,7 @@ private:
   /// False: the path has ended here.
   bool arrive(Path &path, Purpose purpose, Trial *trial);
   bool closeLeftLoops(Path &path, const Trial *trial);
+  bool comesBack(Path &path);
   void recordPass(const Path &path);
 
   // ---- one instruction: the paths that go on ----
@@ -54,6 +55,7 @@ private:
   std::vector<Path> enter(Path path, const CallRequest<SymbolicReading> &request, std::optional<std::size_t> modal);
   std::vector<Path> modalCall(Path path, Condition moves);
   std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request, std::string_view reason);
+  bool mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const;
   std::optional<AlarmKind> nestingAlarm(const Path &path, bool macro) const;
   std::vector<VariableMap<SymbolicValue>::Entry> takeOwnNames(SymbolicState &state) const;
   std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);

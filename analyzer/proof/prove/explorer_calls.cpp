@@ -2,6 +2,7 @@
 #include "proof/prove/explorer.h"
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::prove {
 
@@ -62,6 +63,13 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
 /// Of what is not known, or not followed: it may do anything to what the called program sees, and comes back.
 std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicReading> &request,
                                         std::string_view reason) {
+  if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
+    giveUp("a call that is not followed may lead back to the program");
+  if (purpose_ == Purpose::Record) {
+    UnfollowedCall &call = result_.unfollowedCalls.emplace_back(UnfollowedCall{path.conditions, {}});
+    for (const OpenLoop &loop : path.loops)
+      call.loops.push_back(loop.instance);
+  }
   const auto locals = path.state.locals;
   const auto loops = path.state.enteredLoops;
   const auto counters = path.state.counters;
@@ -79,6 +87,33 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicRea
   if (!takeChecks(path))
     return {};
   return {to(std::move(path), next)};
+}
+
+/// A program that is in none of the files is taken to call none of them.
+bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const {
+  std::vector<Callee> open = request.possible;
+  if (request.callee)
+    open.push_back(*request.callee);
+  std::set<std::pair<FileId, ProgramId>> seen;
+  while (!open.empty()) {
+    const Callee at = open.back();
+    open.pop_back();
+    if (at.file == program.file && at.program == program.program)
+      return true;
+    if (!seen.emplace(at.file, at.program).second)
+      continue;
+    const ProgramModel &model = *programs_.file(at.file).model;
+    for (std::size_t i = 0; i < model.calls.size(); ++i) {
+      const Call &call = model.calls[CallId(i)];
+      if (call.caller != at.program)
+        continue;
+      if (const auto callee = programs_.callee(at.file, CallId(i)))
+        open.push_back(*callee);
+      else if (call.programWord && call.callee.empty()) // a number that is computed
+        return true;
+    }
+  }
+  return false;
 }
 
 std::optional<AlarmKind> Explorer::nestingAlarm(const Path &path, bool macro) const {

@@ -3,6 +3,7 @@
 
 #include "meaning/machine/machine.h"
 #include "proof/prove/discharge.h"
+#include "proof/prove/guard.h"
 
 #include <optional>
 #include <string>
@@ -48,6 +49,7 @@ struct Obligation {
   std::optional<Witness> witness = {}; // of Refuted
   std::uint64_t effort = 0;
   std::vector<Outcome> evidence = {}; // of Proved: each part of the proof
+  std::optional<Guard> guard = {};    // of Refuted and Unknown: with what it is proved
 };
 
 } // namespace feedhold::prove

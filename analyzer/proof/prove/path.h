@@ -4,6 +4,7 @@
 
 #include "proof/prove/symbolic_reading.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct OpenLoop {
   friend bool operator==(const OpenLoop &, const OpenLoop &) = default;
 };
 
+/// Where a path has been, to tell that it comes back (Brent, "An improved Monte Carlo factorization algorithm", 1980).
+struct Landmark {
+  Place at;
+  SymbolicState state;
+  std::vector<SymbolicFrame> frames;
+  smt::TermId moved;
+};
+
 struct Path {
   Place at;
   SymbolicState state;
@@ -42,6 +51,10 @@ struct Path {
   std::vector<OpenLoop> loops; // the innermost last
   smt::TermId moved;           // an axis has moved since the start
   std::uint32_t steps = 0;
+  // ---- with LoopTreatment::EachPass ----
+  std::shared_ptr<const Landmark> landmark = {};
+  std::uint32_t visits = 0;     // to heads of loops, since the landmark
+  std::uint32_t mostVisits = 1; // before a new landmark is taken
   bool atOpenedHead = false; // the loop at whose head the path stands has just been opened
 
   /// False when the condition contradicts the path at first sight: the path ends.

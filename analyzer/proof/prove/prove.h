@@ -7,9 +7,12 @@
 
 namespace feedhold::prove {
 
+enum class InferGuards : std::uint8_t { No, Yes };
+
 struct ProveOptions {
   std::vector<ObligationKind> only = {}; // empty: all
   Budget budget = {};
+  InferGuards guards = InferGuards::Yes;
 };
 
 struct ProgramProof {

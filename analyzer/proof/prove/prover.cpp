@@ -38,17 +38,10 @@ const Contract *Prover::contract() const { return contracts_ ? contracts_->of(pr
 
 ProgramProof Prover::run() {
   explore();
-  stops();
-  unmetAlarms();
-  loops();
-  programEnds();
-  if (contract()) {
-    satisfiable();
-    ensures();
-    assigns();
-    alarmPromises();
-    guarded();
-  }
+  settleAll();
+  followPasses();
+  if (options_.guards == InferGuards::Yes)
+    guards();
   std::stable_sort(proof_.obligations.begin(), proof_.obligations.end(), [](const Obligation &a, const Obligation &b) {
     return std::pair(a.kind, a.span.begin) < std::pair(b.kind, b.span.begin);
   });
@@ -59,6 +52,20 @@ ProgramProof Prover::run() {
   if (contract() && !contract()->isSound)
     withdraw("a clause of the contract could not be read");
   return std::move(proof_);
+}
+
+void Prover::settleAll() {
+  stops();
+  unmetAlarms();
+  loops();
+  programEnds();
+  if (contract()) {
+    ensures();
+    assigns();
+    alarmPromises();
+    guarded();
+    satisfiable(); // the last word on all of them
+  }
 }
 
 /// What rests on a contract that is not what its author meant is not told.
@@ -172,13 +179,14 @@ bool Prover::isDecided(Obligation &obligation, const Violation &violation) {
   return found_.incomplete.has_value();
 }
 
-void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
+void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
   if (isDecided(obligation, violation))
     return;
   obligation.verdict = queries.empty() ? Verdict::Unreachable : Verdict::Proved;
   obligation.grade = queries.empty() ? std::optional(Grade::Certified) : std::nullopt;
   for (const Query &query : queries) {
-    Outcome outcome = discharge(store_, query, options_.budget);
+    const Budget left = budget_.without(obligation.effort);
+    Outcome outcome = discharge(store_, query, left);
     if (outcome.proved()) {
       takeProof(obligation, std::move(outcome));
       continue;
@@ -196,6 +204,8 @@ void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, c
     } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
       obligation.reason = unknown->reason;
     }
+    if (left.search == 0)
+      return;
   }
 }
 
@@ -268,10 +278,17 @@ std::optional<Witness> Prover::endless(const LoopInstance &loop) {
 
 void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                         const Violation &violation) {
-  if (isDecided(obligation, violation))
+  if (isOutOfFocus(obligation) || isDecided(obligation, violation))
     return;
+  if (found_.treatment == LoopTreatment::EachPass)
+    return endsByPasses(obligation);
   obligation.verdict = instances.empty() ? Verdict::Unreachable : Verdict::Proved;
   for (const LoopInstance *instance : instances) {
+    if (instance->callsUnknown) {
+      obligation.verdict = Verdict::Unknown;
+      obligation.reason = "a pass calls a program that is not followed, which need not come back";
+      continue;
+    }
     const auto known = std::find_if(ends_.begin(), ends_.end(), [&](const auto &end) { return end.first == instance; });
     Termination &end = known != ends_.end()
                            ? known->second
@@ -364,6 +381,12 @@ void Prover::programEnds() {
       add(ObligationKind::ProgramEnds, place, file().tree->blocks[block].span(), "the program comes to an end");
   obligation.id = fmt::format("{}.program-ends", toString(file().model->programs[program_.program].name));
   settleLoop(obligation, instances, violation);
+  if (!found_.unfollowedCalls.empty() && obligation.verdict != Verdict::Refuted) {
+    obligation.verdict = Verdict::Unknown;
+    obligation.reason = "a program that is called is not followed and need not come back";
+    obligation.grade.reset();
+    obligation.evidence.clear();
+  }
   if (instances.empty() && obligation.verdict == Verdict::Unreachable) {
     obligation.verdict = Verdict::Proved;
     obligation.grade = Grade::Certified;

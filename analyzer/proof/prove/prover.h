@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proof/prove/contract_terms.h"
+#include "proof/prove/guard_candidates.h"
 #include "proof/prove/prove.h"
 #include "proof/prove/termination.h"
 #include "proof/prove/witness.h"
@@ -17,6 +18,7 @@ public:
 
 private:
   void explore();
+  void settleAll();
   void withdraw(std::string_view reason);
 
   // ---- obligations of the program's own text (prover.cpp) ----
@@ -24,6 +26,10 @@ private:
   void unmetAlarms();
   void loops();
   void programEnds();
+  // ---- where all loops have few passes (prover_passes.cpp) ----
+  void followPasses();
+  void takeUnmet(Obligation obligation);
+  void endsByPasses(Obligation &obligation) const;
   // ---- promises of the contract (prover_contract.cpp) ----
   void satisfiable();
   void ensures();
@@ -33,11 +39,28 @@ private:
   void guarded();
   void requireEnds(Obligation &obligation);
 
+  // ---- conditions with which a claim is proved that is not proved without (prover_guard.cpp) ----
+  struct OpenClaim {
+    Obligation claim;
+    std::vector<Query> queries;
+  };
+  void guards();
+  GuardSubject subjectOf(const Obligation &claim) const;
+  std::optional<std::vector<GuardAtom>> atomsFor(const Obligation &claim, const GuardSubject &subject, int &proofsLeft);
+  Guard guardOf(const Obligation &claim, const std::vector<GuardAtom> &atoms) const;
+  smt::TermId conditionOf(const std::vector<GuardAtom> &atoms);
+  bool isContradiction(smt::TermId condition);
+  bool isPossible(smt::TermId condition);
+  Obligation provedWith(const Obligation &claim, const GuardSubject &subject, smt::TermId condition);
+  void exploredWith(Obligation &claim, smt::TermId condition);
+  bool isOutOfFocus(const Obligation &obligation) const;
+
   Obligation &add(ObligationKind kind, Place place, Span span, std::string claim);
   std::string idOf(ObligationKind kind, Place place, Span span) const;
   bool wanted(ObligationKind kind) const;
   /// Each query must hold; a counterexample is replayed.  Without queries the place is not reached.
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
+  void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);
   std::optional<Witness> endless(const LoopInstance &loop);
@@ -64,6 +87,10 @@ private:
   Exploration found_;
   std::unique_ptr<WitnessSearch> witnesses_;
   std::vector<std::pair<const LoopInstance *, Termination>> ends_;
+  Budget budget_ = options_.budget;
+  const Obligation *focus_ = nullptr; // all others are passed over
+  std::vector<OpenClaim> open_;       // that were not proved
+  std::vector<smt::Model> sampleInputs_;
   ProgramProof proof_;
 };
 

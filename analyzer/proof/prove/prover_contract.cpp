@@ -139,6 +139,9 @@ void Prover::alarmPromises() {
         if (promise.claim == AlarmClaim::IfAndOnlyIf)
           queries.push_back(onPath(stopped, store_.implies(isThis, condition)));
       }
+    for (const UnfollowedCall &call : found_.unfollowedCalls) // which may end with any alarm
+      queries.push_back(onPath(call.conditions, promise.claim == AlarmClaim::If ? store_.logicalNot(condition)
+                                                                                 : store_.no()));
     const Place place{program_.file, program_.entry};
     Obligation &obligation =
         add(ObligationKind::AlarmIff, place, file().tree->blocks[programs_.node(place).block].span(),
@@ -154,6 +157,12 @@ void Prover::alarmPromises() {
 void Prover::requireEnds(Obligation &obligation) {
   if (obligation.verdict != Verdict::Proved)
     return;
+  if (!found_.repeats.empty()) {
+    obligation.verdict = Verdict::Unknown;
+    obligation.grade.reset();
+    obligation.reason = "a path comes back to a state in which it has been";
+    return;
+  }
   for (const LoopInstance &loop : found_.loops) {
     Obligation ends = obligation;
     settleLoop(ends, {&loop}, kNothingToReplay);
@@ -190,6 +199,8 @@ void Prover::guarded() {
       stopped.push_back(instance.stops);
       queries.push_back(onPath(stopped, store_.logicalNot(instance.moved)));
     }
+  for (const UnfollowedCall &call : found_.unfollowedCalls)
+    queries.push_back(onPath(call.conditions, store_.no()));
   auto outsideWitnesses =
       std::make_unique<WitnessSearch>(reading_, programs_, program_, options.assumptions, constants());
   outsideWitnesses->sample();

@@ -71,6 +71,12 @@ SymbolicValue SymbolicReading::freshValue(MayBeVacant mayBeVacant) {
 SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
   const bool isNumber = range && range->kind == VariableKind::System;
+  if (given_) {
+    if (const auto value = given_->find(variable); value != given_->end())
+      return value->second;
+    if (!isNumber)
+      return vacant();
+  }
   const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
   entryValues_.emplace(variable, value);
   entry_.insert(value.number);

@@ -67,6 +67,8 @@ public:
   /// The mode of polar coordinates is taken to be left as it is by what is not followed.
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   smt::TermStore &store() { return store_; }
+  /// The variables have these values at the start of the run, and the others that programs own are vacant.
+  void startFrom(std::map<std::uint32_t, Value> values) { given_ = std::move(values); }
   /// Begins a step.
   void start();
   bool stopped() const { return stopped_; }
@@ -175,6 +177,7 @@ private:
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
   std::set<smt::TermId> entry_;
+  std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;
   bool moved_ = false;

@@ -1,6 +1,8 @@
 #include "proof/prove/termination.h"
 
 #include "proof/prove/entails.h"
+#include "proof/prove/lasting_facts.h"
+#include "proof/prove/ranking_synthesis.h"
 
 #include <algorithm>
 #include <set>
@@ -16,10 +18,11 @@ namespace {
 constexpr std::size_t kMostMeasures = 60;
 constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostSinking = 16;
+constexpr std::size_t kMostModels = 8; // of a pass
 /// A measure that needs more is seldom the right one; what is linear takes less.
-constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
+constexpr Budget kEffort{.search = 100'000, .z3 = 0, .cvc5 = 0};
 /// For all questions about one loop.
-constexpr std::uint64_t kMostWork = 4'000'000;
+constexpr std::uint64_t kMostWork = 1'500'000;
 
 class RankingSearch {
 public:
@@ -30,47 +33,129 @@ public:
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < loop_.transitions.size(); ++i)
       all.push_back(i);
+    models_.resize(all.size());
     candidates_ = measures();
-    result_.proved = rank(all);
+    result_.proved = attempt([&] { return rank(all); }) || rankWithSupport(all);
     if (!result_.proved)
       result_.reason = "no measure was found that every pass lowers";
     return std::move(result_);
   }
 
 private:
+  /// What comes to nothing leaves nothing behind.
+  template <typename Rank> bool attempt(Rank &&rankIt) {
+    const std::size_t measures = result_.measures.size();
+    const std::size_t evidence = result_.evidence.size();
+    if (rankIt())
+      return true;
+    result_.measures.erase(result_.measures.begin() + static_cast<std::ptrdiff_t>(measures), result_.measures.end());
+    result_.evidence.erase(result_.evidence.begin() + static_cast<std::ptrdiff_t>(evidence), result_.evidence.end());
+    return false;
+  }
+
   /// Passes that can follow one another in a circle are ranked together.
   bool rank(std::vector<std::size_t> passes) {
+    if (!phases_.empty())
+      std::erase_if(passes, [&](std::size_t pass) { return holds(pass, store_.no(), result_.evidence); });
     if (passes.empty())
       return true;
-    if (lower(passes))
+    if (lower(passes, candidates_) || lowerByProgram(passes) || lower(passes, choices()))
       return rank(passes);
-    if (passes.size() > 12)
+    if (passes.size() > 12 || work_ > kMostWork)
       return false;
     const auto circles = circlesOf(passes);
     if (circles.size() == 1 && circles.front().size() == passes.size())
-      return afterPhase(passes);
+      return inPhases(passes) || afterPhase(passes) || afterPass(passes);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
   }
 
-  /// What every pass lowers, without a bound, is below -1 after some passes and from then on: there the passes are ranked
-  /// again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking templates for linear
-  /// loops", 2015: multiphase).
-  bool afterPhase(const std::vector<std::size_t> &passes) {
-    if (phases_.size() == kMostPhases)
+  /// With more facts that hold before every pass.
+  bool rankWithSupport(const std::vector<std::size_t> &passes) {
+    const LastingFacts lasting(reading_, store_, loop_);
+    const LastingFacts::Found found = lasting.fromArrival(kMostWork / 4);
+    work_ = 0;
+    if (found.facts.empty())
       return false;
-    for (const TermId sinking : sinkingMeasures(passes)) {
-      std::vector<Outcome> evidence;
-      if (!std::all_of(passes.begin(), passes.end(),
-                       [&](std::size_t pass) { return falls(fallOf(sinking, pass), pass, evidence); }))
+    return within(found, [&] { return rank(passes); });
+  }
+
+  /// A pass that is made again and again is made once: what it leaves, and every pass keeps, holds from then on.  So
+  /// all passes are ranked where that holds, and the others without this one.
+  bool afterPass(const std::vector<std::size_t> &passes) {
+    if (phases_.size() >= kMostPhases)
+      return false;
+    const LastingFacts lasting(reading_, store_, loop_);
+    for (const std::size_t pass : passes) {
+      if (work_ > kMostWork)
+        return false;
+      const LastingFacts::Found found = lasting.behind(pass, passes, phases_, kMostWork / 8);
+      work_ += found.work;
+      if (found.facts.empty())
         continue;
-      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
-      phases_.push_back(store_.less(sinking, store_.number(Number(-1))));
-      const bool ranked = rank(passes);
-      phases_.pop_back();
-      if (ranked)
+      std::vector<std::size_t> others = passes;
+      std::erase(others, pass);
+      if (within(found, [&] { return rank(passes); }) && rank(others))
         return true;
     }
     return false;
+  }
+  template <typename Rank> bool within(const LastingFacts::Found &found, Rank &&rankIt) {
+    const std::size_t before = phases_.size();
+    phases_.insert(phases_.end(), found.facts.begin(), found.facts.end());
+    const bool ranked = attempt(rankIt);
+    phases_.erase(phases_.begin() + static_cast<std::ptrdiff_t>(before), phases_.end());
+    if (ranked)
+      result_.evidence.insert(result_.evidence.end(), found.evidence.begin(), found.evidence.end());
+    return ranked;
+  }
+
+  /// Measures of which each sinks when the one before it is negative.
+  bool inPhases(const std::vector<std::size_t> &passes) {
+    for (const std::size_t depth : {2u, 3u}) {
+      RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+      const auto nested = synthesis.nested(depth);
+      work_ += synthesis.work();
+      if (!nested)
+        continue;
+      candidates_.insert(candidates_.begin(), nested->back());
+      if (sinks(*nested, 0, passes))
+        return true;
+    }
+    return false;
+  }
+  bool sinks(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &passes) {
+    if (at + 1 == nested.size())
+      return rank(passes);
+    return sinks(nested[at], passes, [&] { return sinks(nested, at + 1, passes); });
+  }
+  /// Every pass lowers it, without a bound: it is below -1 after some passes and from then on, and there they are
+  /// ranked.
+  template <typename Rank> bool sinks(TermId sinking, const std::vector<std::size_t> &passes, Rank &&rankIt) {
+    std::vector<Outcome> evidence;
+    if (!std::all_of(passes.begin(), passes.end(),
+                     [&](std::size_t pass) { return falls(fallOf(sinking, pass), pass, evidence); }))
+      return false;
+    phases_.push_back(store_.less(sinking, store_.number(Number(-1))));
+    const bool ranked = attempt(rankIt);
+    phases_.pop_back();
+    if (ranked)
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+    return ranked;
+  }
+
+  /// What every pass lowers, without a bound, is below -1 after some passes and from then on: there the passes are
+  /// ranked again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking templates for
+  /// linear loops", 2015: multiphase).
+  bool afterPhase(const std::vector<std::size_t> &passes) {
+    if (phases_.size() >= kMostPhases)
+      return false;
+    std::vector<TermId> sinking = sinkingMeasures(passes);
+    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+    if (const auto found = synthesis.sinking())
+      sinking.insert(sinking.begin(), *found);
+    work_ += synthesis.work();
+    return std::any_of(sinking.begin(), sinking.end(),
+                       [&](TermId each) { return sinks(each, passes, [&] { return rank(passes); }); });
   }
   /// By how much a measure rises may be what sinks.
   std::vector<TermId> sinkingMeasures(const std::vector<std::size_t> &passes) {
@@ -84,9 +169,26 @@ private:
     return {seen.begin(), seen.end()};
   }
 
+  /// By a linear measure, if there is one.
+  bool lowerByProgram(std::vector<std::size_t> &passes) {
+    if (passes.size() > kMostSinking || work_ > kMostWork)
+      return false;
+    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+    bool lowered = false;
+    for (const std::size_t pass : passes) {
+      const auto measure = synthesis.loweredBy(pass);
+      if (measure && lower(passes, {*measure})) {
+        lowered = true;
+        break;
+      }
+    }
+    work_ += synthesis.work();
+    return lowered;
+  }
+
   /// Takes away the passes that lower a measure which no other pass raises.
-  bool lower(std::vector<std::size_t> &passes) {
-    for (const TermId measure : candidates_) {
+  bool lower(std::vector<std::size_t> &passes, const std::vector<TermId> &candidates) {
+    for (const TermId measure : candidates) {
       std::vector<Outcome> evidence;
       std::vector<std::size_t> lowering;
       std::optional<TermId> decrease;
@@ -140,7 +242,7 @@ private:
   bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
-    if (goal == store_.no() || work_ > kMostWork)
+    if (work_ > kMostWork || isBroken(pass, goal))
       return false;
     std::vector<TermId> conditions = loop_.transitions[pass].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
@@ -149,7 +251,21 @@ private:
     work_ += outcome.effort;
     if (proved)
       evidence.push_back(std::move(outcome));
+    else if (const smt::Model *model = outcome.counterexample())
+      if (models_[pass].size() < kMostModels)
+        models_[pass].push_back(*model);
     return proved;
+  }
+  /// By a state before the pass that has been met in the search.
+  bool isBroken(std::size_t pass, TermId goal) const {
+    const auto is = [&](TermId formula, const smt::Model &model, bool truth) {
+      const auto value = smt::evaluate(store_, formula, model);
+      return value && std::get<bool>(*value) == truth;
+    };
+    return std::any_of(models_[pass].begin(), models_[pass].end(), [&](const smt::Model &model) {
+      return is(goal, model, false) &&
+             std::all_of(phases_.begin(), phases_.end(), [&](TermId phase) { return is(phase, model, true); });
+    });
   }
   TermId zero() { return store_.number(Number(0)); }
 
@@ -174,6 +290,30 @@ private:
       for (std::size_t j = i + 1; j < single.size() && j < 8; ++j)
         offer(store_.add(single[i], single[j]));
     return all;
+  }
+  /// Distances without their sign, and the larger of two measures.
+  std::vector<TermId> choices() {
+    std::set<TermId> found;
+    for (const Transition &transition : loop_.transitions)
+      for (const TermId condition : transition.conditions) {
+        const smt::Term term = store_[condition];
+        const TermId compared = term.kind == TermKind::Not ? term.arguments[0] : condition;
+        const TermKind kind = store_[compared].kind;
+        if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
+          continue;
+        const std::vector<TermId> sides = store_[compared].arguments;
+        if (store_.sort(sides[0]) == smt::Sort::Bool)
+          continue;
+        const TermId distance = store_.subtract(sides[0], sides[1]);
+        if (!isConstantInLoop(distance))
+          found.insert(store_.absolute(distance));
+      }
+    for (const TermId a : loop_.variables)
+      for (const TermId b : loop_.variables)
+        if (a < b && found.size() < kMostSinking && store_.sort(a) != smt::Sort::Bool &&
+            store_.sort(b) != smt::Sort::Bool)
+          found.insert(store_.ite(store_.lessOrEqual(a, b), b, a));
+    return {found.begin(), found.end()};
   }
   template <typename Offer> void offerSides(TermId condition, Offer &&offer) {
     const TermKind kind = store_[condition].kind;
@@ -218,7 +358,11 @@ private:
   bool canFollow(std::size_t first, std::size_t second) {
     const Transition &before = loop_.transitions[first];
     smt::Substitution next = before.next;
+    std::vector<TermId> conditions = before.conditions;
+    conditions.insert(conditions.end(), phases_.begin(), phases_.end());
     std::vector<TermId> goals;
+    for (const TermId phase : phases_)
+      goals.push_back(smt::substitute(store_, phase, next));
     for (const TermId condition : loop_.transitions[second].conditions) {
       for (const TermId variable : smt::variablesOf(store_, condition))
         if (variable.index() >= loop_.mark && !reading_.isFromEntry(variable) && !next.contains(variable))
@@ -227,7 +371,8 @@ private:
     }
     const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
     Outcome outcome =
-        discharge(store_, relevantQuery(store_, reading_.facts(), before.conditions, impossible), Budget::quick());
+        discharge(store_, relevantQuery(store_, reading_.facts(), conditions, impossible), Budget::quick());
+    work_ += outcome.effort;
     if (!outcome.proved())
       return true;
     result_.evidence.push_back(std::move(outcome));
@@ -238,7 +383,8 @@ private:
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<TermId> candidates_;
-  std::vector<TermId> phases_; // hold from some pass on
+  std::vector<TermId> phases_;                  // hold from some pass on
+  std::vector<std::vector<smt::Model>> models_; // by pass: states before it
   std::uint64_t work_ = 0;
   Termination result_;
 };
@@ -259,8 +405,7 @@ std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::Te
       const bool isOfTheLoop = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
         return variable.index() < loop.mark || reading.isFromEntry(variable) || pass.next.contains(variable);
       });
-      return isOfTheLoop && entails(reading.facts(), pass.conditions,
-                                    smt::substitute(store, condition, pass.next));
+      return isOfTheLoop && entails(reading.facts(), pass.conditions, smt::substitute(store, condition, pass.next));
     });
     if (holdsAgain)
       return i;

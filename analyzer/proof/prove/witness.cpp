@@ -1,5 +1,7 @@
 #include "proof/prove/witness.h"
 
+#include "proof/prove/exact_run.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,8 +12,9 @@ namespace {
 
 constexpr int kSamples = 150;
 constexpr std::uint64_t kSampleFuel = 4'000;
+constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+double rounded(double value, double step) { return std::round(value / step) * step + 0.0; } // no -0
 
 } // namespace
 
@@ -27,21 +30,32 @@ std::vector<std::uint32_t> WitnessSearch::inputs() const {
   return inputs;
 }
 
-/// In exact numbers.
-bool WitnessSearch::allowed(const GivenVariables &given) const {
+smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   smt::Model model;
   const smt::TermStore &store = reading_.store();
   for (const auto &[variable, value] : reading_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
-    model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromDouble(held->number);
+    model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromTyped(held->number);
     if (store[value.vacant].kind == smt::TermKind::Variable)
       model[store[value.vacant].name] = vacant;
   }
-  return std::all_of(demands_.begin(), demands_.end(), [&](smt::TermId demand) {
-    const auto value = smt::evaluate(store, demand, model);
-    return value && std::get<bool>(*value);
-  });
+  return model;
+}
+
+bool WitnessSearch::allowed(const GivenVariables &given) const {
+  const smt::Model model = modelOf(given);
+  return std::all_of(demands_.begin(), demands_.end(),
+                     [&](smt::TermId demand) { return smt::isTrue(reading_.store(), demand, model); });
+}
+
+WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
+  WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
+  narrowed.demands_.push_back(demand);
+  for (const Sample &sample : samples_)
+    if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
+      narrowed.samples_.push_back(sample);
+  return narrowed;
 }
 
 void WitnessSearch::sample() {
@@ -68,10 +82,27 @@ void WitnessSearch::sample() {
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
-  for (const Sample &sample : samples_)
-    if (const auto happened = violation(sample.result))
+  int inexact = 0;
+  for (const Sample &sample : samples_) {
+    const auto happened = violation(sample.result);
+    if (!happened)
+      continue;
+    if (isExact(sample.given, sample.result))
       return plainest({sample.given, sample.result.end, *happened}, violation, kSampleFuel);
+    if (++inexact == kMostInexact)
+      break;
+  }
   return std::nullopt;
+}
+
+/// What happens only because the machine rounds is no witness: proofs are over exact numbers.
+bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) const {
+  switch (agreesExactly(programs_, entry_, given, run)) {
+  case Agreement::Same: return true;
+  case Agreement::Different: return false;
+  case Agreement::NotKnown: return run.end != RunEnd::Repeats; // doubles that grow or shrink come to rest
+  }
+  return false;
 }
 
 std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
@@ -83,7 +114,9 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
   const auto happened = violation(result);
-  return happened ? std::optional(Witness{given, result.end, *happened}) : std::nullopt;
+  if (!happened || !isExact(given, result))
+    return std::nullopt;
+  return Witness{given, result.end, *happened};
 }
 
 std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
@@ -96,10 +129,14 @@ std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const V
         store[value.vacant].kind == smt::TermKind::Variable ? model.find(store[value.vacant].name) : model.end();
     if (vacant != model.end() && std::get<bool>(vacant->second))
       continue;
-    if (number != model.end())
-      given.set(variable, ConcreteValue::of(std::get<smt::Number>(number->second).toDouble()));
-    else if (vacant != model.end())
+    if (number != model.end()) {
+      const double nearest = std::get<smt::Number>(number->second).toDouble();
+      if (!std::isfinite(nearest))
+        return std::nullopt;
+      given.set(variable, ConcreteValue::of(nearest));
+    } else if (vacant != model.end()) {
       given.set(variable, ConcreteValue::of(0));
+    }
   }
   const auto found = tried(given, violation, fuel);
   return found ? std::optional(plainest(*found, violation, fuel)) : std::nullopt;

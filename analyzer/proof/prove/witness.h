@@ -25,11 +25,22 @@ public:
   /// The inputs that a model of the solver names, then made as plain as they can be.
   std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation, std::uint64_t fuel = kFuel);
 
+  struct Sample {
+    GivenVariables given;
+    RunResult result;
+  };
+  const std::vector<Sample> &samples() const { return samples_; }
+  /// The inputs in exact numbers.
+  smt::Model modelOf(const GivenVariables &given) const;
+  /// The samples that satisfy one more condition.
+  WitnessSearch narrowed(smt::TermId demand) const;
+
   static constexpr std::uint64_t kFuel = 20'000;
 
 private:
   std::vector<std::uint32_t> inputs() const;
   bool allowed(const GivenVariables &given) const;
+  bool isExact(const GivenVariables &given, const RunResult &run) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
@@ -38,10 +49,6 @@ private:
   Callee entry_;
   std::vector<smt::TermId> demands_;
   std::vector<double> constants_; // that the program and its contract write
-  struct Sample {
-    GivenVariables given;
-    RunResult result;
-  };
   std::vector<Sample> samples_;
 };
 

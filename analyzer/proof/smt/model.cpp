@@ -109,4 +109,9 @@ std::optional<Value> evaluate(const TermStore &store, TermId term, const Model &
   return known.at(term);
 }
 
+bool isTrue(const TermStore &store, TermId condition, const Model &model) {
+  const std::optional<Value> value = evaluate(store, condition, model);
+  return value && std::get<bool>(*value);
+}
+
 } // namespace feedhold::smt

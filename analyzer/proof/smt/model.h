@@ -15,5 +15,7 @@ using Model = std::map<std::string, Value, std::less<>>;
 /// The exact value; absent when a variable is missing, a divisor is 0, or a function has no rational value that is
 /// known. Connectives and conditions need only what decides them.
 std::optional<Value> evaluate(const TermStore &store, TermId term, const Model &model);
+/// Of a condition: its value is known, and it holds.
+bool isTrue(const TermStore &store, TermId condition, const Model &model);
 
 } // namespace feedhold::smt

@@ -3,6 +3,9 @@
 #include "base/support/check.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace feedhold::smt {
@@ -46,6 +49,15 @@ std::optional<Number> Number::parse(std::string_view text) {
 }
 
 Number Number::fromDouble(double value) { return Number(mpq_class(value)); }
+
+Number Number::fromTyped(double value) {
+  FEEDHOLD_CHECK(std::isfinite(value), "a number that is not finite cannot be typed");
+  std::array<char, 512> digits; // 1.8e308 has 309 of them, 5e-324 has 326
+  const auto end = std::to_chars(digits.begin(), digits.end(), value, std::chars_format::fixed);
+  const auto typed = parse(std::string_view(digits.data(), static_cast<std::size_t>(end.ptr - digits.data())));
+  FEEDHOLD_CHECK(typed.has_value(), "digits are a number");
+  return *typed;
+}
 
 std::optional<Rational> Number::toRational() const {
   const mpz_class limit("9223372036854775807");

@@ -24,6 +24,8 @@ public:
   static std::optional<Number> parse(std::string_view text);
   /// The exact value of a finite double.
   static Number fromDouble(double value);
+  /// The shortest decimal that reads as this finite double: the number that was typed.
+  static Number fromTyped(double value);
 
   bool isZero() const { return sgn(value_) == 0; }
   bool isInteger() const { return mpz_cmp_ui(value_.get_den_mpz_t(), 1) == 0; }
