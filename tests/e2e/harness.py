@@ -37,6 +37,9 @@ class Scratch(unittest.TestCase):
         self.holder = tempfile.TemporaryDirectory()
         self.addCleanup(self.holder.cleanup)
         self.folder = Path(self.holder.name)
+        caches = tempfile.TemporaryDirectory()
+        self.addCleanup(caches.cleanup)
+        self.cache = Path(caches.name)
 
     def write(self, name, text):
         path = self.folder / name
@@ -44,10 +47,14 @@ class Scratch(unittest.TestCase):
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         return path
 
-    def feedhold(self, *arguments, cwd=None):
+    def environment(self, changes=None):
+        """That of every run: what one test has proved is not remembered for the next."""
+        return {**os.environ, "XDG_CACHE_HOME": str(self.cache), **(changes or {})}
+
+    def feedhold(self, *arguments, cwd=None, environment=None):
         """One run.  A signal (a crash) is a failure of every test."""
         result = subprocess.run([FEEDHOLD, *map(str, arguments)], cwd=cwd or self.folder, capture_output=True,
-                                timeout=LONGEST_RUN, stdin=subprocess.DEVNULL)
+                                timeout=LONGEST_RUN, stdin=subprocess.DEVNULL, env=self.environment(environment))
         self.assertIn(result.returncode, (0, 1, 2, 3), f"{arguments} ended with {result.returncode}:\n{result.stderr}")
         result.stdout = result.stdout.decode(errors="surrogateescape")  # a diff shows the bytes of the programs
         result.stderr = result.stderr.decode()

@@ -87,6 +87,15 @@ std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   return std::nullopt;
 }
 
+std::optional<Error> putFile(const fs::path &path, std::string_view text) {
+  TemporaryFile file(path);
+  if (!file.isOpen())
+    return systemError("no file can be made in its folder");
+  if (!file.write(text) || !file.renameTo(path))
+    return systemError("the text cannot be put in place");
+  return std::nullopt;
+}
+
 std::optional<Error> writeFile(const fs::path &path, std::string_view text) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0)

@@ -13,6 +13,9 @@ namespace feedhold {
 /// worked.
 std::optional<Error> replaceFile(const std::filesystem::path &path, std::string_view text);
 
+/// Puts a file in its place, new or not, readable for its owner.  A power cut may leave it without its bytes.
+std::optional<Error> putFile(const std::filesystem::path &path, std::string_view text);
+
 /// Writes a file, new or not.
 std::optional<Error> writeFile(const std::filesystem::path &path, std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -20,6 +21,13 @@ namespace {
 /// What a shell says of a command that it does not find.
 constexpr int kNotFound = 127;
 
+std::atomic<std::uint64_t> failures = 0;
+
+Error failed(std::string why) {
+  ++failures;
+  return {std::move(why)};
+}
+
 struct Pipe {
   int read = -1;
   int write = -1;
@@ -28,7 +36,7 @@ struct Pipe {
 Result<Pipe> makePipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    return Error{std::string("no pipe: ") + std::strerror(errno)};
+    return failed(std::string("no pipe: ") + std::strerror(errno));
   return Pipe{ends[0], ends[1]};
 }
 
@@ -66,10 +74,12 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status))
+  if (WIFEXITED(status)) {
     result.exitCode = WEXITSTATUS(status);
-  else
+  } else {
+    ++failures;
     result.end = ProcessOutput::End::Killed;
+  }
   return result;
 }
 
@@ -90,7 +100,7 @@ Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const 
   // A file, not a pipe: a child that ends early must not stop us in the middle of writing.
   std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::tmpfile(), std::fclose);
   if (!file || std::fwrite(input.data(), 1, input.size(), file.get()) != input.size() || std::fflush(file.get()) != 0)
-    return Error{std::string("no temporary file: ") + std::strerror(errno)};
+    return failed(std::string("no temporary file: ") + std::strerror(errno));
   const int inputFile = fileno(file.get());
   lseek(inputFile, 0, SEEK_SET);
   std::vector<char *> arguments;
@@ -102,7 +112,7 @@ Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const 
     return pipe.error();
   const pid_t child = fork();
   if (child < 0)
-    return Error{std::string("no child process: ") + std::strerror(errno)};
+    return failed(std::string("no child process: ") + std::strerror(errno));
   if (child == 0) {
     limitChild(limits);
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -115,7 +125,7 @@ Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const 
   close(pipe.value().write);
   ProcessOutput output = collect(child, pipe.value().read, limits);
   if (output.end == ProcessOutput::End::Exited && output.exitCode == kNotFound)
-    return Error{"the program `" + command.front() + "` is not installed"};
+    return failed("the program `" + command.front() + "` is not installed");
   return output;
 }
 
@@ -129,7 +139,7 @@ Result<ProcessOutput> runInChild(const std::function<std::string()> &function, c
   if (child != 0)
     gate.unlock();
   if (child < 0)
-    return Error{std::string("no child process: ") + std::strerror(errno)};
+    return failed(std::string("no child process: ") + std::strerror(errno));
   if (child == 0) {
     limitChild(limits);
     close(pipe.value().read);
@@ -143,5 +153,7 @@ Result<ProcessOutput> runInChild(const std::function<std::string()> &function, c
   close(pipe.value().write);
   return collect(child, pipe.value().read, limits);
 }
+
+std::uint64_t failedChildren() { return failures; }
 
 } // namespace feedhold

@@ -35,4 +35,8 @@ Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const 
 Result<ProcessOutput> runInChild(const std::function<std::string()> &function, const ProcessLimits &limits,
                                  std::shared_mutex &gate);
 
+/// How many children of this process were stopped or could not be started so far: what came of them may be otherwise
+/// another time.
+std::uint64_t failedChildren();
+
 } // namespace feedhold

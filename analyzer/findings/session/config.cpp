@@ -294,4 +294,13 @@ ConfigText readConfig(std::string_view text, const std::filesystem::path &folder
   return Reader(folder, known).read(text);
 }
 
+std::string textOf(const Switches &switches) {
+  std::string text;
+  for (const SwitchName &entry : kSwitchNames)
+    text += fmt::format("{}={} ", entry.name, static_cast<int>(switches.*entry.which));
+  for (const CodeCall &call : switches.codeCalls)
+    text += fmt::format("{}{}={}{} ", call.address, call.tenths, call.isMacro ? "macro " : "", call.program);
+  return text;
+}
+
 } // namespace feedhold

@@ -67,6 +67,9 @@ inline constexpr std::string_view kConfigFileName = "feedhold.toml";
 /// `folder` becomes Config::folder.
 ConfigText readConfig(std::string_view text, const std::filesystem::path &folder, const KnownNames &known);
 
+/// All that a configuration may change about a dialect, as text: the same text, the same settings.
+std::string textOf(const Switches &switches);
+
 /// A pattern of the configuration against a path from the folder of the configuration.  A pattern without `/` is
 /// one for the file name alone; one that names a folder covers all below it.
 bool patternMatches(std::string_view pattern, std::string_view path);

@@ -2,8 +2,11 @@
 #include "findings/session/proofs.h"
 
 #include "base/support/parallel.h"
+#include "base/support/process.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace feedhold {
 
@@ -18,10 +21,15 @@ Loaded load(const ProofsWish &wish, const WorkItem &item, const KnownNames &know
   return loadPrograms(programs, known);
 }
 
-/// A clause that was left out for a mistake in it would be a promise that nobody proves.
+/// A clause that was left out for a mistake in it would be a promise that nobody proves, and one about a variable that
+/// the program does not read was meant for another variable.
 std::optional<PathProblem> contractMistake(const LoadedFile &file, ProgramId program) {
   const Contract *contract = file.contracts.of(program);
-  if (contract == nullptr || contract->isSound)
+  const std::vector<ContractIssue> &issues = file.contracts.issues;
+  const bool namesOthers = std::any_of(issues.begin(), issues.end(), [&](const ContractIssue &issue) {
+    return issue.kind == ContractIssueKind::UnusedVariable && issue.program == program;
+  });
+  if (contract == nullptr || (contract->isSound && !namesOthers))
     return std::nullopt;
   return PathProblem{file.shown, fmt::format("the contract of {} has mistakes, so that it is not proved; `feedhold "
                                              "check` shows them",
@@ -32,6 +40,31 @@ struct Job {
   const LoadedPrograms *loaded;
   ProvedProgram *result;
 };
+
+void proveAnew(const Job &job, const prove::ProveOptions &options) {
+  const LoadedPrograms &programs = *job.loaded;
+  const ProgramId program = job.result->program;
+  const Callee callee{FileId(0), programs.set->file(FileId(0)).cfg.entryOf(program), program};
+  job.result->proof = prove::prove(*programs.set, callee, &programs.file(FileId(0)).contracts, options);
+}
+
+void proveOrRecall(const Job &job, const ProofsWish &wish) {
+  if (!wish.cache) {
+    proveAnew(job, wish.prove);
+    return;
+  }
+  const std::string key = proofKey(*wish.cache, *job.loaded, job.result->program, wish.prove);
+  if (auto remembered = recall(*wish.cache, key, *job.loaded->set)) {
+    job.result->record = std::move(remembered->record);
+    job.result->proof = std::move(remembered->proof);
+    return;
+  }
+  const std::uint64_t failures = failedChildren();
+  proveAnew(job, wish.prove);
+  // A solver that is missing today may be there tomorrow, and one that had to be stopped may be in time.
+  if (failedChildren() == failures)
+    remember(*wish.cache, key, job.result->proof);
+}
 
 } // namespace
 
@@ -64,11 +97,7 @@ ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
   for (ProvedFile &file : result.files)
     for (ProvedProgram &program : file.programs)
       jobs.push_back({file.loaded.get(), &program});
-  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) {
-    const auto &[programs, proved] = jobs[i];
-    const Callee callee{FileId(0), programs->set->file(FileId(0)).cfg.entryOf(proved->program), proved->program};
-    proved->proof = prove::prove(*programs->set, callee, &programs->file(FileId(0)).contracts, wish.prove);
-  });
+  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) { proveOrRecall(jobs[i], wish); });
   return result;
 }
 

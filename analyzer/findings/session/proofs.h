@@ -1,7 +1,7 @@
 // Proofs: every program of a set of files, with its folder, and the verdicts on what it has to keep.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/session/proof_cache.h"
 #include "proof/prove/prove.h"
 
 #include <memory>
@@ -12,11 +12,13 @@ namespace feedhold {
 struct ProofsWish {
   CheckOptions files; // which, how they are read, and on how many threads
   prove::ProveOptions prove = {};
+  std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
 };
 
 struct ProvedProgram {
   ProgramId program;
   prove::ProgramProof proof;
+  std::shared_ptr<const std::string> record = nullptr; // of a remembered proof: where its reasons lie
 };
 
 struct ProvedFile {

@@ -2,6 +2,7 @@
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
+#include "surface/cli/cache_place.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
@@ -16,6 +17,8 @@
 
 namespace feedhold {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 struct ProveArguments {
@@ -24,6 +27,7 @@ struct ProveArguments {
   std::string dialect;
   std::string config;
   std::string certificate;
+  std::string cacheFolder;
   std::string format = "text";
   std::string color = "auto";
   std::string stdinFilename = "<stdin>";
@@ -31,6 +35,7 @@ struct ProveArguments {
   bool isolated = false;
   bool verbose = false;
   bool quiet = false;
+  bool withoutCache = false;
 };
 
 constexpr std::array kKinds = {
@@ -57,12 +62,22 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("--certificate", arguments.certificate,
                  "write the evidence of all proofs to this folder, for `feedhold recheck`");
   app.add_option("--format", arguments.format, "text, json or sarif")->check(CLI::IsMember({"text", "json", "sarif"}));
+  CLI::Option *folder =
+      app.add_option("--cache-dir", arguments.cacheFolder, "keep verdicts here (default: the cache of the user)");
+  app.add_flag("--no-cache", arguments.withoutCache, "prove everything anew, and keep nothing")->excludes(folder);
   app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
   app.add_option("--color", arguments.color, "auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
   app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
   app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
+}
+
+/// The evidence is not in the cache.
+std::optional<ProofCache> cacheFor(const ProveArguments &arguments) {
+  if (arguments.withoutCache || !arguments.certificate.empty())
+    return std::nullopt;
+  return proofCache(arguments.cacheFolder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cacheFolder));
 }
 
 ProofsWish toWish(const ProveArguments &arguments) {
@@ -79,6 +94,7 @@ ProofsWish toWish(const ProveArguments &arguments) {
   else if (!arguments.config.empty())
     wish.files.config = {ConfigSource::Named, arguments.config};
   wish.files.jobs = arguments.jobs;
+  wish.cache = cacheFor(arguments);
   for (const prove::ObligationKind kind : kKinds)
     if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
       wish.prove.only.push_back(kind);

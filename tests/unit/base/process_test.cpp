@@ -26,6 +26,17 @@ TEST(Process, SaysThatAProgramIsMissing) {
   EXPECT_EQ(output.error().message, "the program `feedhold-no-such-program` is not installed");
 }
 
+TEST(Process, CountsWhatFailed) {
+  const std::uint64_t before = failedChildren();
+  (void)runProgram({"true"}, "", {});
+  (void)runProgram({"false"}, "", {});
+  EXPECT_EQ(failedChildren(), before);
+  (void)runProgram({"feedhold-no-such-program"}, "", {});
+  EXPECT_EQ(failedChildren(), before + 1);
+  (void)runProgram({"sh", "-c", "kill -9 $$"}, "", {});
+  EXPECT_EQ(failedChildren(), before + 2);
+}
+
 TEST(Process, WatchdogStopsWhatWaits) {
   Result<ProcessOutput> output = runProgram({"sleep", "100"}, "", {.processorSeconds = 5, .watchdogSeconds = 1});
   ASSERT_TRUE(output.ok());

@@ -1,0 +1,125 @@
+// A file for each proof, `ab/cdef..`: a line that says what it is, its key, the hash of the rest, the record.
+#include "findings/session/proof_cache.h"
+
+#include "base/source/write_file.h"
+#include "base/support/sha256.h"
+#include "findings/session/config.h"
+#include "findings/session/proof_record.h"
+#include "proof/smt/solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+namespace feedhold {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kFormat = "feedhold proof 1";
+/// Of the 256 folders: together 16384 proofs of some kilobytes each.
+constexpr std::size_t kMostInFolder = 64;
+
+/// Texts that cannot run into one another.
+class Material {
+public:
+  void add(std::string_view text) { text_ += fmt::format("{} {}", text.size(), text); }
+  void add(std::uint64_t number) { text_ += fmt::format("{} ", number); }
+  std::string hash() const { return sha256(text_); }
+
+private:
+  std::string text_;
+};
+
+/// All files of the folder: what one of them calls, names or returns to may concern another.
+void addFiles(Material &material, const LoadedPrograms &programs) {
+  material.add(programs.files.size());
+  for (const auto &file : programs.files) {
+    material.add(file->path.filename().generic_string());
+    material.add(file->source.text());
+    const auto &sources = file->contracts.sources;
+    material.add(sources.size());
+    for (std::size_t i = 1; i < sources.size(); ++i) {
+      material.add(fs::path(sources[i].path()).filename().generic_string());
+      material.add(sources[i].text());
+    }
+  }
+}
+
+fs::path placeOf(const ProofCache &cache, const std::string &key) {
+  return cache.folder / key.substr(0, 2) / key.substr(2);
+}
+
+std::string headOf(const std::string &key, std::string_view record) {
+  return fmt::format("{}\n{}\n{}\n", kFormat, key, sha256(record));
+}
+
+/// Makes room for one more; the oldest goes first.
+void trim(const fs::path &folder) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> entries;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder))
+    entries.emplace_back(entry.last_write_time(), entry.path());
+  if (entries.size() < kMostInFolder)
+    return;
+  std::sort(entries.begin(), entries.end());
+  for (std::size_t i = 0; i + kMostInFolder <= entries.size(); ++i)
+    fs::remove(entries[i].second);
+}
+
+} // namespace
+
+std::string proofKey(const ProofCache &cache, const LoadedPrograms &programs, ProgramId program,
+                     const prove::ProveOptions &options) {
+  const auto &[only, budget, guards] = options; // all of them: a new option has to be thought of here
+  const auto &[search, z3, cvc5] = budget;
+  Material material;
+  material.add(kFormat);
+  material.add(cache.tool);
+  material.add(smt::z3Version());
+  material.add(programs.dialect.id);
+  material.add(textOf(programs.dialect.switches));
+  material.add(only.size());
+  for (const prove::ObligationKind kind : only)
+    material.add(prove::nameOf(kind));
+  for (const std::uint64_t number : {search, z3, cvc5, static_cast<std::uint64_t>(guards)})
+    material.add(number);
+  material.add(program.index());
+  addFiles(material, programs);
+  return material.hash();
+}
+
+std::optional<RememberedProof> recall(const ProofCache &cache, const std::string &key, const ProgramSet &programs) {
+  const fs::path place = placeOf(cache, key);
+  std::error_code ignored;
+  if (!fs::is_regular_file(place, ignored))
+    return std::nullopt;
+  const Result<SourceFile> file = SourceFile::open(place);
+  if (!file)
+    return std::nullopt;
+  const std::string_view text = file.value().text();
+  const std::size_t head = headOf(key, "").size();
+  if (text.size() < head || text.substr(0, head) != headOf(key, text.substr(head)))
+    return std::nullopt;
+  auto record = std::make_shared<const std::string>(text.substr(head));
+  std::optional<prove::ProgramProof> proof = readProofRecord(*record, programs);
+  if (!proof)
+    return std::nullopt;
+  return RememberedProof{std::move(*proof), std::move(record)};
+}
+
+void remember(const ProofCache &cache, const std::string &key, const prove::ProgramProof &proof) {
+  const fs::path place = placeOf(cache, key);
+  const std::string record = writeProofRecord(proof);
+  try {
+    fs::create_directories(place.parent_path());
+    trim(place.parent_path());
+  } catch (const fs::filesystem_error &) {
+    // Another process has been here, or nobody may write: the next line decides.
+  }
+  static_cast<void>(putFile(place, headOf(key, record) + record));
+}
+
+} // namespace feedhold

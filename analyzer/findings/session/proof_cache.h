@@ -1,0 +1,34 @@
+// Proof cache: verdicts of earlier runs, each under a hash of all that it depends on.  What is not found, cannot be
+// read or does not fit is proved again; what cannot be written is forgotten.
+#pragma once
+
+#include "findings/session/programs.h"
+#include "proof/prove/prove.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace feedhold {
+
+struct ProofCache {
+  std::filesystem::path folder; // is made when it is not there
+  std::string tool;             // differs from one build of the program to the next
+};
+
+/// A hash of the program, all files that were loaded with it, their contracts, the dialect with its settings, the
+/// options, the tool and its solver.
+std::string proofKey(const ProofCache &cache, const LoadedPrograms &programs, ProgramId program,
+                     const prove::ProveOptions &options);
+
+struct RememberedProof {
+  prove::ProgramProof proof;
+  std::shared_ptr<const std::string> record; // where its reasons lie
+};
+std::optional<RememberedProof> recall(const ProofCache &cache, const std::string &key, const ProgramSet &programs);
+
+/// Without the evidence.
+void remember(const ProofCache &cache, const std::string &key, const prove::ProgramProof &proof);
+
+} // namespace feedhold

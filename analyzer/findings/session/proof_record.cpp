@@ -1,0 +1,242 @@
+#include "findings/session/proof_record.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+
+namespace feedhold {
+
+using prove::Obligation;
+using prove::ProgramProof;
+
+namespace {
+
+constexpr std::uint64_t kObligationKinds = 0
+#define OBLIGATION(kind, name) +1
+#include "proof/prove/obligation_kinds.def"
+    ;
+constexpr std::uint64_t kAlarmKinds = 0
+#define ALARM(kind, meaning) +1
+#include "language/dialect/alarms.def"
+    ;
+
+/// Numbers with a blank behind them; texts as their size, a blank and their bytes.
+class Writer {
+public:
+  void number(std::uint64_t value) { bytes_ += fmt::format("{} ", value); }
+  void text(std::string_view value) {
+    number(value.size());
+    bytes_ += value;
+  }
+  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+  void place(Place place) {
+    number(place.file.index());
+    number(place.node.index());
+  }
+  void span(Span span) {
+    number(span.begin);
+    number(span.end);
+  }
+  template <typename Value, typename Write> void optional(const std::optional<Value> &value, Write write) {
+    number(value ? 1 : 0);
+    if (value)
+      write(*value);
+  }
+  std::string finish() { return std::move(bytes_); }
+
+private:
+  std::string bytes_;
+};
+
+/// After the first thing that does not fit everything is 0 and empty.
+class Reader {
+public:
+  Reader(std::string_view bytes, const ProgramSet &programs) : rest_(bytes), programs_(programs) {}
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    const auto size = static_cast<std::size_t>(end - rest_.data());
+    if (error != std::errc{} || size >= rest_.size() || *end != ' ')
+      return fail();
+    rest_.remove_prefix(size + 1);
+    return value;
+  }
+  std::uint64_t numberUpTo(std::uint64_t most) {
+    const std::uint64_t value = number();
+    return value <= most ? value : fail();
+  }
+  std::string_view text() {
+    const std::string_view value = rest_.substr(0, numberUpTo(rest_.size()));
+    rest_.remove_prefix(value.size());
+    return value;
+  }
+  double real() { return std::bit_cast<double>(number()); }
+  Place place() {
+    const FileId file(numberUpTo(programs_.size() - 1));
+    return {file, NodeId(numberUpTo(programs_.file(file).cfg.nodes.size()))};
+  }
+  Span span(Place place) {
+    const std::uint64_t size = programs_.file(place.file).source->text().size();
+    const auto begin = static_cast<std::uint32_t>(numberUpTo(size));
+    return {begin, static_cast<std::uint32_t>(numberUpTo(size))};
+  }
+  template <typename Enum> Enum oneOf(std::uint64_t count) { return static_cast<Enum>(numberUpTo(count - 1)); }
+  template <typename Enum> Enum upTo(Enum last) { return oneOf<Enum>(static_cast<std::uint64_t>(last) + 1); }
+  bool isPresent() { return numberUpTo(1) == 1; }
+  /// How many rows follow: no more than there are bytes.
+  std::uint64_t count() { return numberUpTo(rest_.size()); }
+  bool isDone() const { return !failed_ && rest_.empty(); }
+
+private:
+  std::uint64_t fail() {
+    failed_ = true;
+    rest_ = {};
+    return 0;
+  }
+  std::string_view rest_;
+  const ProgramSet &programs_;
+  bool failed_ = false;
+};
+
+void write(Writer &writer, const prove::Witness &witness) {
+  writer.number(witness.variables.entries().size());
+  for (const auto &[variable, value] : witness.variables.entries()) {
+    writer.number(variable);
+    writer.number(value.vacant ? 1 : 0);
+    writer.real(value.number);
+  }
+  writer.number(static_cast<std::uint64_t>(witness.end));
+  writer.text(witness.happened);
+}
+
+prove::Witness readWitness(Reader &reader) {
+  prove::Witness witness{};
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const auto variable = static_cast<std::uint32_t>(reader.number());
+    const bool vacant = reader.isPresent();
+    witness.variables.set(variable, {vacant, reader.real()});
+  }
+  witness.end = reader.upTo(RunEnd::NotModelled);
+  witness.happened = reader.text();
+  return witness;
+}
+
+void write(Writer &writer, const FixIt &fix) {
+  writer.number(static_cast<std::uint64_t>(fix.safety));
+  writer.text(fix.title);
+  writer.number(fix.edits.size());
+  for (const Edit &edit : fix.edits) {
+    writer.span(edit.span);
+    writer.text(edit.replacement);
+  }
+}
+
+/// `place`: somewhere in the file that it changes.
+FixIt readFix(Reader &reader, Place place) {
+  FixIt fix{.safety = reader.upTo(FixSafety::NeedsReview), .title = std::string(reader.text()), .edits = {}};
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const Span span = reader.span(place);
+    fix.edits.push_back({span, std::string(reader.text())});
+  }
+  return fix;
+}
+
+void write(Writer &writer, const prove::Guard &guard) {
+  const auto &[conditions, clause, fix] = guard;
+  writer.number(conditions.size());
+  for (const std::string &condition : conditions)
+    writer.text(condition);
+  writer.text(clause);
+  writer.optional(fix, [&](const FixIt &value) { write(writer, value); });
+}
+
+prove::Guard readGuard(Reader &reader, Place place) {
+  prove::Guard guard;
+  for (std::uint64_t left = reader.count(); left > 0; --left)
+    guard.conditions.emplace_back(reader.text());
+  guard.clause = reader.text();
+  if (reader.isPresent())
+    guard.fix = readFix(reader, place);
+  return guard;
+}
+
+void write(Writer &writer, const Obligation &obligation) {
+  // Names every member, so that one that is new has to be thought of here.
+  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, bound, witness, effort, evidence,
+               guard] = obligation;
+  static_cast<void>(evidence);
+  const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
+  enumeration(kind);
+  writer.text(id);
+  writer.place(place);
+  writer.span(span);
+  writer.text(claim);
+  writer.optional(alarm, enumeration);
+  enumeration(verdict);
+  writer.optional(grade, enumeration);
+  writer.text(method);
+  writer.text(reason);
+  writer.text(bound);
+  writer.optional(witness, [&](const prove::Witness &value) { write(writer, value); });
+  writer.number(effort);
+  writer.optional(guard, [&](const prove::Guard &value) { write(writer, value); });
+}
+
+Obligation readObligation(Reader &reader) {
+  const auto kind = reader.oneOf<prove::ObligationKind>(kObligationKinds);
+  const std::string_view id = reader.text();
+  const Place place = reader.place();
+  Obligation obligation{.kind = kind, .id = std::string(id), .place = place, .span = reader.span(place), .claim = ""};
+  obligation.claim = reader.text();
+  if (reader.isPresent())
+    obligation.alarm = reader.oneOf<AlarmKind>(kAlarmKinds);
+  obligation.verdict = reader.upTo(prove::Verdict::Unreachable);
+  if (reader.isPresent())
+    obligation.grade = reader.upTo(prove::Grade::TwoSolvers);
+  obligation.method = reader.text();
+  obligation.reason = reader.text();
+  obligation.bound = reader.text();
+  if (reader.isPresent())
+    obligation.witness = readWitness(reader);
+  obligation.effort = reader.number();
+  if (reader.isPresent())
+    obligation.guard = readGuard(reader, place);
+  return obligation;
+}
+
+} // namespace
+
+std::string writeProofRecord(const ProgramProof &proof) {
+  const auto &[obligations, unfollowed, incomplete] = proof;
+  Writer writer;
+  writer.number(obligations.size());
+  for (const Obligation &obligation : obligations)
+    write(writer, obligation);
+  writer.number(unfollowed.size());
+  for (const prove::Unfollowed &each : unfollowed) {
+    writer.text(each.reason);
+    writer.place(each.place);
+    writer.span(each.span);
+  }
+  writer.optional(incomplete, [&](std::string_view reason) { writer.text(reason); });
+  return writer.finish();
+}
+
+std::optional<ProgramProof> readProofRecord(std::string_view record, const ProgramSet &programs) {
+  Reader reader(record, programs);
+  ProgramProof proof;
+  for (std::uint64_t left = reader.count(); left > 0; --left)
+    proof.obligations.push_back(readObligation(reader));
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const std::string_view reason = reader.text();
+    const Place place = reader.place();
+    proof.unfollowed.push_back({reason, place, reader.span(place)});
+  }
+  if (reader.isPresent())
+    proof.incomplete = reader.text();
+  return reader.isDone() ? std::optional(std::move(proof)) : std::nullopt;
+}
+
+} // namespace feedhold
