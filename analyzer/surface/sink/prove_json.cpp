@@ -1,13 +1,12 @@
 // Verdicts for programs; their shape is docs/schemas/prove.schema.json.
+#include "surface/sink/json_parts.h"
 #include "surface/sink/prove_shown.h"
-
-#include <nlohmann/json.hpp>
 
 namespace feedhold {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using json::Json;
 using prove::Obligation;
 
 Json orNull(const std::string &text) { return text.empty() ? Json() : Json(text); }
@@ -59,7 +58,13 @@ private:
             {"reason", orNull(obligation.reason)},
             {"bound", orNull(obligation.bound)},
             {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
+            {"guard", obligation.guard ? guardToJson(obligation) : Json()},
             {"rlimit", obligation.effort}};
+  }
+  Json guardToJson(const Obligation &obligation) const {
+    const auto &[conditions, clause, fix] = *obligation.guard;
+    const SourceFile &source = file_.loaded->file(obligation.place.file).source;
+    return {{"conditions", conditions}, {"clause", clause}, {"fix", fix ? json::fixToJson(*fix, source) : Json()}};
   }
   Json witnessToJson(const Obligation &obligation, const ProvedProgram &program) const {
     const prove::Witness &witness = *obligation.witness;

@@ -50,6 +50,8 @@ std::string textFor(const Obligation &obligation, const ProvedFile &file, const 
     text += "\n" + textOf(witness) + ": " + happenedIn(*obligation.witness, obligation, file.loaded->dialect) +
             "\nsee it: " + witness.replay;
   }
+  if (obligation.guard)
+    text += "\n" + remedyOf(*obligation.guard);
   return text;
 }
 
@@ -59,14 +61,17 @@ Json resultFor(const Obligation &obligation, const ProvedFile &file, const Prove
   Json location = {
       {"physicalLocation", sarif::physicalLocation(there.shown, there.source, obligation.span, report.root)},
       {"logicalLocations", Json::array({Json{{"fullyQualifiedName", obligation.id}}})}};
-  return {{"ruleId", nameOf(obligation.kind)},
-          {"ruleIndex", static_cast<std::size_t>(obligation.kind)},
-          {"kind", "fail"},
-          {"level", obligation.verdict == Verdict::Refuted ? "error" : "warning"},
-          {"message", {{"text", textFor(obligation, file, program, report)}}},
-          {"locations", Json::array({std::move(location)})},
-          {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},
-          {"properties", Json{{"verdict", nameOf(obligation.verdict)}}}};
+  Json row = {{"ruleId", nameOf(obligation.kind)},
+              {"ruleIndex", static_cast<std::size_t>(obligation.kind)},
+              {"kind", "fail"},
+              {"level", obligation.verdict == Verdict::Refuted ? "error" : "warning"},
+              {"message", {{"text", textFor(obligation, file, program, report)}}},
+              {"locations", Json::array({std::move(location)})},
+              {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},
+              {"properties", Json{{"verdict", nameOf(obligation.verdict)}}}};
+  if (obligation.guard && obligation.guard->fix)
+    row["fixes"] = Json::array({sarif::fixToJson(*obligation.guard->fix, there.shown, there.source, report.root)});
+  return row;
 }
 
 Json driver(const ProveReport &report) {

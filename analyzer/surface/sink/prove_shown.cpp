@@ -120,6 +120,10 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
                                                           : witness.happened;
 }
 
+std::string remedyOf(const prove::Guard &guard) {
+  return fmt::format("it is proved with the clause `{}` in the contract", guard.clause);
+}
+
 std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
   const bool isRefuted = obligation.verdict == Verdict::Refuted;
   const std::string_view open = isRefuted ? "" : "it is not known whether ";

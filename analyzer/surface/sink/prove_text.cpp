@@ -5,12 +5,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold {
 
 using prove::Obligation;
 using prove::Verdict;
 
 namespace {
+
+/// Those that are not empty.
+std::vector<std::string_view> linesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+    if (!line.empty())
+      lines.push_back(line);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return lines;
+}
 
 class ProgramText {
 public:
@@ -43,12 +57,28 @@ private:
   }
 
   void picture(const Obligation &obligation, std::vector<std::string> notes) {
-    const Diagnostic diagnostic{
+    Diagnostic diagnostic{
         .message = messageOf(obligation, file_.loaded->dialect), .span = obligation.span, .notes = std::move(notes)};
+    if (obligation.guard) {
+      diagnostic.notes.push_back(remedyOf(*obligation.guard));
+      if (obligation.guard->fix)
+        addFix(diagnostic, *obligation.guard->fix, file_.loaded->file(obligation.place.file).source);
+    }
     const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.loaded->file(id).source; };
     text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
                     file_.loaded->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
     text_ += '\n';
+  }
+
+  /// With its blocks: they are there to be typed.
+  static void addFix(Diagnostic &diagnostic, FixIt fix, const SourceFile &source) {
+    for (const Edit &edit : fix.edits) {
+      const bool isBehind = edit.replacement.starts_with('\n') || edit.replacement.starts_with('\r');
+      fix.title += fmt::format("\n{} line {}:", isBehind ? "behind" : "before", source.lineOf(edit.span.begin));
+      for (const std::string_view block : linesOf(edit.replacement))
+        fix.title += fmt::format("\n    {}", block);
+    }
+    diagnostic.fixes.push_back(std::move(fix));
   }
 
   std::vector<std::string> witnessNotes(const Obligation &obligation) const {

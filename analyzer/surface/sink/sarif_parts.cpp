@@ -62,6 +62,17 @@ Json physicalLocation(const std::string &path, const SourceFile &source, Span sp
   return {{"artifactLocation", artifactLocation(path, root)}, {"region", regionOf(source, span)}};
 }
 
+Json fixToJson(const FixIt &fix, const std::string &path, const SourceFile &source, const fs::path &root) {
+  Json replacements = Json::array();
+  for (const Edit &edit : fix.edits)
+    replacements.push_back(
+        {{"deletedRegion", regionOf(source, edit.span)}, {"insertedContent", {{"text", edit.replacement}}}});
+  Json change = {{"artifactLocation", artifactLocation(path, root)}, {"replacements", std::move(replacements)}};
+  return {{"description", {{"text", fix.title}}},
+          {"artifactChanges", Json::array({std::move(change)})},
+          {"properties", {{"safety", nameOf(fix.safety)}}}};
+}
+
 std::string document(Json driver, Json results, const Invocation &invocation, const fs::path &root) {
   Json run = {{"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}};
   run["originalUriBaseIds"] = {{kRoot, {{"uri", "file://" + uriPath((root / "").generic_string())}}}};

@@ -1,6 +1,7 @@
 // What all SARIF 2.1.0 outputs have in common.  Internal to sink/.
 #pragma once
 
+#include "base/diag/diagnostic.h"
 #include "base/source/source_file.h"
 #include "findings/session/result.h"
 
@@ -20,6 +21,8 @@ Json artifactLocation(const std::string &path, const std::filesystem::path &root
 /// `path` is the one that is shown.
 Json physicalLocation(const std::string &path, const SourceFile &source, Span span, const std::filesystem::path &root);
 Json regionOf(const SourceFile &source, Span span);
+
+Json fixToJson(const FixIt &fix, const std::string &path, const SourceFile &source, const std::filesystem::path &root);
 
 struct Invocation {
   const std::vector<PathProblem> &errors;

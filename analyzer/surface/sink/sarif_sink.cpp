@@ -44,18 +44,6 @@ Json ruleToJson(const RegisteredRule &entry) {
   return row;
 }
 
-Json fixToJson(const FixIt &fix, const CheckedFile &file, const Report &report) {
-  Json replacements = Json::array();
-  for (const Edit &edit : fix.edits)
-    replacements.push_back({{"deletedRegion", sarif::regionOf(file.source, edit.span)},
-                            {"insertedContent", {{"text", edit.replacement}}}});
-  Json change = {{"artifactLocation", sarif::artifactLocation(file.path, report.root)},
-                 {"replacements", std::move(replacements)}};
-  return {{"description", {{"text", fix.title}}},
-          {"artifactChanges", Json::array({std::move(change)})},
-          {"properties", {{"safety", nameOf(fix.safety)}}}};
-}
-
 Json relatedLocations(const Finding &finding, const CheckedFile &file, const Report &report) {
   Json rows = Json::array();
   for (const Label &label : finding.diagnostic.labels) {
@@ -99,7 +87,7 @@ Json resultToJson(const Finding &finding, const CheckedFile &file, const Report 
   row["partialFingerprints"] = {{"primaryLocationLineHash", finding.fingerprint + ":1"},
                                 {"feedhold/v1", finding.fingerprint}};
   for (const FixIt &fix : finding.diagnostic.fixes)
-    row["fixes"].push_back(fixToJson(fix, file, report));
+    row["fixes"].push_back(sarif::fixToJson(fix, file.path, file.source, report.root));
   if (finding.suppressed)
     row["suppressions"] = Json::array({Json{{"kind", "inSource"}}});
   return row;
