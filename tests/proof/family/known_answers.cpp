@@ -77,7 +77,8 @@ bool breaks(const Obligation &claim, const RunResult &result) {
   case ObligationKind::LoopEnds:
   case ObligationKind::ProgramEnds: return result.end == RunEnd::Repeats || result.end == RunEnd::Fuel;
   case ObligationKind::AlarmUnreachable: return result.end == RunEnd::UserAlarm && stopsAt(claim, result);
-  case ObligationKind::NoControlAlarm: return result.end == RunEnd::Alarm && stopsAt(claim, result);
+  case ObligationKind::NoControlAlarm:
+    return result.end == RunEnd::Alarm && claim.alarm == result.alarm && stopsAt(claim, result);
   case ObligationKind::AlarmIff:
   case ObligationKind::Ensures:
   case ObligationKind::Assigns:
@@ -89,19 +90,35 @@ bool breaks(const Obligation &claim, const RunResult &result) {
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
 
+/// Of the obligations that one claim is about: those that a run breaks.
+std::vector<const Obligation *> broken(const std::vector<const Obligation *> &claims, const RunResult &result) {
+  std::vector<const Obligation *> found;
+  for (const Obligation *claim : claims)
+    if (breaks(*claim, result))
+      found.push_back(claim);
+  return found;
+}
+
+/// Several when a block can stop in several ways: `no-control-alarm.N50`, `no-control-alarm.N50.2`.
+std::vector<const Obligation *> obligationsOf(const prove::ProgramProof &proof, const std::string &claim) {
+  std::vector<const Obligation *> found;
+  for (const Obligation &each : proof.obligations) {
+    const std::string id = each.id.substr(each.id.find('.') + 1);
+    if (id == claim || id.starts_with(claim + "."))
+      found.push_back(&each);
+  }
+  return found;
+}
+
 /// Why the answer cannot be right; empty when runs agree with it.
-std::string contradiction(const LoadedProgram &loaded, const KnownProgram &known, const KnownAnswer &answer,
-                          const Obligation &claim) {
-  if (answer.verdict == Verdict::Refuted)
-    return breaks(claim, loaded.runOn(answer.shownBy, kShownFuel))
-               ? ""
-               : fmt::format("is not broken by{}", toString(answer.shownBy));
-  if (isEnd(claim.kind) && hasEndless(known))
+std::string contradiction(const LoadedProgram &loaded, const KnownProgram &known,
+                          const std::vector<const Obligation *> &claims) {
+  if (isEnd(claims.front()->kind) && hasEndless(known))
     return "";
   for (const Inputs &trial : known.trials) {
     const RunResult result = loaded.runOn(trial, kTrialFuel);
-    if (result.end != RunEnd::Fuel && breaks(claim, result))
-      return fmt::format("is broken by{}", toString(trial));
+    if (result.end != RunEnd::Fuel && !broken(claims, result).empty())
+      return fmt::format("known to be proved, but is broken by{}", toString(trial));
   }
   return "";
 }
@@ -110,20 +127,34 @@ Verdict plain(Verdict verdict) { return verdict == Verdict::Unreachable ? Verdic
 
 void compare(const LoadedProgram &loaded, const prove::ProgramProof &proof, const KnownProgram &known,
              const KnownAnswer &answer, Comparison &into) {
-  const auto claim = std::find_if(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &each) {
-    return each.id.substr(each.id.find('.') + 1) == answer.claim;
-  });
   const std::string name = fmt::format("{} {}", known.name, answer.claim);
-  if (claim == proof.obligations.end())
-    into.wrong.push_back(name + ": there is no such obligation");
-  else if (const std::string why = contradiction(loaded, known, answer, *claim); !why.empty())
-    into.wrong.push_back(fmt::format("{}: known to be {}, but {}", name, nameOf(answer.verdict), why));
-  else if (claim->verdict == Verdict::Unknown)
-    into.undecided.push_back(fmt::format("{}: {}, not known to be {}", name, claim->reason, nameOf(answer.verdict)));
-  else if (plain(claim->verdict) != answer.verdict)
-    into.wrong.push_back(
-        fmt::format("{}: {}, but is known to be {}", name, nameOf(claim->verdict), nameOf(answer.verdict)));
-  else
+  std::vector<const Obligation *> claims = obligationsOf(proof, answer.claim);
+  if (claims.empty()) {
+    into.undecided.push_back(name + ": there is no such obligation");
+    return;
+  }
+  if (answer.verdict == Verdict::Refuted) {
+    claims = broken(claims, loaded.runOn(answer.shownBy, kShownFuel));
+    if (claims.empty())
+      into.wrong.push_back(
+          fmt::format("{}: known to be refuted, but is not broken by{}", name, toString(answer.shownBy)));
+  } else if (const std::string why = contradiction(loaded, known, claims); !why.empty()) {
+    into.wrong.push_back(fmt::format("{}: {}", name, why));
+    return;
+  }
+  Comparison verdicts;
+  for (const Obligation *claim : claims)
+    if (claim->verdict == Verdict::Unknown)
+      verdicts.undecided.push_back(
+          fmt::format("{}: {}, not known to be {}", name, claim->reason, nameOf(answer.verdict)));
+    else if (plain(claim->verdict) != answer.verdict)
+      verdicts.wrong.push_back(
+          fmt::format("{}: {}, but is known to be {}", name, nameOf(claim->verdict), nameOf(answer.verdict)));
+  if (!verdicts.wrong.empty())
+    into.wrong.push_back(verdicts.wrong.front());
+  else if (!verdicts.undecided.empty())
+    into.undecided.push_back(verdicts.undecided.front());
+  else if (!claims.empty())
     ++into.right;
 }
 
