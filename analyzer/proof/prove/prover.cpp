@@ -3,6 +3,7 @@
 #include "meaning/cfg/wto.h"
 #include "proof/prove/entails.h"
 #include "proof/prove/loop_account.h"
+#include "proof/prove/recurrence.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -257,8 +258,56 @@ void Prover::unmetAlarms() {
 
 // ---- ends ----
 
-/// Inputs with which the loop is met in a state whose pass always leads to one like it, and the run was seen not to end.
+Termination Prover::endOf(const LoopInstance &loop) {
+  Termination end;
+  end.endless = endless(loop);
+  if (end.endless)
+    return end;
+  end = provesEnd(reading_, store_, loop);
+  if (!end.proved)
+    end.endless = endlessFromStart(loop);
+  return end;
+}
+
+/// The loop goes on for ever with these inputs.
+bool Prover::goesOn(const LoopInstance &loop, const GivenVariables &given) {
+  return recurrenceFrom(reading_, store_, found_, loop, witnesses_->modelOf(given)).has_value();
+}
+
+/// Inputs of a sampled run that did not come out of the loop, with which it goes on for ever; as few as will do.
 std::optional<Witness> Prover::endless(const LoopInstance &loop) {
+  constexpr std::size_t kMostTried = 3;
+  std::vector<WitnessSearch::Sample> runs;
+  for (const WitnessSearch::Sample &sample : witnesses_->samples())
+    if (sample.result.end == RunEnd::Fuel && endsInside(programs_, program_, loop.head, sample.result))
+      runs.push_back(sample);
+  std::stable_sort(runs.begin(), runs.end(), [](const auto &a, const auto &b) {
+    return a.given.entries().size() < b.given.entries().size();
+  });
+  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i) {
+    GivenVariables given = runs[i].given;
+    if (!goesOn(loop, given))
+      continue;
+    for (const auto &[variable, value] : runs[i].given.entries()) {
+      RunOptions options;
+      options.variables = given;
+      options.variables.erase(variable);
+      options.fuel = WitnessSearch::kFuel;
+      const smt::Model model = witnesses_->modelOf(options.variables);
+      const bool isAllowed = std::all_of(demands_.begin(), demands_.end(), [&](TermId demand) {
+        const auto truth = smt::evaluate(store_, demand, model);
+        return truth && std::get<bool>(*truth);
+      });
+      if (isAllowed && feedhold::run(programs_, program_, options).end == RunEnd::Fuel && goesOn(loop, options.variables))
+        given = options.variables;
+    }
+    return Witness{given, RunEnd::Fuel, "each pass of the loop leads to another one, for ever"};
+  }
+  return std::nullopt;
+}
+
+/// Inputs with which the loop is met in a state whose pass always leads to one like it.
+std::optional<Witness> Prover::endlessFromStart(const LoopInstance &loop) {
   const auto pass = recurrentPass(reading_, store_, loop);
   if (!pass)
     return std::nullopt;
@@ -269,11 +318,14 @@ std::optional<Witness> Prover::endless(const LoopInstance &loop) {
   const smt::Model *model = outcome.counterexample();
   if (model == nullptr)
     return std::nullopt;
-  return witnesses_->fromModel(*model, [](const RunResult &run) -> std::optional<std::string> {
+  auto witness = witnesses_->fromModel(*model, [](const RunResult &run) -> std::optional<std::string> {
     if (run.end == RunEnd::Repeats || run.end == RunEnd::Fuel)
       return "each pass of the loop leads to another one like it, for ever";
     return std::nullopt;
   });
+  if (witness && witness->end == RunEnd::Fuel && !goesOn(loop, witness->variables))
+    return std::nullopt; // made plainer, it may only be long
+  return witness;
 }
 
 void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
@@ -292,7 +344,7 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
     const auto known = std::find_if(ends_.begin(), ends_.end(), [&](const auto &end) { return end.first == instance; });
     Termination &end = known != ends_.end()
                            ? known->second
-                           : ends_.emplace_back(instance, provesEnd(reading_, store_, *instance)).second;
+                           : ends_.emplace_back(instance, endOf(*instance)).second;
     if (end.proved) {
       for (const Outcome &outcome : end.evidence)
         takeProof(obligation, outcome);
@@ -300,10 +352,10 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
     }
     obligation.verdict = Verdict::Unknown;
     obligation.reason = end.reason;
-    if (auto witness = endless(*instance)) {
+    if (end.endless) {
       obligation.verdict = Verdict::Refuted;
       obligation.reason.clear();
-      obligation.witness = std::move(witness);
+      obligation.witness = end.endless;
       return;
     }
   }

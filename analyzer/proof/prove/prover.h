@@ -63,7 +63,10 @@ private:
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);
+  Termination endOf(const LoopInstance &loop);
+  bool goesOn(const LoopInstance &loop, const GivenVariables &given);
   std::optional<Witness> endless(const LoopInstance &loop);
+  std::optional<Witness> endlessFromStart(const LoopInstance &loop);
   void settleLoop(Obligation &obligation, const std::vector<const LoopInstance *> &instances,
                   const Violation &violation);
   void explainEnd(Obligation &obligation, const std::vector<const LoopInstance *> &instances);

@@ -8,6 +8,7 @@
 
 #include "proof/prove/discharge.h"
 #include "proof/prove/exploration.h"
+#include "proof/prove/obligation.h"
 
 namespace feedhold::prove {
 
@@ -23,7 +24,8 @@ struct Termination {
   bool proved = false;
   std::vector<Measure> measures; // in lexicographic order
   std::vector<Outcome> evidence;
-  std::string reason; // why not
+  std::string reason;                  // why not
+  std::optional<Witness> endless = {}; // inputs with which it goes on for ever
 };
 
 Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop);
