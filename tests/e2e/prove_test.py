@@ -21,6 +21,12 @@ N10 #10=#21/#22
 M99
 """
 UNKNOWN = """O3
+#1=SQRT[2]
+IF[#1*#1EQ2]GOTO90
+M30
+N90#3000=1(EXACT)
+"""
+WAITS = """O3
 N10 WHILE[#1000EQ0]DO1
 END1
 M30
@@ -129,8 +135,9 @@ class Prove(Scratch):
                       self.prove("O1.nc").stdout)
 
     def test_loop_that_may_wait_for_ever(self):
-        self.write("O3.nc", UNKNOWN)
-        self.assertEqual(self.one("O3.loop-ends.N10", "O3.nc")["verdict"], "unknown")
+        self.write("O3.nc", WAITS)
+        row = self.one("O3.loop-ends.N10", "O3.nc")
+        self.assertEqual((row["verdict"], row["witness"]["call"]), ("refuted", "G65 P3"))
 
     def test_contract_makes_the_proof(self):
         self.write("O9100.nc", DIVIDES.replace("(PECK)\n", "(PECK)\n(@PARAM #22 STEP 0.5..20. MM)\n"))
@@ -158,6 +165,40 @@ class Prove(Scratch):
         run = json.loads(self.feedhold(*words, "--format", "json").stdout)
         self.assertEqual(run["end"], witness["end"])
 
+    # ---- what would make it hold ----
+
+    def test_clause_that_would_do(self):
+        self.write("O9100.nc", DIVIDES)
+        guard = self.one("O9100.no-control-alarm.N10", "O9100.nc")["guard"]
+        self.assertEqual(guard["clause"], "@REQUIRE " + guard["conditions"][0])
+        self.write("O9100.contract", guard["clause"] + "\n")
+        row = self.one("O9100.no-control-alarm.N10", "O9100.nc")
+        self.assertEqual((row["verdict"], row["guard"]), ("proved", None))
+
+    def test_blocks_that_would_do(self):
+        self.write("O9100.nc", DIVIDES)
+        fix = self.one("O9100.no-control-alarm.N10", "O9100.nc")["guard"]["fix"]
+        self.assertEqual(fix["safety"], "needs-review")
+        lines = DIVIDES.splitlines(keepends=True)
+        for edit in reversed(fix["edits"]):
+            self.assertEqual((edit["line"], edit["column"]), (edit["endLine"], edit["endColumn"]))
+            line, column = edit["line"] - 1, edit["column"] - 1
+            lines[line] = lines[line][:column] + edit["replacement"] + lines[line][column:]
+        self.write("O9100.nc", "".join(lines))
+        self.assertEqual(self.one("O9100.no-control-alarm.N10", "O9100.nc")["verdict"], "proved")
+
+    def test_both_are_shown(self):
+        self.write("O9100.nc", DIVIDES)
+        text = self.prove("O9100.nc").stdout
+        self.assertRegex(text, r"= note: it is proved with the clause `@REQUIRE #22 [A-Z]+ 0` in the contract\n")
+        self.assertRegex(text, r"= fix \(needs review\): raise an alarm .*\n +before line 2:\n +IF\[#22[A-Z]+0\]GOTO")
+        run = json.loads(self.prove("--format", "sarif", "O9100.nc").stdout)["runs"][0]
+        [result] = [row for row in run["results"] if row["ruleId"] == "no-control-alarm"]
+        self.assertIn("it is proved with the clause", result["message"]["text"])
+        [change] = result["fixes"][0]["artifactChanges"]
+        self.assertEqual(change["artifactLocation"]["uri"], "O9100.nc")
+        self.assertIn("GOTO", change["replacements"][0]["insertedContent"]["text"])
+
     # ---- the text ----
 
     def test_text(self):
@@ -173,7 +214,8 @@ class Prove(Scratch):
     def test_unknown_says_why(self):
         self.write("O3.nc", UNKNOWN)
         text = self.prove("O3.nc").stdout
-        self.assertIn("unknown: it is not known whether this loop always ends [O3.loop-ends.N10]", text)
+        self.assertIn("unknown: it is not known whether this alarm can be raised [O3.alarm-unreachable.N90]", text)
+        self.assertIn("= note: inputs that seem to break it do not do so when they are run\n", text)
 
     def test_quiet_and_verbose(self):
         self.write("O1.nc", COUNTS)
@@ -199,7 +241,7 @@ class Prove(Scratch):
         results = {result["locations"][0]["logicalLocations"][0]["fullyQualifiedName"]: result["level"]
                    for result in run["results"]}
         self.assertEqual(results["O9100.no-control-alarm.N10"], "error")
-        self.assertEqual(results["O3.loop-ends.N10"], "warning")
+        self.assertEqual(results["O3.alarm-unreachable.N90"], "warning")
         self.assertFalse(any(identity.startswith("O1.") for identity in results))
         rules = run["tool"]["driver"]["rules"]
         self.assertTrue(all(rules[row["ruleIndex"]]["id"] == row["ruleId"] for row in run["results"]))
