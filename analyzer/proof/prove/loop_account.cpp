@@ -49,7 +49,29 @@ private:
     TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
     if (!testsFirst()) // what comes back to the start begins one pass more
       most = store_.add(most, one);
-    return shopText(store_, most, atCall_).value_or("");
+    return roundedText(most).value_or("");
+  }
+  /// FUP and FIX go by the sign of what they round: whole numbers beside it come into its brackets, where the sum is
+  /// not negative if there are passes.
+  std::optional<std::string> roundedText(TermId most) {
+    smt::LinearSum sum = store_.linear(most);
+    const auto isRounded = [&](const auto &part) {
+      const smt::Term &term = store_[part.first];
+      return term.kind == smt::TermKind::Apply && term.function == smt::Function::Floor;
+    };
+    const auto rounded = std::find_if(sum.terms.begin(), sum.terms.end(), isRounded);
+    if (rounded == sum.terms.end())
+      return shopText(store_, most, atCall_);
+    const auto [floor, factor] = *rounded;
+    sum.terms.erase(rounded);
+    const bool isWhole = sum.constant.isInteger() && std::all_of(sum.terms.begin(), sum.terms.end(), [&](auto &part) {
+                           return part.second.isInteger() && store_.sort(part.first) == smt::Sort::Int;
+                         });
+    if (!isWhole || abs(factor) != Number(1) || std::any_of(sum.terms.begin(), sum.terms.end(), isRounded))
+      return std::nullopt;
+    const TermId inside = store_.add(store_.fromLinear(sum), store_.scale(factor, store_[floor].arguments[0]));
+    const auto text = shopText(store_, inside, atCall_);
+    return text ? std::optional(fmt::format("{}[{}]", factor.sign() > 0 ? "FIX" : "FUP", *text)) : std::nullopt;
   }
   bool isPositive(const Measure &measure) {
     const TermId goal = store_.less(store_.number(Number(0)), measure.measure);

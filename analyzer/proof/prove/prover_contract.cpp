@@ -155,7 +155,7 @@ void Prover::alarmPromises() {
 
 /// What is claimed of all calls is not so of one that goes on for ever.
 void Prover::requireEnds(Obligation &obligation) {
-  if (obligation.verdict != Verdict::Proved)
+  if (obligation.verdict != Verdict::Proved && obligation.verdict != Verdict::Unreachable)
     return;
   if (!found_.repeats.empty()) {
     obligation.verdict = Verdict::Unknown;
