@@ -258,6 +258,26 @@ void Prover::unmetAlarms() {
 
 // ---- ends ----
 
+namespace {
+
+/// Leaves out what need not be given, many at once where that will do.
+template <typename Suffices> GivenVariables fewest(GivenVariables given, const Suffices &suffices) {
+  for (std::size_t size = given.entries().size(); size > 0; size /= 2)
+    for (std::size_t first = 0; first < given.entries().size();) {
+      GivenVariables fewer;
+      for (std::size_t i = 0; i < given.entries().size(); ++i)
+        if (i < first || i >= first + size)
+          fewer.set(given.entries()[i].first, given.entries()[i].second);
+      if (suffices(fewer))
+        given = std::move(fewer);
+      else
+        first += size;
+    }
+  return given;
+}
+
+} // namespace
+
 Termination Prover::endOf(const LoopInstance &loop) {
   Termination end;
   end.endless = endless(loop);
@@ -278,31 +298,27 @@ bool Prover::goesOn(const LoopInstance &loop, const GivenVariables &given) {
 std::optional<Witness> Prover::endless(const LoopInstance &loop) {
   constexpr std::size_t kMostTried = 3;
   std::vector<WitnessSearch::Sample> runs;
+  const auto stays = [&](const RunResult &run) { // doubles that have grown too large come to rest
+    return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) &&
+           endsInside(programs_, program_, loop.head, run);
+  };
   for (const WitnessSearch::Sample &sample : witnesses_->samples())
-    if (sample.result.end == RunEnd::Fuel && endsInside(programs_, program_, loop.head, sample.result))
+    if (stays(sample.result))
       runs.push_back(sample);
   std::stable_sort(runs.begin(), runs.end(), [](const auto &a, const auto &b) {
     return a.given.entries().size() < b.given.entries().size();
   });
-  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i) {
-    GivenVariables given = runs[i].given;
-    if (!goesOn(loop, given))
-      continue;
-    for (const auto &[variable, value] : runs[i].given.entries()) {
-      RunOptions options;
-      options.variables = given;
-      options.variables.erase(variable);
-      options.fuel = WitnessSearch::kFuel;
-      const smt::Model model = witnesses_->modelOf(options.variables);
-      const bool isAllowed = std::all_of(demands_.begin(), demands_.end(), [&](TermId demand) {
-        const auto truth = smt::evaluate(store_, demand, model);
-        return truth && std::get<bool>(*truth);
-      });
-      if (isAllowed && feedhold::run(programs_, program_, options).end == RunEnd::Fuel && goesOn(loop, options.variables))
-        given = options.variables;
-    }
-    return Witness{given, RunEnd::Fuel, "each pass of the loop leads to another one, for ever"};
-  }
+  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
+    if (goesOn(loop, runs[i].given))
+      return Witness{fewest(runs[i].given,
+                            [&](const GivenVariables &given) {
+                              RunOptions options;
+                              options.variables = given;
+                              options.fuel = WitnessSearch::kFuel;
+                              return witnesses_->allowed(given) &&
+                                     stays(feedhold::run(programs_, program_, options)) && goesOn(loop, given);
+                            }),
+                     runs[i].result.end, "each pass of the loop leads to another one, for ever"};
   return std::nullopt;
 }
 

@@ -53,12 +53,16 @@ public:
   std::optional<Recurrence> run() {
     if (loop_.callsUnknown || loop_.transitions.empty() || !collectWays() || !follow())
       return std::nullopt;
-    std::vector<TermId> set = candidates();
-    if (!close(set) || !staysInside(set))
-      return std::nullopt;
-    result_.facts = std::move(set);
-    result_.stem = passes_ - late_.size();
-    return std::move(result_);
+    for (const Detail detail : {Detail::Signs, Detail::Places, Detail::Remainders}) {
+      std::vector<TermId> set = candidates(detail);
+      work_ = 0;
+      if (!close(set) || !staysInside(set))
+        continue;
+      result_.facts = std::move(set);
+      result_.stem = states_.size() - late_.size();
+      return std::move(result_);
+    }
+    return std::nullopt;
   }
 
 private:
@@ -200,7 +204,9 @@ private:
 
   // ---- the set ----
 
-  std::vector<TermId> candidates() {
+  /// What is tried: each takes more work than the one before.
+  enum class Detail : std::uint8_t { Signs, Places, Remainders };
+  std::vector<TermId> candidates(Detail detail) {
     std::set<TermId> all;
     for (const Transition &pass : loop_.transitions)
       for (const TermId condition : pass.conditions)
@@ -210,13 +216,14 @@ private:
         all.insert({variable, store_.logicalNot(variable)});
     const std::vector<TermId> numbers = numbersOf();
     for (const TermId number : numbers) {
-      addBounds(number, all);
-      addRemainders(number, all);
+      addBounds(number, detail, all);
+      if (detail == Detail::Remainders)
+        addRemainders(number, all);
     }
     for (std::size_t i = 0; i < numbers.size() && i < kMostPaired; ++i)
       for (std::size_t j = i + 1; j < numbers.size() && j < kMostPaired; ++j) {
-        addBounds(store_.subtract(numbers[i], numbers[j]), all);
-        addBounds(store_.add(numbers[i], numbers[j]), all);
+        addBounds(store_.subtract(numbers[i], numbers[j]), detail, all);
+        addBounds(store_.add(numbers[i], numbers[j]), detail, all);
       }
     std::erase_if(all, [&](TermId candidate) {
       const auto variables = smt::variablesOf(store_, candidate);
@@ -238,15 +245,15 @@ private:
     return numbers;
   }
   /// By signs, and by where it is now.
-  void addBounds(TermId number, std::set<TermId> &all) {
-    const auto value = smt::evaluate(store_, number, late_.front());
-    if (!value)
-      return;
-    const TermId now = store_.number(std::get<Number>(*value));
+  void addBounds(TermId number, Detail detail, std::set<TermId> &all) {
     for (const int bound : {0, 1}) {
       all.insert(store_.lessOrEqual(store_.number(Number(bound)), number));
       all.insert(store_.lessOrEqual(number, store_.number(Number(-bound))));
     }
+    const auto value = smt::evaluate(store_, number, late_.front());
+    if (detail == Detail::Signs || !value)
+      return;
+    const TermId now = store_.number(std::get<Number>(*value));
     all.insert({store_.lessOrEqual(now, number), store_.lessOrEqual(number, now), store_.equal(number, now)});
   }
   void addRemainders(TermId number, std::set<TermId> &all) {

@@ -32,6 +32,8 @@ public:
   const std::vector<Sample> &samples() const { return samples_; }
   /// The inputs in exact numbers.
   smt::Model modelOf(const GivenVariables &given) const;
+  /// They satisfy what the inputs have to.
+  bool allowed(const GivenVariables &given) const;
   /// The samples that satisfy one more condition.
   WitnessSearch narrowed(smt::TermId demand) const;
 
@@ -39,7 +41,6 @@ public:
 
 private:
   std::vector<std::uint32_t> inputs() const;
-  bool allowed(const GivenVariables &given) const;
   bool isExact(const GivenVariables &given, const RunResult &run) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
