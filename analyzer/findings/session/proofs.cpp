@@ -45,10 +45,19 @@ void proveAnew(const Job &job, const prove::ProveOptions &options) {
   const LoadedPrograms &programs = *job.loaded;
   const ProgramId program = job.result->program;
   const Callee callee{FileId(0), programs.set->file(FileId(0)).cfg.entryOf(program), program};
-  job.result->proof = prove::prove(*programs.set, callee, &programs.file(FileId(0)).contracts, options);
+  prove::ProveOptions own = options;
+  for (const auto &file : programs.files)
+    own.contractsOf.push_back(&file->contracts);
+  job.result->proof = prove::prove(*programs.set, callee, &programs.file(FileId(0)).contracts, own);
 }
 
 void proveOrRecall(const Job &job, const ProofsWish &wish) {
+  if (!wish.cache && wish.steps == KeepSteps::Yes) {
+    prove::CertificateLog log;
+    proveAnew(job, wish.prove);
+    job.result->steps = log.take();
+    return;
+  }
   if (!wish.cache) {
     proveAnew(job, wish.prove);
     return;

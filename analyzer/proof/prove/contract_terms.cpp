@@ -63,10 +63,16 @@ TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &en
       .term;
 }
 
+SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState &state) const {
+  if (variable <= kLocalVariables)
+    return state.locals[variable];
+  const SymbolicValue *written = state.variables.find(variable);
+  return written ? *written : reading_.unwritten(state, variable);
+}
+
 TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {
   smt::TermStore &store = reading_.store();
-  const SymbolicValue held =
-      given.variable <= kLocalVariables ? entry.locals[given.variable] : reading_.unwritten(entry, given.variable);
+  const SymbolicValue held = valueOf(given.variable, entry);
   std::vector<TermId> demands;
   match(
       given.values, [](const AnyNumber &) {},
@@ -99,6 +105,18 @@ std::vector<TermId> ContractTerms::demands(const Contract &contract, const Symbo
   for (const ContractCondition &requirement : contract.requirements)
     demands.push_back(condition(requirement.condition, entry, entry));
   return demands;
+}
+
+std::vector<TermId> ContractTerms::demandsOfCall(const Contract &contract, const SymbolicState &called) {
+  smt::TermStore &store = reading_.store();
+  std::vector<TermId> all = demands(contract, called);
+  SymbolicState prepared = called;
+  prepare(contract, prepared);
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    all.push_back(store.equal(called.codes[group].index, prepared.codes[group].index));
+  for (const Axis axis : kAllAxes)
+    all.push_back(store.equal(called.at(axis).number, prepared.at(axis).number));
+  return all;
 }
 
 void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {

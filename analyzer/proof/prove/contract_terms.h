@@ -17,10 +17,13 @@ public:
   void prepare(const Contract &contract, SymbolicState &entry);
   /// `@PARAM`, `@GLOBAL` and `@REQUIRE`: what a caller has to see to.
   std::vector<smt::TermId> demands(const Contract &contract, const SymbolicState &entry);
+  /// The same, and the modal codes and the start position, of a state in which the program is called.
+  std::vector<smt::TermId> demandsOfCall(const Contract &contract, const SymbolicState &called);
   /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
   smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
 
 private:
+  SymbolicValue valueOf(std::uint32_t variable, const SymbolicState &state) const;
   smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
   SymbolicValue value(ExpressionId expression, const SymbolicState &state);
   SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;

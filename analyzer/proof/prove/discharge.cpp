@@ -14,12 +14,16 @@ namespace {
 
 using smt::TermId;
 
+thread_local CertificateLog *openLog = nullptr;
+
 /// Absent when the certificate does not hold: the search is not to be believed.
 std::optional<Proved> certified(const check::Claim &claim, const check::Certificate &certificate) {
   if (check::verify(claim, certificate))
     return std::nullopt;
-  return Proved{Grade::Certified,
-                CertificateEvidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)}};
+  CertificateEvidence evidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)};
+  if (openLog)
+    openLog->add(evidence);
+  return Proved{Grade::Certified, std::move(evidence)};
 }
 
 /// Of formulas that are plainly false.
@@ -176,6 +180,9 @@ private:
 };
 
 } // namespace
+
+CertificateLog::CertificateLog() : outer_(openLog) { openLog = this; }
+CertificateLog::~CertificateLog() { openLog = outer_; }
 
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
   return Discharge(store, query, budget).run();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -80,5 +81,22 @@ struct Outcome {
 };
 
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget = {});
+
+/// Keeps what is certified on this thread while it lives, in the search for verdicts, too: which ways are possible,
+/// what holds in a loop.  Claims with their certificates, each claim once.
+class CertificateLog {
+public:
+  CertificateLog();
+  CertificateLog(const CertificateLog &) = delete;
+  CertificateLog &operator=(const CertificateLog &) = delete;
+  ~CertificateLog();
+
+  std::map<std::string, std::string> take() { return std::move(certificates_); }
+  void add(const CertificateEvidence &evidence) { certificates_.emplace(evidence.claim, evidence.certificate); }
+
+private:
+  CertificateLog *outer_;
+  std::map<std::string, std::string> certificates_;
+};
 
 } // namespace feedhold::prove

@@ -6,8 +6,6 @@
 
 namespace feedhold::prove {
 
-namespace {
-
 /// Runs are single paths: a few thousand steps of one, and a few branches where something is not known.
 ExploreOptions exactOptions() {
   ExploreOptions options;
@@ -19,9 +17,22 @@ ExploreOptions exactOptions() {
   return options;
 }
 
+void startExactly(SymbolicReading &reading, const GivenVariables &given) {
+  smt::TermStore &store = reading.store();
+  std::map<std::uint32_t, SymbolicValue> values;
+  for (const auto &[variable, value] : given.entries())
+    values.emplace(variable, value.vacant
+                                 ? reading.vacant()
+                                 : SymbolicValue{store.no(), store.number(smt::Number::fromTyped(value.number))});
+  reading.startFrom(std::move(values));
+}
+
+namespace {
+
 bool hasStop(const Exploration &found, const RunResult &run) {
   return std::any_of(found.checks.begin(), found.checks.end(), [&](const Check &check) {
-    return check.place == run.place && check.alarm == (run.end == RunEnd::Alarm ? std::optional(run.alarm) : std::nullopt);
+    return check.place == run.place &&
+           check.alarm == (run.end == RunEnd::Alarm ? std::optional(run.alarm) : std::nullopt);
   });
 }
 
@@ -47,10 +58,7 @@ bool hasEnd(const Exploration &found, const RunResult &run) {
 Agreement agreesExactly(const ProgramSet &programs, Callee entry, const GivenVariables &given, const RunResult &run) {
   smt::TermStore store;
   SymbolicReading reading(store, *programs.file(entry.file).dialect);
-  std::map<std::uint32_t, SymbolicValue> values;
-  for (const auto &[variable, value] : given.entries())
-    values.emplace(variable, value.vacant ? reading.vacant() : SymbolicValue{store.no(), store.number(smt::Number::fromTyped(value.number))});
-  reading.startFrom(std::move(values));
+  startExactly(reading, given);
   const ModalTable modes(*programs.file(entry.file).dialect);
   reading.keepPolar(modes.groupOf(ModalKind::Polar));
   const Exploration found = explore(reading, programs, entry, symbolicEntry(reading), exactOptions());

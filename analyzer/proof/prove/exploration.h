@@ -3,6 +3,7 @@
 
 #include "proof/prove/path.h"
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -64,6 +65,14 @@ struct PathExit {
   smt::TermId moved;
 };
 
+/// One way to a call: the state in which the called program begins.
+struct CallInstance {
+  Place place; // of the block that calls
+  Callee callee;
+  std::vector<smt::TermId> conditions;
+  SymbolicState state;
+};
+
 /// Something was taken as anything at all.
 struct Unfollowed {
   std::string_view reason;
@@ -85,6 +94,7 @@ struct Exploration {
   std::vector<Check> checks;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
+  std::vector<CallInstance> calls; // of ExploreOptions::keepCall
   LoopTreatment treatment = LoopTreatment::AnyPass;
   std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
   std::set<Place> heads;      // of EachPass: those that were met
@@ -102,6 +112,7 @@ enum class PathMerging : std::uint8_t { No, Yes };
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyPass;
+  std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 6'000'000;

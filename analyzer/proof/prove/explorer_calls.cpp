@@ -168,6 +168,8 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> 
     frame.callerLocals = std::exchange(path.state.locals, request.locals);
     frame.callerNames = takeOwnNames(path.state);
   }
+  if (purpose_ == Purpose::Record && options_.keepCall && options_.keepCall(*request.callee))
+    result_.calls.push_back({path.at, *request.callee, path.conditions, path.state});
   path.frames.push_back(std::move(frame));
   path.at = {request.callee->file, request.callee->entry};
   return {std::move(path)};

@@ -35,7 +35,7 @@ bool isLarge(const LinearSum &sum) {
 }
 
 std::string bracketed(const std::string &text) {
-  return text.find_first_of("+-*/") == std::string::npos ? text : "[" + text + "]";
+  return text.find_first_of("+-*/", 1) == std::string::npos ? text : "[" + text + "]";
 }
 
 } // namespace
@@ -127,13 +127,18 @@ bool AtomMaker::isLinear(const LinearSum &sum) const {
                      [&](const auto &part) { return numbers_.contains(part.first); });
 }
 
-/// What is added on one side, what is taken away on the other, a variable first.
+/// What is added on one side, what is taken away on the other; a variable first, a lone number last.
 std::optional<AtomMaker::Sides> AtomMaker::sides(LinearSum sum, Comparison comparison) {
   LinearSum more, less;
   for (const auto &[term, factor] : sum.terms)
     (factor.sign() > 0 ? more : less).terms.emplace_back(term, abs(factor));
-  (sum.constant.sign() > 0 ? more : less).constant = abs(sum.constant);
   const bool isTurned = more.terms.empty();
+  if (isTurned)
+    more.constant = sum.constant;
+  else if (less.terms.empty())
+    less.constant = -sum.constant;
+  else
+    (sum.constant.sign() > 0 ? more : less).constant = abs(sum.constant);
   const auto left = side(isTurned ? less : more);
   const auto right = side(isTurned ? more : less);
   if (!left || !right)

@@ -13,6 +13,7 @@ struct ProveOptions {
   std::vector<ObligationKind> only = {}; // empty: all
   Budget budget = {};
   InferGuards guards = InferGuards::Yes;
+  std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };
 
 struct ProgramProof {

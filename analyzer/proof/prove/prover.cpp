@@ -2,6 +2,7 @@
 
 #include "meaning/cfg/wto.h"
 #include "proof/prove/entails.h"
+#include "proof/prove/exact_run.h"
 #include "proof/prove/loop_account.h"
 #include "proof/prove/recurrence.h"
 
@@ -35,6 +36,14 @@ Prover::Prover(const ProgramSet &programs, Callee program, const FileContracts *
     : programs_(programs), program_(program), contracts_(contracts), options_(options),
       reading_(store_, *programs.file(program.file).dialect), entry_(symbolicEntry(reading_)) {}
 
+Prover::Prover(const ProgramSet &programs, Callee program, const FileContracts *contracts, const ProveOptions &options,
+               const GivenVariables &given)
+    : Prover(programs, program, contracts, options) {
+  isSingleRun_ = true;
+  startExactly(reading_, given);
+  entry_ = symbolicEntry(reading_);
+}
+
 const Contract *Prover::contract() const { return contracts_ ? contracts_->of(program_.program) : nullptr; }
 
 ProgramProof Prover::run() {
@@ -60,13 +69,20 @@ void Prover::settleAll() {
   unmetAlarms();
   loops();
   programEnds();
+  promises();
   if (contract()) {
-    ensures();
-    assigns();
-    alarmPromises();
     guarded();
     satisfiable(); // the last word on all of them
   }
+}
+
+void Prover::promises() {
+  callsMeetContracts();
+  if (!contract())
+    return;
+  ensures();
+  assigns();
+  alarmPromises();
 }
 
 /// What rests on a contract that is not what its author meant is not told.
@@ -94,13 +110,23 @@ void Prover::explore() {
     terms_->prepare(*contract(), entry_);
     demands_ = terms_->demands(*contract(), entry_);
   }
-  ExploreOptions options;
-  options.assumptions = demands_;
-  found_ = prove::explore(reading_, programs_, program_, entry_, options);
+  found_ = prove::explore(reading_, programs_, program_, entry_, exploreOptions());
   proof_.unfollowed = found_.unfollowed;
   proof_.incomplete = found_.incomplete;
+  if (isSingleRun_)
+    return;
   witnesses_ = std::make_unique<WitnessSearch>(reading_, programs_, program_, demands_, constants());
   witnesses_->sample();
+}
+
+ExploreOptions Prover::exploreOptions() const {
+  ExploreOptions options = isSingleRun_ ? exactOptions() : ExploreOptions();
+  options.assumptions = demands_;
+  options.keepCall = [this](const Callee &callee) {
+    const std::size_t file = callee.file.index();
+    return file < options_.contractsOf.size() && options_.contractsOf[file]->of(callee.program) != nullptr;
+  };
+  return options;
 }
 
 /// Numbers that the program and its contract write: where its conditions change their outcome.
@@ -181,6 +207,8 @@ bool Prover::isDecided(Obligation &obligation, const Violation &violation) {
 }
 
 void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation) {
+  if (isSingleRun_)
+    return decideSingleRun(obligation, queries);
   if (isDecided(obligation, violation))
     return;
   obligation.verdict = queries.empty() ? Verdict::Unreachable : Verdict::Proved;
@@ -208,6 +236,13 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
     if (left.search == 0)
       return;
   }
+}
+
+/// Broken where nothing had to be assumed to come there; more is not asked.
+void Prover::decideSingleRun(Obligation &obligation, const std::vector<Query> &queries) const {
+  for (const Query &query : queries)
+    if (query.goal == store_.no() && query.assumptions.empty())
+      obligation.verdict = Verdict::Refuted;
 }
 
 // ---- places where a run may stop ----

@@ -1,6 +1,7 @@
 // Prover: what the proofs of one program share.
 #pragma once
 
+#include "meaning/cfg/wto.h"
 #include "proof/prove/contract_terms.h"
 #include "proof/prove/guard_candidates.h"
 #include "proof/prove/prove.h"
@@ -17,6 +18,11 @@ public:
   ProgramProof run();
 
 private:
+  /// For these inputs alone: what can be told of them without a proof.
+  Prover(const ProgramSet &programs, Callee program, const FileContracts *contracts, const ProveOptions &options,
+         const GivenVariables &given);
+  bool breaksExactly(const GivenVariables &given, ObligationKind kind, const std::string &claim, Place place) const;
+  Violation brokenPromise(const Obligation &obligation) const;
   void explore();
   void settleAll();
   void withdraw(std::string_view reason);
@@ -31,6 +37,8 @@ private:
   void takeUnmet(Obligation obligation);
   void endsByPasses(Obligation &obligation) const;
   // ---- promises of the contract (prover_contract.cpp) ----
+  void promises();
+  void callsMeetContracts();
   void satisfiable();
   void ensures();
   void modalPreserved(ClauseId clause);
@@ -60,6 +68,8 @@ private:
   bool wanted(ObligationKind kind) const;
   /// Each query must hold; a counterexample is replayed.  Without queries the place is not reached.
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
+  void decideSingleRun(Obligation &obligation, const std::vector<Query> &queries) const;
+  ExploreOptions exploreOptions() const;
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);
@@ -82,6 +92,7 @@ private:
   Callee program_;
   const FileContracts *contracts_;
   const ProveOptions &options_;
+  bool isSingleRun_ = false; // one input is followed, and nothing is proved
   smt::TermStore store_;
   SymbolicReading reading_;
   SymbolicState entry_;
@@ -94,6 +105,7 @@ private:
   const Obligation *focus_ = nullptr; // all others are passed over
   std::vector<OpenClaim> open_;       // that were not proved
   std::vector<smt::Model> sampleInputs_;
+  std::optional<Wto> wto_; // of the program, for guards
   ProgramProof proof_;
 };
 

@@ -12,9 +12,52 @@ using smt::TermId;
 
 namespace {
 
-const Violation kNothingToReplay = [](const RunResult &) { return std::optional<std::string>(); };
+const Violation kNothingToReplay{[](const RunResult &) { return std::optional<std::string>(); }};
+
+std::optional<std::string> endOfRun(const RunResult &run) {
+  switch (run.end) {
+  case RunEnd::M02:
+  case RunEnd::M30:
+  case RunEnd::Returned:
+  case RunEnd::EndOfFile: return "the program ends without an alarm";
+  case RunEnd::UserAlarm: return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
+  case RunEnd::Alarm: return "the control stops the program";
+  case RunEnd::Fuel:
+  case RunEnd::Repeats:
+  case RunEnd::NotModelled: return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 } // namespace
+
+/// A promise of the contract: whether it is broken is seen from the state, which runs of the machine do not show.
+Violation Prover::brokenPromise(const Obligation &obligation) const {
+  const auto happened = [kind = obligation.kind](const RunResult &run) {
+    auto end = endOfRun(run);
+    if (end && kind == ObligationKind::CallMeetsContract)
+      end = "the call is made with what that contract does not allow";
+    else if (end && kind != ObligationKind::AlarmIff)
+      *end += ", and what was promised does not hold";
+    return end;
+  };
+  return {happened, [this, claim = obligation.claim, kind = obligation.kind, place = obligation.place](
+                        const GivenVariables &given) { return breaksExactly(given, kind, claim, place); }};
+}
+
+/// The program is followed once more, from these inputs alone.
+bool Prover::breaksExactly(const GivenVariables &given, ObligationKind kind, const std::string &claim,
+                           Place place) const {
+  ProveOptions options = options_;
+  options.only = {kind};
+  options.guards = InferGuards::No;
+  Prover exact(programs_, program_, contracts_, options, given);
+  exact.explore();
+  exact.promises();
+  return std::any_of(exact.proof_.obligations.begin(), exact.proof_.obligations.end(), [&](const Obligation &each) {
+    return each.kind == kind && each.claim == claim && each.place == place && each.verdict == Verdict::Refuted;
+  });
+}
 
 /// A contract that no call satisfies would make everything true.
 void Prover::satisfiable() {
@@ -63,7 +106,7 @@ void Prover::ensures() {
     const Place place{program_.file, program_.entry};
     Obligation &obligation =
         add(ObligationKind::Ensures, place, file().tree->blocks[programs_.node(place).block].span(), clause.text);
-    settle(obligation, queries, kNothingToReplay);
+    settle(obligation, queries, brokenPromise(obligation));
   }
 }
 
@@ -83,7 +126,7 @@ void Prover::modalPreserved(ClauseId clause) {
   Obligation &obligation =
       add(ObligationKind::ModalPreserved, place, file().tree->blocks[programs_.node(place).block].span(),
           contracts_->clauses[clause].text);
-  settle(obligation, queries, kNothingToReplay);
+  settle(obligation, queries, brokenPromise(obligation));
 }
 
 void Prover::assigns() {
@@ -117,7 +160,33 @@ void Prover::assigns() {
   if (unknown)
     obligation.reason = "a variable whose number is not known is written";
   else
-    settle(obligation, queries, kNothingToReplay);
+    settle(obligation, queries, brokenPromise(obligation));
+}
+
+/// Of each call of a program with a contract: that it satisfies it.
+void Prover::callsMeetContracts() {
+  if (!wanted(ObligationKind::CallMeetsContract))
+    return;
+  std::map<std::pair<Place, std::uint32_t>, std::vector<Query>> queries; // by call and callee
+  std::map<std::pair<Place, std::uint32_t>, std::string> names;
+  for (const CallInstance &call : found_.calls) {
+    if (!isOwn(call.place))
+      continue;
+    const FileContracts &contracts = *options_.contractsOf[call.callee.file.index()];
+    ContractTerms terms(reading_, programs_, call.callee.file, contracts);
+    const Contract &contract = *contracts.of(call.callee.program);
+    const TermId met = contract.isSound ? store_.logicalAnd(terms.demandsOfCall(contract, call.state)) : store_.no();
+    const auto key = std::pair(call.place, static_cast<std::uint32_t>(call.callee.entry.index()));
+    queries[key].push_back(onPath(call.conditions, met));
+    names[key] = toString(programs_.file(call.callee.file).model->programs[call.callee.program].name);
+  }
+  for (const auto &[key, parts] : queries) {
+    const Place place = key.first;
+    Obligation &obligation =
+        add(ObligationKind::CallMeetsContract, place, file().tree->blocks[programs_.node(place).block].span(),
+            fmt::format("this call satisfies the contract of {}", names[key]));
+    settle(obligation, parts, brokenPromise(obligation));
+  }
 }
 
 /// IF: a call for which the condition holds ends with this alarm and no other way.  IFF: no other call raises it.
@@ -140,15 +209,15 @@ void Prover::alarmPromises() {
           queries.push_back(onPath(stopped, store_.implies(isThis, condition)));
       }
     for (const UnfollowedCall &call : found_.unfollowedCalls) // which may end with any alarm
-      queries.push_back(onPath(call.conditions, promise.claim == AlarmClaim::If ? store_.logicalNot(condition)
-                                                                                 : store_.no()));
+      queries.push_back(
+          onPath(call.conditions, promise.claim == AlarmClaim::If ? store_.logicalNot(condition) : store_.no()));
     const Place place{program_.file, program_.entry};
     Obligation &obligation =
         add(ObligationKind::AlarmIff, place, file().tree->blocks[programs_.node(place).block].span(),
             contracts_->clauses[promise.clause].text);
     obligation.id =
         fmt::format("{}.alarm-iff.{}", toString(file().model->programs[program_.program].name), promise.number);
-    settle(obligation, queries, kNothingToReplay);
+    settle(obligation, queries, brokenPromise(obligation));
     requireEnds(obligation);
   }
 }
@@ -204,14 +273,14 @@ void Prover::guarded() {
   auto outsideWitnesses =
       std::make_unique<WitnessSearch>(reading_, programs_, program_, options.assumptions, constants());
   outsideWitnesses->sample();
-  const Violation moves = [](const RunResult &run) -> std::optional<std::string> {
+  const Violation moves{[](const RunResult &run) -> std::optional<std::string> {
     const bool moved = std::any_of(run.moves.begin(), run.moves.end(),
                                    [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });
     if (moved)
       return "an axis moves";
     const bool ended = run.end == RunEnd::M02 || run.end == RunEnd::M30 || run.end == RunEnd::Returned;
     return ended ? std::optional<std::string>("the program ends without an alarm") : std::nullopt;
-  };
+  }};
   std::swap(witnesses_, outsideWitnesses);
   settle(obligation, queries, moves);
   ends_.clear(); // of the loops of the other exploration

@@ -47,11 +47,25 @@ bool mayBeGuarded(const Obligation &claim) {
   return false;
 }
 
-SampleKind kindOf(const RunResult &run, const Obligation &claim) {
+bool isInLoop(const Wto &wto, Place head, Place place) {
+  const std::uint32_t position = place.file == head.file ? wto.positionOf(place.node) : Wto::kUnreachable;
+  return wto.positionOf(head.node) <= position && position < wto.endOf(head.node);
+}
+/// It goes round within the loop for ever.
+bool isInLoop(const Wto &wto, Place head, const RunResult &run) {
+  return !run.circle.empty() &&
+         std::all_of(run.circle.begin(), run.circle.end(), [&](Place place) { return isInLoop(wto, head, place); });
+}
+
+SampleKind kindOf(const RunResult &run, const Obligation &claim, const Wto &wto) {
   const bool isHere = run.place == claim.place && run.alarmSpan == claim.span;
-  if (run.end == RunEnd::Repeats || run.end == RunEnd::Fuel)
-    return claim.kind == ObligationKind::LoopEnds || claim.kind == ObligationKind::ProgramEnds ? SampleKind::Breaks
-                                                                                               : SampleKind::Other;
+  if (run.end == RunEnd::Fuel) // perhaps it is long
+    return SampleKind::Other;
+  if (run.end == RunEnd::Repeats)
+    return claim.kind == ObligationKind::ProgramEnds ||
+                   (claim.kind == ObligationKind::LoopEnds && isInLoop(wto, claim.place, run))
+               ? SampleKind::Breaks
+               : SampleKind::Other;
   if (run.end == RunEnd::UserAlarm)
     return claim.kind == ObligationKind::AlarmUnreachable && isHere ? SampleKind::Breaks : SampleKind::Other;
   if (run.end == RunEnd::Alarm)
@@ -85,6 +99,7 @@ void Prover::guards() {
     return;
   for (const WitnessSearch::Sample &sample : witnesses_->samples())
     sampleInputs_.push_back(witnesses_->modelOf(sample.given));
+  wto_.emplace(file().cfg, *file().model, program_.entry);
   int proofsLeft = kProofsOfAll;
   std::vector<GuardAtom> ofLoops;
   bool allLoopsGuarded = true;
@@ -118,7 +133,8 @@ GuardSubject Prover::subjectOf(const Obligation &claim) const {
       subject.queries = open.queries;
   for (const LoopInstance &loop : found_.loops)
     if (claim.kind == ObligationKind::ProgramEnds ||
-        (claim.kind == ObligationKind::LoopEnds && loop.head == claim.place))
+        (claim.kind == ObligationKind::LoopEnds &&
+         isInLoop(*wto_, claim.place, loop.calls.empty() ? loop.head : loop.calls.front())))
       subject.loops.push_back(&loop);
   return subject;
 }
@@ -144,15 +160,24 @@ std::optional<std::vector<GuardAtom>> Prover::atomsFor(const Obligation &claim, 
     search.add(kind, std::move(atoms));
   };
   for (std::size_t i = 0; i < sampleInputs_.size(); ++i)
-    show(kindOf(witnesses_->samples()[i].result, claim), sampleInputs_[i]);
+    show(kindOf(witnesses_->samples()[i].result, claim, *wto_), sampleInputs_[i]);
   if (claim.witness)
     show(SampleKind::Breaks, witnesses_->modelOf(claim.witness->variables));
 
+  if (getenv("GD"))
+    for (auto &a : search.atoms())
+      fmt::print(stderr, "atom {} {}\n", a.text, int(a.rank));
   const int allowed = std::min(proofsLeft, subject.loops.empty() ? kProofsOfOne : kProofsOfLoop);
   int proofs = allowed;
   const auto proves = [&](const Conjunction &conjunction) {
     --proofs;
     const Obligation result = provedWith(claim, subject, conditionOf(search.atomsOf(conjunction)));
+    if (getenv("GD")) {
+      fmt::print(stderr, "{} {} try", claim.id, search.atoms().size());
+      for (auto a : conjunction)
+        fmt::print(stderr, " {}", search.atoms()[a].text);
+      fmt::print(stderr, " -> {} {} {}\n", nameOf(result.verdict), result.witness ? "w" : "", result.reason);
+    }
     if (result.witness)
       show(SampleKind::Breaks, witnesses_->modelOf(result.witness->variables));
     return holds(result.verdict);
@@ -210,7 +235,8 @@ bool Prover::isPossible(TermId condition) {
 Obligation Prover::provedWith(const Obligation &claim, const GuardSubject &subject, TermId condition) {
   Obligation result{.kind = claim.kind, .id = claim.id, .place = claim.place, .span = claim.span, .claim = claim.claim};
   const Violation breaks = [&](const RunResult &run) {
-    return kindOf(run, claim) == SampleKind::Breaks ? std::optional<std::string>("breaks the claim") : std::nullopt;
+    return kindOf(run, claim, *wto_) == SampleKind::Breaks ? std::optional<std::string>("breaks the claim")
+                                                           : std::nullopt;
   };
   bool isProved = !subject.queries.empty();
   for (Query query : subject.queries) {

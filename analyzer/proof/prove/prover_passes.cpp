@@ -18,10 +18,10 @@ bool isOpen(const Obligation &obligation) { return obligation.verdict == Verdict
 
 void Prover::followPasses() {
   const bool hasLoops = !found_.loops.empty() || found_.incomplete;
-  if (!hasLoops || !found_.unfollowedCalls.empty() || std::none_of(proof_.obligations.begin(), proof_.obligations.end(), isOpen))
+  if (!hasLoops || !found_.unfollowedCalls.empty() ||
+      std::none_of(proof_.obligations.begin(), proof_.obligations.end(), isOpen))
     return;
-  ExploreOptions options;
-  options.assumptions = demands_;
+  ExploreOptions options = exploreOptions();
   options.loops = LoopTreatment::EachPass;
   options.mostSteps = 8'000;
   options.mostPaths = 100;
@@ -37,7 +37,8 @@ void Prover::followPasses() {
   const std::vector<Obligation> before = std::exchange(proof_.obligations, {});
   settleAll();
   for (Obligation &now : proof_.obligations) {
-    const auto known = std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSame(old, now); });
+    const auto known =
+        std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSame(old, now); });
     if (known != before.end() && !isOpen(*known))
       now = *known;
   }

@@ -18,9 +18,11 @@ namespace {
 constexpr std::size_t kMostMeasures = 60;
 constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostSinking = 16;
-constexpr std::size_t kMostModels = 8; // of a pass
+constexpr std::size_t kMostModels = 24; // of a pass, the latest
 /// A measure that needs more is seldom the right one; what is linear takes less.
 constexpr Budget kEffort{.search = 100'000, .z3 = 0, .cvc5 = 0};
+/// Of one that is only tried.
+constexpr Budget kLittle{.search = 8'000, .z3 = 0, .cvc5 = 0};
 /// For all questions about one loop.
 constexpr std::uint64_t kMostWork = 1'500'000;
 
@@ -59,7 +61,8 @@ private:
       std::erase_if(passes, [&](std::size_t pass) { return holds(pass, store_.no(), result_.evidence); });
     if (passes.empty())
       return true;
-    if (lower(passes, candidates_) || lowerByProgram(passes) || lower(passes, choices()))
+    if (withLittle([&] { return lower(passes, candidates_); }) || lowerByProgram(passes) ||
+        withLittle([&] { return lower(passes, choices()); }) || lower(passes, candidates_))
       return rank(passes);
     if (passes.size() > 12 || work_ > kMostWork)
       return false;
@@ -67,6 +70,13 @@ private:
     if (circles.size() == 1 && circles.front().size() == passes.size())
       return inPhases(passes) || afterPhase(passes) || afterPass(passes);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+  }
+
+  template <typename Try> bool withLittle(Try &&tried) {
+    const Budget before = std::exchange(effort_, kLittle);
+    const bool found = tried();
+    effort_ = before;
+    return found;
   }
 
   /// With more facts that hold before every pass.
@@ -246,14 +256,16 @@ private:
       return false;
     std::vector<TermId> conditions = loop_.transitions[pass].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
-    Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffort);
+    Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), effort_);
     const bool proved = outcome.proved();
     work_ += outcome.effort;
     if (proved)
       evidence.push_back(std::move(outcome));
-    else if (const smt::Model *model = outcome.counterexample())
-      if (models_[pass].size() < kMostModels)
-        models_[pass].push_back(*model);
+    else if (const smt::Model *model = outcome.counterexample()) {
+      if (models_[pass].size() == kMostModels)
+        models_[pass].erase(models_[pass].begin());
+      models_[pass].push_back(*model);
+    }
     return proved;
   }
   /// By a state before the pass that has been met in the search.
@@ -385,6 +397,7 @@ private:
   std::vector<TermId> candidates_;
   std::vector<TermId> phases_;                  // hold from some pass on
   std::vector<std::vector<smt::Model>> models_; // by pass: states before it
+  Budget effort_ = kEffort; // of one question
   std::uint64_t work_ = 0;
   Termination result_;
 };

@@ -61,7 +61,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
 void WitnessSearch::sample() {
   std::vector<double> pool{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
   for (const double constant : constants_)
-    pool.insert(pool.end(), {constant, constant + 1, constant - 1, -constant});
+    pool.insert(pool.end(), {constant, constant + 1, constant - 1, 0.0 - constant}); // no -0
   std::mt19937 random(1);
   std::vector<std::uint32_t> names = inputs();
   for (int i = 0; i < kSamples; ++i) {
@@ -84,10 +84,10 @@ void WitnessSearch::sample() {
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
   int inexact = 0;
   for (const Sample &sample : samples_) {
-    const auto happened = violation(sample.result);
+    const auto happened = violation.happened(sample.result);
     if (!happened)
       continue;
-    if (isExact(sample.given, sample.result))
+    if (isExact(sample.given, sample.result, violation))
       return plainest({sample.given, sample.result.end, *happened}, violation, kSampleFuel);
     if (++inexact == kMostInexact)
       break;
@@ -96,7 +96,9 @@ std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
 }
 
 /// What happens only because the machine rounds is no witness: proofs are over exact numbers.
-bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) const {
+bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const {
+  if (violation.breaksExactly)
+    return violation.breaksExactly(given);
   switch (agreesExactly(programs_, entry_, given, run)) {
   case Agreement::Same: return true;
   case Agreement::Different: return false;
@@ -113,8 +115,8 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
   options.variables = given;
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
-  const auto happened = violation(result);
-  if (!happened || !isExact(given, result))
+  const auto happened = violation.happened(result);
+  if (!happened || !isExact(given, result, violation))
     return std::nullopt;
   return Witness{given, result.end, *happened};
 }

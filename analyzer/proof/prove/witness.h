@@ -9,8 +9,17 @@
 
 namespace feedhold::prove {
 
-/// Whether a run breaks the claim; says what happened if it does.
-using Violation = std::function<std::optional<std::string>(const RunResult &)>;
+/// Whether a run breaks a claim.
+struct Violation {
+  template <typename Happened>
+  Violation(Happened says, std::function<bool(const GivenVariables &)> exactly = {})
+      : happened(std::move(says)), breaksExactly(std::move(exactly)) {}
+
+  /// Says what happened if it may do so.
+  std::function<std::optional<std::string>(const RunResult &)> happened;
+  /// Where the run alone does not tell: whether it does, in exact numbers.
+  std::function<bool(const GivenVariables &)> breaksExactly;
+};
 
 class WitnessSearch {
 public:
@@ -41,7 +50,7 @@ public:
 
 private:
   std::vector<std::uint32_t> inputs() const;
-  bool isExact(const GivenVariables &given, const RunResult &run) const;
+  bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
