@@ -434,7 +434,8 @@ SearchResult searchCertificate(const check::Claim &claim, std::uint64_t workLimi
       if (!std::holds_alternative<NotFound>(result.answer))
         return result;
       // Without products, all strategies do the same: one of them may have what is left.
-      if (result.reasoning == SearchResult::Reasoning::Linear && spent >= slice && slice < workLimit / 4) {
+      if (result.reasoning == SearchResult::Reasoning::Linear && spent >= slice && spent < workLimit &&
+          slice < workLimit / 4) {
         result = Search(claim, strategy, workLimit - spent).run();
         result.work += spent;
         return result;
