@@ -73,6 +73,11 @@ class Recheck(Scratch):
         jsonschema.validate(self.index, SCHEMA)
         [file] = self.index["files"]
         self.assertEqual([source["path"] for source in file["sources"]], ["../nc/O9100.contract", "../nc/O9100.nc"])
+        [program] = file["programs"]
+        self.assertEqual(program["name"], "O9100")
+        claims = [(self.bundle / step["claim"]["file"]).read_text() for step in program["steps"]]
+        self.assertEqual(len(claims), len(set(claims)))
+        self.assertGreater(max(map(len, claims)), 200, "what was certified on the way is missing")
         verdicts = {row["id"]: row["verdict"] for row in file["obligations"]}
         self.assertEqual(verdicts["O9100.loop-ends.N20"], "proved")
         self.assertEqual(verdicts["O9100.alarm-unreachable.N90"], "refuted")

@@ -4,20 +4,26 @@
 #include "findings/session/proof_cache.h"
 #include "proof/prove/prove.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace feedhold {
 
+/// Whether all steps are kept that were certified on the way to the verdicts.
+enum class KeepSteps : std::uint8_t { No, Yes };
+
 struct ProofsWish {
   CheckOptions files; // which, how they are read, and on how many threads
   prove::ProveOptions prove = {};
   std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
+  KeepSteps steps = KeepSteps::No;      // of what is proved anew
 };
 
 struct ProvedProgram {
   ProgramId program;
   prove::ProgramProof proof;
+  std::map<std::string, std::string> steps = {};       // claims and their certificates
   std::shared_ptr<const std::string> record = nullptr; // of a remembered proof: where its reasons lie
 };
 

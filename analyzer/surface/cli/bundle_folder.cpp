@@ -33,6 +33,11 @@ std::optional<Error> writeAll(const fs::path &folder, const Bundle &bundle) {
 
 } // namespace
 
+void keepEvidence(ProofsWish &wish) {
+  wish.steps = KeepSteps::Yes;
+  wish.prove.guards = prove::InferGuards::No;
+}
+
 std::optional<Error> whyNoBundleFits(const fs::path &folder) {
   std::error_code error;
   if (!fs::exists(folder, error))

@@ -7,6 +7,9 @@
 
 namespace feedhold {
 
+/// What a proof must be told for a bundle: all steps, and no search for guards, which are no part of one.
+void keepEvidence(ProofsWish &wish);
+
 /// A folder is only taken when it is new, empty, or a bundle itself.  Absent: it can be taken.
 std::optional<Error> whyNoBundleFits(const std::filesystem::path &folder);
 

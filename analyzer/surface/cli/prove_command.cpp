@@ -95,6 +95,8 @@ ProofsWish toWish(const ProveArguments &arguments) {
     wish.files.config = {ConfigSource::Named, arguments.config};
   wish.files.jobs = arguments.jobs;
   wish.cache = cacheFor(arguments);
+  if (!arguments.certificate.empty())
+    keepEvidence(wish);
   for (const prove::ObligationKind kind : kKinds)
     if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
       wish.prove.only.push_back(kind);

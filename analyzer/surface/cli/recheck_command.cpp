@@ -32,7 +32,7 @@ ProofsWish wishFrom(const BundleOrigin &origin, const RecheckArguments &argument
     wish.files.config = {ConfigSource::Named, *origin.reading.config};
   wish.files.jobs = arguments.jobs;
   wish.prove.only = origin.reading.only;
-  wish.prove.guards = prove::InferGuards::No; // no part of a bundle
+  keepEvidence(wish);
   return wish;
 }
 

@@ -65,7 +65,19 @@ private:
             {"config", reading_.config ? Json(pathFrom(folder_, *reading_.config)) : Json()},
             {"only", std::move(only)}};
   }
+  /// The steps of a program come before its obligations, which rest on them.
+  Json programToJson(const ProvedFile &file, const ProvedProgram &program) {
+    const std::string name = toString(file.file().model.programs[program.program].name);
+    const std::string folder = fileNameOf(++count_, name + ".steps");
+    Json steps = Json::array();
+    for (const auto &[claim, certificate] : program.steps)
+      steps.push_back(certificateToJson({claim, certificate}, fmt::format("{}/{}", folder, steps.size() + 1)));
+    return {{"name", name}, {"steps", std::move(steps)}};
+  }
   Json fileToJson(const std::string &path, const ProvedFile &file) {
+    Json programs = Json::array();
+    for (const ProvedProgram &program : file.programs)
+      programs.push_back(programToJson(file, program));
     Json obligations = Json::array();
     for (const ProvedProgram &program : file.programs)
       for (const Obligation &obligation : program.proof.obligations)
@@ -73,6 +85,7 @@ private:
     return {{"path", path},
             {"dialect", file.loaded->dialect.id},
             {"sources", sourcesOf(file)},
+            {"programs", std::move(programs)},
             {"obligations", std::move(obligations)}};
   }
   /// All that was read: the program, its contract files, the programs of its folder.
@@ -120,13 +133,14 @@ private:
   Json evidenceToJson(const prove::Proved &proved, const std::string &name) {
     return match(
         proved.evidence,
-        [&](const prove::CertificateEvidence &evidence) -> Json {
-          return {{"claim", keep(name + ".claim", evidence.claim)},
-                  {"certificate", keep(name + ".certificate", evidence.certificate)}};
-        },
+        [&](const prove::CertificateEvidence &evidence) -> Json { return certificateToJson(evidence, name); },
         [&](const prove::SolverEvidence &evidence) -> Json {
           return {{"smtlib", keep(name + ".smt2", evidence.smtlib)}, {"solvers", evidence.solvers}};
         });
+  }
+  Json certificateToJson(const prove::CertificateEvidence &evidence, const std::string &name) {
+    return {{"claim", keep(name + ".claim", evidence.claim)},
+            {"certificate", keep(name + ".certificate", evidence.certificate)}};
   }
   Json keep(const std::string &name, const std::string &text) {
     bundle_.emplace(name, text);
