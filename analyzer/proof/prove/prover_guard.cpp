@@ -164,20 +164,11 @@ std::optional<std::vector<GuardAtom>> Prover::atomsFor(const Obligation &claim, 
   if (claim.witness)
     show(SampleKind::Breaks, witnesses_->modelOf(claim.witness->variables));
 
-  if (getenv("GD"))
-    for (auto &a : search.atoms())
-      fmt::print(stderr, "atom {} {}\n", a.text, int(a.rank));
   const int allowed = std::min(proofsLeft, subject.loops.empty() ? kProofsOfOne : kProofsOfLoop);
   int proofs = allowed;
   const auto proves = [&](const Conjunction &conjunction) {
     --proofs;
     const Obligation result = provedWith(claim, subject, conditionOf(search.atomsOf(conjunction)));
-    if (getenv("GD")) {
-      fmt::print(stderr, "{} {} try", claim.id, search.atoms().size());
-      for (auto a : conjunction)
-        fmt::print(stderr, " {}", search.atoms()[a].text);
-      fmt::print(stderr, " -> {} {} {}\n", nameOf(result.verdict), result.witness ? "w" : "", result.reason);
-    }
     if (result.witness)
       show(SampleKind::Breaks, witnesses_->modelOf(result.witness->variables));
     return holds(result.verdict);

@@ -31,7 +31,7 @@ class Seeds(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         start = time.monotonic()
-        result = feedhold("prove", "--format", "json", "--isolated", "--dialect", "fanuc-30i", "packages")
+        result = feedhold("prove", "--no-cache", "--format", "json", "--isolated", "--dialect", "fanuc-30i", "packages")
         print(f"all proofs: {time.monotonic() - start:.2f} s")
         cls.files = {file["path"]: file["obligations"] for file in json.loads(result.stdout)["files"]}
 
@@ -48,7 +48,8 @@ class Seeds(unittest.TestCase):
                     continue
                 with self.subTest(obligation=row["id"], path=path):
                     shown = feedhold(*shlex.split(row["witness"]["run"])[1:])
-                    self.assertEqual(shown.returncode, 1, shown.stdout + shown.stderr)
+                    # Of a promised alarm it is the run without one that breaks the promise.
+                    self.assertEqual(shown.returncode, 0 if row["kind"] == "alarm-iff" else 1, shown.stdout)
 
     def test_proofs_are_certified(self):
         """But those for which only solvers are known to find the proof."""
