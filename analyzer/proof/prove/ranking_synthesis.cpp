@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostCases = 8; // of a pass
 constexpr std::size_t kMostAtoms = 40;
+constexpr std::size_t kMostFactors = 3;
 constexpr std::uint64_t kMostSimplex = 150'000;
 
 } // namespace
@@ -159,6 +160,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
     formulas.insert(formulas.end(), relevant.begin(), relevant.end());
     ends.push_back(formulas.size());
   }
+  nameConstants(formulas);
   const smt::Purified pure = smt::purify(store, formulas);
   for (const smt::Definition &definition : pure.definitions)
     applications_.emplace_back(definition.variable, definition.application);
@@ -173,12 +175,32 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
     begin = ends[i];
   }
   std::set<Atom> atoms(variables_.begin(), variables_.end());
+  for (const Atom product : products_) // that every pass is known to change
+    if (std::all_of(cases_.begin(), cases_.end(), [&](const Case &way) { return way.next.contains(product); }))
+      atoms.insert(product);
   for (const Case &way : cases_)
     for (const Row &row : way.rows)
       for (const auto &[atom, factor] : row.factors)
         if (isOfTheLoop(atom) && atoms.size() < kMostAtoms)
           atoms.insert(atom);
   atoms_.assign(atoms.begin(), atoms.end());
+}
+
+/// What no pass changes counts as a number: its own choices and functions do not matter.
+void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
+  smt::Substitution names;
+  for (const TermId term : smt::reachable(store_, formulas)) {
+    const TermKind kind = store_[term].kind;
+    const bool isOpaque = kind == TermKind::Ite || kind == TermKind::Apply || kind == TermKind::Divide ||
+                          (kind == TermKind::Multiply && !store_.isNumber(store_[term].arguments[0]));
+    if (!isOpaque || !isOfTheLoop(term))
+      continue;
+    const TermId name = store_.variable("constant " + std::to_string(term.index()), store_.sort(term));
+    names.emplace(term, name);
+    applications_.emplace_back(name, term);
+  }
+  for (TermId &formula : formulas)
+    formula = smt::substitute(store_, formula, names);
 }
 
 /// No pass changes it, or it is a variable of the loop.
@@ -252,7 +274,7 @@ bool RankingSynthesis::split(const Draft &draft, std::vector<Draft> &parts) {
   return false;
 }
 
-RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t pass, const Draft &draft) const {
+RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t pass, const Draft &draft) {
   Case way{pass, {}, {}};
   std::vector<TermId> open = draft.formulas;
   while (!open.empty()) {
@@ -265,34 +287,82 @@ RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t pass, const Draft &d
     else if (formula == store_.no())
       way.rows.push_back({{}, Number(-1), false});
   }
-  for (std::size_t i = 0; i < variables_.size(); ++i) {
-    const smt::LinearSum sum = store_.linear(draft.next[i]);
-    Row next{{}, sum.constant, false};
-    next.factors.insert(sum.terms.begin(), sum.terms.end());
-    way.next.emplace(variables_[i], std::move(next));
-  }
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+    way.next.emplace(variables_[i], expanded(draft.next[i]));
+  addProducts(way);
   return way;
+}
+
+/// Products of what passes change are changed by them, too.
+void RankingSynthesis::addProducts(Case &way) {
+  std::set<Atom> products;
+  for (const Row &row : way.rows)
+    for (const auto &[atom, factor] : row.factors)
+      if (store_[atom].kind == TermKind::Multiply)
+        products.insert(atom);
+  for (const Atom product : products) {
+    const std::vector<TermId> factors = store_[product].arguments;
+    Row next{{}, Number(1), false};
+    bool isKnown = factors.size() <= kMostFactors;
+    bool isConstant = true;
+    for (std::size_t i = 0; i < factors.size() && isKnown; ++i) {
+      const auto known = way.next.find(factors[i]);
+      isConstant = isConstant && known == way.next.end();
+      isKnown = known != way.next.end() || isOfTheLoop(factors[i]);
+      next = times(next, known != way.next.end() ? known->second : Row{{{factors[i], Number(1)}}, Number(), false});
+    }
+    if (!isKnown || isConstant)
+      continue;
+    way.next.emplace(product, std::move(next));
+    if (std::find(products_.begin(), products_.end(), product) == products_.end())
+      products_.push_back(product);
+  }
+}
+
+RankingSynthesis::Row RankingSynthesis::times(const Row &left, const Row &right) const {
+  Row product{{}, left.constant * right.constant, false};
+  for (const auto &[atom, factor] : left.factors)
+    product.factors[atom] += factor * right.constant;
+  for (const auto &[atom, factor] : right.factors)
+    product.factors[atom] += factor * left.constant;
+  for (const auto &[a, factorOfA] : left.factors)
+    for (const auto &[b, factorOfB] : right.factors)
+      product.factors[store_.multiply(a, b)] += factorOfA * factorOfB;
+  return product;
+}
+
+/// As a sum of products of atoms.
+RankingSynthesis::Row RankingSynthesis::expanded(TermId term) const {
+  const smt::LinearSum sum = store_.linear(term);
+  Row row{{}, sum.constant, false};
+  for (const auto &[atom, factor] : sum.terms) {
+    const std::vector<TermId> factors = store_[atom].arguments;
+    Row part{{{atom, Number(1)}}, Number(), false};
+    if (store_[atom].kind == TermKind::Multiply && factors.size() <= kMostFactors) {
+      part = Row{{}, Number(1), false};
+      for (const TermId each : factors)
+        part = times(part, expanded(each));
+    }
+    row.constant += part.constant * factor;
+    for (const auto &[other, value] : part.factors)
+      row.factors[other] += value * factor;
+  }
+  return row;
 }
 
 /// A comparison of numbers; one of integers leaves a whole distance.
 std::optional<RankingSynthesis::Row> RankingSynthesis::rowOf(TermId literal) const {
-  const smt::Term &term = store_[literal];
-  const bool isEqual = term.kind == TermKind::Equal;
-  if ((!isEqual && term.kind != TermKind::Less && term.kind != TermKind::LessOrEqual) ||
-      store_.sort(term.arguments[0]) == Sort::Bool)
+  const TermKind kind = store_[literal].kind;
+  const std::vector<TermId> arguments = store_[literal].arguments;
+  const bool isEqual = kind == TermKind::Equal;
+  if ((!isEqual && kind != TermKind::Less && kind != TermKind::LessOrEqual) || store_.sort(arguments[0]) == Sort::Bool)
     return std::nullopt;
-  Row row;
+  Row row = expanded(store_.subtract(arguments[1], arguments[0]));
   row.isEquality = isEqual;
-  bool isWhole = true;
-  for (const auto &[side, sign] : {std::pair{term.arguments[1], 1}, std::pair{term.arguments[0], -1}}) {
-    const smt::LinearSum sum = store_.linear(side);
-    row.constant += sum.constant * Number(sign);
-    for (const auto &[atom, factor] : sum.terms) {
-      row.factors[atom] += factor * Number(sign);
-      isWhole = isWhole && store_.sort(atom) == Sort::Int && factor.isInteger();
-    }
-  }
-  if (term.kind == TermKind::Less && isWhole)
+  const bool isWhole = std::all_of(row.factors.begin(), row.factors.end(), [&](const auto &part) {
+    return store_.sort(part.first) == Sort::Int && part.second.isInteger();
+  });
+  if (kind == TermKind::Less && isWhole)
     row.constant = smt::ceiling(row.constant) - Number(1);
   return row;
 }

@@ -49,9 +49,13 @@ private:
   struct Draft;
   class Program;
 
+  void nameConstants(std::vector<smt::TermId> &formulas);
   void addCases(std::size_t pass, std::vector<smt::TermId> formulas, std::vector<smt::TermId> next);
   bool split(const Draft &draft, std::vector<Draft> &parts);
-  Case caseOf(std::size_t pass, const Draft &draft) const;
+  Case caseOf(std::size_t pass, const Draft &draft);
+  void addProducts(Case &way);
+  Row times(const Row &left, const Row &right) const;
+  Row expanded(smt::TermId term) const;
   std::optional<Row> rowOf(smt::TermId literal) const;
   bool isPossible(const Case &way);
   bool isOfTheLoop(Atom atom) const;
@@ -65,7 +69,8 @@ private:
   std::vector<Atom> variables_;                            // numbers that passes change
   std::vector<std::pair<Atom, smt::TermId>> applications_; // that count as numbers
   std::vector<Case> cases_;
-  std::vector<Atom> atoms_; // that a measure may speak of
+  std::vector<Atom> products_; // of variables
+  std::vector<Atom> atoms_;    // that a measure may speak of
   std::uint64_t work_ = 0;
 };
 

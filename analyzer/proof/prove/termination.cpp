@@ -62,16 +62,16 @@ private:
     if (passes.empty())
       return true;
     if (withLittle([&] { return lower(passes, candidates_); }) || lowerByProgram(passes) ||
-        withLittle([&] { return lower(passes, choices()); }) || lower(passes, candidates_))
+        withLittle([&] { return lower(passes, choices()); }))
       return rank(passes);
     if (passes.size() > 12 || work_ > kMostWork)
       return false;
     const auto circles = circlesOf(passes);
     if (circles.size() == 1 && circles.front().size() == passes.size())
-      return inPhases(passes) || afterPhase(passes) || afterPass(passes);
+      return inPhases(passes) || (lower(passes, candidates_) && rank(passes)) || afterPhase(passes) ||
+             afterPass(passes);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
   }
-
   template <typename Try> bool withLittle(Try &&tried) {
     const Budget before = std::exchange(effort_, kLittle);
     const bool found = tried();
@@ -397,7 +397,7 @@ private:
   std::vector<TermId> candidates_;
   std::vector<TermId> phases_;                  // hold from some pass on
   std::vector<std::vector<smt::Model>> models_; // by pass: states before it
-  Budget effort_ = kEffort; // of one question
+  Budget effort_ = kEffort;                     // of one question
   std::uint64_t work_ = 0;
   Termination result_;
 };
