@@ -164,7 +164,7 @@ prove::Guard readGuard(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, bound, witness, effort, evidence,
+  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, exactOnly, bound, witness, effort, evidence,
                guard] = obligation;
   static_cast<void>(evidence);
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
@@ -178,6 +178,7 @@ void write(Writer &writer, const Obligation &obligation) {
   writer.optional(grade, enumeration);
   writer.text(method);
   writer.text(reason);
+  writer.number(exactOnly ? 1 : 0);
   writer.text(bound);
   writer.optional(witness, [&](const prove::Witness &value) { write(writer, value); });
   writer.number(effort);
@@ -197,6 +198,7 @@ Obligation readObligation(Reader &reader) {
     obligation.grade = reader.upTo(prove::Grade::TwoSolvers);
   obligation.method = reader.text();
   obligation.reason = reader.text();
+  obligation.exactOnly = reader.isPresent();
   obligation.bound = reader.text();
   if (reader.isPresent())
     obligation.witness = readWitness(reader);

@@ -109,9 +109,14 @@ struct Exploration {
 /// Whether paths that meet go on as one (merging.h): fewer of them, of which less can be told.
 enum class PathMerging : std::uint8_t { No, Yes };
 
+/// Sums that a loop accumulates are exact; or each may be off by so little as doubles are (a tentative model of what
+/// rounding does: a proof that it breaks has no margin).
+enum class Sums : std::uint8_t { Exact, Rounded };
+
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyPass;
+  Sums sums = Sums::Exact;
   std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;

@@ -34,6 +34,11 @@ std::size_t GuardSearch::kept(const Conjunction &conjunction) const {
   }));
 }
 
+bool GuardSearch::neverEnds() const {
+  return samples_.size() >= kFewRuns && std::none_of(samples_.begin(), samples_.end(),
+                                                     [](const Sample &each) { return each.kind == SampleKind::Ends; });
+}
+
 bool GuardSearch::fits(const Conjunction &conjunction) const {
   if (tried_.contains(conjunction) || std::any_of(samples_.begin(), samples_.end(), [&](const Sample &each) {
         return each.kind == SampleKind::Breaks && each.satisfies(conjunction);

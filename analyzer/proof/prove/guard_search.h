@@ -26,6 +26,8 @@ public:
   std::vector<GuardAtom> atomsOf(const Conjunction &conjunction) const;
   /// `holds`: by atom.
   void add(SampleKind kind, std::vector<bool> holds);
+  /// Of many runs not one ended as it should.
+  bool neverEnds() const;
   /// Few atoms before many, likely ones before others; those that let nothing run and those that let a run break the
   /// claim are left out.  Each once.
   std::optional<Conjunction> next();

@@ -16,6 +16,7 @@ using smt::TermKind;
 namespace {
 
 constexpr int kMostRounds = 12;
+constexpr int kErrorOfSums = 1'000'000'000; // its reciprocal: more than doubles are off after a million additions
 
 std::vector<TermId> partsOf(SymbolicState &state, TermId moved) {
   std::vector<TermId> parts;
@@ -63,14 +64,15 @@ struct LoopOpener::Work {
 /// The state before any pass, from the parts.
 void LoopOpener::build(Work &work) {
   smt::TermStore &store = explorer_.store_;
-  const TermId isFirst = store.equal(work.passes, store.number(Number(0)));
+  const TermId zero = store.number(Number(0));
+  const TermId isFirst = store.equal(work.passes, zero);
   for (LoopPart &part : work.parts())
     if (part.kind == PartKind::Kept)
       part.generic = part.arrival;
     else if (part.kind == PartKind::Free)
       part.generic = part.symbol;
     else if (part.kind == PartKind::Closed)
-      part.generic = store.add(part.arrival, travelled(work, part.step));
+      part.generic = store.add(store.add(part.arrival, travelled(work, part.step)), part.error.value_or(zero));
   for (LoopPart &part : work.parts()) // from the closed ones
     if (part.kind == PartKind::Derived)
       part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step));
@@ -105,6 +107,25 @@ void LoopOpener::addTravels(Work &work) {
     else if (known(store.lessOrEqual(travel.step, zero)))
       work.facts.push_back(store.lessOrEqual(travel.distance, zero));
   }
+}
+
+/// Sums of numbers that doubles do not hold are off by a little.
+void LoopOpener::addErrors(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId most = store.number(Number(1) / Number(kErrorOfSums));
+  for (LoopPart &part : work.parts()) {
+    if (part.kind != PartKind::Closed || isSummedExactly(part))
+      continue;
+    if (!part.error)
+      part.error = explorer_.reading_.fresh("rounding", Sort::Real);
+    work.facts.push_back(store.lessOrEqual(store.negate(most), *part.error));
+    work.facts.push_back(store.lessOrEqual(*part.error, most));
+  }
+}
+bool LoopOpener::isSummedExactly(const LoopPart &part) const {
+  const smt::TermStore &store = explorer_.store_;
+  return explorer_.options_.sums == Sums::Exact ||
+         (store.sort(part.arrival) == Sort::Int && store.sort(part.step) == Sort::Int);
 }
 
 /// From the passes before now to those before a pass that comes so much later.
@@ -296,6 +317,7 @@ bool LoopOpener::findKinds(Work &work) {
             part.kind = PartKind::Free;
     work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
     const std::size_t values = valueParts(work.arrival.state, work.parts().size());
+    addErrors(work);
     build(work);
     addTravels(work);
     for (std::size_t i = 0; i + 1 < values; i += 2) // vacant counts as 0
@@ -350,6 +372,8 @@ smt::Substitution LoopOpener::atArrival(const Work &work) const {
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       first.emplace(part.symbol, part.arrival);
+    else if (part.error)
+      first.emplace(*part.error, zero);
   return first;
 }
 

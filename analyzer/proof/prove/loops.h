@@ -24,6 +24,7 @@ struct LoopPart {
   smt::TermId symbol;  // stands for the part while its kind is looked for; of Free: for good
   smt::TermId generic; // before any pass
   smt::TermId step;    // of Closed: what a pass adds; of Derived: what a pass leaves, over the symbols of closed parts
+  std::optional<smt::TermId> error = {}; // of Closed, with Sums::Rounded: by how much the sum is off
 };
 
 /// How far the passes before have gone by one step: passes * step, under a name of its own, so that a proof need not
@@ -66,6 +67,8 @@ private:
   void build(Work &work);
   smt::TermId travelled(Work &work, smt::TermId step);
   void addTravels(Work &work);
+  void addErrors(Work &work);
+  bool isSummedExactly(const LoopPart &part) const;
   smt::Substitution atPass(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;
   bool relayout(Work &work, bool &grew);

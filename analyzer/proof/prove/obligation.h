@@ -45,6 +45,7 @@ struct Obligation {
   std::optional<Grade> grade = {};     // of Proved and Unreachable
   std::string method = {};             // of the same: how, for instance `linear`
   std::string reason = {};             // of Unknown: what was missing; of Proved: why it holds, in shop words
+  bool exactOnly = false;              // of Proved: no longer so when sums are off by what doubles round
   std::string bound = {};              // of LoopEnds: the passes at most, `FUP[#21/#22]`; empty: not known
   std::optional<Witness> witness = {}; // of Refuted
   std::uint64_t effort = 0;

@@ -50,6 +50,7 @@ ProgramProof Prover::run() {
   explore();
   settleAll();
   followPasses();
+  checkRounding();
   if (options_.guards == InferGuards::Yes)
     guards();
   std::stable_sort(proof_.obligations.begin(), proof_.obligations.end(), [](const Obligation &a, const Obligation &b) {

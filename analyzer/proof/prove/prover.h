@@ -36,6 +36,9 @@ private:
   void followPasses();
   void takeUnmet(Obligation obligation);
   void endsByPasses(Obligation &obligation) const;
+  // ---- whether rounding would break a proof (prover_rounding.cpp) ----
+  void checkRounding();
+  bool isStillProved(const Check &check);
   // ---- promises of the contract (prover_contract.cpp) ----
   void promises();
   void callsMeetContracts();

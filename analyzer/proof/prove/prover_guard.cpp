@@ -68,6 +68,8 @@ SampleKind kindOf(const RunResult &run, const Obligation &claim, const Wto &wto)
                : SampleKind::Other;
   if (run.end == RunEnd::UserAlarm)
     return claim.kind == ObligationKind::AlarmUnreachable && isHere ? SampleKind::Breaks : SampleKind::Other;
+  if (run.end == RunEnd::Alarm && run.alarm == AlarmKind::EndOfRecord)
+    return SampleKind::Ends;
   if (run.end == RunEnd::Alarm)
     return claim.kind == ObligationKind::NoControlAlarm && isHere && run.alarm == claim.alarm ? SampleKind::Breaks
                                                                                               : SampleKind::Other;
@@ -163,6 +165,9 @@ std::optional<std::vector<GuardAtom>> Prover::atomsFor(const Obligation &claim, 
     show(kindOf(witnesses_->samples()[i].result, claim, *wto_), sampleInputs_[i]);
   if (claim.witness)
     show(SampleKind::Breaks, witnesses_->modelOf(claim.witness->variables));
+
+  if (!subject.loops.empty() && search.neverEnds())
+    return std::nullopt; // an alarm that cuts the loop short is no end
 
   const int allowed = std::min(proofsLeft, subject.loops.empty() ? kProofsOfOne : kProofsOfLoop);
   int proofs = allowed;
