@@ -123,6 +123,11 @@ class Guards(unittest.TestCase):
             with self.subTest(body):
                 self.assertIsNone(self.guard(f"O1\n{body}\n"))
 
+    def test_an_alarm_that_cuts_a_loop_short_is_no_end(self):
+        text = "O1\nN20#1=1/#3\nGOTO20\n"
+        self.assertIsNone(self.guard(text, "O1.loop-ends.N20"))
+        self.assertIsNone(self.guard(text, "O1.program-ends"))
+
     def test_an_alarm_of_the_program_needs_no_other_alarm(self):
         guard = self.guard("O1\nIF[#1EQ#0]GOTO10\nM99\nN10#3000=1(MISSING)\n", "O1.alarm-unreachable.N10")
         self.assertEqual((guard["clause"], guard["fix"]), ("@REQUIRE #1 NE #0", None))
