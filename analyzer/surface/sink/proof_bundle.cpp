@@ -119,6 +119,7 @@ private:
             {"verdict", prove::nameOf(obligation.verdict)},
             {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
             {"reason", orNull(obligation.reason)},
+            {"exactOnly", obligation.exactOnly},
             {"bound", orNull(obligation.bound)},
             {"witness", obligation.witness ? witnessToJson(*obligation.witness, file) : Json()},
             {"evidence", std::move(evidence)}};

@@ -56,6 +56,7 @@ private:
             {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
             {"method", orNull(obligation.method)},
             {"reason", orNull(obligation.reason)},
+            {"exactOnly", obligation.exactOnly},
             {"bound", orNull(obligation.bound)},
             {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
             {"guard", obligation.guard ? guardToJson(obligation) : Json()},

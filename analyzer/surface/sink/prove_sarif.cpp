@@ -1,5 +1,6 @@
-// Verdicts as SARIF 2.1.0: what is refuted is an error, what is unknown a warning; each kind of obligation is a rule.
-// What is proved is left out: services show every result as something to do.
+// Verdicts as SARIF 2.1.0: what is refuted is an error, what is unknown a warning, what holds without any margin a
+// note; each kind of obligation is a rule.  What else is proved is left out: services show every result as something to
+// do.
 #include "surface/sink/prove_shown.h"
 #include "surface/sink/sarif_parts.h"
 
@@ -36,12 +37,21 @@ std::string_view summaryOf(ObligationKind kind) {
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
 
+/// Something for a person to look at.
 bool isOpen(const Obligation &obligation) {
-  return obligation.verdict == Verdict::Refuted || obligation.verdict == Verdict::Unknown;
+  return obligation.verdict == Verdict::Refuted || obligation.verdict == Verdict::Unknown || obligation.exactOnly;
+}
+
+std::string_view levelOf(const Obligation &obligation) {
+  if (obligation.exactOnly)
+    return "note";
+  return obligation.verdict == Verdict::Refuted ? "error" : "warning";
 }
 
 std::string textFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
                     const ProveReport &report) {
+  if (obligation.exactOnly)
+    return claimOf(obligation, file.loaded->dialect) + "\n" + std::string(kExactOnly);
   std::string text = messageOf(obligation, file.loaded->dialect);
   if (!obligation.reason.empty())
     text += "\n" + obligation.reason;
@@ -64,7 +74,7 @@ Json resultFor(const Obligation &obligation, const ProvedFile &file, const Prove
   Json row = {{"ruleId", nameOf(obligation.kind)},
               {"ruleIndex", static_cast<std::size_t>(obligation.kind)},
               {"kind", "fail"},
-              {"level", obligation.verdict == Verdict::Refuted ? "error" : "warning"},
+              {"level", levelOf(obligation)},
               {"message", {{"text", textFor(obligation, file, program, report)}}},
               {"locations", Json::array({std::move(location)})},
               {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},

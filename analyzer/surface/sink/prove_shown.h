@@ -37,6 +37,10 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
 /// `G65 P9100 D6. with #500=3`
 std::string textOf(const TypedWitness &witness);
 
+/// Of Obligation::exactOnly.
+inline constexpr std::string_view kExactOnly =
+    "holds in exact arithmetic only: there is no margin, and a control that rounds may break it";
+
 /// What is claimed: `this loop ends`
 std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);
 /// What the run of the witness came to: `stops with PS0112 (divided by zero)`

@@ -103,6 +103,8 @@ private:
                          claimOf(obligation, file_.loaded->dialect), obligation.id);
     if (const std::string why = whyOf(obligation); !why.empty())
       text_ += fmt::format("            {}\n", why);
+    if (obligation.exactOnly)
+      text_ += fmt::format("            {}\n", kExactOnly);
     if (report_.showMethods == ShowMethods::Yes && !obligation.method.empty())
       text_ += fmt::format("            by {}, effort {}\n", obligation.method, obligation.effort);
   }
