@@ -1,4 +1,4 @@
-// Programs made so that it is known what holds of them: no verdict is wrong, and nine of ten claims are decided.
+// Programs made so that it is known what holds of them: no verdict is wrong, and nearly all claims are decided.
 // FAMILY_ONLY names a part of the names of programs.
 #include "proof/family/draft.h"
 
@@ -11,7 +11,7 @@ namespace feedhold::proof_tests {
 namespace {
 
 constexpr std::size_t kLeastPrograms = 300;
-constexpr int kLeastDecided = 90; // of a hundred
+constexpr int kLeastDecided = 95; // of a hundred
 
 Family wholeFamily() {
   Family family;

@@ -93,7 +93,7 @@ TEST(Literature, NoVerdictIsWrong) {
   EXPECT_TRUE(comparison.wrong.empty());
   if (!std::getenv("LITERATURE_ONLY")) {
     EXPECT_GE(comparison.programs, kLeastPrograms);
-    EXPECT_GE(comparison.decidedPercent(), 75);
+    EXPECT_GE(comparison.decidedPercent(), 85);
   }
 }
 
