@@ -143,14 +143,17 @@ std::vector<TermId> LastingFacts::forms() const {
 
 std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) const {
   std::set<TermId> all;
-  for (const TermId number : numbers())
+  for (const TermId number : numbers()) {
     for (const int bound : {0, 1}) {
       all.insert(store_.lessOrEqual(store_.number(Number(bound)), number));
       all.insert(store_.lessOrEqual(number, store_.number(Number(-bound))));
     }
+    const TermId half = store_.scale(Number(1) / Number(2), number);
+    all.insert({store_.equal(number, store_.floor(number)), store_.equal(half, store_.floor(half))});
+  }
   for (const std::size_t pass : passes) {
-    for (const TermId condition : loop_.transitions[pass].conditions)
-      addComparison(condition, passes, all);
+    for (const TermId part : smt::reachable(store_, loop_.transitions[pass].conditions))
+      addComparison(part, passes, all);
     for (const TermId number : numbers()) {
       const TermId next = loop_.transitions[pass].next.at(number);
       const auto variables = smt::variablesOf(store_, next);
@@ -171,12 +174,10 @@ std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) c
 
 /// What a pass asks for, and what is left of that behind a pass that adds fixed amounts.
 void LastingFacts::addComparison(TermId condition, std::span<const std::size_t> passes, std::set<TermId> &all) const {
-  const smt::Term term = store_[condition];
-  const TermId compared = term.kind == TermKind::Not ? term.arguments[0] : condition;
-  const TermKind kind = store_[compared].kind;
+  const TermKind kind = store_[condition].kind;
   if ((kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal) || !isOfTheLoop(condition))
     return;
-  const std::vector<TermId> sides = store_[compared].arguments;
+  const std::vector<TermId> sides = store_[condition].arguments;
   if (store_.sort(sides[0]) == Sort::Bool)
     return;
   std::vector<TermId> forms{condition, store_.lessOrEqual(sides[0], sides[1])};

@@ -18,7 +18,7 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostCases = 8; // of a pass
+constexpr std::size_t kMostCases = 10; // of a pass
 constexpr std::size_t kMostAtoms = 40;
 constexpr std::size_t kMostFactors = 3;
 constexpr std::uint64_t kMostSimplex = 150'000;
@@ -151,11 +151,10 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
       next.push_back(transition.next.at(variable));
       all.insert(all.end(), {variable, next.back()});
     }
-    std::vector<TermId> signs;
-    for (const TermId term : all)
-      signs.push_back(store.lessOrEqual(zero, term));
-    const std::vector<TermId> relevant =
-        relevantQuery(store, reading.facts(), conditions, store.logicalOr(signs)).assumptions;
+    std::vector<TermId> numbers = smt::variablesOf(store, all);
+    std::erase_if(numbers, [&](TermId each) { return store.sort(each) == Sort::Bool; });
+    const TermId aboutAll = store.lessOrEqual(zero, store.add(numbers));
+    const std::vector<TermId> relevant = relevantQuery(store, reading.facts(), conditions, aboutAll).assumptions;
     formulas.insert(formulas.end(), next.begin(), next.end());
     formulas.insert(formulas.end(), relevant.begin(), relevant.end());
     ends.push_back(formulas.size());
@@ -217,20 +216,20 @@ bool RankingSynthesis::isOfTheLoop(Atom atom) const {
 
 void RankingSynthesis::addCases(std::size_t pass, std::vector<TermId> formulas, std::vector<TermId> next) {
   std::vector<Draft> open{{std::move(formulas), std::move(next)}};
-  std::size_t count = 1;
+  std::vector<Case> ways;
   while (!open.empty()) {
     const Draft draft = std::move(open.back());
     open.pop_back();
-    std::vector<Draft> parts;
-    if (count < kMostCases && split(draft, parts)) {
-      count += parts.size() - 1;
-      open.insert(open.end(), parts.begin(), parts.end());
-      continue;
-    }
     Case way = caseOf(pass, draft);
-    if (isPossible(way))
-      cases_.push_back(std::move(way));
+    if (!isPossible(way))
+      continue;
+    std::vector<Draft> parts;
+    if (open.size() + ways.size() < kMostCases && split(draft, parts))
+      open.insert(open.end(), parts.begin(), parts.end());
+    else
+      ways.push_back(std::move(way));
   }
+  std::move(ways.begin(), ways.end(), std::back_inserter(cases_));
 }
 
 /// By the first condition of a number, difference or disjunction.
@@ -253,15 +252,24 @@ bool RankingSynthesis::split(const Draft &draft, std::vector<Draft> &parts) {
     }
     return true;
   }
+  return splitFormula(draft, parts, TermKind::Equal) || splitFormula(draft, parts, TermKind::Or);
+}
+
+/// By a number that is not another, or by a disjunction.
+bool RankingSynthesis::splitFormula(const Draft &draft, std::vector<Draft> &parts, TermKind kind) {
   for (std::size_t i = 0; i < draft.formulas.size(); ++i) {
     const smt::Term term = store_[draft.formulas[i]];
     std::vector<TermId> choices;
-    if (term.kind == TermKind::Or) {
+    if (kind == TermKind::Or && term.kind == TermKind::Or) {
       choices = term.arguments;
-    } else if (term.kind == TermKind::Not && store_[term.arguments[0]].kind == TermKind::Equal) {
+    } else if (kind == TermKind::Equal && term.kind == TermKind::Not &&
+               store_[term.arguments[0]].kind == TermKind::Equal) {
       const std::vector<TermId> sides = store_[term.arguments[0]].arguments;
       if (store_.sort(sides[0]) != Sort::Bool)
         choices = {store_.less(sides[0], sides[1]), store_.less(sides[1], sides[0])};
+    } else if (kind == TermKind::Or && term.kind == TermKind::Not && store_[term.arguments[0]].kind == TermKind::And) {
+      for (const TermId part : std::vector<TermId>(store_[term.arguments[0]].arguments))
+        choices.push_back(store_.logicalNot(part));
     }
     if (choices.empty())
       continue;

@@ -52,6 +52,7 @@ private:
   void nameConstants(std::vector<smt::TermId> &formulas);
   void addCases(std::size_t pass, std::vector<smt::TermId> formulas, std::vector<smt::TermId> next);
   bool split(const Draft &draft, std::vector<Draft> &parts);
+  bool splitFormula(const Draft &draft, std::vector<Draft> &parts, smt::TermKind kind);
   Case caseOf(std::size_t pass, const Draft &draft);
   void addProducts(Case &way);
   Row times(const Row &left, const Row &right) const;

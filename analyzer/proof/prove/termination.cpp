@@ -18,9 +18,10 @@ namespace {
 constexpr std::size_t kMostMeasures = 60;
 constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostSinking = 16;
+constexpr std::size_t kLikely = 4;      // measures, the first of them
 constexpr std::size_t kMostModels = 24; // of a pass, the latest
 /// A measure that needs more is seldom the right one; what is linear takes less.
-constexpr Budget kEffort{.search = 100'000, .z3 = 0, .cvc5 = 0};
+constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 /// Of one that is only tried.
 constexpr Budget kLittle{.search = 8'000, .z3 = 0, .cvc5 = 0};
 /// For all questions about one loop.
@@ -68,9 +69,13 @@ private:
       return false;
     const auto circles = circlesOf(passes);
     if (circles.size() == 1 && circles.front().size() == passes.size())
-      return inPhases(passes) || (lower(passes, candidates_) && rank(passes)) || afterPhase(passes) ||
-             afterPass(passes);
+      return inPhases(passes) || (lower(passes, likely()) && rank(passes)) || afterPass(passes) ||
+             (lower(passes, candidates_) && rank(passes)) || afterPhase(passes);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+  }
+  std::vector<TermId> likely() const {
+    return {candidates_.begin(),
+            candidates_.begin() + static_cast<std::ptrdiff_t>(std::min(kLikely, candidates_.size()))};
   }
   template <typename Try> bool withLittle(Try &&tried) {
     const Budget before = std::exchange(effort_, kLittle);
@@ -236,9 +241,12 @@ private:
       return false;
     if (isConstantInLoop(fall))
       return holds(pass, store_.less(zero(), fall), evidence);
-    for (const int parts : {1, 10, 1000})
+    for (const int parts : {1, 10, 1000, 1'000'000}) {
       if (holds(pass, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
         return true;
+      if (store_.sort(fall) == smt::Sort::Int)
+        return false;
+    }
     return false;
   }
   bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
@@ -307,25 +315,46 @@ private:
   std::vector<TermId> choices() {
     std::set<TermId> found;
     for (const Transition &transition : loop_.transitions)
-      for (const TermId condition : transition.conditions) {
-        const smt::Term term = store_[condition];
-        const TermId compared = term.kind == TermKind::Not ? term.arguments[0] : condition;
-        const TermKind kind = store_[compared].kind;
-        if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
-          continue;
-        const std::vector<TermId> sides = store_[compared].arguments;
-        if (store_.sort(sides[0]) == smt::Sort::Bool)
-          continue;
-        const TermId distance = store_.subtract(sides[0], sides[1]);
-        if (!isConstantInLoop(distance))
-          found.insert(store_.absolute(distance));
+      for (const TermId part : smt::reachable(store_, transition.conditions)) {
+        if (const auto distance = distanceOf(part); distance && found.size() < kMostSinking)
+          found.insert(store_.absolute(*distance));
+        if (store_[part].kind == TermKind::Or || store_[part].kind == TermKind::And)
+          for (const TermId measure : largerOf(part))
+            found.insert(measure);
       }
-    for (const TermId a : loop_.variables)
-      for (const TermId b : loop_.variables)
-        if (a < b && found.size() < kMostSinking && store_.sort(a) != smt::Sort::Bool &&
-            store_.sort(b) != smt::Sort::Bool)
-          found.insert(store_.ite(store_.lessOrEqual(a, b), b, a));
+    std::vector<TermId> numbers = loop_.variables;
+    std::erase_if(numbers, [&](TermId each) { return store_.sort(each) == smt::Sort::Bool; });
+    for (const TermId each : numbers)
+      found.insert(store_.absolute(each));
+    for (const TermId a : numbers)
+      for (const TermId b : numbers)
+        if (a < b && found.size() < kMostSinking)
+          found.insert(larger(a, b));
     return {found.begin(), found.end()};
+  }
+  TermId larger(TermId a, TermId b) { return store_.ite(store_.lessOrEqual(a, b), b, a); }
+  /// Of how far each of the cases is from being over.
+  std::vector<TermId> largerOf(TermId junction) {
+    std::vector<TermId> distances;
+    for (const TermId part : std::vector<TermId>(store_[junction].arguments))
+      if (const auto distance = distanceOf(part)) // a conjunction is denied: what it says from below ends the loop
+        distances.push_back(store_[junction].kind == TermKind::Or ? *distance : store_.negate(*distance));
+    std::vector<TermId> found;
+    for (std::size_t i = 0; i < distances.size() && i < 4; ++i)
+      for (std::size_t j = i + 1; j < distances.size() && j < 4; ++j)
+        found.push_back(larger(distances[i], distances[j]));
+    return found;
+  }
+  /// Between the sides of a comparison; absent where no pass changes it.
+  std::optional<TermId> distanceOf(TermId compared) {
+    const TermKind kind = store_[compared].kind;
+    if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
+      return std::nullopt;
+    const std::vector<TermId> sides = store_[compared].arguments;
+    if (store_.sort(sides[0]) == smt::Sort::Bool)
+      return std::nullopt;
+    const TermId distance = store_.subtract(sides[1], sides[0]);
+    return isConstantInLoop(distance) ? std::nullopt : std::optional(distance);
   }
   template <typename Offer> void offerSides(TermId condition, Offer &&offer) {
     const TermKind kind = store_[condition].kind;
