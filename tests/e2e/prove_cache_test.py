@@ -170,6 +170,13 @@ class Cache(Scratch):
         self.assertEqual(self.entries(), [])
         self.assertNotIn("unknown", self.prove(name).stdout)
 
+    def test_solver_that_had_to_be_stopped(self):
+        shutil.copy(NEEDS_TWO_SOLVERS, self.folder)
+        self.write("bin/cvc5", "#!/bin/sh\nkill -9 $$\n").chmod(0o755)
+        path = {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"}
+        self.assertIn("1 unknown", self.prove(NEEDS_TWO_SOLVERS.name, environment=path).stdout)
+        self.assertEqual(self.entries(), [])
+
     def test_no_place(self):
         self.write("file", "")
         result = self.prove("--cache-dir", "file/below", "nc/O9100.nc")
