@@ -28,13 +28,13 @@ bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whol
   return prefix.size() <= whole.size() && std::equal(prefix.begin(), prefix.end(), whole.begin());
 }
 
-/// Of a signal that the world may hold as it is.
+/// Of an interface input, which the world may hold as it is.
 bool isSignal(const smt::Term &variable) {
   constexpr std::string_view kRead = "read of #";
   if (variable.kind != TermKind::Variable || !variable.name.starts_with(kRead))
     return false;
   const int number = std::atoi(variable.name.c_str() + kRead.size());
-  return number >= 1000 && number < 1200;
+  return number >= 1000 && number <= 1035;
 }
 
 class RecurrenceSearch {
