@@ -408,11 +408,16 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
       obligation.verdict = Verdict::Refuted;
       obligation.reason.clear();
       obligation.witness = end.endless;
-      return;
+      break;
     }
   }
   if (obligation.verdict == Verdict::Proved && !obligation.grade)
     obligation.grade = Grade::Certified;
+  if (obligation.verdict == Verdict::Proved || obligation.verdict == Verdict::Unreachable)
+    return;
+  obligation.grade.reset(); // of loops that do end
+  obligation.method.clear();
+  obligation.evidence.clear();
 }
 
 /// When all that lead to the loop say the same.
