@@ -104,6 +104,7 @@ struct Exploration {
   std::optional<std::string_view> incomplete; // why paths are missing; then nothing is proved
   std::size_t paths = 0;
   std::size_t steps = 0;
+  std::uint64_t work = 0; // of all questions on paths
 };
 
 /// Whether paths that meet go on as one (merging.h): fewer of them, of which less can be told.

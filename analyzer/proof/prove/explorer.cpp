@@ -64,6 +64,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
       result_.loops[loop].callsUnknown = true;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
   result_.facts = reading_.facts();
+  result_.work = entails_.work();
   reading_.usePath(nullptr);
   return std::move(result_);
 }

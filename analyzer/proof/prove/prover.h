@@ -108,6 +108,7 @@ private:
   const Obligation *focus_ = nullptr; // all others are passed over
   std::vector<OpenClaim> open_;       // that were not proved
   std::vector<smt::Model> sampleInputs_;
+  std::uint64_t guardWork_ = 2'000'000; // of explorations under conditions
   std::optional<Wto> wto_; // of the program, for guards
   ProgramProof proof_;
 };

@@ -19,8 +19,9 @@ constexpr int kProofsOfOne = 8;
 constexpr int kProofsOfLoop = 4; // each of which takes much longer
 constexpr int kProofsOfAll = 40;
 constexpr int kMostLooks = 60;
-/// A program with more is not explored again.
-constexpr std::size_t kManySteps = 4'000;
+/// What settling a claim may take, in units of the exploration.
+constexpr std::uint64_t kWorkOfStop = 20'000;
+constexpr std::uint64_t kWorkOfEnd = 100'000;
 constexpr Budget kBudget{.search = 150'000, .z3 = 200'000, .cvc5 = 20'000};
 
 bool holds(Verdict verdict) { return verdict == Verdict::Proved || verdict == Verdict::Unreachable; }
@@ -250,16 +251,18 @@ Obligation Prover::provedWith(const Obligation &claim, const GuardSubject &subje
     result.verdict = isProved ? Verdict::Proved : Verdict::Refuted;
     return result;
   }
-  if (claim.kind != ObligationKind::AlarmUnreachable && found_.steps <= kManySteps)
+  if (claim.kind != ObligationKind::AlarmUnreachable && found_.work < guardWork_)
     exploredWith(result, condition);
   return result;
 }
 
 void Prover::exploredWith(Obligation &claim, TermId condition) {
-  ExploreOptions options;
-  options.assumptions = demands_;
+  ExploreOptions options = exploreOptions();
   options.assumptions.push_back(condition);
+  options.mostWork = guardWork_;
   Exploration found = prove::explore(reading_, programs_, program_, entry_, options);
+  const std::uint64_t done = found.work + (claim.kind == ObligationKind::NoControlAlarm ? kWorkOfStop : kWorkOfEnd);
+  guardWork_ -= std::min(guardWork_, done);
   auto witnesses = std::make_unique<WitnessSearch>(witnesses_->narrowed(condition));
   std::vector<Obligation> obligations;
   decltype(ends_) ends;
