@@ -79,6 +79,37 @@ void ContractOnRun::prepare(EntryValues &entry) const {
         entry.state.at(*known) = ConcreteValue::of(number(axis.value, entry).value_or(0));
 }
 
+void ContractOnRun::draw(EntryValues &entry, soundness::Random &random) const {
+  if (!contract_)
+    return;
+  for (const auto *demands : {&contract_->params, &contract_->globals})
+    for (const EntryValue &demand : *demands) {
+      const ConcreteValue value = drawn(demand, entry, random);
+      entry.given.set(demand.variable, value);
+      if (demand.variable <= kLocalVariables)
+        entry.state.locals[demand.variable] = value;
+      else if (entry.state.variables.find(demand.variable))
+        entry.state.variables.set(demand.variable, value);
+    }
+}
+
+ConcreteValue ContractOnRun::drawn(const EntryValue &demand, const EntryValues &entry,
+                                   soundness::Random &random) const {
+  if (demand.vacancy == Vacancy::Possible && random.oneIn(4))
+    return {};
+  double value = static_cast<double>(random.below(20)) - 5;
+  if (const auto *list = std::get_if<ValueList>(&demand.values))
+    value = number(list->values[random.below(static_cast<std::uint32_t>(list->values.size()))], entry).value_or(0);
+  if (const auto *range = std::get_if<Range>(&demand.values)) {
+    const auto low = range->low ? number(*range->low, entry) : std::nullopt;
+    const auto high = range->high ? number(*range->high, entry) : std::nullopt;
+    const double least = low.value_or(high.value_or(0) - (high ? 20 : 5));
+    const double most = high.value_or(least + 20);
+    value = std::clamp(least + std::floor((most - least) * random.below(9)) / 8, least, std::max(least, most));
+  }
+  return ConcreteValue::of(demand.unit == Unit::Integer ? std::round(value) : value);
+}
+
 bool ContractOnRun::isAllowed(const EntryValue &demand, const EntryValues &entry) const {
   const ConcreteValue held = valueOf(entry.given, entry.state, demand.variable);
   if (held.vacant)

@@ -15,6 +15,8 @@ public:
 
   /// Codes and positions that the contract names are set.
   void prepare(soundness::EntryValues &entry) const;
+  /// Values from the ranges of the contract, and where they end.
+  void draw(soundness::EntryValues &entry, soundness::Random &random) const;
   bool allows(const soundness::EntryValues &entry) const;
   /// What the run did to a promise; absent when it kept it, or came to no end at which it counts.
   std::optional<std::string> broken(const prove::Obligation &promise, const soundness::EntryValues &entry,
@@ -25,6 +27,7 @@ private:
   std::optional<double> number(ExpressionId expression, const soundness::EntryValues &entry) const;
   /// Absent where the condition itself would stop the control.
   std::optional<bool> condition(ExpressionId expression, const soundness::EntryValues &entry, const State &now) const;
+  ConcreteValue drawn(const EntryValue &demand, const soundness::EntryValues &entry, soundness::Random &random) const;
   bool isAllowed(const EntryValue &demand, const soundness::EntryValues &entry) const;
   std::optional<bool> keeps(const Ensure &ensure, const soundness::EntryValues &entry, const State &now) const;
   bool keepsModes(const State &before, const State &now) const;

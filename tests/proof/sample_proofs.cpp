@@ -60,6 +60,13 @@ public:
     }
   }
 
+  /// Claims that are not proved, with what is said of them.
+  std::size_t explained() const {
+    return static_cast<std::size_t>(
+        std::count_if(proof_.obligations.begin(), proof_.obligations.end(),
+                      [](const Obligation &each) { return !holds(each) && (each.witness || !each.reason.empty()); }));
+  }
+
   /// A witness that the machine does not run to what is said of it.
   std::optional<std::string> idleWitness() const {
     for (const Obligation &obligation : proof_.obligations) {
@@ -76,14 +83,17 @@ public:
         return fmt::format("{}: the contract does not allow the witness", obligation.id);
       options.state = entry.state;
       const RunResult result = feedhold::run(analysed_.set, callee_, options);
-      if (!shows(obligation, result))
+      if (!shows(obligation, result) && !leavesDoubles(options))
         return fmt::format("{}: the witness comes to {} at {}", obligation.id, nameOf(result.end), at(result.place));
     }
     return std::nullopt;
   }
 
-  std::optional<std::string> run(const SampleKind &kind, Random &random, ProofTally &tally) const {
+  std::optional<std::string> run(const SampleKind &kind, Random &random, ProofTrial &trial) const {
+    ProofTally &tally = trial.tally;
     EntryValues entry = kind.entry(machine_, random);
+    if (!random.oneIn(4))
+      contract_.draw(entry, random);
     makeExact(entry);
     contract_.prepare(entry);
     const bool allowed = contract_.allows(entry);
@@ -107,6 +117,7 @@ public:
       result = feedhold::run(machine_.set, callee_, options);
       tally.stillRunning += result.end == RunEnd::Fuel ? 1 : 0;
     }
+    trial.ends.push_back(endOf(entry, result));
     std::optional<std::string> why = promise(entry, result);
     if (!why)
       why = tooManyPasses(entry, passes, tally);
@@ -125,6 +136,19 @@ private:
   bool isProved(ObligationKind kind) const {
     return std::any_of(proof_.obligations.begin(), proof_.obligations.end(),
                        [&](const Obligation &each) { return each.kind == kind && holds(each); });
+  }
+
+  /// How the run ended, and whether it broke a promise.
+  std::string endOf(const EntryValues &entry, const RunResult &result) const {
+    std::string text(nameOf(result.end));
+    if (result.end == RunEnd::UserAlarm)
+      text += fmt::format(" {}", result.alarmNumber);
+    if (result.end == RunEnd::Alarm)
+      text += fmt::format(" {}", meaningOf(result.alarm));
+    for (const Obligation &obligation : proof_.obligations)
+      if (contract_.broken(obligation, entry, result))
+        text += fmt::format(", {} is broken", obligation.claim);
+    return text;
   }
 
   /// Some number becomes so large or so small that the run is not what exact numbers would do.
@@ -275,23 +299,31 @@ Sample exactSample(Sample sample) {
   return sample;
 }
 
-std::optional<std::string> brokenClaim(const SampleKind &kind, const Sample &sample, std::uint64_t inputSeed, int runs,
-                                       ProofTally &tally) {
+ProofTrial tryProofs(const SampleKind &kind, const Sample &sample, std::uint64_t inputSeed, int runs) {
   Random random(inputSeed);
   const LoadedSample analysed(sample.lines, controlOf(sample));
   const LoadedSample machine(sample.lines, machineOf(sample, random));
   const FileContracts contracts =
       readContracts(analysed.source(), analysed.tree(), analysed.model(), analysed.dialect());
+  ProofTrial trial;
   for (ProgramId id(0); id.index() < analysed.model().programs.size(); id = id.next()) {
     const ProvedProgram proved(machine, analysed, contracts, id);
-    proved.count(tally);
-    if (auto why = proved.idleWitness())
-      return why;
-    for (int i = 0; i < runs; ++i)
-      if (auto why = proved.run(kind, random, tally))
-        return why;
+    proved.count(trial.tally);
+    trial.explained += proved.explained();
+    trial.wrong = proved.idleWitness();
+    for (int i = 0; i < runs && !trial.wrong; ++i)
+      trial.wrong = proved.run(kind, random, trial);
+    if (trial.wrong)
+      break;
   }
-  return std::nullopt;
+  return trial;
+}
+
+std::optional<std::string> brokenClaim(const SampleKind &kind, const Sample &sample, std::uint64_t inputSeed, int runs,
+                                       ProofTally &tally) {
+  const ProofTrial trial = tryProofs(kind, sample, inputSeed, runs);
+  tally += trial.tally;
+  return trial.wrong;
 }
 
 Sample leastBroken(const SampleKind &kind, Sample sample, std::uint64_t inputSeed, int runs) {

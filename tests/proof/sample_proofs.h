@@ -39,6 +39,15 @@ soundness::Sample exactSample(soundness::Sample sample);
 std::optional<std::string> brokenClaim(const SampleKind &kind, const soundness::Sample &sample, std::uint64_t inputSeed,
                                        int runs, ProofTally &tally);
 
+/// What became of all claims, and of all runs.
+struct ProofTrial {
+  ProofTally tally;
+  std::optional<std::string> wrong; // as brokenClaim
+  std::size_t explained = 0;        // claims that are not proved, with a witness or a reason
+  std::vector<std::string> ends;    // of the runs that the contracts allow
+};
+ProofTrial tryProofs(const SampleKind &kind, const soundness::Sample &sample, std::uint64_t inputSeed, int runs);
+
 /// Without the lines that are not needed for a claim to be broken.
 soundness::Sample leastBroken(const SampleKind &kind, soundness::Sample sample, std::uint64_t inputSeed, int runs);
 
