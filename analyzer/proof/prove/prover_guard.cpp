@@ -106,7 +106,7 @@ void Prover::guards() {
   int proofsLeft = kProofsOfAll;
   std::vector<GuardAtom> ofLoops;
   bool allLoopsGuarded = true;
-  for (std::size_t i = 0; i < proof_.obligations.size() && proofsLeft > 0; ++i) {
+  for (std::size_t i = 0; i < proof_.obligations.size() && proofsLeft > 0 && guardWork_ > 0; ++i) {
     Obligation &claim = proof_.obligations[i];
     if (holds(claim.verdict) || !mayBeGuarded(claim))
       continue;
@@ -180,7 +180,7 @@ std::optional<std::vector<GuardAtom>> Prover::atomsFor(const Obligation &claim, 
     return holds(result.verdict);
   };
   std::optional<Conjunction> best;
-  for (int looked = 0; !best && proofs > 0 && looked < kMostLooks; ++looked) {
+  for (int looked = 0; !best && proofs > 0 && guardWork_ > 0 && looked < kMostLooks; ++looked) {
     const auto next = search.next();
     if (!next)
       break;
@@ -241,6 +241,7 @@ Obligation Prover::provedWith(const Obligation &claim, const GuardSubject &subje
     query.assumptions.insert(query.assumptions.end(), facts.assumptions.begin(), facts.assumptions.end());
     query.assumptions.push_back(condition);
     const Outcome outcome = discharge(store_, query, kBudget);
+    guardWork_ -= std::min(guardWork_, outcome.effort);
     isProved = outcome.proved();
     if (const smt::Model *model = outcome.counterexample())
       result.witness = witnesses_->narrowed(condition).fromModel(*model, breaks);
