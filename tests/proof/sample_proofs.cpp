@@ -98,14 +98,17 @@ public:
     contract_.prepare(entry);
     const bool allowed = contract_.allows(entry);
     Passes passes;
+    std::uint64_t moments = 0;
     RunOptions options;
     options.variables = entry.given;
     options.state = entry.state;
     options.fuel = kFuel;
     options.blockSkip = random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off;
     options.trace = [&](const RunMoment &moment) {
-      if (moment.depth == 0)
-        ++passes[moment.place];
+      if (moment.depth == 0) {
+        ++passes[moment.place].times;
+        passes[moment.place].last = ++moments;
+      }
     };
     RunResult result = feedhold::run(machine_.set, callee_, options);
     if (!allowed)
@@ -124,12 +127,17 @@ public:
     if (!why && (result.end == RunEnd::Alarm || result.end == RunEnd::UserAlarm))
       why = stop(result);
     if (!why && result.end == RunEnd::Repeats)
-      why = repetition(result);
+      why = repetition(result, passes, moments);
     return why && !leavesDoubles(options) ? why : std::nullopt;
   }
 
 private:
-  using Passes = std::map<Place, std::uint64_t>; // how often a run came to a place of the program itself
+  /// How often a run came to a place of the program itself, and when it did so last.
+  struct Visits {
+    std::uint64_t times = 0;
+    std::uint64_t last = 0;
+  };
+  using Passes = std::map<Place, Visits>;
 
   const ProgramFile &file() const { return machine_.set.file(FileId(0)); }
   std::string at(Place place) const { return machine_.blockOf(place); }
@@ -201,18 +209,23 @@ private:
     return fmt::format("{}: nothing is claimed of {}", claim, at(result.place));
   }
 
-  std::optional<std::string> repetition(const RunResult &result) const {
+  std::optional<std::string> repetition(const RunResult &result, const Passes &passes, std::uint64_t moments) const {
     for (const Obligation &obligation : proof_.obligations)
-      if (holds(obligation) &&
-          (obligation.kind == ObligationKind::ProgramEnds ||
-           (obligation.kind == ObligationKind::LoopEnds && goesRoundIn(obligation.place.node, result))))
+      if (holds(obligation) && (obligation.kind == ObligationKind::ProgramEnds ||
+                                (obligation.kind == ObligationKind::LoopEnds &&
+                                 goesRoundIn(obligation.place.node, result, passes, moments))))
         return fmt::format("{} is {}, and the run comes back to {}", obligation.id, nameOf(obligation.verdict),
                            at(result.place));
     return std::nullopt;
   }
-  /// A run that goes round in a loop is in those around it too, which need not be what goes round.
-  bool goesRoundIn(NodeId head, const RunResult &result) const {
-    return result.calls.empty() && result.place == Place{FileId(0), head};
+  /// What goes round may be a loop around this one: then the head of that has been passed not long ago.
+  bool goesRoundIn(NodeId head, const RunResult &result, const Passes &passes, std::uint64_t moments) const {
+    if (!result.calls.empty() || result.place != Place{FileId(0), head})
+      return false;
+    return std::none_of(passes.begin(), passes.end(), [&](const auto &visited) {
+      const auto &[place, visits] = visited;
+      return place.node != head && isInside(head, place.node) && visits.last * 2 > moments;
+    });
   }
 
   std::optional<std::string> promise(const EntryValues &entry, const RunResult &result) const {
@@ -237,17 +250,19 @@ private:
         continue;
       const std::optional<double> most = valueAtEntry(obligation.bound, entry);
       ++tally.bounded;
-      if (!most || std::max(*most, 0.0) + 1 < static_cast<double>(seen->second))
+      if (!most || std::max(*most, 0.0) + 1 < static_cast<double>(seen->second.times))
         return fmt::format("{}: at most {} = {} passes, and the run comes there {} times", obligation.id,
-                           obligation.bound, most.value_or(-1), seen->second);
+                           obligation.bound, most.value_or(-1), seen->second.times);
     }
     return std::nullopt;
   }
   bool isNested(NodeId head) const {
-    const std::uint32_t position = wto_.positionOf(head);
-    return std::any_of(wto_.order().begin(), wto_.order().end(), [&](NodeId other) {
-      return wto_.isHead(other) && wto_.positionOf(other) < position && position < wto_.endOf(other);
-    });
+    return std::any_of(wto_.order().begin(), wto_.order().end(),
+                       [&](NodeId other) { return other != head && isInside(head, other); });
+  }
+  bool isInside(NodeId node, NodeId head) const {
+    const std::uint32_t position = wto_.positionOf(node);
+    return wto_.isHead(head) && wto_.positionOf(head) <= position && position < wto_.endOf(head);
   }
   /// By a program that works it out.
   std::optional<double> valueAtEntry(const std::string &expression, const EntryValues &entry) const {

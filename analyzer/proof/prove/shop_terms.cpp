@@ -104,7 +104,7 @@ private:
     std::string sign = factor.sign() < 0 ? "-" : "";
     const Term term = store_[id];
     Shown part;
-    if (factor.sign() < 0 && term.kind == TermKind::Apply && term.function == Function::Floor) {
+    if (factor.sign() < 0 && term.kind == TermKind::Apply && term.function == Function::Floor && falls(term)) {
       part = bracketed("FUP", store_.negate(term.arguments[0]));
       sign.clear();
     } else if (term.kind == TermKind::Divide && size.isInteger()) {
@@ -120,6 +120,12 @@ private:
     if (size.numerator() == Number(1))
       return Text{sign + inside(*part, Hold::Product) + "/" + textOf(size.denominator()).text, Hold::Product};
     return Text{sign + inside(textOf(size), Hold::Whole) + "*" + inside(*part, Hold::Whole), Hold::Product};
+  }
+  /// The ceiling of something: what is rounded is written with a minus.  FUP goes away from zero, so that `FUP[-x]` is
+  /// not `-FIX[x]`.
+  bool falls(const Term &floor) const {
+    const LinearSum sum = store_.linear(floor.arguments[0]);
+    return std::any_of(sum.terms.begin(), sum.terms.end(), [](const auto &part) { return part.second.sign() < 0; });
   }
   Shown product(const std::vector<TermId> &factors) {
     std::string text;
