@@ -22,6 +22,7 @@ constexpr std::size_t kLateStates = 8;
 constexpr std::size_t kMostNumbers = 6;
 constexpr std::size_t kMostPaired = 4;
 constexpr std::uint64_t kMostWork = 400'000;
+constexpr std::size_t kMostWords = 8; // of a number in a state that is followed
 constexpr Budget kEffort{.search = 30'000, .z3 = 0, .cvc5 = 0};
 
 bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whole) {
@@ -139,13 +140,22 @@ private:
       if (!next)
         break;
       states_.push_back(*next);
+      if (isHuge(*next)) // `#1=#1*#1`: its numbers double in length with each pass
+        break;
     }
     const bool hasInner = ways_.size() > loop_.transitions.size();
-    if (passes_ < kMostPasses && !hasInner)
+    if (passes_ < kMostPasses && !hasInner && !isHuge(states_.back()))
       return false; // it ends
     const std::size_t count = std::min(kLateStates, states_.size());
     late_.assign(states_.end() - static_cast<std::ptrdiff_t>(count), states_.end());
     return true;
+  }
+
+  static bool isHuge(const Model &state) {
+    return std::any_of(state.begin(), state.end(), [](const auto &held) {
+      const auto *number = std::get_if<Number>(&held.second);
+      return number && number->words() > kMostWords;
+    });
   }
 
   /// Gives values to the variables of the loops that the path has met, such that all conditions hold.

@@ -13,6 +13,9 @@ using smt::TermKind;
 
 namespace {
 
+constexpr std::size_t kMostWords = 64; // 4096 bits of numerator and denominator
+constexpr std::size_t kMostArguments = 64;
+
 Number numberOf(Decimal value) {
   Number number(static_cast<std::int64_t>(value.mantissa()));
   for (int i = 0; i < value.scale(); ++i)
@@ -85,6 +88,13 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
 }
 
 // ---- values ----
+
+/// A number that grows without end (`#1=#1*#1` in a loop) is taken as any number at some size.
+SymbolicValue SymbolicReading::of(TermId number) {
+  const smt::Term &term = store_[number];
+  const bool isHuge = store_.isNumber(number) ? term.number.words() > kMostWords : term.arguments.size() > kMostArguments;
+  return isHuge ? anyNumber() : SymbolicValue{store_.no(), number};
+}
 
 SymbolicValue SymbolicReading::literal(Decimal value) { return of(store_.number(numberOf(value))); }
 SymbolicValue SymbolicReading::number(double value) { return of(store_.number(Number::fromDouble(value))); }

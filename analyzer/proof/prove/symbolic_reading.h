@@ -158,7 +158,7 @@ public:
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
-  Value of(smt::TermId number) const { return {store_.no(), number}; }
+  Value of(smt::TermId number);
   Value freshValue(MayBeVacant mayBeVacant);
   bool isNeverNegative(smt::TermId term) const;
   smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);

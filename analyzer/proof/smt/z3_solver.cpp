@@ -11,8 +11,10 @@
 namespace feedhold::smt {
 namespace {
 
-/// Against a Z3 that ignores its budget; far above what any budget takes, so that it decides nothing else.
-constexpr ProcessLimits kLimits{.processorSeconds = 6, .watchdogSeconds = 60};
+/// Against a Z3 that ignores its budget: three times what the budget takes, and a second.
+ProcessLimits limitsFor(std::uint64_t resources) {
+  return {.processorSeconds = 1 + static_cast<std::uint32_t>(3 * resources / 1'000'000), .watchdogSeconds = 60};
+}
 
 constexpr int kMegabytes = 800;
 
@@ -123,11 +125,11 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
     z3::set_param("memory_max_size", kMegabytes);
     return solve(smtlib, arithmetic, resources);
   };
-  Result<ProcessOutput> output = runInChild(inTheChild, kLimits, gate());
+  Result<ProcessOutput> output = runInChild(inTheChild, limitsFor(resources), gate());
   if (!output)
     return {noAnswer(output.error().message)};
   if (output.value().end == ProcessOutput::End::Killed)
-    return {noAnswer("it did not obey its budget and was stopped")};
+    return {noAnswer("it did not obey its budget and was stopped"), resources};
   return readAnswer(output.value().output);
 }
 
