@@ -18,6 +18,8 @@ public:
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(reading_, modes_, options.start)), at_{entry.file,
                                                                                                   entry.entry} {
+    for (const auto &[group, code] : options.codes)
+      state_.codes[group] = code;
     frames_.push_back({.callee = entry, .call = at_});
     for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
       if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))

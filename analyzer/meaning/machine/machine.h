@@ -23,6 +23,7 @@ enum class BlockSkipSwitch : std::uint8_t { Off, On };
 struct RunOptions {
   GivenVariables variables = {}; // arguments are the local variables; not listed: vacant
   std::array<double, kAxisCount> start{};
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group and code in force, in place of power-on's
   /// What the run finds in place of the codes, words and shifts of power-on; then `start` is not looked at.
   std::optional<MachineState<ConcreteReading>> state = std::nullopt;
   std::uint64_t fuel = 10'000'000;   // instructions

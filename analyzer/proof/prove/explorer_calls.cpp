@@ -164,10 +164,9 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> 
                       .modalLimit = modal ? modal : path.frames.back().modalLimit};
   frame.callerLoops = std::exchange(path.state.enteredLoops, {});
   frame.callerCounters = std::exchange(path.state.counters, {});
-  if (request.freshLocals) {
+  if (request.freshLocals)
     frame.callerLocals = std::exchange(path.state.locals, request.locals);
-    frame.callerNames = takeOwnNames(path.state);
-  }
+  frame.callerNames = takeOwnNames(path.state);
   if (purpose_ == Purpose::Record && options_.keepCall && options_.keepCall(*request.callee))
     result_.calls.push_back({path.at, *request.callee, path.conditions, path.state});
   path.frames.push_back(std::move(frame));
@@ -193,6 +192,7 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
     frame.repeatsLeft -= 1;
     path.state.enteredLoops.clear();
     path.state.counters.clear();
+    takeOwnNames(path.state);
     if (frame.ownLocals) // whether the next pass starts with the arguments or with what this one has left differs
       for (std::size_t local = 1; local <= kLocalVariables; ++local)
         path.state.locals[local] = reading_.anything();
@@ -209,12 +209,11 @@ std::vector<Path> Explorer::leave(Path path, const std::optional<SymbolicValue> 
     path.state.modalCalls[*frame.modal].locals = path.state.locals;
   path.state.enteredLoops = frame.callerLoops;
   path.state.counters = frame.callerCounters;
-  if (frame.ownLocals) {
+  if (frame.ownLocals)
     path.state.locals = frame.callerLocals;
-    takeOwnNames(path.state);
-    for (const auto &[variable, value] : frame.callerNames)
-      path.state.variables.set(variable, value);
-  }
+  takeOwnNames(path.state); // those of the program that ends
+  for (const auto &[variable, value] : frame.callerNames)
+    path.state.variables.set(variable, value);
   path.at = frame.call;
   const Node &caller = nodeOf(path);
   if (target)

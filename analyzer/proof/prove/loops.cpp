@@ -493,7 +493,10 @@ bool LoopOpener::record(std::size_t instance, const Path &path) {
     bool asThought = true;
     switch (part.kind) {
     case PartKind::Kept: asThought = left[i] == part.arrival; break;
-    case PartKind::Free: transition.next.emplace(part.symbol, left[i]); break;
+    case PartKind::Free:
+      asThought = store.sort(part.symbol) != Sort::Int || store.sort(left[i]) == Sort::Int;
+      transition.next.emplace(part.symbol, left[i]);
+      break;
     case PartKind::Closed: asThought = store.subtract(left[i], part.generic) == part.step; break;
     case PartKind::Derived: asThought = left[i] == smt::substitute(store, part.step, closed); break;
     }

@@ -117,7 +117,23 @@ void Prover::explore() {
   if (isSingleRun_)
     return;
   witnesses_ = std::make_unique<WitnessSearch>(reading_, programs_, program_, demands_, constants());
+  startWitnesses();
   witnesses_->sample();
+}
+
+/// The machine starts with the codes and at the place that the contract says.
+void Prover::startWitnesses() {
+  const auto numberOf = [&](TermId term) -> std::optional<double> {
+    return store_.isNumber(term) ? std::optional(store_[term].number.toDouble()) : std::nullopt;
+  };
+  RunOptions start;
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    if (const auto code = numberOf(entry_.codes[group].index))
+      start.codes.emplace_back(static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(*code));
+  for (const Axis axis : kAllAxes)
+    if (const auto place = numberOf(entry_.at(axis).number))
+      start.start[indexOf(axis)] = *place;
+  witnesses_->startFrom(std::move(start));
 }
 
 ExploreOptions Prover::exploreOptions() const {
@@ -335,26 +351,22 @@ std::optional<Witness> Prover::endless(const LoopInstance &loop) {
   constexpr std::size_t kMostTried = 3;
   std::vector<WitnessSearch::Sample> runs;
   const auto stays = [&](const RunResult &run) { // doubles that have grown too large come to rest
-    return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) &&
-           endsInside(programs_, program_, loop.head, run);
+    return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) && endsInside(programs_, program_, loop.head, run);
   };
   for (const WitnessSearch::Sample &sample : witnesses_->samples())
     if (stays(sample.result))
       runs.push_back(sample);
-  std::stable_sort(runs.begin(), runs.end(), [](const auto &a, const auto &b) {
-    return a.given.entries().size() < b.given.entries().size();
-  });
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
+  const auto isEndless = [&](const GivenVariables &given) {
+    RunOptions options = witnesses_->runOptions(given);
+    options.fuel = WitnessSearch::kFuel;
+    return witnesses_->allowed(given) && stays(feedhold::run(programs_, program_, options)) && goesOn(loop, given);
+  };
   for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
-    if (goesOn(loop, runs[i].given))
-      return Witness{fewest(runs[i].given,
-                            [&](const GivenVariables &given) {
-                              RunOptions options;
-                              options.variables = given;
-                              options.fuel = WitnessSearch::kFuel;
-                              return witnesses_->allowed(given) &&
-                                     stays(feedhold::run(programs_, program_, options)) && goesOn(loop, given);
-                            }),
-                     runs[i].result.end, "each pass of the loop leads to another one, for ever"};
+    if (isEndless(runs[i].given))
+      return Witness{fewest(runs[i].given, isEndless), runs[i].result.end,
+                     "each pass of the loop leads to another one, for ever"};
   return std::nullopt;
 }
 
@@ -394,9 +406,7 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
       continue;
     }
     const auto known = std::find_if(ends_.begin(), ends_.end(), [&](const auto &end) { return end.first == instance; });
-    Termination &end = known != ends_.end()
-                           ? known->second
-                           : ends_.emplace_back(instance, endOf(*instance)).second;
+    Termination &end = known != ends_.end() ? known->second : ends_.emplace_back(instance, endOf(*instance)).second;
     if (end.proved) {
       for (const Outcome &outcome : end.evidence)
         takeProof(obligation, outcome);

@@ -73,6 +73,7 @@ private:
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   void decideSingleRun(Obligation &obligation, const std::vector<Query> &queries) const;
   ExploreOptions exploreOptions() const;
+  void startWitnesses();
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);

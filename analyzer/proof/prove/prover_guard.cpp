@@ -22,7 +22,8 @@ constexpr int kMostLooks = 60;
 /// What settling a claim may take, in units of the exploration.
 constexpr std::uint64_t kWorkOfStop = 20'000;
 constexpr std::uint64_t kWorkOfEnd = 100'000;
-constexpr Budget kBudget{.search = 150'000, .z3 = 0, .cvc5 = 0}; // what needs a solver is seldom guarded by a simple condition
+constexpr Budget kBudget{
+    .search = 150'000, .z3 = 0, .cvc5 = 0}; // what needs a solver is seldom guarded by a simple condition
 
 bool holds(Verdict verdict) { return verdict == Verdict::Proved || verdict == Verdict::Unreachable; }
 

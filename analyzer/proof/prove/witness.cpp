@@ -51,11 +51,18 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
   WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
+  narrowed.startFrom(start_);
   narrowed.demands_.push_back(demand);
   for (const Sample &sample : samples_)
     if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
       narrowed.samples_.push_back(sample);
   return narrowed;
+}
+
+RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
+  RunOptions options = start_;
+  options.variables = given;
+  return options;
 }
 
 void WitnessSearch::sample() {
@@ -73,8 +80,7 @@ void WitnessSearch::sample() {
     }
     if (!allowed(given))
       continue;
-    RunOptions options;
-    options.variables = given;
+    RunOptions options = runOptions(given);
     options.fuel = kSampleFuel;
     RunResult result = run(programs_, entry_, options);
     samples_.push_back({std::move(given), std::move(result)});
@@ -111,8 +117,7 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
                                             std::uint64_t fuel) const {
   if (!allowed(given))
     return std::nullopt;
-  RunOptions options;
-  options.variables = given;
+  RunOptions options = runOptions(given);
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
   const auto happened = violation.happened(result);

@@ -27,6 +27,9 @@ public:
   WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry, std::vector<smt::TermId> demands,
                 std::vector<double> constants);
 
+  /// The codes and the place in which runs start, if not those of power-on.
+  void startFrom(RunOptions start) { start_ = std::move(start); }
+  RunOptions runOptions(const GivenVariables &given) const;
   /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
   /// Among the sampled runs.
@@ -59,6 +62,7 @@ private:
   Callee entry_;
   std::vector<smt::TermId> demands_;
   std::vector<double> constants_; // that the program and its contract write
+  RunOptions start_;
   std::vector<Sample> samples_;
 };
 
