@@ -25,8 +25,7 @@ class Relevant {
 public:
   Relevant(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
            std::span<const TermId> conditions)
-      : store_(store), index_(index), facts_(facts), conditions_(conditions), ofConditions_(store),
-        takenFacts_(facts.size()), takenConditions_(conditions.size()) {
+      : store_(store), index_(index), facts_(facts), conditions_(conditions), ofConditions_(store) {
     ofConditions_.add(conditions);
   }
 
@@ -50,18 +49,15 @@ private:
       if (wanted_.insert(variable).second)
         open_.push_back(variable);
   }
-  void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::vector<bool> &taken) {
+  void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::set<std::size_t> &taken) {
     if (const auto *users = index.factsOn(variable))
       for (const std::size_t user : *users)
-        if (user < terms.size() && !taken[user]) {
-          taken[user] = true;
+        if (user < terms.size() && taken.insert(user).second)
           want(terms[user]);
-        }
   }
-  static void collect(std::span<const TermId> terms, const std::vector<bool> &taken, std::vector<TermId> &into) {
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      if (taken[i])
-        into.push_back(terms[i]);
+  static void collect(std::span<const TermId> terms, const std::set<std::size_t> &taken, std::vector<TermId> &into) {
+    for (const std::size_t user : taken)
+      into.push_back(terms[user]);
   }
 
   const smt::TermStore &store_;
@@ -69,8 +65,8 @@ private:
   std::span<const TermId> facts_;
   std::span<const TermId> conditions_;
   FactIndex ofConditions_;
-  std::vector<bool> takenFacts_;
-  std::vector<bool> takenConditions_;
+  std::set<std::size_t> takenFacts_; // their places: a query takes few of many
+  std::set<std::size_t> takenConditions_;
   std::set<TermId> wanted_;
   std::vector<TermId> open_;
 };
@@ -81,6 +77,11 @@ Query relevantQuery(const smt::TermStore &store, std::span<const TermId> facts, 
                     TermId goal) {
   FactIndex index(store);
   index.add(facts);
+  return relevantQuery(store, index, facts, conditions, goal);
+}
+
+Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
+                    std::span<const TermId> conditions, TermId goal) {
   return {Relevant(store, index, facts, conditions).to(goal), goal};
 }
 

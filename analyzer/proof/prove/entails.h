@@ -29,6 +29,10 @@ private:
   std::map<smt::TermId, std::vector<std::size_t>> users_;
 };
 
+/// The same, with an index that has all the facts.
+Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::span<const smt::TermId> facts,
+                    std::span<const smt::TermId> conditions, smt::TermId goal);
+
 /// Quick answers for whoever follows paths, each given once.
 class Entailment {
 public:

@@ -186,15 +186,13 @@ Obligation &Prover::add(ObligationKind kind, Place place, Span span, std::string
   return proof_.obligations.emplace_back(std::move(obligation));
 }
 
-Query Prover::onPath(const std::vector<TermId> &conditions, TermId goal) const {
-  std::vector<TermId> all = conditions;
-  all.push_back(goal);
-  const TermId everything = goal; // the path itself may be what is impossible
-  Query query = relevantQuery(store_, found_.facts, conditions, everything);
-  for (const TermId condition : conditions) {
-    const Query part = relevantQuery(store_, found_.facts, {}, condition);
-    for (const TermId fact : part.assumptions)
-      query.assumptions.push_back(fact);
+Query Prover::onPath(const std::vector<TermId> &conditions, TermId goal) {
+  const std::vector<TermId> &facts = reading_.facts();
+  facts_.add(facts);
+  Query query = relevantQuery(store_, facts_, facts, conditions, goal);
+  for (const TermId condition : conditions) { // the path itself may be what is impossible
+    const Query part = relevantQuery(store_, facts_, facts, {}, condition);
+    query.assumptions.insert(query.assumptions.end(), part.assumptions.begin(), part.assumptions.end());
     query.assumptions.push_back(condition);
   }
   std::sort(query.assumptions.begin(), query.assumptions.end());

@@ -3,6 +3,7 @@
 
 #include "meaning/cfg/wto.h"
 #include "proof/prove/contract_terms.h"
+#include "proof/prove/entails.h"
 #include "proof/prove/guard_candidates.h"
 #include "proof/prove/prove.h"
 #include "proof/prove/termination.h"
@@ -85,7 +86,7 @@ private:
                   const Violation &violation);
   void explainEnd(Obligation &obligation, const std::vector<const LoopInstance *> &instances);
   /// All conditions of a path, and what is known of the variables in them.
-  Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal) const;
+  Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal);
 
   bool isOwn(Place place) const;
   const ProgramFile &file() const { return programs_.file(program_.file); }
@@ -105,6 +106,7 @@ private:
   Exploration found_;
   std::unique_ptr<WitnessSearch> witnesses_;
   std::vector<std::pair<const LoopInstance *, Termination>> ends_;
+  FactIndex facts_{store_};
   Budget budget_ = options_.budget;
   const Obligation *focus_ = nullptr; // all others are passed over
   std::vector<OpenClaim> open_;       // that were not proved
