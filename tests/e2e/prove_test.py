@@ -147,6 +147,42 @@ class Prove(Scratch):
         self.write("O9100.contract", "@PARAM #22 STEP 0.5..20. MM\n")
         self.assertEqual(self.one("O9100.no-control-alarm.N10", "O9100.nc")["verdict"], "proved")
 
+    def test_call_breaks_the_contract_of_what_it_calls(self):
+        self.write("C.nc", "O1\n(@PARAM #1 0..20)\nG65P2A[#1/2]\nG65P2A#1\nM99\nO2\n(@PARAM #1 0..10)\nM99\n")
+        rows = [row for row in self.obligations("C.nc") if row["kind"] == "call-meets-contract"]
+        self.assertEqual([(row["line"], row["verdict"]) for row in rows], [(3, "proved"), (4, "refuted")])
+        self.assertGreater(float(rows[1]["witness"]["call"].rpartition("A")[2]), 10)
+
+    def test_promise_that_is_not_kept(self):
+        self.write("P.nc", "O1\n(@PARAM #1 0..10)\n(@ENSURE #100 EQ #1*2)\n#100=#1*2+1\nM99\n")
+        row = self.one("O1.ensures.L1", "P.nc")
+        self.assertEqual(row["verdict"], "refuted")
+
+    def test_witness_starts_as_the_contract_says(self):
+        program = "O1\n%sIF[#4003EQ91]GOTO90\nM99\nN90#3000=1(INCREMENTAL)\n"
+        self.write("A.nc", program % "(@MODAL G90)\n")
+        self.write("I.nc", program % "(@MODAL G91)\n")
+        self.assertIn(self.one("O1.alarm-unreachable.N90", "A.nc")["verdict"], ("proved", "unreachable"))
+        self.assertEqual(self.one("O1.alarm-unreachable.N90", "I.nc")["verdict"], "refuted")
+
+    # ---- hints ----
+
+    def test_false_invariant_is_not_believed(self):
+        self.write("H.nc", "O1\n(@PARAM #1 1..100 INT)\n#3=#1\n#4=1\n"
+                           "N10 WHILE[#3GT0]DO1 (@INVARIANT #4 LE 9)(@VARIANT #4)\n#4=#4*2\n#3=#3-1\nEND1\n"
+                           "IF[#4GT9]GOTO90\nM99\nN90#3000=1(LARGE)\n")
+        self.assertEqual(self.one("O1.alarm-unreachable.N90", "H.nc")["verdict"], "refuted")
+        self.assertEqual(self.one("O1.loop-ends.N10", "H.nc")["verdict"], "proved")
+
+    def test_cyclic_program_need_not_end(self):
+        self.write("B.nc", "O1\n(@CYCLIC)\nN10 #2=3\nN20 WHILE[#2GT0]DO1\n#2=#2-1\nEND1\nGOTO10\n")
+        rows = [row["id"] for row in self.obligations("B.nc")]
+        self.assertNotIn("O1.program-ends", rows)
+        self.assertNotIn("O1.loop-ends.N10", rows)
+        self.assertEqual(self.one("O1.loop-ends.N20", "B.nc")["verdict"], "proved")
+
+    # ---- witnesses ----
+
     def test_witness_is_a_call_that_can_be_typed(self):
         self.write("O9100.nc", DIVIDES.replace("N10", "IF[#21LT12]GOTO99\nN10").replace("M99", "N99M99"))
         witness = self.one("O9100.no-control-alarm.N10", "O9100.nc")["witness"]

@@ -63,6 +63,10 @@ TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &en
       .term;
 }
 
+TermId ContractTerms::number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
+  return value(expression, withReserved(entry, now)).number;
+}
+
 SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState &state) const {
   if (variable <= kLocalVariables)
     return state.locals[variable];

@@ -21,6 +21,8 @@ public:
   std::vector<smt::TermId> demandsOfCall(const Contract &contract, const SymbolicState &called);
   /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
   smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+  /// A number of the contract over a state, as condition().
+  smt::TermId number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
 
 private:
   SymbolicValue valueOf(std::uint32_t variable, const SymbolicState &state) const;

@@ -43,6 +43,7 @@ struct LoopInstance {
   std::vector<smt::TermId> facts = {};     // that hold before each pass
   std::vector<Transition> transitions = {};
   smt::Substitution first = {}; // from `passes` and all that goes with them to what the arrival found
+  std::vector<smt::TermId> measures = {}; // that the contract suggests
   /// Of the variables of programs: their numbers at the arrival, and those before any pass.
   struct Value {
     std::uint32_t variable;
@@ -114,10 +115,15 @@ enum class PathMerging : std::uint8_t { No, Yes };
 /// rounding does: a proof that it breaks has no margin).
 enum class Sums : std::uint8_t { Exact, Rounded };
 
+/// What a contract suggests of the loop at a place: terms over the state before any pass.
+using LoopHints = std::function<std::vector<smt::TermId>(Place head, const SymbolicState &state)>;
+
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyPass;
   Sums sums = Sums::Exact;
+  LoopHints invariants = {}; // tried with those that are guessed
+  LoopHints measures = {};   // kept for LoopInstance::measures
   std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;

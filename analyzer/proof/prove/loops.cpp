@@ -361,7 +361,11 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
   for (const Path &pass : work.found)
     trial.conditions.insert(trial.conditions.end(), pass.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
                             pass.conditions.end());
-  return invariantCandidates(explorer_.store_, trial);
+  std::vector<TermId> all = invariantCandidates(explorer_.store_, trial);
+  if (explorer_.options_.invariants)
+    for (const TermId hint : explorer_.options_.invariants(work.arrival.at, work.shape.state))
+      all.push_back(hint);
+  return all;
 }
 
 smt::Substitution LoopOpener::atArrival(const Work &work) const {
@@ -454,6 +458,8 @@ bool LoopOpener::open(Path &path) {
   LoopInstance &loop = explorer_.result_.loops[instance];
   loop.isRecorded = purpose == Explorer::Purpose::Record;
   loop.facts = work.facts;
+  if (explorer_.options_.measures)
+    loop.measures = explorer_.options_.measures(path.at, work.shape.state);
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       loop.variables.push_back(part.symbol);

@@ -53,4 +53,10 @@ struct Obligation {
   std::optional<Guard> guard = {};    // of Refuted and Unknown: with what it is proved
 };
 
+/// Of one program, found in one way or another.
+inline bool isSameClaim(const Obligation &a, const Obligation &b) {
+  return a.kind == b.kind && a.place == b.place && a.span == b.span && a.claim == b.claim;
+}
+inline bool holds(Verdict verdict) { return verdict == Verdict::Proved || verdict == Verdict::Unreachable; }
+
 } // namespace feedhold::prove

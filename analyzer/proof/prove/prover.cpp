@@ -136,6 +136,17 @@ void Prover::startWitnesses() {
   witnesses_->startFrom(std::move(start));
 }
 
+/// Hints are tried, never believed: an invariant has to hold before each pass, a measure has to fall.
+LoopHints Prover::hintsOf(const std::vector<LoopHint> &hints, const HintTerm &termOf) const {
+  return [this, &hints, termOf](Place head, const SymbolicState &state) {
+    std::vector<TermId> terms;
+    for (const LoopHint &hint : hints)
+      if (head.file == program_.file && programs_.node(head).block == hint.block)
+        terms.push_back(termOf(hint.expression, state));
+    return terms;
+  };
+}
+
 ExploreOptions Prover::exploreOptions() const {
   ExploreOptions options = isSingleRun_ ? exactOptions() : ExploreOptions();
   options.assumptions = demands_;
@@ -143,6 +154,14 @@ ExploreOptions Prover::exploreOptions() const {
     const std::size_t file = callee.file.index();
     return file < options_.contractsOf.size() && options_.contractsOf[file]->of(callee.program) != nullptr;
   };
+  if (!contract())
+    return options;
+  options.invariants = hintsOf(contract()->invariants, [this](ExpressionId hint, const SymbolicState &state) {
+    return terms_->condition(hint, entry_, state);
+  });
+  options.measures = hintsOf(contract()->variants, [this](ExpressionId hint, const SymbolicState &state) {
+    return terms_->number(hint, entry_, state);
+  });
   return options;
 }
 
@@ -421,7 +440,7 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
   }
   if (obligation.verdict == Verdict::Proved && !obligation.grade)
     obligation.grade = Grade::Certified;
-  if (obligation.verdict == Verdict::Proved || obligation.verdict == Verdict::Unreachable)
+  if (holds(obligation.verdict))
     return;
   obligation.grade.reset(); // of loops that do end
   obligation.method.clear();
@@ -447,12 +466,22 @@ void Prover::explainEnd(Obligation &obligation, const std::vector<const LoopInst
   }
 }
 
+/// `@CYCLIC`: the program goes round as a whole, in a loop that no other is around.
+bool Prover::isMeantToGoOn(const Wto &wto, NodeId head) const {
+  if (!contract() || !contract()->cyclic)
+    return false;
+  return std::none_of(wto.order().begin(), wto.order().end(), [&](NodeId other) {
+    return other != head && wto.isHead(other) && wto.positionOf(other) < wto.positionOf(head) &&
+           wto.positionOf(head) < wto.endOf(other);
+  });
+}
+
 void Prover::loops() {
   if (!wanted(ObligationKind::LoopEnds))
     return;
   const Wto wto(file().cfg, *file().model, program_.entry);
   for (const NodeId head : wto.order()) {
-    if (!wto.isHead(head))
+    if (!wto.isHead(head) || isMeantToGoOn(wto, head))
       continue;
     const Place place{program_.file, head};
     const auto isInside = [&wto, place](Place at) {
@@ -482,7 +511,7 @@ void Prover::loops() {
 }
 
 void Prover::programEnds() {
-  if (!wanted(ObligationKind::ProgramEnds))
+  if (!wanted(ObligationKind::ProgramEnds) || (contract() && contract()->cyclic))
     return;
   const Place place{program_.file, program_.entry};
   std::vector<const LoopInstance *> instances;

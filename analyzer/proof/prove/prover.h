@@ -74,6 +74,9 @@ private:
   void settle(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   void decideSingleRun(Obligation &obligation, const std::vector<Query> &queries) const;
   ExploreOptions exploreOptions() const;
+  using HintTerm = std::function<smt::TermId(ExpressionId, const SymbolicState &)>;
+  LoopHints hintsOf(const std::vector<LoopHint> &hints, const HintTerm &termOf) const;
+  bool isMeantToGoOn(const Wto &wto, NodeId head) const;
   void startWitnesses();
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);

@@ -70,7 +70,7 @@ void Prover::satisfiable() {
   obligation.verdict = Verdict::Refuted;
   obligation.reason = "no call satisfies this contract: what it says of the arguments contradicts itself";
   for (Obligation &other : proof_.obligations)
-    if (other.verdict == Verdict::Proved || other.verdict == Verdict::Unreachable) {
+    if (holds(other.verdict)) {
       other.verdict = Verdict::Unknown;
       other.grade.reset();
       other.reason = "no call satisfies the contract";

@@ -25,12 +25,6 @@ constexpr std::uint64_t kWorkOfEnd = 100'000;
 constexpr Budget kBudget{
     .search = 150'000, .z3 = 0, .cvc5 = 0}; // what needs a solver is seldom guarded by a simple condition
 
-bool holds(Verdict verdict) { return verdict == Verdict::Proved || verdict == Verdict::Unreachable; }
-
-bool isSame(const Obligation &a, const Obligation &b) {
-  return a.kind == b.kind && a.place == b.place && a.span == b.span && a.claim == b.claim;
-}
-
 /// Claims about what single runs come to; of the others a condition on the inputs is no remedy.
 bool mayBeGuarded(const Obligation &claim) {
   switch (claim.kind) {
@@ -95,7 +89,7 @@ void Prover::settle(Obligation &obligation, const std::vector<Query> &queries, c
     open_.push_back({obligation, queries});
 }
 
-bool Prover::isOutOfFocus(const Obligation &obligation) const { return focus_ && !isSame(*focus_, obligation); }
+bool Prover::isOutOfFocus(const Obligation &obligation) const { return focus_ && !isSameClaim(*focus_, obligation); }
 
 /// The conditions that are needed for each claim that is not proved.
 void Prover::guards() {
@@ -133,7 +127,7 @@ void Prover::guards() {
 GuardSubject Prover::subjectOf(const Obligation &claim) const {
   GuardSubject subject;
   for (const OpenClaim &open : open_)
-    if (isSame(open.claim, claim))
+    if (isSameClaim(open.claim, claim))
       subject.queries = open.queries;
   for (const LoopInstance &loop : found_.loops)
     if (claim.kind == ObligationKind::ProgramEnds ||
@@ -292,7 +286,7 @@ void Prover::exploredWith(Obligation &claim, TermId condition) {
   budget_ = options_.budget;
   exchange();
   for (Obligation &obligation : obligations)
-    if (isSame(obligation, claim)) {
+    if (isSameClaim(obligation, claim)) {
       claim.verdict = obligation.verdict;
       claim.witness = std::move(obligation.witness);
     }

@@ -8,10 +8,6 @@ namespace feedhold::prove {
 
 namespace {
 
-bool isSame(const Obligation &a, const Obligation &b) {
-  return a.kind == b.kind && a.place == b.place && a.span == b.span && a.claim == b.claim && a.id == b.id;
-}
-
 bool isOpen(const Obligation &obligation) { return obligation.verdict == Verdict::Unknown; }
 
 } // namespace
@@ -38,13 +34,13 @@ void Prover::followPasses() {
   settleAll();
   for (Obligation &now : proof_.obligations) {
     const auto known =
-        std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSame(old, now); });
+        std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSameClaim(old, now); });
     if (known != before.end() && !isOpen(*known))
       now = *known;
   }
   for (const Obligation &old : before) // of places that no path comes to
     if (std::none_of(proof_.obligations.begin(), proof_.obligations.end(),
-                     [&](const Obligation &now) { return isSame(old, now); }))
+                     [&](const Obligation &now) { return isSameClaim(old, now); }))
       takeUnmet(old);
 }
 

@@ -297,6 +297,8 @@ private:
       if (all.size() < kMostMeasures && !isConstantInLoop(measure) && seen.insert(measure).second)
         all.push_back(measure);
     };
+    for (const TermId hint : loop_.measures)
+      offer(hint);
     for (const Transition &transition : loop_.transitions)
       for (const TermId condition : transition.conditions)
         offerSides(condition, offer);
