@@ -50,6 +50,8 @@ ProgramProof Prover::run() {
   explore();
   settleAll();
   followPasses();
+  if (contract())
+    satisfiable(); // the last word on all of them
   checkRounding();
   if (options_.guards == InferGuards::Yes)
     guards();
@@ -71,10 +73,8 @@ void Prover::settleAll() {
   loops();
   programEnds();
   promises();
-  if (contract()) {
+  if (contract())
     guarded();
-    satisfiable(); // the last word on all of them
-  }
 }
 
 void Prover::promises() {
@@ -117,23 +117,23 @@ void Prover::explore() {
   if (isSingleRun_)
     return;
   witnesses_ = std::make_unique<WitnessSearch>(reading_, programs_, program_, demands_, constants());
-  startWitnesses();
-  witnesses_->sample();
+  start(*witnesses_);
 }
 
 /// The machine starts with the codes and at the place that the contract says.
-void Prover::startWitnesses() {
+void Prover::start(WitnessSearch &witnesses) const {
   const auto numberOf = [&](TermId term) -> std::optional<double> {
     return store_.isNumber(term) ? std::optional(store_[term].number.toDouble()) : std::nullopt;
   };
-  RunOptions start;
+  RunOptions options;
   for (std::size_t group = 0; group < kModalGroups; ++group)
     if (const auto code = numberOf(entry_.codes[group].index))
-      start.codes.emplace_back(static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(*code));
+      options.codes.emplace_back(static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(*code));
   for (const Axis axis : kAllAxes)
     if (const auto place = numberOf(entry_.at(axis).number))
-      start.start[indexOf(axis)] = *place;
-  witnesses_->startFrom(std::move(start));
+      options.start[indexOf(axis)] = *place;
+  witnesses.startFrom(std::move(options));
+  witnesses.sample();
 }
 
 /// Hints are tried, never believed: an invariant has to hold before each pass, a measure has to fall.
@@ -255,27 +255,37 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
       continue;
     }
     obligation.verdict = Verdict::Unknown;
-    obligation.grade.reset();
     obligation.effort += outcome.effort;
     if (const smt::Model *model = outcome.counterexample()) {
       if (auto witness = witnesses_->fromModel(*model, violation)) {
         obligation.verdict = Verdict::Refuted;
         obligation.witness = std::move(witness);
-        return;
+        break;
       }
       obligation.reason = "inputs that seem to break it do not do so when they are run";
     } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
       obligation.reason = unknown->reason;
     }
     if (left.search == 0)
-      return;
+      break;
   }
+  dropProof(obligation);
+}
+
+/// Parts of a proof that did not come about.
+void Prover::dropProof(Obligation &obligation) {
+  if (holds(obligation.verdict))
+    return;
+  obligation.grade.reset();
+  obligation.method.clear();
+  obligation.evidence.clear();
 }
 
 /// Broken where nothing had to be assumed to come there; more is not asked.
 void Prover::decideSingleRun(Obligation &obligation, const std::vector<Query> &queries) const {
   for (const Query &query : queries)
-    if (query.goal == store_.no() && query.assumptions.empty())
+    if (query.goal == store_.no() && std::all_of(query.assumptions.begin(), query.assumptions.end(),
+                                                 [&](TermId each) { return each == store_.yes(); }))
       obligation.verdict = Verdict::Refuted;
 }
 
@@ -358,6 +368,11 @@ Termination Prover::endOf(const LoopInstance &loop) {
   return end;
 }
 
+/// The run did not come out of the loop; doubles that have grown too large come to rest in it.
+bool Prover::staysIn(const LoopInstance &loop, const RunResult &run) const {
+  return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) && endsInside(programs_, program_, loop.head, run);
+}
+
 /// The loop goes on for ever with these inputs.
 bool Prover::goesOn(const LoopInstance &loop, const GivenVariables &given) {
   return recurrenceFrom(reading_, store_, found_, loop, witnesses_->modelOf(given)).has_value();
@@ -367,18 +382,16 @@ bool Prover::goesOn(const LoopInstance &loop, const GivenVariables &given) {
 std::optional<Witness> Prover::endless(const LoopInstance &loop) {
   constexpr std::size_t kMostTried = 3;
   std::vector<WitnessSearch::Sample> runs;
-  const auto stays = [&](const RunResult &run) { // doubles that have grown too large come to rest
-    return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) && endsInside(programs_, program_, loop.head, run);
-  };
   for (const WitnessSearch::Sample &sample : witnesses_->samples())
-    if (stays(sample.result))
+    if (staysIn(loop, sample.result))
       runs.push_back(sample);
   std::stable_sort(runs.begin(), runs.end(),
                    [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
   const auto isEndless = [&](const GivenVariables &given) {
     RunOptions options = witnesses_->runOptions(given);
     options.fuel = WitnessSearch::kFuel;
-    return witnesses_->allowed(given) && stays(feedhold::run(programs_, program_, options)) && goesOn(loop, given);
+    return witnesses_->allowed(given) && staysIn(loop, feedhold::run(programs_, program_, options)) &&
+           goesOn(loop, given);
   };
   for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
     if (isEndless(runs[i].given))
@@ -399,8 +412,8 @@ std::optional<Witness> Prover::endlessFromStart(const LoopInstance &loop) {
   const smt::Model *model = outcome.counterexample();
   if (model == nullptr)
     return std::nullopt;
-  auto witness = witnesses_->fromModel(*model, [](const RunResult &run) -> std::optional<std::string> {
-    if (run.end == RunEnd::Repeats || run.end == RunEnd::Fuel)
+  auto witness = witnesses_->fromModel(*model, [&](const RunResult &run) -> std::optional<std::string> {
+    if (staysIn(loop, run))
       return "each pass of the loop leads to another one like it, for ever";
     return std::nullopt;
   });
@@ -440,11 +453,7 @@ void Prover::settleLoop(Obligation &obligation, const std::vector<const LoopInst
   }
   if (obligation.verdict == Verdict::Proved && !obligation.grade)
     obligation.grade = Grade::Certified;
-  if (holds(obligation.verdict))
-    return;
-  obligation.grade.reset(); // of loops that do end
-  obligation.method.clear();
-  obligation.evidence.clear();
+  dropProof(obligation);
 }
 
 /// When all that lead to the loop say the same.
@@ -530,8 +539,7 @@ void Prover::programEnds() {
   if (!found_.unfollowedCalls.empty() && obligation.verdict != Verdict::Refuted) {
     obligation.verdict = Verdict::Unknown;
     obligation.reason = "a program that is called is not followed and need not come back";
-    obligation.grade.reset();
-    obligation.evidence.clear();
+    dropProof(obligation);
   }
   if (instances.empty() && obligation.verdict == Verdict::Unreachable) {
     obligation.verdict = Verdict::Proved;

@@ -76,8 +76,10 @@ private:
   ExploreOptions exploreOptions() const;
   using HintTerm = std::function<smt::TermId(ExpressionId, const SymbolicState &)>;
   LoopHints hintsOf(const std::vector<LoopHint> &hints, const HintTerm &termOf) const;
+  bool staysIn(const LoopInstance &loop, const RunResult &run) const;
   bool isMeantToGoOn(const Wto &wto, NodeId head) const;
-  void startWitnesses();
+  void start(WitnessSearch &witnesses) const;
+  static void dropProof(Obligation &obligation);
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
   void takeProof(Obligation &obligation, Outcome outcome);

@@ -35,11 +35,14 @@ std::optional<std::string> endOfRun(const RunResult &run) {
 Violation Prover::brokenPromise(const Obligation &obligation) const {
   const auto happened = [kind = obligation.kind](const RunResult &run) {
     auto end = endOfRun(run);
+    const bool isStopped = run.end == RunEnd::UserAlarm || run.end == RunEnd::Alarm;
     if (end && kind == ObligationKind::CallMeetsContract)
-      end = "the call is made with what that contract does not allow";
-    else if (end && kind != ObligationKind::AlarmIff)
-      *end += ", and what was promised does not hold";
-    return end;
+      return std::optional<std::string>("the call is made with what that contract does not allow");
+    if (!end || kind == ObligationKind::AlarmIff)
+      return end;
+    if (isStopped) // the others are promised of runs that come to their end
+      return std::optional<std::string>();
+    return std::optional(*end + ", and what was promised does not hold");
   };
   return {happened, [this, claim = obligation.claim, kind = obligation.kind, place = obligation.place](
                         const GivenVariables &given) { return breaksExactly(given, kind, claim, place); }};
@@ -72,7 +75,7 @@ void Prover::satisfiable() {
   for (Obligation &other : proof_.obligations)
     if (holds(other.verdict)) {
       other.verdict = Verdict::Unknown;
-      other.grade.reset();
+      dropProof(other);
       other.reason = "no call satisfies the contract";
     }
 }
@@ -228,7 +231,7 @@ void Prover::requireEnds(Obligation &obligation) {
     return;
   if (!found_.repeats.empty()) {
     obligation.verdict = Verdict::Unknown;
-    obligation.grade.reset();
+    dropProof(obligation);
     obligation.reason = "a path comes back to a state in which it has been";
     return;
   }
@@ -238,7 +241,7 @@ void Prover::requireEnds(Obligation &obligation) {
     if (ends.verdict == Verdict::Proved)
       continue;
     obligation.verdict = Verdict::Unknown;
-    obligation.grade.reset();
+    dropProof(obligation);
     obligation.reason = "it is not known whether a loop ends";
     return;
   }
@@ -272,7 +275,7 @@ void Prover::guarded() {
     queries.push_back(onPath(call.conditions, store_.no()));
   auto outsideWitnesses =
       std::make_unique<WitnessSearch>(reading_, programs_, program_, options.assumptions, constants());
-  outsideWitnesses->sample();
+  start(*outsideWitnesses);
   const Violation moves{[](const RunResult &run) -> std::optional<std::string> {
     const bool moved = std::any_of(run.moves.begin(), run.moves.end(),
                                    [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });

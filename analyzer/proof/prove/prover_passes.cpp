@@ -24,10 +24,11 @@ void Prover::followPasses() {
   options.mostWork = 200'000;
   options.mostTerms = 100'000;
   Exploration each = prove::explore(reading_, programs_, program_, entry_, options);
-  if (each.incomplete)
+  if (each.incomplete || !each.unfollowedCalls.empty())
     return;
   found_ = std::move(each);
   ends_.clear();
+  open_.clear(); // their queries may be of ways of which some were missing
   proof_.incomplete.reset();
   proof_.unfollowed = found_.unfollowed;
   const std::vector<Obligation> before = std::exchange(proof_.obligations, {});
