@@ -1,6 +1,7 @@
 #include "meaning/machine/machine.h"
 
 #include "meaning/machine/frames.h"
+#include "meaning/semantics/tool_point.h"
 
 #include <algorithm>
 #include <set>
@@ -24,6 +25,7 @@ public:
     for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
       if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))
         state_.variables.set(*variable, ConcreteValue::of(0));
+    entry_ = state_;
   }
 
   RunResult run() {
@@ -111,14 +113,22 @@ private:
 
   void takeEffects(Place here) {
     const bool refused = reading_.stopped().kind == ConcreteReading::Stop::ControlAlarm;
-    for (Move<ConcreteValue> &move : reading_.takeMoves())
-      if (!refused) // the control does not begin a block that it does not understand
-        result_.moves.push_back({std::move(move), unitInForce(), here});
+    std::vector<Move<ConcreteValue>> moves = reading_.takeMoves();
+    if (!refused && !moves.empty()) // the control does not begin a block that it does not understand
+      record(std::move(moves), here);
     for (const std::string_view reason : reading_.takeNotes())
       if (noted_.insert({here, reason}).second)
         result_.notes.push_back({reason, here});
     if (reading_.stopped().kind != ConcreteReading::Stop::None)
       stop();
+  }
+  void record(std::vector<Move<ConcreteValue>> moves, Place here) {
+    auto ctx = context();
+    const ToolPoint<ConcreteReading> point = toolPointOf(ctx, entry_);
+    const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits;
+    const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
+    for (Move<ConcreteValue> &move : moves)
+      result_.moves.push_back({std::move(move), unitInForce(), here, zero, isOfTool});
   }
   LengthUnit unitInForce() {
     const auto ctx = context();
@@ -329,6 +339,7 @@ private:
   ConcreteReading reading_;
   ModalTable modes_;
   State state_;
+  State entry_; // as it was at the start
   Place at_;
   std::vector<Frame> frames_;
   ExecutedWords<ConcreteReading> words_;

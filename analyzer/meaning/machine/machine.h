@@ -59,6 +59,11 @@ struct RecordedMove {
   Move<ConcreteValue> move;
   LengthUnit unit;
   Place place;
+  /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
+  std::array<double, 3> zero = {};
+  /// Its coordinates are those of the tool (tool_point.h): no cutter compensation is in force, its length and the units
+  /// are those of the start.
+  bool isOfTool = true;
 };
 
 struct RunNote {

@@ -13,6 +13,9 @@ inline constexpr std::uint32_t kWorkOffsetStride = 20;
 /// Machine coordinate of the zero point of the program on an axis: work offsets, G52, G92 and tool length together.
 template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Axis axis);
 
+/// The same without tool length: of the work coordinate system.
+template <ValueAlgebra R> typename R::Value workOriginOf(StepContext<R> &context, Axis axis);
+
 /// The zero points of all axes, to be given to moveOrigins when they have changed.
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context);
 template <ValueAlgebra R>
@@ -107,11 +110,14 @@ template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context) 
 }
 
 template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Axis axis) {
+  const auto origin = workOriginOf(context, axis);
+  return axis == Axis::Z ? context.reading.add(origin, context.state.lengthOffset) : origin;
+}
+
+template <ValueAlgebra R> typename R::Value workOriginOf(StepContext<R> &context, Axis axis) {
   R &reading = context.reading;
   const auto number = static_cast<std::uint32_t>(indexOf(axis));
   auto origin = reading.add(context.state.shift[indexOf(axis)], context.state.local[indexOf(axis)]);
-  if (axis == Axis::Z)
-    origin = reading.add(origin, context.state.lengthOffset);
   const VariableRange *external = findVariable(context.dialect(), kFirstWorkOffset);
   if (external && external->role == VariableRole::WorkOffset)
     origin = reading.add(origin, detail::offsetVariable(context, kFirstWorkOffset + number));

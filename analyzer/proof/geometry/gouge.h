@@ -1,0 +1,52 @@
+// Gouges: where and how deep the tool of a run goes where it must not, in plain numbers.
+#pragma once
+
+#include "meaning/machine/machine.h"
+#include "proof/geometry/shapes.h"
+
+#include <span>
+
+namespace feedhold::geometry {
+
+using PlainShape = Shape<double, bool>;
+
+/// What a contract says of space, for given arguments.
+struct PlainRegion {
+  std::string name;
+  std::vector<PlainShape> parts; // together one region
+};
+struct PlainSpace {
+  std::optional<Tool<double>> tool;
+  std::vector<PlainRegion> keepIn;
+  std::vector<PlainRegion> keepOut;
+  std::optional<double> clearance; // Z
+  std::optional<Box<double>> travel;
+};
+
+enum class SpaceClaim : std::uint8_t {
+  KeepIn,    // cutting moves
+  KeepOut,   // all moves
+  Clearance, // rapid moves
+  Travel,    // all moves; the point alone
+};
+
+struct Gouge {
+  std::size_t move; // index
+  Point<double> at; // the point of the tool
+  double depth;     // by how much the tool is wrong there, above 0
+};
+
+/// Where a run breaks one claim most; `region`: index of keepIn or keepOut.  Rapid moves go straight, and each axis by
+/// itself at any rate of its own: anywhere in the box between the ends.  What a move that is not followed does
+/// (MoveKind::Unfollowed), or one with cutter compensation, is not looked at.
+std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
+                                  std::span<const RecordedMove> moves);
+
+/// How far the tool keeps from what it must not touch, where the run never does; absent: nothing bounds it.
+std::optional<double> smallestMargin(const PlainSpace &space, SpaceClaim claim, std::size_t region,
+                                     std::span<const RecordedMove> moves);
+
+/// Where the point of the tool is at a share of a move, 0..1; rapid moves straight.
+Point<double> pointOf(const RecordedMove &move, double share);
+
+} // namespace feedhold::geometry
