@@ -61,6 +61,7 @@ public:
     checkTool();
     if (usesEveryVariable())
       return;
+    useOfTool();
     for (const EntryValue &param : contract_.params)
       checkRead(param);
     for (const EntryValue &global : contract_.globals)
@@ -154,6 +155,17 @@ private:
                       call.kind == CallKind::External || call.kind == CallKind::Code;
     }
     return false;
+  }
+
+  /// The tool is in the spindle before the call: a macro need not read its radius to depend on it.
+  void useOfTool() {
+    if (!contract_.tool)
+      return;
+    for (const std::optional<ExpressionId> &size : {std::optional(contract_.tool->radius), contract_.tool->corner})
+      if (size)
+        for (const ExpressionId each : subexpressions(reading_.result.tree, *size))
+          if (const std::optional<std::uint32_t> variable = variableNumber(reading_.result.tree, each))
+            read_.insert(*variable);
   }
 
   /// Whether it is for this program alone to use the variable.
