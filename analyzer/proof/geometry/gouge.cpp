@@ -1,14 +1,201 @@
 #include "proof/geometry/gouge.h"
 
+#include "base/support/check.h"
+#include "proof/geometry/gouge_depth.h"
+#include "proof/geometry/gouge_search.h"
+
+#include <algorithm>
+#include <cmath>
+
 namespace feedhold::geometry {
 
-Point<double> pointOf(const RecordedMove &recorded, double share) {
-  Point<double> point;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double start = recorded.move.start[i].number;
-    point[i] = start + share * (recorded.move.end[i].number - start) + recorded.zero[i];
-  }
-  return point;
+namespace {
+
+/// Depths up to here come from rounding: the tool touches.
+constexpr double kTouch = 1e-7;
+/// A later point is named only where it is deeper by more than rounding.
+constexpr double kDeeper = 1e-9;
+
+bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
+bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }
+
+bool isFollowed(const RecordedMove &recorded) {
+  return recorded.isOfTool && recorded.move.kind != MoveKind::Unfollowed && recorded.move.kind != MoveKind::Dwell;
 }
+
+/// Where no tool is known, its point.
+Tool<double> toolOf(const PlainSpace &space) {
+  const Tool<double> tool = space.tool.value_or(Tool<double>{0, 0});
+  return {tool.radius, std::clamp(tool.corner, 0.0, std::max(0.0, tool.radius))};
+}
+
+std::optional<Deepest> outsideOnWay(const PlainRegion &region, const Tool<double> &tool, const GougePath &path,
+                                    double floor) {
+  const Depth depth = [&](const Point<double> &point) { return depthOutside(region, tool, point); };
+  const auto &parts = region.parts;
+  if (!std::all_of(parts.begin(), parts.end(), hasDistances))
+    return deepestOnWay(path, depth, Course::Any, floor);
+  const bool isConvexLine = path.isStraight() && std::all_of(parts.begin(), parts.end(), isConvex);
+  const auto atEnds = [&](const PlainShape &part) {
+    return std::max(depthOutside(part, tool, path.start()), depthOutside(part, tool, path.end()));
+  };
+  if (isConvexLine && parts.size() > 1 &&
+      std::any_of(parts.begin(), parts.end(), [&](const PlainShape &part) { return atEnds(part) <= floor; }))
+    return std::nullopt;
+  if (parts.size() == 1 && std::holds_alternative<Box<double>>(parts.front()))
+    return deepestOnWay(path, depth, Course::SingleAxes, floor);
+  return deepestOnWay(path, depth, isConvexLine && parts.size() == 1 ? Course::RisesToEnds : Course::NoFaster, floor);
+}
+
+/// Axes that each go at a rate of their own may be anywhere in the box between the ends; the tool reaches up without
+/// end, so that it is deepest at the lower end.
+std::optional<Deepest> insideInBox(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
+                                   double floor) {
+  const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
+  Point<double> low = path.start();
+  Point<double> high = path.end();
+  low[2] = high[2] = std::min(low[2], high[2]);
+  const auto place = deepestInRectangle(part, low, high);
+  if (!place)
+    return deepestInRectangle(low, high, depth, hasDistances(part) ? Course::NoFaster : Course::Any, floor);
+  const Point<double> point{(*place)[0], (*place)[1], low[2]};
+  const double there = depth(point);
+  return there > floor ? std::optional(Deepest{point, there}) : std::nullopt;
+}
+
+std::optional<Deepest> insideOnWay(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
+                                   double floor) {
+  const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
+  if (!hasDistances(part))
+    return deepestOnWay(path, depth, Course::Any, floor);
+  const bool isHill = path.isStraight() && isConvex(part);
+  return deepestOnWay(path, depth, isHill ? Course::RisesToOne : Course::NoFaster, floor);
+}
+
+std::optional<Deepest> insideOfRegion(const PlainRegion &region, const Tool<double> &tool, const RecordedMove &recorded,
+                                      double floor) {
+  const GougePath path(recorded);
+  std::optional<Deepest> worst;
+  for (const PlainShape &part : region.parts) {
+    const double least = worst ? worst->depth : floor;
+    const auto found = recorded.move.kind == MoveKind::Rapid ? insideInBox(part, tool, path, least)
+                                                             : insideOnWay(part, tool, path, least);
+    if (found)
+      worst = found;
+  }
+  return worst;
+}
+
+/// Rapid moves below the clearance height are free straight up, and straight down to where a cutting move has been
+/// since X and Y changed last: back into the hole.
+class ClearanceWatch {
+public:
+  explicit ClearanceWatch(double height) : height_(height) {}
+
+  /// How deep a move is too low; absent: it is free wherever it is.
+  std::optional<Deepest> follow(const RecordedMove &recorded) {
+    const GougePath path(recorded);
+    const Point<double> &start = path.start();
+    const Point<double> &end = path.end();
+    if (!hole_ || !isSamePlace(*hole_, start))
+      hole_.reset();
+    const bool isUpright = path.isStraight() && isSamePlace(start, end);
+    std::optional<Deepest> found;
+    if (recorded.move.kind == MoveKind::Rapid)
+      found = isUpright ? depthUpright(start, end) : Deepest{lower(start, end), height_ - lower(start, end)[2]};
+    if (isCutting(recorded.move.kind))
+      hole_ = isUpright ? deeper(lower(start, end)) : end;
+    else if (!isUpright)
+      hole_.reset();
+    return found;
+  }
+  void forget() { hole_.reset(); }
+
+private:
+  static bool isSamePlace(const Point<double> &a, const Point<double> &b) {
+    constexpr double kSame = 1e-9;
+    return std::abs(a[0] - b[0]) <= kSame && std::abs(a[1] - b[1]) <= kSame;
+  }
+  static Point<double> lower(const Point<double> &a, const Point<double> &b) { return a[2] < b[2] ? a : b; }
+  Point<double> deeper(const Point<double> &point) const { return hole_ ? lower(*hole_, point) : point; }
+  std::optional<Deepest> depthUpright(const Point<double> &start, const Point<double> &end) const {
+    if (end[2] >= start[2])
+      return std::nullopt;
+    const double floor = hole_ ? std::min(height_, (*hole_)[2]) : height_;
+    return Deepest{end, floor - end[2]};
+  }
+
+  double height_;
+  std::optional<Point<double>> hole_; // the lowest point cut at the present X Y
+};
+
+/// The deepest point of all moves, above `floor`.
+class Run {
+public:
+  Run(const PlainSpace &space, SpaceClaim claim, std::size_t region, const MoveFilter &filter, double floor)
+      : space_(space), tool_(toolOf(space)), claim_(claim), region_(region), filter_(filter), floor_(floor),
+        clearance_(space.clearance.value_or(0)) {}
+
+  std::optional<Gouge> deepest(std::span<const RecordedMove> moves) {
+    std::optional<Gouge> worst;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      const auto found = depthOf(moves[i], worst ? worst->depth + kDeeper : floor_);
+      if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
+        worst = Gouge{i, found->at, found->depth};
+    }
+    return worst;
+  }
+
+private:
+  std::optional<Deepest> depthOf(const RecordedMove &recorded, double floor) {
+    if (!isFollowed(recorded)) {
+      if (recorded.move.kind != MoveKind::Dwell)
+        clearance_.forget();
+      return std::nullopt;
+    }
+    const auto tooLow =
+        space_.clearance && claim_ == SpaceClaim::Clearance ? clearance_.follow(recorded) : std::nullopt;
+    if (filter_ && !filter_(recorded))
+      return std::nullopt;
+    switch (claim_) {
+    case SpaceClaim::KeepIn:
+      if (!isCutting(recorded.move.kind))
+        return std::nullopt;
+      return outsideOnWay(space_.keepIn[region_], tool_, GougePath(recorded), floor);
+    case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], tool_, recorded, floor);
+    case SpaceClaim::Clearance: return tooLow;
+    case SpaceClaim::Travel: {
+      if (!space_.travel)
+        return std::nullopt;
+      const Depth depth = [&](const Point<double> &point) { return depthOutside(*space_.travel, point); };
+      return deepestOnWay(GougePath(recorded), depth, Course::SingleAxes, floor);
+    }
+    }
+    FEEDHOLD_UNREACHABLE("the switch names every claim");
+  }
+
+  const PlainSpace &space_;
+  Tool<double> tool_;
+  SpaceClaim claim_;
+  std::size_t region_;
+  const MoveFilter &filter_;
+  double floor_;
+  ClearanceWatch clearance_;
+};
+
+} // namespace
+
+std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
+                                  std::span<const RecordedMove> moves, const MoveFilter &filter) {
+  return Run(space, claim, region, filter, kTouch).deepest(moves);
+}
+
+std::optional<double> smallestMargin(const PlainSpace &space, SpaceClaim claim, std::size_t region,
+                                     std::span<const RecordedMove> moves, const MoveFilter &filter) {
+  const auto nearest = Run(space, claim, region, filter, kNoDepth).deepest(moves);
+  return nearest ? std::optional(std::max(0.0, -nearest->depth)) : std::nullopt;
+}
+
+Point<double> pointOf(const RecordedMove &move, double share) { return GougePath(move).at(share); }
 
 } // namespace feedhold::geometry

@@ -36,15 +36,18 @@ struct Gouge {
   double depth;     // by how much the tool is wrong there, above 0
 };
 
+/// Which moves are looked at; empty: all.  What came before them still counts.
+using MoveFilter = std::function<bool(const RecordedMove &)>;
+
 /// Where a run breaks one claim most; `region`: index of keepIn or keepOut.  Rapid moves go straight, and each axis by
 /// itself at any rate of its own: anywhere in the box between the ends.  What a move that is not followed does
 /// (MoveKind::Unfollowed), or one with cutter compensation, is not looked at.
 std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
-                                  std::span<const RecordedMove> moves);
+                                  std::span<const RecordedMove> moves, const MoveFilter &filter = {});
 
 /// How far the tool keeps from what it must not touch, where the run never does; absent: nothing bounds it.
 std::optional<double> smallestMargin(const PlainSpace &space, SpaceClaim claim, std::size_t region,
-                                     std::span<const RecordedMove> moves);
+                                     std::span<const RecordedMove> moves, const MoveFilter &filter = {});
 
 /// Where the point of the tool is at a share of a move, 0..1; rapid moves straight.
 Point<double> pointOf(const RecordedMove &move, double share);

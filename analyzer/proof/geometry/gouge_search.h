@@ -1,0 +1,32 @@
+// GougeSearch: where on a move, or in the box of a rapid one, a depth is largest.  Internal to geometry/.
+#pragma once
+
+#include "proof/geometry/gouge_path.h"
+
+#include <functional>
+
+namespace feedhold::geometry {
+
+using Depth = std::function<double(const Point<double> &)>;
+
+struct Deepest {
+  Point<double> at;
+  double depth;
+};
+
+/// How a depth changes along a straight line or a curve.
+enum class Course : std::uint8_t {
+  RisesToEnds, // convex along lines: the deepest point of a line is an end
+  RisesToOne,  // along a line up to one point, and falls behind it
+  SingleAxes,  // the largest of functions of one coordinate each
+  NoFaster,    // it changes by no more than the length of the way
+  Any,
+};
+
+/// Where it is deeper than `floor`; absent: nowhere that was found.
+std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, Course course, double floor);
+/// In the rectangle between two points, at the Z of `a`.
+std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Depth &depth,
+                                          Course course, double floor);
+
+} // namespace feedhold::geometry
