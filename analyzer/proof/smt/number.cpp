@@ -59,6 +59,15 @@ Number Number::fromTyped(double value) {
   return *typed;
 }
 
+double Number::toDouble() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double near = value_.get_d(); // cut off towards 0
+  const double far = std::nextafter(near, sign() < 0 ? -kInfinity : kInfinity);
+  if (!std::isfinite(far) || value_ == near)
+    return near;
+  return ::abs(value_ - mpq_class(near)) <= ::abs(mpq_class(far) - value_) ? near : far;
+}
+
 std::optional<Rational> Number::toRational() const {
   const mpz_class limit("9223372036854775807");
   if (::abs(value_.get_num()) > limit || value_.get_den() > limit)

@@ -34,8 +34,8 @@ public:
   Number numerator() const { return Number(mpq_class(value_.get_num())); }
   /// Always positive.
   Number denominator() const { return Number(mpq_class(value_.get_den())); }
-  /// The nearest double, or one beside it.
-  double toDouble() const { return value_.get_d(); }
+  /// The nearest double: of a number that was typed, the one that reads so.
+  double toDouble() const;
   /// Absent when it does not fit.
   std::optional<Rational> toRational() const;
   /// `-3/4`, `5`

@@ -29,6 +29,12 @@ TEST(NumberTest, ReadsExactly) {
   EXPECT_EQ(exactSquareRoot(Number(2)), std::nullopt);
 }
 
+TEST(NumberTest, GoesToTheNearestDouble) {
+  for (const double value : {0.1, -0.1, 0.11, 0.7, 12.3, 1e-300, 1e300, 0.0, 5e-324})
+    EXPECT_EQ(Number::fromTyped(value).toDouble(), value);
+  EXPECT_EQ((Number(2) / 3).toDouble(), 2.0 / 3);
+}
+
 TEST_F(Terms, SumsHaveOneForm) {
   EXPECT_EQ(store.add(x, y), store.add(y, x));
   EXPECT_EQ(store.subtract(store.add(x, y), y), x);
