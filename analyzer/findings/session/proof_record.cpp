@@ -109,6 +109,12 @@ void write(Writer &writer, const prove::Witness &witness) {
   }
   writer.number(static_cast<std::uint64_t>(witness.end));
   writer.text(witness.happened);
+  writer.optional(witness.gouge, [&](const prove::GougeAt &gouge) {
+    writer.place(gouge.place);
+    for (const double coordinate : gouge.at)
+      writer.real(coordinate);
+    writer.real(gouge.depth);
+  });
 }
 
 prove::Witness readWitness(Reader &reader) {
@@ -120,6 +126,13 @@ prove::Witness readWitness(Reader &reader) {
   }
   witness.end = reader.upTo(RunEnd::NotModelled);
   witness.happened = reader.text();
+  if (reader.isPresent()) {
+    prove::GougeAt gouge{.place = reader.place(), .at = {}, .depth = 0};
+    for (double &coordinate : gouge.at)
+      coordinate = reader.real();
+    gouge.depth = reader.real();
+    witness.gouge = gouge;
+  }
   return witness;
 }
 
@@ -164,8 +177,8 @@ prove::Guard readGuard(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, exactOnly, bound, witness, effort, evidence,
-               guard] = obligation;
+  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, exactOnly, bound, witness, margin,
+               effort, evidence, guard] = obligation;
   static_cast<void>(evidence);
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
@@ -181,6 +194,7 @@ void write(Writer &writer, const Obligation &obligation) {
   writer.number(exactOnly ? 1 : 0);
   writer.text(bound);
   writer.optional(witness, [&](const prove::Witness &value) { write(writer, value); });
+  writer.optional(margin, [&](double value) { writer.real(value); });
   writer.number(effort);
   writer.optional(guard, [&](const prove::Guard &value) { write(writer, value); });
 }
@@ -202,6 +216,8 @@ Obligation readObligation(Reader &reader) {
   obligation.bound = reader.text();
   if (reader.isPresent())
     obligation.witness = readWitness(reader);
+  if (reader.isPresent())
+    obligation.margin = reader.real();
   obligation.effort = reader.number();
   if (reader.isPresent())
     obligation.guard = readGuard(reader, place);

@@ -126,9 +126,10 @@ private:
     auto ctx = context();
     const ToolPoint<ConcreteReading> point = toolPointOf(ctx, entry_);
     const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits;
+    const Place own = frames_.size() > 1 ? frames_[1].call : here;
     const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
     for (Move<ConcreteValue> &move : moves)
-      result_.moves.push_back({std::move(move), unitInForce(), here, zero, isOfTool});
+      result_.moves.push_back({std::move(move), unitInForce(), here, own, zero, isOfTool});
   }
   LengthUnit unitInForce() {
     const auto ctx = context();

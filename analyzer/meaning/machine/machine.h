@@ -59,6 +59,7 @@ struct RecordedMove {
   Move<ConcreteValue> move;
   LengthUnit unit;
   Place place;
+  Place own; // the same, or the block of the started program that called it
   /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
   std::array<double, 3> zero = {};
   /// Its coordinates are those of the tool (tool_point.h): no cutter compensation is in force, its length and the units

@@ -10,6 +10,8 @@ public:
   explicit GougePath(const RecordedMove &recorded);
 
   bool isStraight() const { return !arc_; }
+  /// Angle of an arc, above 0 from the first axis of its plane to the second; of a line 0.
+  double sweep() const { return arc_ ? arc_->sweep : 0; }
   /// Of the whole curve, or a little more.
   double length() const { return length_; }
   /// Full circles, the last perhaps not full; of a line 1.

@@ -46,9 +46,7 @@ template <typename Number> struct Prism {
   Interval<Number> height = {};
 };
 /// Whether a point is in the region: bool for numbers, a term for terms.
-template <typename Number, typename Truth> struct Condition {
-  std::function<Truth(const Point<Number> &)> holds;
-};
+template <typename Number, typename Truth> struct Condition { std::function<Truth(const Point<Number> &)> holds; };
 
 template <typename Number, typename Truth>
 using Shape = std::variant<Box<Number>, Cylinder<Number>, Sphere<Number>, Prism<Number>, Condition<Number, Truth>>;

@@ -63,6 +63,16 @@ TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &en
       .term;
 }
 
+TermId ContractTerms::conditionAt(ExpressionId expression, const SymbolicState &entry,
+                                  const std::array<TermId, 3> &point) {
+  SymbolicState state = withReserved(entry, entry);
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+    state.variables.set(pointVariable(letterOf(axis)), {reading_.store().no(), point[indexOf(axis)]});
+  return inContract(reading_, programs_, file_, contracts_, state,
+                    [&](auto &context) { return evaluateCondition(context, expression); })
+      .term;
+}
+
 TermId ContractTerms::number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
   return value(expression, withReserved(entry, now)).number;
 }

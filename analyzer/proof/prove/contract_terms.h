@@ -21,6 +21,8 @@ public:
   std::vector<smt::TermId> demandsOfCall(const Contract &contract, const SymbolicState &called);
   /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
   smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+  /// A condition over a point of the space, and the values on entry.
+  smt::TermId conditionAt(ExpressionId expression, const SymbolicState &entry, const std::array<smt::TermId, 3> &point);
   /// A number of the contract over a state, as condition().
   smt::TermId number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
 

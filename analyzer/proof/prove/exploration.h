@@ -1,6 +1,7 @@
 // Exploration: what following all paths of a program brings to light, before anything is proved.
 #pragma once
 
+#include "meaning/semantics/tool_point.h"
 #include "proof/prove/path.h"
 
 #include <functional>
@@ -74,6 +75,17 @@ struct CallInstance {
   SymbolicState state;
 };
 
+/// One way to a movement.
+struct MoveInstance {
+  Place place; // of the block
+  Place own;   // the same, or the block of the started program that called it
+  std::vector<smt::TermId> conditions;
+  Move<SymbolicValue> move;
+  ToolPoint<SymbolicReading> point;
+  SymbolicValue spindleSpeed;
+  smt::TermId column; // before it: Z down to which the tool has cut at this X and Y (free_column.h)
+};
+
 /// Something was taken as anything at all.
 struct Unfollowed {
   std::string_view reason;
@@ -83,6 +95,7 @@ struct Unfollowed {
 
 /// A call that is not followed: the run may stop in it with any alarm, behind any movement, or never come back.
 struct UnfollowedCall {
+  Place own; // of the block of the started program
   std::vector<smt::TermId> conditions; // of the way there
   std::vector<std::size_t> loops;      // that the call is in: their instances
 };
@@ -96,6 +109,7 @@ struct Exploration {
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
   std::vector<CallInstance> calls; // of ExploreOptions::keepCall
+  std::vector<MoveInstance> moves; // of ExploreOptions::moves
   LoopTreatment treatment = LoopTreatment::AnyPass;
   std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
   std::set<Place> heads;      // of EachPass: those that were met
@@ -115,6 +129,9 @@ enum class PathMerging : std::uint8_t { No, Yes };
 /// rounding does: a proof that it breaks has no margin).
 enum class Sums : std::uint8_t { Exact, Rounded };
 
+/// Whether movements are kept.
+enum class KeepMoves : std::uint8_t { No, Yes };
+
 /// What a contract suggests of the loop at a place: terms over the state before any pass.
 using LoopHints = std::function<std::vector<smt::TermId>(Place head, const SymbolicState &state)>;
 
@@ -125,6 +142,7 @@ struct ExploreOptions {
   LoopHints invariants = {}; // tried with those that are guessed
   LoopHints measures = {};   // kept for LoopInstance::measures
   std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
+  KeepMoves moves = KeepMoves::No;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 6'000'000;

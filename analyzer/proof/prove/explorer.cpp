@@ -48,12 +48,15 @@ Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const E
 
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   result_.treatment = options_.loops;
+  entry_ = start;
   Path path{.at = {entry.file, entry.entry},
             .state = start,
             .conditions = {},
             .frames = {{.callee = entry, .call = {entry.file, entry.entry}}},
             .loops = {},
             .moved = store_.no()};
+  if (options_.moves == KeepMoves::Yes)
+    takeMoves(path);
   bool possible = true;
   for (const TermId assumption : options_.assumptions)
     possible = possible && path.assume(store_, assumption);
@@ -252,6 +255,8 @@ bool Explorer::takeChecks(Path &path) {
   }
   if (reading_.moved())
     path.moved = store_.yes();
+  if (options_.moves == KeepMoves::Yes)
+    takeMoves(path);
   reading_.start();
   return true;
 }

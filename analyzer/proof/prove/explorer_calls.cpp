@@ -1,5 +1,6 @@
 // Calls: the programs that a block calls, or that a modal call calls after a movement.
 #include "proof/prove/explorer.h"
+#include "proof/prove/free_column.h"
 
 #include <algorithm>
 #include <set>
@@ -66,7 +67,7 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicRea
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
     giveUp("a call that is not followed may lead back to the program");
   if (purpose_ == Purpose::Record) {
-    UnfollowedCall &call = result_.unfollowedCalls.emplace_back(UnfollowedCall{path.conditions, {}});
+    UnfollowedCall &call = result_.unfollowedCalls.emplace_back(UnfollowedCall{ownPlace(path), path.conditions, {}});
     for (const OpenLoop &loop : path.loops)
       call.loops.push_back(loop.instance);
   }
@@ -131,7 +132,7 @@ std::optional<AlarmKind> Explorer::nestingAlarm(const Path &path, bool macro) co
 std::vector<VariableMap<SymbolicValue>::Entry> Explorer::takeOwnNames(SymbolicState &state) const {
   auto &entries = state.variables.entries();
   const auto isShared = [&](const auto &entry) {
-    return entry.first < kFirstNamedVariable || programs_.isGlobalName(entry.first);
+    return entry.first < kFirstNamedVariable || entry.first == kFreeColumn || programs_.isGlobalName(entry.first);
   };
   const auto own = std::stable_partition(entries.begin(), entries.end(), isShared);
   std::vector<VariableMap<SymbolicValue>::Entry> names(own, entries.end());

@@ -27,11 +27,20 @@ enum class Verdict : std::uint8_t {
 std::string_view nameOf(Verdict verdict);
 std::string_view nameOf(Grade grade);
 
+/// Where a run breaks a claim about space most.
+struct GougeAt {
+  Place place;              // of the block that moves
+  std::array<double, 3> at; // the point of the tool: X, Y, Z in the space of the start (geometry/shapes.h)
+  double depth;             // by how much it is wrong there
+  friend bool operator==(const GougeAt &, const GougeAt &) = default;
+};
+
 /// Inputs on which the machine was seen to break the claim.
 struct Witness {
   GivenVariables variables; // all others are vacant
   RunEnd end;
-  std::string happened; // in shop words: what the run came to
+  std::string happened;               // in shop words: what the run came to
+  std::optional<GougeAt> gouge = {};  // of a claim about space
 };
 
 struct Obligation {
@@ -48,6 +57,7 @@ struct Obligation {
   bool exactOnly = false;              // of Proved: no longer so when sums are off by what doubles round
   std::string bound = {};              // of LoopEnds: the passes at most, `FUP[#21/#22]`; empty: not known
   std::optional<Witness> witness = {}; // of Refuted
+  std::optional<double> margin = {};   // of KeepIn and KeepOut that are proved: how far the tool keeps away at least
   std::uint64_t effort = 0;
   std::vector<Outcome> evidence = {}; // of Proved: each part of the proof
   std::optional<Guard> guard = {};    // of Refuted and Unknown: with what it is proved

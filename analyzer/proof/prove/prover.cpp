@@ -15,7 +15,7 @@ namespace feedhold::prove {
 using smt::TermId;
 
 std::string_view nameOf(ObligationKind kind) {
-  constexpr std::array<std::string_view, 11> kNames = {
+  constexpr std::array<std::string_view, 16> kNames = {
 #define OBLIGATION(kind, name) name,
 #include "proof/prove/obligation_kinds.def"
   };
@@ -73,6 +73,7 @@ void Prover::settleAll() {
   loops();
   programEnds();
   promises();
+  spaces();
   if (contract())
     guarded();
 }
@@ -84,6 +85,7 @@ void Prover::promises() {
   ensures();
   assigns();
   alarmPromises();
+  limits();
 }
 
 /// What rests on a contract that is not what its author meant is not told.
@@ -110,6 +112,7 @@ void Prover::explore() {
     terms_ = std::make_unique<ContractTerms>(reading_, programs_, program_.file, *contracts_);
     terms_->prepare(*contract(), entry_);
     demands_ = terms_->demands(*contract(), entry_);
+    space_ = std::make_unique<SpaceClaims>(store_, *terms_, *contract(), entry_);
   }
   found_ = prove::explore(reading_, programs_, program_, entry_, exploreOptions());
   proof_.unfollowed = found_.unfollowed;
@@ -129,10 +132,10 @@ void Prover::start(WitnessSearch &witnesses) const {
   for (std::size_t group = 0; group < kModalGroups; ++group)
     if (const auto code = numberOf(entry_.codes[group].index))
       options.codes.emplace_back(static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(*code));
+  std::map<Axis, TermId> place;
   for (const Axis axis : kAllAxes)
-    if (const auto place = numberOf(entry_.at(axis).number))
-      options.start[indexOf(axis)] = *place;
-  witnesses.startFrom(std::move(options));
+    place.emplace(axis, entry_.at(axis).number);
+  witnesses.startFrom(std::move(options), std::move(place));
   witnesses.sample();
 }
 
@@ -156,9 +159,16 @@ ExploreOptions Prover::exploreOptions() const {
   };
   if (!contract())
     return options;
-  options.invariants = hintsOf(contract()->invariants, [this](ExpressionId hint, const SymbolicState &state) {
-    return terms_->condition(hint, entry_, state);
-  });
+  options.moves = hasSpaceClause(*contract()) ? KeepMoves::Yes : KeepMoves::No;
+  options.invariants = [this, hints = hintsOf(contract()->invariants,
+                                              [this](ExpressionId hint, const SymbolicState &state) {
+                                                return terms_->condition(hint, entry_, state);
+                                              })](Place head, const SymbolicState &state) {
+    std::vector<TermId> all = hints(head, state);
+    const std::vector<TermId> inSpace = space_->hints(state);
+    all.insert(all.end(), inSpace.begin(), inSpace.end());
+    return all;
+  };
   options.measures = hintsOf(contract()->variants, [this](ExpressionId hint, const SymbolicState &state) {
     return terms_->number(hint, entry_, state);
   });
@@ -257,7 +267,7 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
     obligation.verdict = Verdict::Unknown;
     obligation.effort += outcome.effort;
     if (const smt::Model *model = outcome.counterexample()) {
-      if (auto witness = witnesses_->fromModel(*model, violation)) {
+      if (auto witness = witnesses_->fromModel(withOtherInputs(*model), violation)) {
         obligation.verdict = Verdict::Refuted;
         obligation.witness = std::move(witness);
         break;
@@ -270,6 +280,17 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
       break;
   }
   dropProof(obligation);
+}
+
+/// Inputs of which a question does not speak, as in some call that the contract allows.
+smt::Model Prover::withOtherInputs(smt::Model model) {
+  if (!anyCall_) {
+    const Outcome outcome = discharge(store_, onPath(demands_, store_.no()), options_.budget);
+    const smt::Model *found = outcome.counterexample();
+    anyCall_ = found ? *found : smt::Model();
+  }
+  model.insert(anyCall_->begin(), anyCall_->end());
+  return model;
 }
 
 /// Parts of a proof that did not come about.
@@ -412,11 +433,12 @@ std::optional<Witness> Prover::endlessFromStart(const LoopInstance &loop) {
   const smt::Model *model = outcome.counterexample();
   if (model == nullptr)
     return std::nullopt;
-  auto witness = witnesses_->fromModel(*model, [&](const RunResult &run) -> std::optional<std::string> {
-    if (staysIn(loop, run))
-      return "each pass of the loop leads to another one like it, for ever";
-    return std::nullopt;
-  });
+  auto witness =
+      witnesses_->fromModel(withOtherInputs(*model), [&](const RunResult &run) -> std::optional<std::string> {
+        if (staysIn(loop, run))
+          return "each pass of the loop leads to another one like it, for ever";
+        return std::nullopt;
+      });
   if (witness && witness->end == RunEnd::Fuel && !goesOn(loop, witness->variables))
     return std::nullopt; // made plainer, it may only be long
   return witness;

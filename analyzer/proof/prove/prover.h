@@ -6,6 +6,7 @@
 #include "proof/prove/entails.h"
 #include "proof/prove/guard_candidates.h"
 #include "proof/prove/prove.h"
+#include "proof/prove/space_claims.h"
 #include "proof/prove/termination.h"
 #include "proof/prove/witness.h"
 
@@ -51,6 +52,19 @@ private:
   void guarded();
   void requireEnds(Obligation &obligation);
 
+  // ---- claims about space (prover_space.cpp) ----
+  void spaces();
+  void space(const SpaceRule &rule, Place own, const std::vector<const MoveInstance *> &moves);
+  void decideSpace(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves,
+                   const Violation &violation);
+  bool isProvedFor(Obligation &obligation, const std::vector<smt::TermId> &conditions, const SpaceQuestion &question,
+                   std::optional<smt::Model> *model = nullptr);
+  std::string whyOpen(const std::vector<smt::TermId> &conditions, const SpaceQuestion &question);
+  std::optional<GougeAt> gougeIn(const SpaceRule &rule, Place own, const RunResult &run,
+                                 const GivenVariables &given) const;
+  Violation gouges(const SpaceRule &rule, Place own) const;
+  void limits();
+
   // ---- conditions with which a claim is proved that is not proved without (prover_guard.cpp) ----
   struct OpenClaim {
     Obligation claim;
@@ -79,6 +93,7 @@ private:
   bool staysIn(const LoopInstance &loop, const RunResult &run) const;
   bool isMeantToGoOn(const Wto &wto, NodeId head) const;
   void start(WitnessSearch &witnesses) const;
+  smt::Model withOtherInputs(smt::Model model);
   static void dropProof(Obligation &obligation);
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
@@ -108,8 +123,10 @@ private:
   SymbolicState entry_;
   std::vector<smt::TermId> demands_;
   std::unique_ptr<ContractTerms> terms_;
+  std::unique_ptr<SpaceClaims> space_;
   Exploration found_;
   std::unique_ptr<WitnessSearch> witnesses_;
+  std::optional<smt::Model> anyCall_; // inputs of a call that the contract allows, once asked for
   std::vector<std::pair<const LoopInstance *, Termination>> ends_;
   FactIndex facts_{store_};
   Budget budget_ = options_.budget;

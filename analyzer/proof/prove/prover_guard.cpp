@@ -38,7 +38,12 @@ bool mayBeGuarded(const Obligation &claim) {
   case ObligationKind::ModalPreserved:
   case ObligationKind::Guarded:
   case ObligationKind::CallMeetsContract:
-  case ObligationKind::ContractSatisfiable: return false;
+  case ObligationKind::ContractSatisfiable:
+  case ObligationKind::KeepIn:
+  case ObligationKind::KeepOut:
+  case ObligationKind::Clearance:
+  case ObligationKind::Travel:
+  case ObligationKind::Limit: return false;
   }
   return false;
 }

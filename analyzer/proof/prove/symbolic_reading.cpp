@@ -47,6 +47,7 @@ std::optional<Function> functionOf(FunctionKind kind) {
 
 void SymbolicReading::start() {
   checks_.clear();
+  moves_.clear();
   stopped_ = moved_ = false;
 }
 
@@ -274,6 +275,11 @@ void SymbolicReading::userAlarm(const Value &number, Span place) {
   stopped_ = true;
 }
 
-void SymbolicReading::move(const Move<Value> &move) { moved_ = moved_ || (!stopped_ && move.kind != MoveKind::Dwell); }
+void SymbolicReading::move(const Move<Value> &move) {
+  if (stopped_ || move.kind == MoveKind::Dwell)
+    return;
+  moved_ = true;
+  moves_.push_back(move);
+}
 
 } // namespace feedhold::prove

@@ -76,6 +76,8 @@ public:
   const std::vector<StopCheck> &checks() const { return checks_; }
   /// Whether an axis may have moved in the step.
   bool moved() const { return moved_; }
+  /// The movements of the step, in order.
+  const std::vector<Move<Value>> &moves() const { return moves_; }
   /// Reasons why something was not followed, since they were last taken.
   std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
   /// What is true of the variables that this reading has made.
@@ -172,6 +174,7 @@ private:
   std::optional<std::uint8_t> polarGroup_;
   std::vector<StopCheck> checks_;
   std::vector<std::pair<std::string_view, Span>> notes_;
+  std::vector<Move<Value>> moves_;
   std::vector<smt::TermId> facts_;
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
   std::map<std::string, Value> named_;
@@ -213,7 +216,7 @@ template <typename State, typename Visit> void forEachPart(State &state, Visit &
   all(state.words);
   one(state.lengthOffset);
   for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck,
-                      &state.cycle.dwell, &state.transform.angle})
+                      &state.cycle.dwell, &state.transform.angle, &state.transform.other})
     one(*level);
   for (auto *values : {&state.transform.scale, &state.transform.scaleCentre, &state.transform.mirrorAt})
     all(*values);

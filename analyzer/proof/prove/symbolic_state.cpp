@@ -17,6 +17,7 @@ void noMapping(SymbolicReading &reading, SymbolicState &state) {
   state.transform.mirrorAt.fill(reading.vacant());
   state.transform.angle = reading.number(0);
   state.transform.centre.fill(reading.number(0));
+  state.transform.other = reading.vacant();
   state.transformed = reading.truth(false);
 }
 
@@ -186,6 +187,7 @@ void SymbolicReading::anyMapping(State &state) {
   fillWith(state.transform.mirrorAt, [&] { return anything(); });
   fillWith(state.transform.centre, [&] { return anyNumber(); });
   state.transform.angle = anyNumber();
+  state.transform.other = anything();
   state.transformed = unknownTruth();
 }
 

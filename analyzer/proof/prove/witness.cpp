@@ -51,7 +51,7 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
   WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
-  narrowed.startFrom(start_);
+  narrowed.startFrom(start_, place_);
   narrowed.demands_.push_back(demand);
   for (const Sample &sample : samples_)
     if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
@@ -62,6 +62,11 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
 RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   RunOptions options = start_;
   options.variables = given;
+  const smt::Model model = place_.empty() ? smt::Model() : modelOf(given);
+  for (const auto &[axis, place] : place_)
+    if (const auto value = smt::evaluate(reading_.store(), place, model))
+      if (const auto *number = std::get_if<smt::Number>(&*value))
+        options.start[indexOf(axis)] = number->toDouble();
   return options;
 }
 
@@ -90,7 +95,7 @@ void WitnessSearch::sample() {
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
   int inexact = 0;
   for (const Sample &sample : samples_) {
-    const auto happened = violation.happened(sample.result);
+    const auto happened = violation.happened(sample.result, sample.given);
     if (!happened)
       continue;
     if (isExact(sample.given, sample.result, violation))
@@ -120,7 +125,7 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
   RunOptions options = runOptions(given);
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
-  const auto happened = violation.happened(result);
+  const auto happened = violation.happened(result, given);
   if (!happened || !isExact(given, result, violation))
     return std::nullopt;
   return Witness{given, result.end, *happened};

@@ -5,18 +5,26 @@
 #include "proof/prove/symbolic_reading.h"
 
 #include <functional>
+#include <map>
+#include <type_traits>
 #include <vector>
 
 namespace feedhold::prove {
 
 /// Whether a run breaks a claim.
 struct Violation {
-  template <typename Happened>
-  Violation(Happened says, std::function<bool(const GivenVariables &)> exactly = {})
-      : happened(std::move(says)), breaksExactly(std::move(exactly)) {}
+  using Happened = std::function<std::optional<std::string>(const RunResult &, const GivenVariables &)>;
 
-  /// Says what happened if it may do so.
-  std::function<std::optional<std::string>(const RunResult &)> happened;
+  template <typename Says>
+  Violation(Says says, std::function<bool(const GivenVariables &)> exactly = {}) : breaksExactly(std::move(exactly)) {
+    if constexpr (std::is_invocable_v<Says, const RunResult &>)
+      happened = [says = std::move(says)](const RunResult &run, const GivenVariables &) { return says(run); };
+    else
+      happened = std::move(says);
+  }
+
+  /// Says what happened in the run on these inputs if it may break the claim.
+  Happened happened;
   /// Where the run alone does not tell: whether it does, in exact numbers.
   std::function<bool(const GivenVariables &)> breaksExactly;
 };
@@ -27,8 +35,12 @@ public:
   WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry, std::vector<smt::TermId> demands,
                 std::vector<double> constants);
 
-  /// The codes and the place in which runs start, if not those of power-on.
-  void startFrom(RunOptions start) { start_ = std::move(start); }
+  /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
+  /// one starts at 0.
+  void startFrom(RunOptions start, std::map<Axis, smt::TermId> place) {
+    start_ = std::move(start);
+    place_ = std::move(place);
+  }
   RunOptions runOptions(const GivenVariables &given) const;
   /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
@@ -63,6 +75,7 @@ private:
   std::vector<smt::TermId> demands_;
   std::vector<double> constants_; // that the program and its contract write
   RunOptions start_;
+  std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
 };
 

@@ -33,6 +33,11 @@ std::string_view summaryOf(ObligationKind kind) {
   case ObligationKind::Guarded: return "calls outside of the contract raise an alarm before an axis moves";
   case ObligationKind::CallMeetsContract: return "a call keeps the contract of the program that it calls";
   case ObligationKind::ContractSatisfiable: return "some call satisfies the contract";
+  case ObligationKind::KeepIn: return "cutting moves keep the tool in a region";
+  case ObligationKind::KeepOut: return "no move brings the tool into a region";
+  case ObligationKind::Clearance: return "rapid moves stay above the clearance";
+  case ObligationKind::Travel: return "no move leaves the travel";
+  case ObligationKind::Limit: return "the feed and the speed while cutting are within their limits";
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }

@@ -149,6 +149,19 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
     return isRefuted ? "this call breaks the contract of the program that it calls"
                      : "it is not known whether this call always keeps the contract of the program that it calls";
   case ObligationKind::ContractSatisfiable: return "no call satisfies this contract";
+  case ObligationKind::KeepIn:
+    return isRefuted ? fmt::format("the tool leaves the region of `{}`", obligation.claim)
+                     : fmt::format("it is not known whether the tool always keeps in the region of `{}`",
+                                   obligation.claim);
+  case ObligationKind::KeepOut:
+    return isRefuted ? fmt::format("the tool enters the region of `{}`", obligation.claim)
+                     : fmt::format("it is not known whether the tool always keeps out of the region of `{}`",
+                                   obligation.claim);
+  case ObligationKind::Clearance:
+  case ObligationKind::Travel:
+  case ObligationKind::Limit:
+    return isRefuted ? fmt::format("`{}` is not kept here", obligation.claim)
+                     : fmt::format("it is not known whether `{}` is always kept here", obligation.claim);
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }

@@ -1,0 +1,44 @@
+// Free space: where the point of a tool may be, as formulas over its coordinates.
+//
+// A region and a tool become conditions on one point: a region to keep in shrinks by the tool, one to keep out of grows
+// (the configuration space of Lozano-Perez, "Spatial planning", 1983).  Each formula says no more than what is free: it
+// may leave out some of it, where the exact border would be costly.
+#pragma once
+
+#include "proof/geometry/shapes.h"
+#include "proof/smt/term.h"
+
+#include <string_view>
+
+namespace feedhold::geometry {
+
+using smt::TermId;
+using smt::TermStore;
+using TermShape = Shape<TermId, TermId>;
+using TermPoint = Point<TermId>;
+/// A formula that holds where the point may be.  Each call may make variables of its own: it has to hold for all of
+/// their values.
+using Formula = std::function<TermId(const TermPoint &)>;
+
+struct FreeSpace {
+  std::vector<Formula> convexParts; // convex sets within it: who has corners in one of them has all that lies between
+  Formula all;                      // all of it that is known
+  std::vector<Formula> bounds = {}; // of a convex one: convex sets that it is what they have in common
+
+  bool isConvex() const { return !bounds.empty(); }
+};
+
+/// Sides in which bounds are written, for the point alone.
+FreeSpace inside(TermStore &store, const Box<TermId> &box);
+/// Parts of a region are taken one at a time: a tool that is half in one and half in another is in none.
+FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const std::vector<TermShape> &region);
+FreeSpace outside(TermStore &store, const Tool<TermId> &tool, const TermShape &part);
+
+/// The tool is one, and the part of a region has an inside: without that the formulas mean nothing.
+TermId isTool(TermStore &store, const Tool<TermId> &tool);
+TermId isNotEmpty(TermStore &store, const TermShape &part);
+
+/// A new variable of sort Real; its name starts with `what`.
+TermId freshVariable(TermStore &store, std::string_view what);
+
+} // namespace feedhold::geometry

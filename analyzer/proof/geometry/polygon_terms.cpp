@@ -1,0 +1,127 @@
+#include "proof/geometry/polygon_terms.h"
+
+namespace feedhold::geometry {
+
+using smt::Number;
+using smt::TermId;
+
+PolygonTerms::PolygonTerms(smt::TermStore &store, std::vector<Corner> corners)
+    : store_(store), corners_(std::move(corners)) {}
+
+/// Above 0 where (x, y) is on the inner side of the line; its distance times the length of the side.
+TermId PolygonTerms::cross(std::size_t side, TermId x, TermId y, Turn turn) const {
+  const auto &[ax, ay] = from(side);
+  const auto &[bx, by] = to(side);
+  const TermId left = store_.subtract(store_.multiply(store_.subtract(bx, ax), store_.subtract(y, ay)),
+                                      store_.multiply(store_.subtract(by, ay), store_.subtract(x, ax)));
+  return turn == Turn::Left ? left : store_.negate(left);
+}
+
+TermId PolygonTerms::length(std::size_t side) const {
+  const TermId x = store_.subtract(to(side)[0], from(side)[0]);
+  const TermId y = store_.subtract(to(side)[1], from(side)[1]);
+  const TermId zero = store_.number(Number(0));
+  if (x == zero)
+    return store_.absolute(y);
+  if (y == zero)
+    return store_.absolute(x);
+  return store_.apply(smt::Function::Sqrt, store_.add(store_.multiply(x, x), store_.multiply(y, y)));
+}
+
+TermId PolygonTerms::cornersOnSide(std::size_t side, Turn turn) const {
+  std::vector<TermId> all;
+  for (const auto &[x, y] : corners_)
+    all.push_back(store_.lessOrEqual(store_.number(Number(0)), cross(side, x, y, turn)));
+  return store_.logicalAnd(all);
+}
+
+bool PolygonTerms::mayTurnAt(std::size_t side, Turn turn) const { return cornersOnSide(side, turn) != store_.no(); }
+
+bool PolygonTerms::mayTurn(Turn turn) const {
+  for (std::size_t side = 0; side < corners_.size(); ++side)
+    if (!mayTurnAt(side, turn))
+      return false;
+  return true;
+}
+
+bool PolygonTerms::isKnownConvex() const {
+  const auto turns = [&](Turn turn) {
+    for (std::size_t side = 0; side < corners_.size(); ++side)
+      if (cornersOnSide(side, turn) != store_.yes())
+        return false;
+    return true;
+  };
+  return mayTurn(Turn::Left) != mayTurn(Turn::Right) && (turns(Turn::Left) || turns(Turn::Right));
+}
+
+TermId PolygonTerms::deepIn(const Point &point, Turn turn, TermId distance) const {
+  std::vector<TermId> all;
+  for (std::size_t side = 0; side < corners_.size(); ++side) {
+    all.push_back(cornersOnSide(side, turn));
+    all.push_back(store_.lessOrEqual(store_.multiply(distance, length(side)), cross(side, point[0], point[1], turn)));
+  }
+  return store_.logicalAnd(all);
+}
+
+TermId PolygonTerms::beyond(const Point &point, std::size_t side, Turn turn, TermId distance) const {
+  const TermId span = length(side);
+  const std::array all{
+      cornersOnSide(side, turn), store_.less(store_.number(Number(0)), span),
+      store_.lessOrEqual(cross(side, point[0], point[1], turn), store_.negate(store_.multiply(distance, span)))};
+  return store_.logicalAnd(all);
+}
+
+TermId PolygonTerms::contains(const Point &point) const {
+  TermId odd = store_.no();
+  for (std::size_t side = 0; side < corners_.size(); ++side) {
+    const TermId startAbove = store_.less(point[1], from(side)[1]);
+    const TermId endAbove = store_.less(point[1], to(side)[1]);
+    const TermId zero = store_.number(Number(0));
+    const TermId turn = cross(side, point[0], point[1], Turn::Left);
+    // A side that goes down has its left on the right: the line to the right crosses it when the point is left of it.
+    const TermId down =
+        store_.logicalAnd(store_.logicalAnd(startAbove, store_.logicalNot(endAbove)), store_.less(turn, zero));
+    const TermId up =
+        store_.logicalAnd(store_.logicalAnd(store_.logicalNot(startAbove), endAbove), store_.less(zero, turn));
+    const TermId crosses = store_.logicalOr(down, up);
+    odd = store_.logicalOr(store_.logicalAnd(odd, store_.logicalNot(crosses)),
+                           store_.logicalAnd(store_.logicalNot(odd), crosses));
+  }
+  return odd;
+}
+
+TermId PolygonTerms::keepsFrom(std::size_t side, const Point &point, TermId distance) const {
+  const TermId zero = store_.number(Number(0));
+  const auto squares = [&](TermId x, TermId y) { return store_.add(store_.multiply(x, x), store_.multiply(y, y)); };
+  const TermId ex = store_.subtract(to(side)[0], from(side)[0]);
+  const TermId ey = store_.subtract(to(side)[1], from(side)[1]);
+  const TermId x = store_.subtract(point[0], from(side)[0]);
+  const TermId y = store_.subtract(point[1], from(side)[1]);
+  const TermId along = store_.add(store_.multiply(ex, x), store_.multiply(ey, y));
+  const TermId whole = squares(ex, ey);
+  const TermId across = cross(side, point[0], point[1], Turn::Left);
+  const TermId far = store_.multiply(distance, distance);
+  const TermId beside = store_.lessOrEqual(store_.multiply(far, whole), store_.multiply(across, across));
+  const auto notNear = [&](TermId px, TermId py) { return store_.lessOrEqual(far, squares(px, py)); };
+  const std::array cases{
+      beside, store_.logicalAnd(store_.lessOrEqual(along, zero), notNear(x, y)),
+      store_.logicalAnd(store_.lessOrEqual(whole, along), notNear(store_.subtract(x, ex), store_.subtract(y, ey)))};
+  return store_.logicalOr(cases);
+}
+
+TermId PolygonTerms::keepsFromSides(const Point &point, TermId distance) const {
+  std::vector<TermId> all;
+  for (std::size_t side = 0; side < corners_.size(); ++side)
+    all.push_back(keepsFrom(side, point, distance));
+  return store_.logicalAnd(all);
+}
+
+TermId PolygonTerms::hasArea() const {
+  TermId twice = store_.number(Number(0));
+  for (std::size_t side = 0; side < corners_.size(); ++side)
+    twice = store_.add(twice, store_.subtract(store_.multiply(from(side)[0], to(side)[1]),
+                                              store_.multiply(to(side)[0], from(side)[1])));
+  return store_.notEqual(twice, store_.number(Number(0)));
+}
+
+} // namespace feedhold::geometry

@@ -1,0 +1,168 @@
+#include "proof/geometry/tool_path.h"
+
+namespace feedhold::geometry {
+
+using smt::Number;
+using smt::Sort;
+
+namespace {
+
+std::size_t in(Axis axis) { return indexOf(axis); }
+
+} // namespace
+
+TermId ToolPath::share(PointOnWay &way) {
+  const TermId share = freshVariable(store_, "share of the way");
+  way.conditions.push_back(store_.lessOrEqual(store_.number(Number(0)), share));
+  way.conditions.push_back(store_.lessOrEqual(share, store_.number(Number(1))));
+  return share;
+}
+
+TermId ToolPath::between(PointOnWay &way, TermId start, TermId end) {
+  if (start == end)
+    return start;
+  return store_.add(start, store_.multiply(share(way), store_.subtract(end, start)));
+}
+
+PointOnWay ToolPath::anyPoint() {
+  if (isArc())
+    return pointOfArc();
+  return move_.kind == MoveKind::Rapid ? pointOfBox() : pointOfLine();
+}
+
+PointOnWay ToolPath::pointOfLine() {
+  PointOnWay way{move_.start, {}};
+  const TermId part = move_.start == move_.end ? store_.number(Number(0)) : share(way);
+  for (std::size_t i = 0; i < way.point.size(); ++i)
+    way.point[i] = store_.add(move_.start[i], store_.multiply(part, store_.subtract(move_.end[i], move_.start[i])));
+  return way;
+}
+
+PointOnWay ToolPath::pointOfBox() {
+  PointOnWay way{move_.start, {}};
+  for (std::size_t i = 0; i < way.point.size(); ++i)
+    way.point[i] = between(way, move_.start[i], move_.end[i]);
+  return way;
+}
+
+ToolPath::Spokes ToolPath::spokes() const {
+  const auto from = [&](const TermPoint &point, Axis axis, TermId centre) {
+    return store_.subtract(point[in(axis)], centre);
+  };
+  const auto &[first, second, normal, i, j] = move_.plane;
+  return {from(move_.start, first, move_.firstCentre), from(move_.start, second, move_.secondCentre),
+          from(move_.end, first, move_.firstCentre), from(move_.end, second, move_.secondCentre)};
+}
+
+TermId ToolPath::square(TermId first, TermId second) const {
+  return store_.add(store_.multiply(first, first), store_.multiply(second, second));
+}
+
+/// The point (x, y) from the centre lies between the ends, on the side to which the arc turns.  Where both ends are in
+/// one direction, the arc is a full circle.
+TermId ToolPath::sector(TermId x, TermId y) const {
+  Spokes ends = spokes();
+  if (move_.turns > 1 || (ends.startFirst == ends.endFirst && ends.startSecond == ends.endSecond))
+    return store_.yes();
+  if (move_.kind == MoveKind::ArcClockwise) {
+    std::swap(ends.startFirst, ends.endFirst);
+    std::swap(ends.startSecond, ends.endSecond);
+  }
+  const TermId zero = store_.number(Number(0));
+  const auto cross = [&](TermId ax, TermId ay, TermId bx, TermId by) {
+    return store_.subtract(store_.multiply(ax, by), store_.multiply(ay, bx));
+  };
+  const TermId turn = cross(ends.startFirst, ends.startSecond, ends.endFirst, ends.endSecond);
+  const TermId dot =
+      store_.add(store_.multiply(ends.startFirst, ends.endFirst), store_.multiply(ends.startSecond, ends.endSecond));
+  const TermId behindStart = store_.lessOrEqual(zero, cross(ends.startFirst, ends.startSecond, x, y));
+  const TermId beforeEnd = store_.lessOrEqual(zero, cross(x, y, ends.endFirst, ends.endSecond));
+  const TermId shorter = store_.less(zero, turn);
+  const TermId half = store_.logicalAnd(store_.equal(turn, zero), store_.less(dot, zero));
+  const TermId longer = store_.less(turn, zero);
+  const TermId full = store_.logicalAnd(store_.equal(turn, zero), store_.lessOrEqual(zero, dot));
+  const std::array cases{store_.logicalAnd(shorter, store_.logicalAnd(behindStart, beforeEnd)),
+                         store_.logicalAnd(half, behindStart),
+                         store_.logicalAnd(longer, store_.logicalOr(behindStart, beforeEnd)), full};
+  return store_.logicalOr(cases);
+}
+
+PointOnWay ToolPath::pointOfArc() {
+  PointOnWay way{move_.start, {}};
+  const Spokes ends = spokes();
+  const TermId x = freshVariable(store_, "arc");
+  const TermId y = freshVariable(store_, "arc");
+  const TermId distance = square(x, y);
+  const TermId atStart = square(ends.startFirst, ends.startSecond);
+  const TermId atEnd = square(ends.endFirst, ends.endSecond);
+  const auto within = [&](TermId low, TermId high) {
+    return store_.logicalAnd(store_.lessOrEqual(low, distance), store_.lessOrEqual(distance, high));
+  };
+  way.conditions.push_back(atStart == atEnd ? store_.equal(distance, atStart)
+                                            : store_.logicalOr(within(atStart, atEnd), within(atEnd, atStart)));
+  way.conditions.push_back(sector(x, y));
+  way.point[in(move_.plane.first)] = store_.add(move_.firstCentre, x);
+  way.point[in(move_.plane.second)] = store_.add(move_.secondCentre, y);
+  const std::size_t normal = in(move_.plane.normal);
+  way.point[normal] = between(way, move_.start[normal], move_.end[normal]);
+  return way;
+}
+
+ToolPath::Hull ToolPath::hull() {
+  if (isArc())
+    return arcHull();
+  if (move_.kind == MoveKind::Rapid)
+    return boxHull();
+  return {{move_.start, move_.end}, {}};
+}
+
+ToolPath::Hull ToolPath::boxHull() const {
+  Hull hull{{move_.start}, {}};
+  for (std::size_t i = 0; i < move_.start.size(); ++i) {
+    if (move_.start[i] == move_.end[i])
+      continue;
+    const std::vector<TermPoint> before = hull.corners;
+    for (TermPoint corner : before) {
+      corner[i] = move_.end[i];
+      hull.corners.push_back(corner);
+    }
+  }
+  return hull;
+}
+
+/// The box around the full circle; of an arc whose ends are not as far from the centre, around the larger one.
+ToolPath::Hull ToolPath::arcHull() {
+  const Spokes ends = spokes();
+  const TermId zero = store_.number(Number(0));
+  const auto radiusOf = [&](TermId first, TermId second) {
+    if (first == zero)
+      return store_.absolute(second);
+    return second == zero ? store_.absolute(first) : store_.apply(smt::Function::Sqrt, square(first, second));
+  };
+  const TermId atStart = radiusOf(ends.startFirst, ends.startSecond);
+  const TermId atEnd = radiusOf(ends.endFirst, ends.endSecond);
+  Hull hull;
+  TermId radius = atStart;
+  if (atStart != atEnd) {
+    radius = freshVariable(store_, "radius");
+    hull.conditions.push_back(
+        store_.logicalAnd(store_.lessOrEqual(atStart, radius), store_.lessOrEqual(atEnd, radius)));
+    hull.conditions.push_back(store_.logicalOr(store_.equal(radius, atStart), store_.equal(radius, atEnd)));
+  }
+  const std::size_t normal = in(move_.plane.normal);
+  std::vector<TermId> levels{move_.start[normal]};
+  if (move_.end[normal] != move_.start[normal])
+    levels.push_back(move_.end[normal]);
+  for (const TermId level : levels)
+    for (const TermId x : {radius, store_.negate(radius)})
+      for (const TermId y : {radius, store_.negate(radius)}) {
+        TermPoint corner = move_.start;
+        corner[in(move_.plane.first)] = store_.add(move_.firstCentre, x);
+        corner[in(move_.plane.second)] = store_.add(move_.secondCentre, y);
+        corner[normal] = level;
+        hull.corners.push_back(corner);
+      }
+  return hull;
+}
+
+} // namespace feedhold::geometry

@@ -1,0 +1,64 @@
+// Tool path: the points that a movement may lead through, over terms.
+#pragma once
+
+#include "meaning/semantics/moves.h"
+#include "proof/geometry/free_space.h"
+
+namespace feedhold::geometry {
+
+/// In the space of the start (shapes.h); a movement whose way is known.
+struct TermMove {
+  MoveKind kind;
+  TermPoint start;
+  TermPoint end;
+  Plane plane = kPlaneXY; // of an arc
+  TermId firstCentre = TermId(0);
+  TermId secondCentre = TermId(0);
+  std::uint32_t turns = 1;
+};
+
+/// A point on the way: any one, by new variables that `conditions` keep to the way.
+struct PointOnWay {
+  TermPoint point;
+  std::vector<TermId> conditions;
+};
+
+class ToolPath {
+public:
+  ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::move(move)) {}
+
+  /// Points whose convex hull has all of the way in it.  `conditions` of their variables.
+  struct Hull {
+    std::vector<TermPoint> corners;
+    std::vector<TermId> conditions;
+  };
+  Hull hull();
+  /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever
+  /// rates.  What lies between the ends of a helix along its axis is taken at any turn.
+  PointOnWay anyPoint();
+  /// The hull is the way itself: a convex set has the one if it has the other.
+  bool isHull() const { return !isArc(); }
+
+private:
+  bool isArc() const { return move_.kind == MoveKind::ArcClockwise || move_.kind == MoveKind::ArcCounterclockwise; }
+  Hull boxHull() const;
+  Hull arcHull();
+  PointOnWay pointOfLine();
+  PointOnWay pointOfBox();
+  PointOnWay pointOfArc();
+  TermId share(PointOnWay &way);
+  TermId between(PointOnWay &way, TermId start, TermId end);
+  TermId sector(TermId x, TermId y) const;
+
+  /// From the centre to the ends, in the plane.
+  struct Spokes {
+    TermId startFirst, startSecond, endFirst, endSecond;
+  };
+  Spokes spokes() const;
+  TermId square(TermId first, TermId second) const;
+
+  TermStore &store_;
+  TermMove move_;
+};
+
+} // namespace feedhold::geometry

@@ -1,0 +1,45 @@
+// Movements of a path: what they are, and how deep the tool has been where it stands.
+#include "proof/prove/explorer.h"
+#include "proof/prove/free_column.h"
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+/// The stops of the step have been taken: a control does not begin a block that it refuses.
+void Explorer::takeMoves(Path &path) {
+  const bool isKnown = path.state.variables.find(kFreeColumn) != nullptr; // it may be forgotten with all else
+  if (isKnown && reading_.moves().empty())
+    return;
+  auto context = contextOf(path);
+  const ToolPoint<SymbolicReading> point = toolPointOf(context, entry_);
+  const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]); };
+  const std::vector<Move<SymbolicValue>> moves = reading_.moves();
+  if (!isKnown) {
+    const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
+    path.state.variables.set(kFreeColumn, level(z));
+  }
+  for (const Move<SymbolicValue> &move : moves) {
+    const TermId column = path.state.variables.find(kFreeColumn)->number;
+    if (purpose_ == Purpose::Record)
+      result_.moves.push_back({path.at, ownPlace(path), path.conditions, move, point, path.state.word('S'), column});
+    const TermId lowest = columnBehind(path, move, column, level(move.end[indexOf(Axis::Z)]).number);
+    path.state.variables.set(kFreeColumn, {store_.no(), lowest});
+  }
+}
+
+/// The tool stands at `end`, and has cut down to where it was before if X and Y are the same.
+TermId Explorer::columnBehind(const Path &path, const Move<SymbolicValue> &move, TermId column, TermId end) {
+  const auto stays = [&](Axis axis) { return move.start[indexOf(axis)].number == move.end[indexOf(axis)].number; };
+  const auto holds = [&](TermId condition) { return entails_(reading_.facts(), path.conditions, condition); };
+  const bool isStraight = move.kind == MoveKind::Rapid || move.kind == MoveKind::Feed || move.kind == MoveKind::Probe;
+  if (!isStraight || !stays(Axis::X) || !stays(Axis::Y))
+    return end;
+  if (move.kind == MoveKind::Rapid) // what only a rapid move has gone through was no free space
+    return column;
+  if (column == end || holds(store_.lessOrEqual(column, end)))
+    return column;
+  return holds(store_.lessOrEqual(end, column)) ? end : store_.ite(store_.less(end, column), end, column);
+}
+
+} // namespace feedhold::prove

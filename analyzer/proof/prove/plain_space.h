@@ -1,0 +1,13 @@
+// Plain space: the geometry clauses of a contract in numbers, for given arguments.
+#pragma once
+
+#include "language/contract/contract.h"
+#include "proof/geometry/gouge.h"
+
+namespace feedhold::prove {
+
+/// Regions of one name together, in the order of namesOf (region_shapes.h).
+geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
+                                const RunOptions &run);
+
+} // namespace feedhold::prove

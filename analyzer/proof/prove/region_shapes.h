@@ -1,0 +1,92 @@
+// Region shapes: the geometry clauses of a contract as shapes over whatever its expressions are read to.
+#pragma once
+
+#include "base/support/match.h"
+#include "language/contract/contract.h"
+#include "proof/geometry/shapes.h"
+
+#include <functional>
+
+namespace feedhold::prove {
+
+/// `number` and `holds` read the expressions of the contract: a value on entry, a condition at a point.
+template <typename Number, typename Truth> struct RegionShapes {
+  using Shape = geometry::Shape<Number, Truth>;
+  std::function<Number(ExpressionId)> number;
+  std::function<Truth(ExpressionId, const geometry::Point<Number> &)> holds;
+
+  Shape shape(const Region &region) const {
+    return match(
+        region.shape, [&](const Box &box) -> Shape { return sides(box); },
+        [&](const Cylinder &cylinder) -> Shape {
+          const Axis axis = *axisOf(cylinder.axis);
+          const Axis first = axis == Axis::X ? Axis::Y : Axis::X;
+          const Axis second = axis == Axis::Z ? Axis::Y : Axis::Z;
+          return geometry::Cylinder<Number>{axis,
+                                            {on(cylinder.centre, first), on(cylinder.centre, second)},
+                                            number(cylinder.radius),
+                                            interval(cylinder.along)};
+        },
+        [&](const Sphere &sphere) -> Shape {
+          return geometry::Sphere<Number>{
+              {on(sphere.centre, Axis::X), on(sphere.centre, Axis::Y), on(sphere.centre, Axis::Z)},
+              number(sphere.radius)};
+        },
+        [&](const Polygon &polygon) -> Shape {
+          geometry::Prism<Number> prism{{}, interval(polygon.height)};
+          for (const Polygon::Corner &corner : polygon.corners)
+            prism.corners.push_back({number(corner.x), number(corner.y)});
+          return prism;
+        },
+        [&](const Where &where) -> Shape {
+          return geometry::Condition<Number, Truth>{
+              [holds = holds, condition = where.condition](const geometry::Point<Number> &point) {
+                return holds(condition, point);
+              }};
+        });
+  }
+  geometry::Box<Number> sides(const Box &box) const {
+    geometry::Box<Number> result;
+    for (const AxisRange &side : box.sides)
+      result.sides[indexOf(*axisOf(side.axis))] = interval(side.range);
+    return result;
+  }
+  /// A drill is taken as flat (shapes.h).
+  geometry::Tool<Number> tool(const ContractTool &tool, Number none) const {
+    const Number radius = number(tool.radius);
+    switch (tool.shape) {
+    case ToolShape::Ball: return {radius, radius};
+    case ToolShape::Bull: return {radius, tool.corner ? number(*tool.corner) : none};
+    case ToolShape::Flat:
+    case ToolShape::Drill: return {radius, none};
+    }
+    return {radius, none};
+  }
+
+private:
+  geometry::Interval<Number> interval(const Range &range) const {
+    geometry::Interval<Number> result;
+    if (range.low)
+      result.low = number(*range.low);
+    if (range.high)
+      result.high = number(*range.high);
+    return result;
+  }
+  Number on(const std::vector<AxisValue> &centre, Axis axis) const {
+    for (const AxisValue &value : centre)
+      if (value.axis == letterOf(axis))
+        return number(value.value);
+    return number(centre.front().value); // each axis is there: the reader of contracts sees to it
+  }
+};
+
+/// The names of regions, in the order in which they first stand.
+inline std::vector<std::string> namesOf(const std::vector<Region> &regions) {
+  std::vector<std::string> names;
+  for (const Region &region : regions)
+    if (std::find(names.begin(), names.end(), region.name) == names.end())
+      names.push_back(region.name);
+  return names;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,200 @@
+#include "proof/prove/space_claims.h"
+
+#include "proof/prove/region_shapes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using geometry::FreeSpace;
+using geometry::TermPoint;
+using geometry::TermShape;
+using smt::TermId;
+
+namespace {
+
+bool isCutting(MoveKind kind) {
+  return kind == MoveKind::Feed || kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise;
+}
+
+TermPoint inSpace(smt::TermStore &store, const std::array<SymbolicValue, kAxisCount> &point,
+                  const ToolPoint<SymbolicReading> &tool) {
+  const auto at = [&](std::size_t i) { return store.add(point[i].number, tool.zero[i].number); };
+  return {at(0), at(1), at(2)};
+}
+
+geometry::TermMove termMove(smt::TermStore &store, const MoveInstance &instance) {
+  const Move<SymbolicValue> &move = instance.move;
+  geometry::TermMove result{move.kind, inSpace(store, move.start, instance.point),
+                            inSpace(store, move.end, instance.point), move.plane};
+  if (move.kind != MoveKind::ArcClockwise && move.kind != MoveKind::ArcCounterclockwise)
+    return result;
+  const auto zero = [&](Axis axis) { return instance.point.zero[indexOf(axis)].number; };
+  result.firstCentre = store.add(move.firstCentre.number, zero(move.plane.first));
+  result.secondCentre = store.add(move.secondCentre.number, zero(move.plane.second));
+  result.turns = move.turns;
+  return result;
+}
+
+} // namespace
+
+bool hasSpaceClause(const Contract &contract) {
+  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel ||
+         !contract.limits.empty();
+}
+
+SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
+                         const SymbolicState &entry)
+    : store_(store), terms_(terms), contract_(contract), entry_(entry) {
+  addRegions(contract.keepIn, ObligationKind::KeepIn);
+  addRegions(contract.keepOut, ObligationKind::KeepOut);
+  const auto number = [&](ExpressionId expression) { return terms_.number(expression, entry_, entry_); };
+  if (contract.clearance)
+    rules_.push_back({.kind = ObligationKind::Clearance,
+                      .clause = contract.clearance->clause,
+                      .height = number(contract.clearance->height.value)});
+  if (contract.travel) {
+    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(contract.travel->box);
+    rules_.push_back({.kind = ObligationKind::Travel,
+                      .clause = contract.travel->clause,
+                      .spaces = {geometry::inside(store_, box)},
+                      .isSound = geometry::isNotEmpty(store_, TermShape(box))});
+  }
+}
+
+void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind kind) {
+  const RegionShapes<TermId, TermId> shapes{
+      [this](ExpressionId expression) { return terms_.number(expression, entry_, entry_); },
+      [this](ExpressionId condition, const TermPoint &point) { return terms_.conditionAt(condition, entry_, point); }};
+  const std::vector<std::string> names = namesOf(regions);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    SpaceRule rule{.kind = kind, .clause = regions.front().clause, .region = i, .name = names[i]};
+    std::vector<TermShape> parts;
+    for (const Region &region : regions)
+      if (region.name == names[i]) {
+        if (parts.empty())
+          rule.clause = region.clause;
+        parts.push_back(shapes.shape(region));
+      }
+    if (!contract_.tool) {
+      rule.missing = "the contract does not say what the tool is: `@TOOL FLAT RADIUS #7`, for instance, would";
+      rules_.push_back(std::move(rule));
+      continue;
+    }
+    const geometry::Tool<TermId> tool = shapes.tool(*contract_.tool, store_.number(smt::Number(0)));
+    rule.isSound = geometry::isTool(store_, tool);
+    for (const TermShape &part : parts)
+      rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
+    if (kind == ObligationKind::KeepIn)
+      rule.spaces.push_back(geometry::inside(store_, tool, parts));
+    else
+      for (const TermShape &part : parts)
+        rule.spaces.push_back(geometry::outside(store_, tool, part));
+    rules_.push_back(std::move(rule));
+  }
+}
+
+bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
+  const MoveKind kind = instance.move.kind;
+  if (kind == MoveKind::Unfollowed)
+    return true;
+  if (rule.kind == ObligationKind::KeepIn || rule.kind == ObligationKind::Limit)
+    return isCutting(kind);
+  return rule.kind != ObligationKind::Clearance || kind == MoveKind::Rapid;
+}
+
+std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
+  if (instance.move.kind == MoveKind::Unfollowed)
+    return "the way of this movement is not known: its code is not followed, or `@MODAL` has to say which of G00, G01, "
+           "G02 and which plane is in force at the start";
+  for (const Axis axis : kAllAxes)
+    if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
+      return fmt::format("axis {} moves, and regions are those of X, Y and Z alone", letterOf(axis));
+  return std::nullopt;
+}
+
+std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRule &rule,
+                                                                  const MoveInstance &instance) const {
+  std::vector<std::pair<TermId, std::string>> premises;
+  if (rule.kind != ObligationKind::Travel)
+    premises.emplace_back(instance.point.withoutCompensation.term,
+                          "cutter compensation (G41, G42) may be in force, and the path that it makes is not followed; "
+                          "`@MODAL G40` says that there is none at the start");
+  premises.emplace_back(instance.point.lengthKnown.term,
+                        "the tool length has been taken away (G49): how high the tip is, is not known");
+  premises.emplace_back(instance.point.sameUnits.term, "the units change in the program (G20, G21)");
+  return premises;
+}
+
+std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
+  if (rule.kind == ObligationKind::Clearance)
+    return {clearanceOf(rule, instance)};
+  geometry::ToolPath path(store_, termMove(store_, instance));
+  std::vector<SpaceQuestion> questions;
+  const geometry::ToolPath::Hull hull = path.hull();
+  const auto ask = [&](const std::vector<geometry::Formula> &convexParts, const geometry::Formula &all, bool isAll) {
+    SpaceQuestion question;
+    std::vector<TermId> cases;
+    for (const geometry::Formula &part : convexParts) {
+      std::vector<TermId> corners;
+      for (const TermPoint &corner : hull.corners)
+        corners.push_back(part(corner));
+      cases.push_back(store_.logicalAnd(corners));
+    }
+    if (!cases.empty())
+      question.ways.push_back({hull.conditions, store_.logicalOr(cases)});
+    if (!isAll || !path.isHull()) {
+      const geometry::PointOnWay any = path.anyPoint();
+      question.ways.push_back({any.conditions, all(any.point)});
+    }
+    questions.push_back(std::move(question));
+  };
+  for (const FreeSpace &space : rule.spaces)
+    if (space.isConvex())
+      for (const geometry::Formula &bound : space.bounds)
+        ask({bound}, bound, true);
+    else
+      ask(space.convexParts, space.all, false);
+  return questions;
+}
+
+/// Not below the height; or straight up, or straight down to where the tool has been.
+SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance &instance) const {
+  const TermPoint start = inSpace(store_, instance.move.start, instance.point);
+  const TermPoint end = inSpace(store_, instance.move.end, instance.point);
+  const TermId above =
+      store_.logicalAnd(store_.lessOrEqual(*rule.height, start[2]), store_.lessOrEqual(*rule.height, end[2]));
+  const TermId cleared =
+      store_.logicalOr(store_.lessOrEqual(start[2], end[2]), store_.lessOrEqual(instance.column, end[2]));
+  const std::array vertical{store_.equal(start[0], end[0]), store_.equal(start[1], end[1]), cleared};
+  return {{{{}, store_.logicalOr(above, store_.logicalAnd(vertical))}}};
+}
+
+TermId SpaceClaims::keepsLimit(const WordLimit &limit, const MoveInstance &instance) const {
+  const SymbolicValue &word = limit.address == 'F' ? instance.move.feed : instance.spindleSpeed;
+  TermId kept = store_.logicalNot(word.vacant);
+  if (limit.range.low)
+    kept = store_.logicalAnd(kept, store_.lessOrEqual(terms_.number(*limit.range.low, entry_, entry_), word.number));
+  if (limit.range.high)
+    kept = store_.logicalAnd(kept, store_.lessOrEqual(word.number, terms_.number(*limit.range.high, entry_, entry_)));
+  return kept;
+}
+
+std::vector<TermId> SpaceClaims::hints(const SymbolicState &state) const {
+  const TermPoint point{state.at(Axis::X).number, state.at(Axis::Y).number, state.at(Axis::Z).number};
+  std::vector<TermId> hints;
+  for (const SpaceRule &rule : rules_)
+    for (const FreeSpace &space : rule.spaces)
+      for (const geometry::Formula &bound : space.bounds) {
+        const TermId holds = bound(point);
+        const smt::Term &term = store_[holds];
+        if (term.kind == smt::TermKind::And)
+          hints.insert(hints.end(), term.arguments.begin(), term.arguments.end());
+        else
+          hints.push_back(holds);
+      }
+  return hints;
+}
+
+} // namespace feedhold::prove
