@@ -20,6 +20,7 @@ struct Command {
 
 Command addCheckCommand(CLI::App &parent);
 Command addRunCommand(CLI::App &parent);
+Command addPlotCommand(CLI::App &parent);
 Command addExplainCommand(CLI::App &parent);
 Command addRulesCommand(CLI::App &parent);
 Command addDialectsCommand(CLI::App &parent);

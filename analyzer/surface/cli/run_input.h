@@ -1,0 +1,41 @@
+// RunInput: what sub-commands that execute a program are told on the command line.
+#pragma once
+
+#include "findings/session/programs.h"
+#include "meaning/machine/machine.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+struct RunInput {
+  std::string path;
+  std::string program;
+  std::vector<std::string> arguments;
+  std::vector<std::string> variables;
+  std::vector<std::string> start;
+  std::uint64_t fuel = RunOptions{}.fuel;
+  std::string dialect;
+  std::string config;
+  bool isolated = false;
+  bool blockSkip = false;
+};
+
+/// The options `--arg` and so on, and the file.
+void addRunInput(CLI::App &app, RunInput &input);
+
+struct PreparedRun {
+  std::unique_ptr<const LoadedPrograms> programs;
+  Callee start;
+  RunOptions options;
+};
+Result<PreparedRun> prepareRun(const RunInput &input);
+
+/// The program has come to an end of its own.
+bool hasEnded(RunEnd end);
+
+} // namespace feedhold
