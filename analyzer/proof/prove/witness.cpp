@@ -11,6 +11,7 @@ namespace feedhold::prove {
 namespace {
 
 constexpr int kSamples = 150;
+constexpr std::size_t kFewSamples = 30;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
 
@@ -52,6 +53,7 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
   WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
   narrowed.startFrom(start_, place_);
+  narrowed.others_ = others_;
   narrowed.demands_.push_back(demand);
   for (const Sample &sample : samples_)
     if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
@@ -70,12 +72,17 @@ RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   return options;
 }
 
-void WitnessSearch::sample() {
-  std::vector<double> pool{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
+std::vector<double> WitnessSearch::plainNumbers() const {
+  std::vector<double> plain{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
   for (const double constant : constants_)
-    pool.insert(pool.end(), {constant, constant + 1, constant - 1, 0.0 - constant}); // no -0
+    plain.insert(plain.end(), {constant, constant + 1, constant - 1, 0.0 - constant}); // no -0
+  return plain;
+}
+
+void WitnessSearch::sample() {
+  const std::vector<double> pool = plainNumbers();
   std::mt19937 random(1);
-  std::vector<std::uint32_t> names = inputs();
+  const std::vector<std::uint32_t> names = inputs();
   for (int i = 0; i < kSamples; ++i) {
     GivenVariables given;
     for (const std::uint32_t variable : names) {
@@ -83,13 +90,41 @@ void WitnessSearch::sample() {
       if (i > 0 && choice < pool.size())
         given.set(variable, ConcreteValue::of(pool[choice]));
     }
-    if (!allowed(given))
-      continue;
-    RunOptions options = runOptions(given);
-    options.fuel = kSampleFuel;
-    RunResult result = run(programs_, entry_, options);
-    samples_.push_back({std::move(given), std::move(result)});
+    keepSample(std::move(given));
   }
+}
+
+void WitnessSearch::sampleAround(const smt::Model &allowed) {
+  others_ = allowed;
+  const std::vector<std::uint32_t> names = inputs();
+  if (samples_.size() >= kFewSamples || names.empty())
+    return;
+  const std::vector<double> pool = plainNumbers();
+  std::mt19937 random(1);
+  GivenVariables given = inputsOf(allowed);
+  keepSample(given);
+  for (int i = 0; i < kSamples; ++i) {
+    GivenVariables other = given;
+    const std::uint32_t variable = names[random() % names.size()];
+    const auto choice = random() % (pool.size() + pool.size() / 4 + 1);
+    if (choice < pool.size())
+      other.set(variable, ConcreteValue::of(pool[choice]));
+    else
+      other.erase(variable);
+    if (!this->allowed(other))
+      continue;
+    keepSample(other);
+    given = std::move(other);
+  }
+}
+
+void WitnessSearch::keepSample(GivenVariables given) {
+  if (!allowed(given))
+    return;
+  RunOptions options = runOptions(given);
+  options.fuel = kSampleFuel;
+  RunResult result = run(programs_, entry_, options);
+  samples_.push_back({std::move(given), std::move(result)});
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
@@ -131,8 +166,8 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
   return Witness{given, result.end, *happened};
 }
 
-std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
-                                                std::uint64_t fuel) {
+/// An input without a number, or with one beyond all doubles, is left out.
+GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
   const smt::TermStore &store = reading_.store();
   GivenVariables given;
   for (const auto &[variable, value] : reading_.entryValues()) {
@@ -141,16 +176,20 @@ std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const V
         store[value.vacant].kind == smt::TermKind::Variable ? model.find(store[value.vacant].name) : model.end();
     if (vacant != model.end() && std::get<bool>(vacant->second))
       continue;
-    if (number != model.end()) {
-      const double nearest = std::get<smt::Number>(number->second).toDouble();
-      if (!std::isfinite(nearest))
-        return std::nullopt;
+    const double nearest = number == model.end() ? 0 : std::get<smt::Number>(number->second).toDouble();
+    if (number != model.end() && std::isfinite(nearest))
       given.set(variable, ConcreteValue::of(nearest));
-    } else if (vacant != model.end()) {
+    else if (vacant != model.end())
       given.set(variable, ConcreteValue::of(0));
-    }
   }
-  const auto found = tried(given, violation, fuel);
+  return given;
+}
+
+std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
+                                                std::uint64_t fuel) {
+  smt::Model whole = model;
+  whole.insert(others_.begin(), others_.end());
+  const auto found = tried(inputsOf(whole), violation, fuel);
   return found ? std::optional(plainest(*found, violation, fuel)) : std::nullopt;
 }
 

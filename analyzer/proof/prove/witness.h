@@ -44,6 +44,9 @@ public:
   RunOptions runOptions(const GivenVariables &given) const;
   /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
+  /// Where plain numbers seldom satisfy what they have to: the same, around inputs that do.  A model that names some
+  /// inputs is completed by these.
+  void sampleAround(const smt::Model &allowed);
   /// Among the sampled runs.
   std::optional<Witness> amongSamples(const Violation &violation);
   /// The inputs that a model of the solver names, then made as plain as they can be.
@@ -65,6 +68,9 @@ public:
 
 private:
   std::vector<std::uint32_t> inputs() const;
+  std::vector<double> plainNumbers() const;
+  GivenVariables inputsOf(const smt::Model &model) const;
+  void keepSample(GivenVariables given);
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
@@ -77,6 +83,7 @@ private:
   RunOptions start_;
   std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
+  smt::Model others_; // inputs that satisfy what they have to
 };
 
 } // namespace feedhold::prove
