@@ -89,4 +89,23 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   return space;
 }
 
+RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run) {
+  const Contract *contract = contracts.of(program.program);
+  if (contract == nullptr)
+    return run;
+  const Dialect &dialect = *programs.file(program.file).dialect;
+  const ModalTable modes(dialect);
+  for (const ModalCode &code : contract->modal) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    if (const auto index = row ? modes.indexOf(*row) : std::nullopt)
+      run.codes.emplace_back(row->group, *index);
+  }
+  ContractNumbers numbers(programs, program, contracts, run);
+  if (contract->start)
+    for (const AxisValue &axis : contract->start->axes)
+      if (const auto known = axisOf(axis.axis))
+        run.start[indexOf(*known)] = numbers.number(axis.value);
+  return run;
+}
+
 } // namespace feedhold::prove

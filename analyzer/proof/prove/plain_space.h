@@ -10,4 +10,7 @@ namespace feedhold::prove {
 geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
                                 const RunOptions &run);
 
+/// The same run, started as the contract says: with its modal codes, and where it says.
+RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run);
+
 } // namespace feedhold::prove

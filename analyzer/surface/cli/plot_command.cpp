@@ -50,11 +50,21 @@ std::string startedProgram(const PreparedRun &prepared) {
   return toString(prepared.programs->set->file(prepared.start.file).model->programs[prepared.start.program].name);
 }
 
+/// Codes and the place; `--start` has the last word on the place.
+void startAsContractSays(PreparedRun &ready, const RunInput &input) {
+  const std::array place = ready.options.start;
+  ready.options = prove::startedAsSaid(*ready.programs->set, ready.start,
+                                       ready.programs->file(ready.start.file).contracts, std::move(ready.options));
+  if (!input.start.empty())
+    ready.options.start = place;
+}
+
 Result<PlottedProgram> plotted(const RunInput &input) {
   auto prepared = prepareRun(input);
   if (!prepared)
     return prepared.error();
   PreparedRun ready = prepared.take();
+  startAsContractSays(ready, input);
   const std::string name = startedProgram(ready);
   RunResult result = run(*ready.programs->set, ready.start, ready.options);
   const std::string values = fmt::format("{}", fmt::join(input.arguments, " "));
@@ -115,10 +125,31 @@ std::vector<std::string> notesOf(const PlottedProgram &plotted) {
   return notes;
 }
 
+/// What the contract asks for and the run does not have: without it there are no regions.
+std::vector<std::string> missingArguments(const PreparedRun &prepared) {
+  std::vector<std::string> missing;
+  const LoadedPrograms &programs = *prepared.programs;
+  const Contract *contract = programs.file(prepared.start.file).contracts.of(prepared.start.program);
+  if (contract == nullptr)
+    return missing;
+  for (const auto *values : {&contract->params, &contract->globals})
+    for (const EntryValue &value : *values)
+      if (value.vacancy == Vacancy::Never && !prepared.options.variables.find(value.variable))
+        missing.push_back(programs.set->nameOfVariable(value.variable));
+  return missing;
+}
+
 geometry::PlainSpace spaceOf(const PreparedRun &prepared) {
   const LoadedPrograms &programs = *prepared.programs;
   return prove::plainSpace(*programs.set, prepared.start, programs.file(prepared.start.file).contracts,
                            prepared.options);
+}
+
+/// The legend tells the rest.
+std::string titleOf(const PlottedProgram &first, const PlottedProgram &second) {
+  const std::string one = startedProgram(first.prepared);
+  const std::string other = startedProgram(second.prepared);
+  return one == other ? one + ", two runs" : fmt::format("{} and {}", one, other);
 }
 
 struct DrawnPlot {
@@ -128,7 +159,7 @@ struct DrawnPlot {
 };
 
 DrawnPlot drawn(const PlottedProgram &first, const std::optional<PlottedProgram> &second) {
-  Picture picture{.title = second ? fmt::format("{} and {}", first.name, second->name) : first.name, .runs = {}};
+  Picture picture{.title = second ? titleOf(first, *second) : first.name, .runs = {}};
   for (const PlottedProgram *program : {&first, second ? &*second : nullptr}) {
     if (!program)
       continue;
@@ -137,7 +168,11 @@ DrawnPlot drawn(const PlottedProgram &first, const std::optional<PlottedProgram>
     for (std::string &note : notesOf(*program))
       picture.notes.push_back(std::move(note));
   }
-  picture.space = spaceOf(first.prepared);
+  if (const auto missing = missingArguments(first.prepared); !missing.empty())
+    picture.notes.push_back(
+        fmt::format("without the space of the contract, which asks for {}", fmt::join(missing, " ")));
+  else
+    picture.space = spaceOf(first.prepared);
   DrawnPlot plot{"", picture.notes, hasEnded(first.result.end) ? kExitClean : kExitFindings};
   const std::vector<PlottedGouge> gouges = gougesOf(first, picture.space);
   for (const PlottedGouge &gouge : gouges) {
@@ -152,6 +187,18 @@ DrawnPlot drawn(const PlottedProgram &first, const std::optional<PlottedProgram>
   return plot;
 }
 
+/// In the place of the one of its letter.
+void setArgument(std::vector<std::string> &arguments, const std::string &argument) {
+  const std::string letter = argument.substr(0, argument.find('=') + 1);
+  const auto same = std::find_if(arguments.begin(), arguments.end(), [&](const std::string &given) {
+    return !letter.empty() && given.starts_with(letter);
+  });
+  if (same == arguments.end())
+    arguments.push_back(argument);
+  else
+    *same = argument;
+}
+
 Result<int> plot(const PlotArguments &arguments) {
   const auto first = plotted(arguments.input);
   if (!first)
@@ -162,7 +209,7 @@ Result<int> plot(const PlotArguments &arguments) {
     if (!arguments.compare.empty())
       input.path = arguments.compare;
     for (const std::string &argument : arguments.compareArguments)
-      input.arguments.push_back(argument);
+      setArgument(input.arguments, argument);
     auto other = plotted(input);
     if (!other)
       return other.error();

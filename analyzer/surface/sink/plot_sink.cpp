@@ -150,8 +150,14 @@ private:
   // ---- text above ----
 
   void line(std::string_view style, std::string_view text) {
-    bottom_ += kLine;
-    body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", style, px(kLeft), px(bottom_), xml(text));
+    constexpr std::size_t kMost = 100; // characters of a line
+    while (!text.empty()) {
+      const std::size_t blank = text.size() > kMost ? text.rfind(' ', kMost) : std::string_view::npos;
+      bottom_ += kLine;
+      body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", style, px(kLeft), px(bottom_),
+                           xml(text.substr(0, blank)));
+      text.remove_prefix(blank == std::string_view::npos ? text.size() : blank + 1);
+    }
   }
   void writeHead() {
     bottom_ = 8;
