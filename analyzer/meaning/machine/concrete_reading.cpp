@@ -96,6 +96,8 @@ ConcreteValue ConcreteReading::floor(const Value &a) const { return Value::of(st
 ConcreteValue ConcreteReading::ceiling(const Value &a) const { return Value::of(std::ceil(a.number)); }
 
 ConcreteValue ConcreteReading::roundTo(const Value &value, Decimal step) const {
+  if (rounding_ == WordRounding::None && step.scale() != 0) // whole numbers are asked for by name
+    return asNumber(value);
   const double size = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
   const double steps = value.number * size;
   if (!(std::fabs(steps) < kLargestInteger))

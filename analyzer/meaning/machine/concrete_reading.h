@@ -25,6 +25,9 @@ struct MachineNote {
   BlockId block;
 };
 
+/// Words are rounded to the least increment, as a control does; or taken as they are written.
+enum class WordRounding : std::uint8_t { Increment, None };
+
 class ConcreteReading {
 public:
   using Value = ConcreteValue;
@@ -34,7 +37,8 @@ public:
   static constexpr ModalCode kNoCode = 0xff;
   using State = MachineState<ConcreteReading>;
 
-  ConcreteReading(const Dialect &dialect, GivenVariables given) : dialect_(&dialect), given_(std::move(given)) {}
+  ConcreteReading(const Dialect &dialect, GivenVariables given, WordRounding rounding = WordRounding::Increment)
+      : dialect_(&dialect), given_(std::move(given)), rounding_(rounding) {}
 
   // ---- what happened, for the machine ----
   enum class Stop : std::uint8_t { None, ControlAlarm, UserAlarm };
@@ -129,6 +133,7 @@ public:
 private:
   const Dialect *dialect_;
   GivenVariables given_;
+  WordRounding rounding_;
   Stopped stopped_;
   std::vector<Move<Value>> moves_;
   std::vector<std::string_view> notes_;

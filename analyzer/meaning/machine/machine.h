@@ -29,6 +29,7 @@ struct RunOptions {
   std::uint64_t fuel = 10'000'000;   // instructions
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
+  WordRounding words = WordRounding::Increment;
   /// Called before each instruction; null: nobody looks on.
   std::function<void(const RunMoment &)> trace = nullptr;
 };

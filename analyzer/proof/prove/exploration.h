@@ -83,7 +83,7 @@ struct MoveInstance {
   Move<SymbolicValue> move;
   ToolPoint<SymbolicReading> point;
   SymbolicValue spindleSpeed;
-  smt::TermId column; // before it: Z down to which the tool has cut at this X and Y (free_column.h)
+  smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (free_column.h)
 };
 
 /// Something was taken as anything at all.
@@ -129,8 +129,8 @@ enum class PathMerging : std::uint8_t { No, Yes };
 /// rounding does: a proof that it breaks has no margin).
 enum class Sums : std::uint8_t { Exact, Rounded };
 
-/// Whether movements are kept.
-enum class KeepMoves : std::uint8_t { No, Yes };
+/// Whether movements are kept, and how deep the tool has cut where it stands.
+enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };
 
 /// What a contract suggests of the loop at a place: terms over the state before any pass.
 using LoopHints = std::function<std::vector<smt::TermId>(Place head, const SymbolicState &state)>;

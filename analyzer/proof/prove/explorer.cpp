@@ -55,7 +55,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
             .frames = {{.callee = entry, .call = {entry.file, entry.entry}}},
             .loops = {},
             .moved = store_.no()};
-  if (options_.moves == KeepMoves::Yes)
+  if (options_.moves != KeepMoves::No)
     takeMoves(path);
   bool possible = true;
   for (const TermId assumption : options_.assumptions)
@@ -255,7 +255,7 @@ bool Explorer::takeChecks(Path &path) {
   }
   if (reading_.moved())
     path.moved = store_.yes();
-  if (options_.moves == KeepMoves::Yes)
+  if (options_.moves != KeepMoves::No)
     takeMoves(path);
   reading_.start();
   return true;

@@ -8,24 +8,25 @@ using smt::TermId;
 
 /// The stops of the step have been taken: a control does not begin a block that it refuses.
 void Explorer::takeMoves(Path &path) {
-  const bool isKnown = path.state.variables.find(kFreeColumn) != nullptr; // it may be forgotten with all else
-  if (isKnown && reading_.moves().empty())
+  const bool withColumn = options_.moves == KeepMoves::WithColumn;
+  const bool isMissing = withColumn && !path.state.variables.find(kFreeColumn); // forgotten with all else
+  if (reading_.moves().empty() && !isMissing)
     return;
   auto context = contextOf(path);
   const ToolPoint<SymbolicReading> point = toolPointOf(context, entry_);
-  const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]); };
+  const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]).number; };
   const std::vector<Move<SymbolicValue>> moves = reading_.moves();
-  if (!isKnown) {
-    const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
-    path.state.variables.set(kFreeColumn, level(z));
-  }
+  const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
+  TermId column = withColumn && !isMissing ? path.state.variables.find(kFreeColumn)->number : level(z);
   for (const Move<SymbolicValue> &move : moves) {
-    const TermId column = path.state.variables.find(kFreeColumn)->number;
     if (purpose_ == Purpose::Record)
-      result_.moves.push_back({path.at, ownPlace(path), path.conditions, move, point, path.state.word('S'), column});
-    const TermId lowest = columnBehind(path, move, column, level(move.end[indexOf(Axis::Z)]).number);
-    path.state.variables.set(kFreeColumn, {store_.no(), lowest});
+      result_.moves.push_back(
+          {path.at, ownPlace(path), path.conditions, move, point, path.state.word('S'), column});
+    if (withColumn)
+      column = columnBehind(path, move, column, level(move.end[indexOf(Axis::Z)]));
   }
+  if (withColumn)
+    path.state.variables.set(kFreeColumn, {store_.no(), column});
 }
 
 /// The tool stands at `end`, and has cut down to where it was before if X and Y are the same.

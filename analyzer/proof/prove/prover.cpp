@@ -121,6 +121,11 @@ void Prover::explore() {
     return;
   witnesses_ = std::make_unique<WitnessSearch>(reading_, programs_, program_, demands_, constants());
   start(*witnesses_);
+  if (!contract())
+    return;
+  anyCall_ = discharge(store_, onPath(demands_, store_.no()), options_.budget);
+  if (const smt::Model *model = anyCall_->counterexample())
+    witnesses_->sampleAround(*model);
 }
 
 /// The machine starts with the codes and at the place that the contract says.
@@ -159,11 +164,13 @@ ExploreOptions Prover::exploreOptions() const {
   };
   if (!contract())
     return options;
-  options.moves = hasSpaceClause(*contract()) ? KeepMoves::Yes : KeepMoves::No;
-  options.invariants = [this, hints = hintsOf(contract()->invariants,
-                                              [this](ExpressionId hint, const SymbolicState &state) {
-                                                return terms_->condition(hint, entry_, state);
-                                              })](Place head, const SymbolicState &state) {
+  options.moves = contract()->clearance         ? KeepMoves::WithColumn
+                  : hasSpaceClause(*contract()) ? KeepMoves::Yes
+                                                : KeepMoves::No;
+  options.invariants = [this,
+                        hints = hintsOf(contract()->invariants, [this](ExpressionId hint, const SymbolicState &state) {
+                          return terms_->condition(hint, entry_, state);
+                        })](Place head, const SymbolicState &state) {
     std::vector<TermId> all = hints(head, state);
     const std::vector<TermId> inSpace = space_->hints(state);
     all.insert(all.end(), inSpace.begin(), inSpace.end());
@@ -267,7 +274,7 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
     obligation.verdict = Verdict::Unknown;
     obligation.effort += outcome.effort;
     if (const smt::Model *model = outcome.counterexample()) {
-      if (auto witness = witnesses_->fromModel(withOtherInputs(*model), violation)) {
+      if (auto witness = witnesses_->fromModel(*model, violation)) {
         obligation.verdict = Verdict::Refuted;
         obligation.witness = std::move(witness);
         break;
@@ -280,17 +287,6 @@ void Prover::decide(Obligation &obligation, const std::vector<Query> &queries, c
       break;
   }
   dropProof(obligation);
-}
-
-/// Inputs of which a question does not speak, as in some call that the contract allows.
-smt::Model Prover::withOtherInputs(smt::Model model) {
-  if (!anyCall_) {
-    const Outcome outcome = discharge(store_, onPath(demands_, store_.no()), options_.budget);
-    const smt::Model *found = outcome.counterexample();
-    anyCall_ = found ? *found : smt::Model();
-  }
-  model.insert(anyCall_->begin(), anyCall_->end());
-  return model;
 }
 
 /// Parts of a proof that did not come about.
@@ -433,12 +429,11 @@ std::optional<Witness> Prover::endlessFromStart(const LoopInstance &loop) {
   const smt::Model *model = outcome.counterexample();
   if (model == nullptr)
     return std::nullopt;
-  auto witness =
-      witnesses_->fromModel(withOtherInputs(*model), [&](const RunResult &run) -> std::optional<std::string> {
-        if (staysIn(loop, run))
-          return "each pass of the loop leads to another one like it, for ever";
-        return std::nullopt;
-      });
+  auto witness = witnesses_->fromModel(*model, [&](const RunResult &run) -> std::optional<std::string> {
+    if (staysIn(loop, run))
+      return "each pass of the loop leads to another one like it, for ever";
+    return std::nullopt;
+  });
   if (witness && witness->end == RunEnd::Fuel && !goesOn(loop, witness->variables))
     return std::nullopt; // made plainer, it may only be long
   return witness;

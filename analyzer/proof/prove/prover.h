@@ -58,11 +58,15 @@ private:
   void decideSpace(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves,
                    const Violation &violation);
   bool isProvedFor(Obligation &obligation, const std::vector<smt::TermId> &conditions, const SpaceQuestion &question,
-                   std::optional<smt::Model> *model = nullptr);
+                   const Budget &budget, std::optional<smt::Model> *model = nullptr);
+  const Outcome &answered(const Query &query, const Budget &budget);
   std::string whyOpen(const std::vector<smt::TermId> &conditions, const SpaceQuestion &question);
   std::optional<GougeAt> gougeIn(const SpaceRule &rule, Place own, const RunResult &run,
                                  const GivenVariables &given) const;
   Violation gouges(const SpaceRule &rule, Place own) const;
+  void findMargin(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves);
+  bool keepsAway(Obligation trial, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves);
+  void noteRounding(Obligation &obligation, const SpaceRule &rule) const;
   void limits();
 
   // ---- conditions with which a claim is proved that is not proved without (prover_guard.cpp) ----
@@ -93,7 +97,6 @@ private:
   bool staysIn(const LoopInstance &loop, const RunResult &run) const;
   bool isMeantToGoOn(const Wto &wto, NodeId head) const;
   void start(WitnessSearch &witnesses) const;
-  smt::Model withOtherInputs(smt::Model model);
   static void dropProof(Obligation &obligation);
   void decide(Obligation &obligation, const std::vector<Query> &queries, const Violation &violation);
   bool isDecided(Obligation &obligation, const Violation &violation);
@@ -126,13 +129,14 @@ private:
   std::unique_ptr<SpaceClaims> space_;
   Exploration found_;
   std::unique_ptr<WitnessSearch> witnesses_;
-  std::optional<smt::Model> anyCall_; // inputs of a call that the contract allows, once asked for
+  std::optional<Outcome> anyCall_; // whether the contract allows no call at all; the counterexample is one
   std::vector<std::pair<const LoopInstance *, Termination>> ends_;
   FactIndex facts_{store_};
   Budget budget_ = options_.budget;
   const Obligation *focus_ = nullptr; // all others are passed over
   std::vector<OpenClaim> open_;       // that were not proved
   std::vector<smt::Model> sampleInputs_;
+  std::map<std::pair<std::vector<smt::TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
   std::uint64_t guardWork_ = 2'000'000; // of explorations under conditions
   std::optional<Wto> wto_; // of the program, for guards
   ProgramProof proof_;

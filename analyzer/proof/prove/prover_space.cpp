@@ -1,9 +1,11 @@
 // Claims about space: where the tool may go (docs/geometry.md).
+#include "proof/prove/exact_run.h"
 #include "proof/prove/plain_space.h"
 #include "proof/prove/prover.h"
 #include "proof/prove/space_claims.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -12,6 +14,8 @@ using geometry::SpaceClaim;
 using smt::TermId;
 
 namespace {
+
+constexpr std::uint64_t kCorners = 60'000; // effort to prove a claim by corners
 
 /// Less than this is the rounding of the machine's numbers, not a gouge.
 constexpr double kLeastDepth = 1e-6;
@@ -35,6 +39,11 @@ std::string howFar(const SpaceRule &rule, double depth) {
   return fmt::format("the tool is {} outside of the travel", distance);
 }
 
+std::string textOf(const SpaceRule &rule, const GougeAt &gouge) {
+  const auto &[x, y, z] = gouge.at;
+  return fmt::format("{} at X{:.4g} Y{:.4g} Z{:.4g}", howFar(rule, gouge.depth), x + 0.0, y + 0.0, z + 0.0);
+}
+
 } // namespace
 
 std::optional<GougeAt> Prover::gougeIn(const SpaceRule &rule, Place own, const RunResult &run,
@@ -47,14 +56,73 @@ std::optional<GougeAt> Prover::gougeIn(const SpaceRule &rule, Place own, const R
   return GougeAt{run.moves[gouge->move].place, gouge->at, gouge->depth};
 }
 
+/// Proofs take words as they are written: what only their rounding to the least increment makes is no witness.
 Violation Prover::gouges(const SpaceRule &rule, Place own) const {
-  return {[this, &rule, own](const RunResult &run, const GivenVariables &given) -> std::optional<std::string> {
+  const auto happened = [this, &rule, own](const RunResult &run, const GivenVariables &given) {
     const auto gouge = gougeIn(rule, own, run, given);
-    if (!gouge)
-      return std::nullopt;
-    const auto &[x, y, z] = gouge->at;
-    return fmt::format("{} at X{:.4g} Y{:.4g} Z{:.4g}", howFar(rule, gouge->depth), x + 0.0, y + 0.0, z + 0.0);
-  }};
+    return gouge ? std::optional(textOf(rule, *gouge)) : std::nullopt;
+  };
+  return {happened, [this, &rule, own](const GivenVariables &given) {
+            RunOptions options = witnesses_->runOptions(given);
+            options.fuel = WitnessSearch::kFuel;
+            options.words = WordRounding::None;
+            const RunResult run = feedhold::run(programs_, program_, options);
+            return gougeIn(rule, own, run, given) &&
+                   agreesExactly(programs_, program_, given, run) != Agreement::Different;
+          }};
+}
+
+/// How far the sampled runs keep away, if that can be proved; 0 where one comes as near as it may.
+void Prover::findMargin(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves) {
+  constexpr std::uint64_t kCheap = 100'000; // effort of the proof
+  constexpr double kNone = 1e-6;
+  if (!rule.spacesFor || obligation.effort > kCheap)
+    return;
+  std::optional<double> nearest;
+  for (const WitnessSearch::Sample &sample : witnesses_->samples()) {
+    const auto space = plainSpace(programs_, program_, *contracts_, witnesses_->runOptions(sample.given));
+    const auto margin =
+        geometry::smallestMargin(space, plainClaim(rule.kind), rule.region, sample.result.moves,
+                                 [&](const RecordedMove &move) { return move.own == obligation.place; });
+    if (margin && (!nearest || *margin < *nearest))
+      nearest = margin;
+    if (nearest && *nearest < kNone) {
+      obligation.margin = 0;
+      return;
+    }
+  }
+  for (const double part : {1.0, 0.5, 0.1}) {
+    if (!nearest)
+      return;
+    const double size = std::pow(10, std::floor(std::log10(*nearest * part)) - 1);
+    const double margin = std::floor(*nearest * part / size + kNone) * size; // two digits
+    if (keepsAway(obligation, space_->withMargin(rule, margin), moves)) {
+      obligation.margin = margin;
+      return;
+    }
+  }
+}
+
+bool Prover::keepsAway(Obligation trial, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves) {
+  const Budget quick{.search = 30'000, .z3 = 0, .cvc5 = 0};
+  return std::all_of(moves.begin(), moves.end(), [&](const MoveInstance *move) {
+    const std::vector<SpaceQuestion> questions = space_->questions(rule, *move);
+    return std::all_of(questions.begin(), questions.end(), [&](const SpaceQuestion &question) {
+      return isProvedFor(trial, move->conditions, question, quick);
+    });
+  });
+}
+
+/// A proof over exact numbers, and a sampled run whose rounded words lead a little further.
+void Prover::noteRounding(Obligation &obligation, const SpaceRule &rule) const {
+  constexpr std::size_t kMostLooked = 20;
+  const auto &samples = witnesses_->samples();
+  for (std::size_t i = 0; i < samples.size() && i < kMostLooked; ++i)
+    if (const auto gouge = gougeIn(rule, obligation.place, samples[i].result, samples[i].given)) {
+      obligation.exactOnly = true;
+      obligation.reason = fmt::format("words rounded to the least increment add up: {}", textOf(rule, *gouge));
+      return;
+    }
 }
 
 void Prover::spaces() {
@@ -93,6 +161,10 @@ void Prover::space(const SpaceRule &rule, Place own, const std::vector<const Mov
   const Violation violation = gouges(rule, own);
   if (!isDecided(obligation, violation))
     decideSpace(obligation, rule, moves, violation);
+  if (obligation.verdict == Verdict::Proved) {
+    noteRounding(obligation, rule);
+    findMargin(obligation, rule, moves);
+  }
   if (obligation.witness && obligation.verdict == Verdict::Refuted) {
     RunOptions options = witnesses_->runOptions(obligation.witness->variables);
     options.fuel = WitnessSearch::kFuel;
@@ -123,14 +195,13 @@ void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const st
     if (const auto reason = space_->whyNotTold(*move))
       return unknown(*reason);
     for (const auto &[premise, reason] : space_->premises(rule, *move))
-      if (!isProvedFor(obligation, move->conditions, {{{{}, premise}}}))
+      if (!isProvedFor(obligation, move->conditions, {{{{}, premise}}}, budget_))
         return unknown(reason);
   }
-  obligation.grade = Grade::Certified;
   for (const MoveInstance *move : moves)
     for (const SpaceQuestion &question : space_->questions(rule, *move)) {
       std::optional<smt::Model> model;
-      if (isProvedFor(obligation, move->conditions, question, &model))
+      if (isProvedFor(obligation, move->conditions, question, budget_, &model))
         continue;
       if (model)
         if (auto witness = witnesses_->fromModel(*model, violation)) {
@@ -142,29 +213,41 @@ void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const st
     }
 }
 
-/// By one of its ways.  The model is that of the last one.
+/// Movements on one level ask the same of it.
+const Outcome &Prover::answered(const Query &query, const Budget &budget) {
+  std::vector<TermId> key = query.assumptions;
+  key.push_back(query.goal);
+  auto [known, isNew] = answers_.try_emplace({std::move(key), budget.search});
+  if (isNew)
+    known->second = discharge(store_, query, budget);
+  return known->second;
+}
+
+/// By one of its ways: the model is that of the last one.
 bool Prover::isProvedFor(Obligation &obligation, const std::vector<TermId> &conditions, const SpaceQuestion &question,
-                         std::optional<smt::Model> *model) {
+                         const Budget &budget, std::optional<smt::Model> *model) {
   for (const SpaceQuestion::Way &way : question.ways) {
-    if (way.goal == store_.yes()) {
-      if (obligation.method.empty())
-        obligation.method = "folding";
-      return true;
-    }
     std::vector<TermId> all = conditions;
     all.insert(all.end(), way.conditions.begin(), way.conditions.end());
     const bool isLast = &way == &question.ways.back();
-    Budget budget = budget_;
-    if (!isLast) // where corners will do, they do so at once
-      budget = {.search = 60'000, .z3 = 0, .cvc5 = 0};
-    Outcome outcome = discharge(store_, onPath(all, way.goal), budget);
-    if (outcome.proved()) {
-      takeProof(obligation, std::move(outcome));
-      return true;
-    }
-    obligation.effort += outcome.effort;
-    if (isLast && model != nullptr && outcome.counterexample() != nullptr)
-      *model = *outcome.counterexample();
+    const Budget quick{
+        .search = std::min(budget.search, kCorners), .z3 = 0, .cvc5 = 0}; // where corners will do, they do so at once
+    const std::vector<TermId> parts =
+        store_[way.goal].kind == smt::TermKind::And ? store_[way.goal].arguments : std::vector{way.goal};
+    std::vector<Outcome> proofs;
+    const bool holds = std::all_of(parts.begin(), parts.end(), [&](TermId part) {
+      Outcome outcome = answered(onPath(all, part), isLast ? budget : quick);
+      obligation.effort += outcome.proved() ? 0 : outcome.effort;
+      if (isLast && model != nullptr && outcome.counterexample() != nullptr)
+        *model = *outcome.counterexample();
+      proofs.push_back(std::move(outcome));
+      return proofs.back().proved();
+    });
+    if (!holds)
+      continue;
+    for (Outcome &proof : proofs)
+      takeProof(obligation, std::move(proof));
+    return true;
   }
   return false;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace feedhold::prove {
 
@@ -86,13 +87,38 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
     rule.isSound = geometry::isTool(store_, tool);
     for (const TermShape &part : parts)
       rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
-    if (kind == ObligationKind::KeepIn)
-      rule.spaces.push_back(geometry::inside(store_, tool, parts));
-    else
-      for (const TermShape &part : parts)
-        rule.spaces.push_back(geometry::outside(store_, tool, part));
+    rule.spacesFor = [this, tool, parts, kind](TermId larger) {
+      const geometry::Tool<TermId> grown{store_.add(tool.radius, larger), store_.add(tool.corner, larger)};
+      std::vector<FreeSpace> spaces;
+      if (kind == ObligationKind::KeepIn)
+        spaces.push_back(geometry::inside(store_, grown, parts));
+      else
+        for (const TermShape &part : parts)
+          spaces.push_back(geometry::outside(store_, grown, part));
+      return spaces;
+    };
+    rule.spaces = rule.spacesFor(store_.number(smt::Number(0)));
     rules_.push_back(std::move(rule));
   }
+}
+
+/// Its point lies lower by as much.
+SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
+  const TermId larger = store_.number(smt::Number::fromTyped(margin));
+  const auto lower = [store = &store_, larger](geometry::Formula &formula) {
+    formula = [store, larger, inner = std::move(formula)](const TermPoint &point) {
+      return inner({point[0], point[1], store->subtract(point[2], larger)});
+    };
+  };
+  SpaceRule grown = rule;
+  grown.spaces = rule.spacesFor(larger);
+  for (FreeSpace &space : grown.spaces) {
+    lower(space.all);
+    for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
+      for (geometry::Formula &formula : *formulas)
+        lower(formula);
+  }
+  return grown;
 }
 
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
@@ -133,29 +159,36 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   geometry::ToolPath path(store_, termMove(store_, instance));
   std::vector<SpaceQuestion> questions;
   const geometry::ToolPath::Hull hull = path.hull();
-  const auto ask = [&](const std::vector<geometry::Formula> &convexParts, const geometry::Formula &all, bool isAll) {
-    SpaceQuestion question;
-    std::vector<TermId> cases;
-    for (const geometry::Formula &part : convexParts) {
-      std::vector<TermId> corners;
-      for (const TermPoint &corner : hull.corners)
-        corners.push_back(part(corner));
-      cases.push_back(store_.logicalAnd(corners));
+  const auto atCorners = [&](const geometry::Formula &part) {
+    std::set<TermId> corners;
+    for (const TermPoint &corner : hull.corners)
+      corners.insert(part(corner));
+    return corners;
+  };
+  const auto together = [&](const std::set<TermId> &terms) {
+    return store_.logicalAnd(std::vector(terms.begin(), terms.end()));
+  };
+  const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Way {
+    const geometry::PointOnWay any = path.anyPoint();
+    return {any.conditions, all(any.point)};
+  };
+  for (const FreeSpace &space : rule.spaces) {
+    for (const geometry::Formula &bound : space.bounds) {
+      const std::set<TermId> corners = atCorners(bound);
+      SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
+      if (!path.isHull() && corners.size() > 2) // a bound on the level of a helix speaks of two levels
+        question.ways.push_back(anyPoint(bound));
     }
+    if (space.isConvex())
+      continue;
+    std::vector<TermId> cases;
+    for (const geometry::Formula &part : space.convexParts)
+      cases.push_back(together(atCorners(part)));
+    SpaceQuestion &question = questions.emplace_back();
     if (!cases.empty())
       question.ways.push_back({hull.conditions, store_.logicalOr(cases)});
-    if (!isAll || !path.isHull()) {
-      const geometry::PointOnWay any = path.anyPoint();
-      question.ways.push_back({any.conditions, all(any.point)});
-    }
-    questions.push_back(std::move(question));
-  };
-  for (const FreeSpace &space : rule.spaces)
-    if (space.isConvex())
-      for (const geometry::Formula &bound : space.bounds)
-        ask({bound}, bound, true);
-    else
-      ask(space.convexParts, space.all, false);
+    question.ways.push_back(anyPoint(space.all));
+  }
   return questions;
 }
 

@@ -16,9 +16,11 @@ struct SpaceRule {
   std::size_t region = 0;                       // of KeepIn and KeepOut: of namesOf
   std::string name = {};                        // of the region
   std::vector<geometry::FreeSpace> spaces = {}; // the point of the tool is in all of them
-  std::optional<smt::TermId> height = {};       // of Clearance
-  smt::TermId isSound = smt::TermId(1);         // without that the claim means nothing
-  std::optional<std::string> missing = {};      // why nothing can be told of it
+  /// Of KeepIn and KeepOut: the spaces of a tool that is larger by so much on all sides.
+  std::function<std::vector<geometry::FreeSpace>(smt::TermId larger)> spacesFor = {};
+  std::optional<smt::TermId> height = {};  // of Clearance
+  smt::TermId isSound = smt::TermId(1);    // without that the claim means nothing
+  std::optional<std::string> missing = {}; // why nothing can be told of it
 };
 
 /// It holds if one of the ways to say it does: the cheap one first, the exact one last.
@@ -41,6 +43,8 @@ public:
   /// What has to hold on the way there so that coordinates are those of the tool, and what is missing otherwise.
   std::vector<std::pair<smt::TermId, std::string>> premises(const SpaceRule &rule, const MoveInstance &move) const;
   std::vector<SpaceQuestion> questions(const SpaceRule &rule, const MoveInstance &move) const;
+  /// The rule for a tool that is larger by so much.
+  SpaceRule withMargin(const SpaceRule &rule, double margin) const;
   /// The feed or the speed in force; of a cutting movement.
   smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;
   /// What may hold of the position before each pass of a loop.

@@ -58,6 +58,7 @@ private:
             {"reason", orNull(obligation.reason)},
             {"exactOnly", obligation.exactOnly},
             {"bound", orNull(obligation.bound)},
+            {"margin", obligation.margin ? Json(*obligation.margin) : Json()},
             {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
             {"guard", obligation.guard ? guardToJson(obligation) : Json()},
             {"rlimit", obligation.effort}};
@@ -75,9 +76,21 @@ private:
       variables[name] = value;
     return {{"call", call.call ? Json(*call.call) : Json()},
             {"variables", std::move(variables)},
-            {"run", call.replay},
+            {"run", call.run()},
             {"end", feedhold::nameOf(witness.end)},
-            {"happened", happenedIn(witness, obligation, file_.loaded->dialect)}};
+            {"happened", happenedIn(witness, obligation, file_.loaded->dialect)},
+            {"gouge", witness.gouge ? gougeToJson(*witness.gouge) : Json()}};
+  }
+  Json gougeToJson(const prove::GougeAt &gouge) const {
+    const LoadedFile &file = file_.loaded->file(gouge.place.file);
+    const BlockId block = file_.loaded->set->node(gouge.place).block;
+    const auto &[x, y, z] = gouge.at;
+    return {{"path", file.shown},
+            {"line", file.source.lineOf(file.tree.blocks[block].span().begin)},
+            {"x", x},
+            {"y", y},
+            {"z", z},
+            {"depth", gouge.depth}};
   }
 
   const ProveReport &report_;

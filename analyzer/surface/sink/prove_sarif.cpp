@@ -63,7 +63,7 @@ std::string textFor(const Obligation &obligation, const ProvedFile &file, const 
   if (obligation.witness) {
     const TypedWitness witness = typed(*obligation.witness, file, program, report);
     text += "\n" + textOf(witness) + ": " + happenedIn(*obligation.witness, obligation, file.loaded->dialect) +
-            "\nsee it: " + witness.replay;
+            "\nsee it: " + witness.run();
   }
   if (obligation.guard)
     text += "\n" + remedyOf(*obligation.guard);

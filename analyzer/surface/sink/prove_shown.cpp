@@ -81,23 +81,23 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
   const ProgramName &name = model.programs[program.program].name;
   TypedWitness result;
   std::string letters;
-  result.replay = "feedhold run " + quoted(file.file().shown);
+  result.options = quoted(file.file().shown);
   if (model.programs.size() > 1 && !toString(name).empty())
-    result.replay += " --program " + quoted(toString(name));
+    result.options += " --program " + quoted(toString(name));
   for (const auto &[variable, value] : witness.variables.entries()) {
     if (value.vacant)
       continue;
     if (const auto letter = letterFor(file.loaded->dialect, variable); letter && name.number) {
       letters += fmt::format(" {}{}", *letter, withPoint(value.number));
-      result.replay += fmt::format(" --arg {}={}", *letter, shortest(value.number));
+      result.options += fmt::format(" --arg {}={}", *letter, shortest(value.number));
       continue;
     }
     const std::string shown = file.loaded->set->nameOfVariable(variable);
     result.others.emplace_back(shown, shortest(value.number));
     result.variables.emplace_back(shown.substr(1), value.number);
-    result.replay += " --var " + quoted(shown.substr(1) + "=" + shortest(value.number));
+    result.options += " --var " + quoted(shown.substr(1) + "=" + shortest(value.number));
   }
-  result.replay += report.readingOptions;
+  result.options += report.readingOptions;
   if (name.number)
     result.call = fmt::format("G65 P{}{}", *name.number, letters);
   return result;

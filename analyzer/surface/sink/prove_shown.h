@@ -29,7 +29,9 @@ struct TypedWitness {
   std::optional<std::string> call;                         // `G65 P9100 D6. U12.`; absent: it has no number
   std::vector<std::pair<std::string, std::string>> others; // `#500`, `-3.5`: what no letter of the call sets
   std::vector<std::pair<std::string, double>> variables;   // the same, by name without `#`
-  std::string replay;                                      // the command that runs the program on it
+  std::string options;                                     // of a command that runs the program on it
+  std::string run() const { return "feedhold run " + options; }
+  std::string plot() const { return "feedhold plot " + options; }
 };
 TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
                    const ProveReport &report);

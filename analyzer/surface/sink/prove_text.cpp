@@ -85,11 +85,20 @@ private:
     if (!obligation.witness)
       return {obligation.reason};
     const TypedWitness witness = typed(*obligation.witness, file_, program_, report_);
-    return {fmt::format("{}: {}", textOf(witness), happenedIn(*obligation.witness, obligation, file_.loaded->dialect)),
-            "see it: " + witness.replay};
+    std::vector<std::string> notes{
+        fmt::format("{}: {}", textOf(witness), happenedIn(*obligation.witness, obligation, file_.loaded->dialect)),
+        "see it: " + witness.run()};
+    if (obligation.witness->gouge)
+      notes.push_back(fmt::format("draw it: {} -o gouge.svg", witness.plot()));
+    return notes;
   }
 
   static std::string whyOf(const Obligation &obligation) {
+    if (obligation.margin)
+      return fmt::format("{}{}{}",
+                         *obligation.margin > 0 ? fmt::format("keeps at least {:.4g} away", *obligation.margin)
+                                                : std::string("comes as near as it may"),
+                         obligation.reason.empty() ? "" : "; ", obligation.reason);
     if (obligation.bound.empty())
       return obligation.reason;
     return fmt::format("at most `{}` passes{}{}", obligation.bound, obligation.reason.empty() ? "" : ": ",
