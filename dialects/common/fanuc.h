@@ -64,6 +64,7 @@ inline Dialect makeFanuc(MachineKind machine) {
   dialect.mCodes = kFanucMCodes;
   dialect.operators = kOperators;
   dialect.argumentVariables = kArgumentVariables;
+  dialect.behaviour.scalesByIncrements = true;
   return dialect;
 }
 

@@ -75,6 +75,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.conditionalReturn = true;
   dialect.grammar.sequenceZero = true;
   dialect.behaviour.returnTargetIsLocal = true;
+  dialect.behaviour.machineMoveByMode = true;
   dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
   dialect.switches.ccv = Switch::On; // global variables survive power-off
   dialect.switches.v15 = Switch::On; // geometry stands before wear

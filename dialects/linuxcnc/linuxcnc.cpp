@@ -128,6 +128,7 @@ Behaviour behaviour() {
   behaviour.dataIsAbsolute = true;
   behaviour.positionByData = true;
   behaviour.endRestoresModes = true;
+  behaviour.machineMoveByMode = true;
   behaviour.repeatsByK = false;
   behaviour.equalTolerance = 1e-4;
   return behaviour;

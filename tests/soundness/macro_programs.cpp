@@ -247,22 +247,25 @@ private:
   }
   std::string modes() {
     return random_.of<const char *>(
-        {"G90",       "G91",  "G17",     "G18",     "G19",     "G20",       "G21",      "G54",      "G55",
-         "G59",       "G98",  "G99",     "G80",     "G94",     "G95",       "G49",      "G43H1",    "G43H#1",
-         "G15",       "G16",  "G54.1P1", "G96S100", "G97",     "G0",        "G1",       "M3S500",   "F100",
-         "F#2",       "S#3",  "T#1",     "G#1",     "G[#100]", "M#2",       "G54.1P#2", "G43H2Z1.", "G44H1",
-         "G90G17G54", "G112", "G96",     "G92S500", "T0101",   "G40G49G80", "G94F#3"});
+        {"G90",     "G91",       "G17",    "G18",      "G19",      "G20",    "G21",       "G54",    "G55", "G59",
+         "G98",     "G99",       "G80",    "G94",      "G95",      "G49",    "G43H1",     "G43H#1", "G15", "G16",
+         "G54.1P1", "G96S100",   "G97",    "G0",       "G1",       "M3S500", "F100",      "F#2",    "S#3", "T#1",
+         "G#1",     "G[#100]",   "M#2",    "G54.1P#2", "G43H2Z1.", "G44H1",  "G90G17G54", "G112",   "G96", "G92S500",
+         "T0101",   "G40G49G80", "G94F#3", "G113",     "G43.4H1",  "G7.1C9"});
   }
   std::string shifts() {
-    return random_.of<const char *>({"G92", "G52", "G92", "G52", "G68", "G51.1", "G51", "G10L2P1", "G10L2P#1",
-                                     "G10L12P1", "G10L20P1", "G10L20P2", "G92.1", "G69", "G50.1", "G50"}) +
+    return random_.of<const char *>({"G92",    "G52",     "G92",      "G52",      "G68",      "G51.1",
+                                     "G51",    "G10L2P1", "G10L2P#1", "G10L12P1", "G10L20P1", "G10L20P2",
+                                     "G92.1",  "G69",     "G50.1",    "G50",      "G51.1",    "G51I2J2",
+                                     "G51P.5", "G68",     "G68.2",    "G69",      "G22",      "G27"}) +
            words("XYZ") + (random_.oneIn(3) ? "R" + operand() : "") + (random_.oneIn(6) ? "P" + number() : "");
   }
   std::string arcOrCycle() {
     if (random_.oneIn(2))
       return random_.of<const char *>({"G2", "G3", "G17G2", "G18G3"}) + words("XYZ") +
              (random_.oneIn(2) ? "R" + operand() : words("IJK"));
-    return random_.of<const char *>({"G81", "G83", "G73", "G82", "G98G81", "G99G81", "G91G81", "G85", "G76"}) +
+    return random_.of<const char *>(
+               {"G81", "G83", "G73", "G82", "G98G81", "G99G81", "G91G81", "G85", "G76", "G87", "G88"}) +
            words("XYZRQ") + (random_.oneIn(5) ? random_.of<const char *>({"K2", "K0", "K#1", "L3"}) : "");
   }
   std::string system() {

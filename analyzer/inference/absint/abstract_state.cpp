@@ -206,6 +206,7 @@ void noMapping(const AbstractReading &reading, AbstractState &state) {
   state.transform.mirrorAt.fill(AbstractValue::vacant());
   state.transform.angle = reading.number(0);
   state.transform.centre.fill(reading.number(0));
+  state.transform.other = AbstractValue::vacant();
   state.transformed = Truth::False;
 }
 
@@ -310,6 +311,7 @@ void anyMapping(AbstractState &state) {
   state.transform.scale.fill(AbstractValue::anyNumber());
   state.transform.mirrorAt.fill(AbstractValue::any());
   state.transform.angle = AbstractValue::anyNumber();
+  state.transform.other = AbstractValue::any();
   state.transformed = Truth::Maybe;
 }
 

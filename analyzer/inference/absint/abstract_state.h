@@ -53,6 +53,7 @@ template <typename State, typename Visit> void forEachValue(State &state, Visit 
   all(state.transform.mirrorAt);
   visit(state.transform.angle);
   all(state.transform.centre);
+  visit(state.transform.other);
   for (auto &call : state.modalCalls) {
     visit(call.repeats);
     all(call.locals);

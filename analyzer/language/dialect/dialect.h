@@ -332,6 +332,8 @@ struct Behaviour {
   bool returnTargetIsLocal = false;   // `M99 P` jumps within its own program, also in a subprogram
   bool endRestoresModes = false;      // M02 and M30 put G17, G40, G80, G90 and G94 back
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
+  bool machineMoveByMode = false;     // G53 feeds where G01 is in force; else it is always rapid
+  bool scalesByIncrements = false;    // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
   double equalTolerance = 0;          // EQ and NE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end
   double peckClearance = 0.254;       // mm: how far above the last depth a peck begins (a parameter of most controls)

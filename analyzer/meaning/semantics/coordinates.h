@@ -1,5 +1,9 @@
 // Coordinates: where the zero point of the work coordinate system lies, and the mappings between what a program writes
 // and work coordinates (mirror, scaling, rotation).
+//
+// What is written is scaled, then turned, then mirrored.  Source: FANUC operator's manual: scaling comes before
+// rotation and scales the centre of the rotation, not its angle; a mirror image of one axis of the plane makes a
+// rotation turn the other way, so that the whole of the turned figure is mirrored.
 #pragma once
 
 #include "meaning/semantics/context.h"
@@ -21,7 +25,7 @@ template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(St
 template <ValueAlgebra R>
 void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kAxisCount> &before);
 
-/// Nothing is known any more of where the tool is.
+/// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context);
 
 /// From programmed to work coordinates, and back.
@@ -31,6 +35,31 @@ std::array<typename R::Value, kAxisCount> toWork(StepContext<R> &context,
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> toProgrammed(StepContext<R> &context,
                                                        std::array<typename R::Value, kAxisCount> work);
+
+/// What becomes of a distance that is written, axis by axis.
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> toWorkDistance(StepContext<R> &context,
+                                                         std::array<typename R::Value, kAxisCount> written);
+/// A coordinate on an axis that no rotation turns.
+template <ValueAlgebra R>
+typename R::Value toWorkOn(StepContext<R> &context, Axis axis, const typename R::Value &written);
+template <ValueAlgebra R>
+typename R::Value toWorkDistanceOn(StepContext<R> &context, Axis axis, const typename R::Value &written);
+
+/// What the mappings make of circles in a plane.
+template <typename R> struct CircleMapping {
+  typename R::Truth staysCircle; // both axes are scaled alike
+  typename R::Truth turnsOver;   // clockwise becomes counterclockwise
+  typename R::Value scale;       // of radii, above zero
+};
+template <ValueAlgebra R> CircleMapping<R> circleMappingOf(StepContext<R> &context, const Plane &plane);
+
+/// The programmed axis words run against the coordinate on this axis.
+template <ValueAlgebra R> typename R::Truth isReversed(StepContext<R> &context, Axis axis);
+
+/// A mode is in force in which movements mean something that is not followed: interpolation in polar or cylindrical
+/// coordinates, a tilted plane, the compensation of five axes, a cycle that is not modelled.
+template <ValueAlgebra R> typename R::Truth otherGeometry(StepContext<R> &context);
 
 /// The plane in force; absent when it can be several.
 template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context);
@@ -61,23 +90,26 @@ template <ValueAlgebra R> typename R::Value offsetVariable(StepContext<R> &conte
   return context.reading.asNumber(value ? *value : context.reading.unwritten(context.state, number));
 }
 
-template <ValueAlgebra R> typename R::Value rotated(StepContext<R> &context, typename R::Value x, typename R::Value y,
-                                                    typename R::Value sine, typename R::Value cosine) {
+template <ValueAlgebra R>
+typename R::Value rotated(StepContext<R> &context, typename R::Value x, typename R::Value y, typename R::Value sine,
+                          typename R::Value cosine) {
   R &reading = context.reading;
   return reading.subtract(reading.multiply(x, cosine), reading.multiply(y, sine));
 }
 
-/// Turns the coordinates of the rotation's plane (that in force) by `angle`.
+/// Turns the coordinates of the rotation's plane (that in force) by `angle` about `centre`.
 template <ValueAlgebra R>
-void rotate(StepContext<R> &context, std::array<typename R::Value, kAxisCount> &point, const typename R::Value &angle) {
+void rotate(StepContext<R> &context, std::array<typename R::Value, kAxisCount> &point, const typename R::Value &angle,
+            const std::array<typename R::Value, 2> &centre) {
   R &reading = context.reading;
+  if (context.certain(reading.compare(Relation::Equal, angle, context.zero())))
+    return;
   const std::optional<Plane> plane = planeOf(context);
   if (!plane) {
     for (auto &coordinate : point)
       coordinate = reading.anyNumber();
     return;
   }
-  const auto &centre = context.state.transform.centre;
   const auto x = reading.subtract(point[indexOf(plane->first)], centre[0]);
   const auto y = reading.subtract(point[indexOf(plane->second)], centre[1]);
   const auto sine = reading.function(FunctionKind::Sin, angle);
@@ -92,6 +124,43 @@ typename R::Value mirrored(StepContext<R> &context, std::size_t axis, const type
   const auto &at = context.state.transform.mirrorAt[axis];
   const auto image = reading.subtract(reading.multiply(reading.number(2), reading.asNumber(at)), coordinate);
   return reading.select(reading.isVacant(at), coordinate, image);
+}
+template <ValueAlgebra R>
+typename R::Value mirroredDistance(StepContext<R> &context, std::size_t axis, const typename R::Value &distance) {
+  R &reading = context.reading;
+  return reading.select(reading.isVacant(context.state.transform.mirrorAt[axis]), distance, reading.negate(distance));
+}
+
+template <ValueAlgebra R>
+typename R::Value scaled(StepContext<R> &context, std::size_t axis, const typename R::Value &coordinate) {
+  R &reading = context.reading;
+  const auto &centre = context.state.transform.scaleCentre[axis];
+  const auto &factor = context.state.transform.scale[axis];
+  return reading.add(centre, reading.multiply(reading.subtract(coordinate, centre), factor));
+}
+
+template <ValueAlgebra R> typename R::Truth differ(StepContext<R> &context, typename R::Truth a, typename R::Truth b) {
+  R &reading = context.reading;
+  return context.either(reading.both(a, reading.negation(b)), reading.both(reading.negation(a), b));
+}
+
+/// Codes that stay in force and give movements a meaning of their own.
+inline CodeMask otherGeometryMask(const ModalGroup &group) {
+  CodeMask mask = 0;
+  for (std::size_t i = 0; i < group.codes.size(); ++i)
+    if (const CodeAction action = group.codes[i]->action;
+        action == CodeAction::Unmodelled || action == CodeAction::OtherCycle || action == CodeAction::SideCycle)
+      mask |= CodeMask{1} << i;
+  return mask;
+}
+
+/// From here on, where `when` holds, movements mean something else: kModalGeometry or kLastingGeometry.
+template <ValueAlgebra R> void enterOtherGeometry(StepContext<R> &context, int what, typename R::Truth when) {
+  R &reading = context.reading;
+  auto &other = context.state.transform.other;
+  const auto enters = what == kLastingGeometry ? when : reading.both(when, reading.isVacant(other));
+  other = reading.select(enters, reading.number(what), other);
+  context.state.transformed = context.either(context.state.transformed, when);
 }
 
 } // namespace detail
@@ -124,8 +193,8 @@ template <ValueAlgebra R> typename R::Value workOriginOf(StepContext<R> &context
   const std::optional<std::uint32_t> system = detail::workOffsetInForce(context);
   if (!system)
     return reading.anyNumber();
-  return reading.add(
-      origin, detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
+  return reading.add(origin,
+                     detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
 }
 
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context) {
@@ -146,23 +215,19 @@ void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kA
 
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context) {
   for (auto &coordinate : context.state.position)
-    coordinate = context.reading.anyNumber();
+    coordinate = context.reading.either(coordinate, context.reading.anyNumber());
 }
 
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> toWork(StepContext<R> &context,
                                                  std::array<typename R::Value, kAxisCount> point) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.transformed))
+  if (!context.reading.mayBe(context.state.transformed))
     return point;
-  const auto &transform = context.state.transform;
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
-    const auto &centre = transform.scaleCentre[axis];
-    const auto scaled =
-        reading.add(centre, reading.multiply(reading.subtract(point[axis], centre), transform.scale[axis]));
-    point[axis] = detail::mirrored(context, axis, scaled);
-  }
-  detail::rotate(context, point, transform.angle);
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    point[axis] = detail::scaled(context, axis, point[axis]);
+  detail::rotate(context, point, context.state.transform.angle, context.state.transform.centre);
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    point[axis] = detail::mirrored(context, axis, point[axis]);
   return point;
 }
 
@@ -173,13 +238,81 @@ std::array<typename R::Value, kAxisCount> toProgrammed(StepContext<R> &context,
   if (!reading.mayBe(context.state.transformed))
     return point;
   const auto &transform = context.state.transform;
-  detail::rotate(context, point, reading.negate(transform.angle));
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    point[axis] = detail::mirrored(context, axis, point[axis]);
+  detail::rotate(context, point, reading.negate(transform.angle), transform.centre);
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     const auto &centre = transform.scaleCentre[axis];
-    const auto straight = reading.subtract(detail::mirrored(context, axis, point[axis]), centre);
-    point[axis] = reading.add(centre, reading.divide(straight, transform.scale[axis]));
+    const auto fromCentre = reading.subtract(point[axis], centre);
+    point[axis] = reading.add(centre, reading.divide(fromCentre, transform.scale[axis]));
   }
   return point;
+}
+
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> toWorkDistance(StepContext<R> &context,
+                                                         std::array<typename R::Value, kAxisCount> distance) {
+  R &reading = context.reading;
+  if (!reading.mayBe(context.state.transformed))
+    return distance;
+  const auto &transform = context.state.transform;
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    distance[axis] = reading.multiply(distance[axis], transform.scale[axis]);
+  detail::rotate(context, distance, transform.angle, {context.zero(), context.zero()});
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    distance[axis] = detail::mirroredDistance(context, axis, distance[axis]);
+  return distance;
+}
+
+template <ValueAlgebra R>
+typename R::Value toWorkOn(StepContext<R> &context, Axis axis, const typename R::Value &written) {
+  if (!context.reading.mayBe(context.state.transformed))
+    return written;
+  return detail::mirrored(context, indexOf(axis), detail::scaled(context, indexOf(axis), written));
+}
+
+template <ValueAlgebra R>
+typename R::Value toWorkDistanceOn(StepContext<R> &context, Axis axis, const typename R::Value &written) {
+  if (!context.reading.mayBe(context.state.transformed))
+    return written;
+  const auto &factor = context.state.transform.scale[indexOf(axis)];
+  return detail::mirroredDistance(context, indexOf(axis), context.reading.multiply(written, factor));
+}
+
+template <ValueAlgebra R> typename R::Truth isReversed(StepContext<R> &context, Axis axis) {
+  R &reading = context.reading;
+  if (!reading.mayBe(context.state.transformed))
+    return reading.truth(false);
+  const auto &transform = context.state.transform;
+  const auto isMirrored = reading.negation(reading.isVacant(transform.mirrorAt[indexOf(axis)]));
+  const auto isNegative = reading.compare(Relation::Less, transform.scale[indexOf(axis)], context.zero());
+  return detail::differ(context, isMirrored, isNegative);
+}
+
+template <ValueAlgebra R> CircleMapping<R> circleMappingOf(StepContext<R> &context, const Plane &plane) {
+  R &reading = context.reading;
+  if (!reading.mayBe(context.state.transformed))
+    return {reading.truth(true), reading.truth(false), reading.number(1)};
+  const auto size = [&](Axis axis) {
+    const auto &factor = context.state.transform.scale[indexOf(axis)];
+    return reading.select(reading.compare(Relation::Less, factor, context.zero()), reading.negate(factor), factor);
+  };
+  const auto first = size(plane.first);
+  return {reading.compare(Relation::Equal, first, size(plane.second)),
+          detail::differ(context, isReversed(context, plane.first), isReversed(context, plane.second)), first};
+}
+
+template <ValueAlgebra R> typename R::Truth otherGeometry(StepContext<R> &context) {
+  R &reading = context.reading;
+  const auto &other = context.state.transform.other;
+  const auto entered = reading.both(context.state.transformed, reading.negation(reading.isVacant(other)));
+  if (!reading.mayBe(entered))
+    return reading.truth(false);
+  auto inForce = reading.compare(Relation::Equal, reading.asNumber(other), reading.number(kLastingGeometry));
+  for (std::size_t group = 1; group < kModalGroups; ++group)
+    if (const CodeMask mask = detail::otherGeometryMask(context.modes.group(group)); mask != 0)
+      inForce = context.either(inForce, reading.isOneOf(context.state.codes[group], mask));
+  return reading.both(entered, inForce);
 }
 
 } // namespace feedhold

@@ -54,6 +54,7 @@ public:
   }
 
 private:
+  enum class Kind { Straight, FeedBack, OutSomehow, Peck, ChipBreak, NotFollowed };
   static constexpr double kMostRepeats = 9999;
   static constexpr double kMostFollowed = 64; // of a reading that only wants to know where it ends
 
@@ -75,7 +76,8 @@ private:
   }
   /// With G91 the level is a distance from `base`.
   void learn(Value &level, const typename ExecutedWords<R>::Entry &entry, Truth absolute, const Value &base) {
-    const Value wanted = reading_.select(absolute, entry.value, reading_.add(base, entry.value));
+    const Value wanted = reading_.select(absolute, toWorkOn(context_, plane_.normal, entry.value),
+                                         reading_.add(base, toWorkDistanceOn(context_, plane_.normal, entry.value)));
     level = reading_.select(entry.present, wanted, level);
   }
   std::optional<double> repeatCount() {
@@ -105,10 +107,13 @@ private:
   void drillUnknownTimes() {
     const auto notDrilled = state_;
     drill();
-    if (!context_.certain(isAbsolute(context_)))
+    if (!context_.certain(isAbsolute(context_))) {
+      const Point first = state_.position;
       for (const Axis axis : {plane_.first, plane_.second})
-        if (words_.find(letterOf(axis)))
+        if (words_.find(letterOf(axis)) || reading_.mayBe(state_.transformed))
           state_.at(axis) = reading_.anyNumber();
+      tell(context_, MoveKind::Unfollowed, first);
+    }
     reading_.join(state_, reading_.unknownTruth(), notDrilled);
   }
 
@@ -145,9 +150,16 @@ private:
     target[indexOf(plane_.normal)] = travelLevel();
     state_.position = target;
     tell(context_, MoveKind::Rapid, start);
+    const Kind kind = reading_.wantsMoves() ? kindOf() : Kind::Straight;
+    if (kind == Kind::NotFollowed) {
+      reading_.notModelled("the way of this boring cycle", context_.place());
+      const Point hole = state_.position;
+      state_.at(plane_.normal) = returnLevel();
+      return tell(context_, MoveKind::Unfollowed, hole);
+    }
     go(MoveKind::Rapid, retractLevel());
     if (reading_.wantsMoves())
-      stroke();
+      stroke(kind);
     go(MoveKind::Rapid, returnLevel());
   }
   void go(MoveKind kind, const Value &level) {
@@ -159,22 +171,20 @@ private:
   }
 
   /// Down and, where the cycle feeds back, up to the R level.
-  void stroke() {
-    switch (kindOf()) {
+  void stroke(Kind kind) {
+    switch (kind) {
     case Kind::Straight: go(MoveKind::Feed, bottomLevel()); return dwell();
     case Kind::FeedBack:
       go(MoveKind::Feed, bottomLevel());
       dwell();
       return go(MoveKind::Feed, feedsToReturnLevel() ? returnLevel() : retractLevel());
-    case Kind::ByHand:
+    case Kind::OutSomehow:
       go(MoveKind::Feed, bottomLevel());
       dwell();
       return go(MoveKind::Unfollowed, returnLevel());
     case Kind::Peck: return pecks(retractLevel());
     case Kind::ChipBreak: return pecks(std::nullopt);
-    case Kind::NotFollowed:
-      go(MoveKind::Unfollowed, bottomLevel());
-      return reading_.notModelled("the way of this boring cycle", context_.place());
+    case Kind::NotFollowed: return;
     }
   }
   bool feedsToReturnLevel() {
@@ -193,8 +203,9 @@ private:
     move.feed = cycle_.dwell;
     reading_.move(move);
   }
-  enum class Kind { Straight, FeedBack, ByHand, Peck, ChipBreak, NotFollowed };
   Kind kindOf() {
+    if (!context_.certain(reading_.negation(isReversed(context_, plane_.normal))))
+      return Kind::NotFollowed; // whether a hole is drilled upwards then, no manual says
     if (isInForce({CodeAction::CyclePeck}))
       return Kind::Peck;
     if (isInForce({CodeAction::CycleChipBreak}))
@@ -203,26 +214,42 @@ private:
       return Kind::FeedBack;
     if (isInForce({CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CycleBoreStop}))
       return Kind::Straight;
-    if (isInForce({CodeAction::CycleBoreManual})) // the operator pulls the tool out
-      return Kind::ByHand;
+    // The operator pulls the tool out; G76 shifts it off the wall before it goes up.
+    if (isInForce({CodeAction::CycleBoreManual, CodeAction::CycleFineBore}))
+      return Kind::OutSomehow;
     return Kind::NotFollowed;
   }
   /// G83 goes back to the R level after each peck, G73 only by the clearance.
   void pecks(std::optional<Value> backTo) {
-    const std::optional<double> depth = reading_.constantOf(reading_.asNumber(cycle_.peck));
+    const std::optional<double> step = reading_.constantOf(reading_.asNumber(cycle_.peck));
+    if (!step || (*step > 0 && !(reading_.constantOf(retractLevel()) && reading_.constantOf(bottomLevel()))))
+      unknownPecks();
+    else
+      knownPecks(*step, std::move(backTo));
+    go(MoveKind::Feed, bottomLevel());
+  }
+  /// Each rapid movement leads over part of the way from the R level to some depth, and each feed over part of the
+  /// rest.
+  void unknownPecks() {
+    go(MoveKind::Feed, bottomLevel());
+    go(MoveKind::Rapid, retractLevel());
+    go(MoveKind::Rapid, reading_.between(retractLevel(), bottomLevel()));
+  }
+  void knownPecks(double depth, std::optional<Value> backTo) {
     const std::optional<double> top = reading_.constantOf(retractLevel());
     const std::optional<double> bottom = reading_.constantOf(bottomLevel());
-    if (depth && top && bottom && *depth > 0 && (*top - *bottom) / *depth < kMostRepeats) {
-      const bool metric = context_.certain(isMetric(context_));
-      const double clearance = context_.behaviour().peckClearance / (metric ? 1 : 25.4);
-      for (double level = *top - *depth; level > *bottom; level -= *depth) {
-        go(MoveKind::Feed, reading_.number(level));
-        if (backTo)
-          go(MoveKind::Rapid, *backTo);
-        go(MoveKind::Rapid, reading_.number(level + clearance));
-      }
+    if (!(depth > 0) || !top || !bottom)
+      return; // in one go
+    if ((*top - *bottom) / depth >= kMostRepeats)
+      return unknownPecks();
+    const bool metric = context_.certain(isMetric(context_));
+    const double clearance = context_.behaviour().peckClearance / (metric ? 1 : 25.4);
+    for (double level = *top - depth; level > *bottom; level -= depth) {
+      go(MoveKind::Feed, reading_.number(level));
+      if (backTo)
+        go(MoveKind::Rapid, *backTo);
+      go(MoveKind::Rapid, reading_.number(std::min(level + clearance, *top)));
     }
-    go(MoveKind::Feed, bottomLevel());
   }
 
   StepContext<R> &context_;
@@ -241,7 +268,9 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
     return detail::DrillingCycle<R>(context, words, *plane).run();
   const auto any = context.reading.anything();
   context.state.cycle = {any, any, any, any, any};
+  const auto start = context.state.position;
   forgetPosition(context);
+  tell(context, MoveKind::Unfollowed, start);
   context.reading.notModelled("a canned cycle whose plane is not known", context.place());
 }
 

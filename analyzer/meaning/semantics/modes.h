@@ -34,6 +34,7 @@ private:
     const bool shifts = changesWorkOffset();
     const auto before = shifts ? originsOf(context_) : std::array<Value, kAxisCount>{};
     const bool maps = changesMapping();
+    const std::optional<Plane> planeBefore = planeOf(context_);
     if (maps)
       leaveUnknownMappings();
     for (const CodeWord &word : words_.codes)
@@ -45,6 +46,7 @@ private:
     length();
     if (maps)
       mappings();
+    otherPlane(planeBefore);
   }
 
   void enter(const CodeWord &word) {
@@ -59,16 +61,43 @@ private:
         forgetPosition(context_);
         reading_.notModelled(word.code->meaning, word.span);
       }
+      if (action == CodeAction::ExtendedWorkOffset)
+        reading_.notModelled("where an additional work coordinate system lies", word.span);
+      enterOtherGeometry(word);
       return;
     }
     for (std::size_t i = 0; i < kSpindleActions.size(); ++i)
       if (action == kSpindleActions[i])
         state_.spindle = reading_.code(static_cast<std::uint8_t>(i));
   }
+  /// Movements mean something else from here on: until another code of the group comes, or for good.  The codes of a
+  /// plane's group (feature coordinates, planes of other axes) last until others than those of a plane end them, which
+  /// is not followed.
+  void enterOtherGeometry(const CodeWord &word) {
+    const CodeAction action = word.code->action;
+    const bool isModal = context_.modes.indexOf(*word.code).has_value();
+    if (action == CodeAction::Unmodelled)
+      enterOther(isModal && word.code->group != context_.modes.groupOf(ModalKind::Plane) ? kModalGeometry
+                                                                                         : kLastingGeometry);
+    else if (isModal && (action == CodeAction::OtherCycle || action == CodeAction::SideCycle))
+      enterOther(kModalGeometry);
+  }
+  void enterOther(int what) { detail::enterOtherGeometry(context_, what, reading_.truth(true)); }
+  /// What the control's manual forbids and is not followed.
+  void forbidden(Truth when, std::string_view what) {
+    if (!reading_.mayBe(when))
+      return;
+    detail::enterOtherGeometry(context_, kLastingGeometry, when);
+    reading_.notModelled(what, context_.place());
+  }
+
   /// `G#1` where #1 holds what #4003 said: the mode is restored, and with it whatever depends on it.
   void computedCodes() {
     for (const auto &[group, code] : words_.computed) {
       state_.codes[group] = code;
+      if (const Truth other = reading_.isOneOf(code, otherGeometryMask(context_.modes.group(group)));
+          reading_.mayBe(other))
+        detail::enterOtherGeometry(context_, kModalGeometry, other);
       const auto is = [&, of = group](std::initializer_list<ModalKind> kinds) {
         return std::any_of(kinds.begin(), kinds.end(),
                            [&](ModalKind kind) { return context_.modes.groupOf(kind) == of; });
@@ -141,10 +170,18 @@ private:
         converted(state_.shift[indexOf(axis)]);
         converted(state_.local[indexOf(axis)]);
       }
+    for (auto *lengths : {&state_.transform.scaleCentre, &state_.transform.mirrorAt})
+      for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        convertedIfAny((*lengths)[indexOf(axis)], to, factor, already);
+    for (Value &length : state_.transform.centre)
+      converted(length);
     converted(state_.lengthOffset);
     rescaleStored(to, factor, already);
     for (Value *level : {&state_.cycle.bottom, &state_.cycle.retract, &state_.cycle.initial, &state_.cycle.peck})
-      *level = reading_.select(reading_.isVacant(*level), *level, convertedCopy(*level, to, factor, already));
+      convertedIfAny(*level, to, factor, already);
+  }
+  void convertedIfAny(Value &length, CodeAction to, const Value &factor, Truth already) {
+    length = reading_.select(reading_.isVacant(length), length, convertedCopy(length, to, factor, already));
   }
   /// Offsets and positions in variables are read in the units in force.
   void rescaleStored(CodeAction to, const Value &factor, Truth already) {
@@ -236,10 +273,35 @@ private:
         forgetPosition(context_);
     }
   }
+  /// A control maps in one order: mirror images are given and ended outside scaling, and that outside rotation.
   void mappings() {
+    const Truth turned = isTurned();
+    const Truth scaledOrTurned = context_.either(turned, isScaled());
+    const Truth mirrored = isMirrored();
     for (const CodeWord &word : words_.codes)
       enterMapping(word.code->action);
-    state_.transformed = anyMapping();
+    const Truth stillTurned = reading_.both(turned, isTurned());
+    const Truth stillMapped = reading_.both(scaledOrTurned, context_.either(isTurned(), isScaled()));
+    if (words_.has(CodeAction::MirrorOn) || words_.has(CodeAction::MirrorOff))
+      forbidden(reading_.both(stillMapped, context_.either(mirrored, isMirrored())),
+                "a mirror image that changes under scaling or rotation");
+    if (words_.has(CodeAction::ScalingOn) || words_.has(CodeAction::ScalingOff))
+      forbidden(stillTurned, "scaling that changes under rotation");
+    state_.transformed =
+        context_.either(context_.either(isTurned(), isScaled()), context_.either(isMirrored(), isOther()));
+  }
+  void otherPlane(const std::optional<Plane> &before) {
+    if (!reading_.mayBe(state_.transformed) || !namesPlane())
+      return;
+    const std::optional<Plane> now = planeOf(context_);
+    if (!now || !before || now->normal != before->normal)
+      forbidden(isTurned(), "another plane under rotation");
+  }
+  bool namesPlane() const {
+    const auto plane = context_.modes.groupOf(ModalKind::Plane);
+    return words_.has(CodeAction::PlaneXY) || words_.has(CodeAction::PlaneZX) || words_.has(CodeAction::PlaneYZ) ||
+           std::any_of(words_.computed.begin(), words_.computed.end(),
+                       [&](const auto &computed) { return computed.first == plane; });
   }
   void enterMapping(CodeAction action) {
     if (action == CodeAction::RotationOn)
@@ -255,23 +317,52 @@ private:
     else if (action == CodeAction::ScalingOff)
       state_.transform.scale.fill(reading_.number(1));
   }
-  Truth anyMapping() {
-    Truth any = reading_.negation(reading_.compare(Relation::Equal, state_.transform.angle, context_.zero()));
-    for (const Axis axis : kAllAxes) {
-      const Truth scaled = reading_.negation(
-          reading_.compare(Relation::Equal, state_.transform.scale[indexOf(axis)], reading_.number(1)));
-      const Truth mirrored = reading_.negation(reading_.isVacant(state_.transform.mirrorAt[indexOf(axis)]));
-      any = context_.either(any, context_.either(scaled, mirrored));
-    }
+  Truth isTurned() {
+    return reading_.negation(reading_.compare(Relation::Equal, state_.transform.angle, context_.zero()));
+  }
+  Truth isScaled() {
+    Truth any = reading_.truth(false);
+    for (const Value &factor : state_.transform.scale)
+      any = context_.either(any, reading_.negation(reading_.compare(Relation::Equal, factor, reading_.number(1))));
     return any;
   }
-  /// G68 X Y R: the centre is where the tool stands when it is not written.
+  Truth isMirrored() {
+    Truth any = reading_.truth(false);
+    for (const Value &at : state_.transform.mirrorAt)
+      any = context_.either(any, reading_.negation(reading_.isVacant(at)));
+    return any;
+  }
+  Truth isOther() { return reading_.negation(reading_.isVacant(state_.transform.other)); }
+
+  /// G68 X Y R: the centre is where the tool stands when it is not written; the angle is then a parameter's.  Whether R
+  /// counts from the angle in force under G91 is a parameter's too.
   void rotation() {
     const std::optional<Plane> plane = planeOf(context_);
     auto &[first, second] = state_.transform.centre;
-    first = plane ? wordOr(letterOf(plane->first), state_.at(plane->first)) : reading_.anyNumber();
-    second = plane ? wordOr(letterOf(plane->second), state_.at(plane->second)) : reading_.anyNumber();
-    state_.transform.angle = plane ? wordOr('R', context_.zero()) : reading_.anyNumber();
+    first = plane ? centreOfRotation(plane->first) : reading_.anyNumber();
+    second = plane ? centreOfRotation(plane->second) : reading_.anyNumber();
+    Value &angle = state_.transform.angle;
+    const Value before = angle;
+    angle = plane ? wordOrParameter('R', 0, "rotation by the angle of a parameter") : reading_.anyNumber();
+    const Truth adds =
+        reading_.both(context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, reading_.truth(false)),
+                      reading_.negation(reading_.compare(Relation::Equal, before, context_.zero())));
+    if (reading_.mayBe(adds))
+      angle = reading_.select(adds, reading_.either(angle, reading_.add(before, angle)), angle);
+  }
+  Value centreOfRotation(Axis axis) {
+    const Value present = mirrored(context_, indexOf(axis), state_.at(axis));
+    const auto *entry = words_.find(letterOf(axis));
+    return entry ? reading_.select(entry->present, scaled(context_, indexOf(axis), entry->value), present) : present;
+  }
+  /// A parameter of the machine stands in for a word that is not written; a run takes `usual` for it.
+  Value wordOrParameter(char letter, double usual, std::string_view otherwise) {
+    const auto *entry = words_.find(letter);
+    if (entry && context_.certain(entry->present))
+      return entry->value;
+    reading_.notModelled(otherwise, context_.place());
+    const Value parameter = reading_.either(reading_.number(usual), reading_.anyNumber());
+    return entry ? reading_.select(entry->present, entry->value, parameter) : parameter;
   }
   void mirror() {
     for (const Axis axis : kAllAxes)
@@ -290,16 +381,43 @@ private:
     if (!named)
       state_.transform.mirrorAt.fill(reading_.vacant());
   }
-  /// G51 X Y Z P, or I J K for each axis.
+  /// G51 X Y Z P, or I J K for each axis; the centre is where the tool stands when it is not written.
   void scaling() {
-    const Value all = wordOr('P', reading_.number(1));
     const std::array<char, 3> own = {'I', 'J', 'K'};
+    for (std::size_t i = 0; i < own.size(); ++i)
+      state_.transform.scaleCentre[i] = wordOr(letterOf(kAllAxes[i]), mirrored(context_, i, state_.position[i]));
+    const Value all = factorOf('P', reading_.either(reading_.number(1), reading_.anyNumber()));
+    bool written = words_.find('P') != nullptr;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      state_.transform.scale[i] = wordOr(own[i], all);
-      state_.transform.scaleCentre[i] = wordOr(letterOf(kAllAxes[i]), state_.position[i]);
-      reading_.alarm(reading_.compare(Relation::Equal, state_.transform.scale[i], context_.zero()),
-                     {AlarmKind::Overflow, context_.place()});
+      state_.transform.scale[i] = factorOf(own[i], all);
+      written = written || words_.find(own[i]);
     }
+    if (!written)
+      reading_.notModelled("scaling by the factor of a parameter", context_.place());
+  }
+  /// Or that of a parameter.
+  Value factorOf(char letter, const Value &otherwise) {
+    const auto *entry = words_.find(letter);
+    if (!entry)
+      return otherwise;
+    const Value value = factor(letter, entry->value);
+    reading_.alarm(reading_.both(entry->present, reading_.compare(Relation::Equal, value, context_.zero())),
+                   {AlarmKind::Overflow, context_.place()});
+    return reading_.select(entry->present, value, otherwise);
+  }
+  /// As it is written: I, J, K are lengths elsewhere, and a number without a point would be taken for increments.
+  Value factor(char letter, const Value &value) {
+    Value written = value;
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (word.address() == letter && word.isNumber()) {
+        written = reading_.literal(word.number());
+        if (word.has(Word::kPoint))
+          return written;
+      }
+    if (!context_.behaviour().scalesByIncrements)
+      return written;
+    return reading_.either(reading_.multiply(written, reading_.literal(Decimal(1, 3))),
+                           reading_.multiply(written, reading_.literal(Decimal(1, 5))));
   }
 
   // ---- words that stay in force ----

@@ -6,6 +6,8 @@
 #include "meaning/semantics/modes.h"
 #include "meaning/semantics/offsets.h"
 
+#include <cmath>
+
 namespace feedhold {
 
 /// What the block does with its axis words, after its modes have been applied.
@@ -25,6 +27,13 @@ public:
       : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
 
   void run() {
+    act();
+    if ((!words_.entries.empty() || ownWords()) && reading_.mayBe(otherGeometry(context_)))
+      forgetPosition(context_);
+  }
+
+private:
+  void act() {
     if (const CodeWord *word = ownWords())
       return consume(*word);
     const Truth cycle = cycleActive();
@@ -37,8 +46,6 @@ public:
     move(cycle, moves);
     reading_.join(state_, reading_.negation(moves), before);
   }
-
-private:
   void move(Truth cycle, Truth moves) {
     if (context_.certain(cycle))
       return runCycle(context_, words_);
@@ -78,7 +85,8 @@ private:
                                     CodeAction::OtherCycle,
                                     CodeAction::TurningCycle,
                                     CodeAction::SideCycle};
-    return Offsets<R>::isOne(code) || std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
+    return Offsets<R>::isOne(code) || code.role == CodeRole::CoordinateShift ||
+           std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
   }
   void consume(const CodeWord &word) {
     const CodeAction action = word.code->action;
@@ -94,16 +102,25 @@ private:
       storeReference(VariableRole::SecondReference);
     else if (action == CodeAction::Skip)
       skip();
-    else if (action == CodeAction::TurningCycle) // ends where it starts
-      reading_.notModelled(word.code->meaning, word.span);
+    else if (action == CodeAction::ReferenceCheck)
+      referenceCheck();
+    else if (action == CodeAction::TurningCycle)
+      roundTrip(word.code->meaning, word.span);
     else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled)
       unfollowed(word);
     else
       Offsets<R>(context_, words_).carryOut(word);
   }
   void unfollowed(const CodeWord &word) {
+    const Point start = state_.position;
     forgetPosition(context_);
+    tell(context_, MoveKind::Unfollowed, start);
     reading_.notModelled(word.code->meaning, word.span);
+  }
+  /// A cycle of a lathe ends where it starts.
+  void roundTrip(std::string_view what, Span place) {
+    tell(context_, MoveKind::Unfollowed, state_.position);
+    reading_.notModelled(what, place);
   }
 
   // ---- targets ----
@@ -129,14 +146,24 @@ private:
 
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
+    const Truth turning = context_.inForce(ModalKind::Motion, {CodeAction::TurningCycle}, reading_.truth(false));
+    if (context_.certain(turning))
+      return roundTrip("a turning cycle that is repeated", context_.place());
     const Point start = state_.position;
     const Point target = targetOf(context_, words_);
     state_.position = target;
+    if (hasCommaWord("A")) {
+      reading_.notModelled("a coordinate that an angle stands for", context_.place());
+      forgetPosition(context_);
+    }
     const Truth arc = isArc();
     if (reading_.mayBe(arc))
       followArc(start, arc, reading_.both(arc, holds));
     if (!context_.certain(arc) && reading_.wantsMoves())
       tellLine(start);
+    if (reading_.mayBe(turning))
+      for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+        state_.position[axis] = reading_.select(turning, start[axis], state_.position[axis]);
   }
   Truth isArc() {
     return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
@@ -146,10 +173,25 @@ private:
     const auto isMotion = [&](CodeAction action) {
       return context_.certain(context_.inForce(ModalKind::Motion, {action}, reading_.truth(false)));
     };
-    const MoveKind kind = isMotion(CodeAction::Rapid)                                    ? MoveKind::Rapid
+    const MoveKind kind = hasOtherWay()                                                  ? MoveKind::Unfollowed
+                          : isMotion(CodeAction::Rapid)                                  ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
                                                                                          : MoveKind::Unfollowed;
     tell(context_, kind, start);
+  }
+  /// Corners that are rounded or chamfered, dimensions given by an angle, single direction positioning (G60).
+  bool hasOtherWay() const {
+    if (words_.has(CodeAction::OtherCurve) || hasCommaWord())
+      return true;
+    const auto isWritten = [&](char letter) { return words_.find(letter) != nullptr; };
+    return context_.dialect().machine == MachineKind::Turning &&
+           (isWritten('R') || isWritten('I') || isWritten('K') || isWritten('A') || isWritten('C'));
+  }
+  bool hasCommaWord(std::string_view letters = {}) const {
+    for (const Word &word : context_.tree().wordsOf(context_.block))
+      if (word.has(Word::kComma) && (letters.empty() || letters.find(word.address()) != std::string_view::npos))
+        return true;
+    return false;
   }
 
   // ---- arcs ----
@@ -161,48 +203,84 @@ private:
   };
   void followArc(const Point &start, Truth arc, Truth follows) {
     const std::optional<Plane> plane = planeOf(context_);
-    if (!plane)
-      return alarmsOfUnknownPlane(follows); // only the end point is known
+    if (!plane || reading_.mayBe(otherGeometry(context_))) { // only the end point is known
+      alarmsOfUnknownPlane(follows);
+      if (context_.certain(arc))
+        tell(context_, MoveKind::Unfollowed, start);
+      return;
+    }
+    closeCircle(*plane, start);
     const Truth byRadius = present('R');
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
     reading_.alarm(reading_.both(follows, reading_.negation(context_.either(byRadius, byCentre))),
                    {AlarmKind::ArcWithoutCentre, context_.place()});
-    const Value first = centreOf(plane->firstCentre, plane->first, start);
-    const Value second = centreOf(plane->secondCentre, plane->second, start);
+    const auto [first, second] = centreOf(*plane, start);
+    const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
     const Value difference = radiusDifference(*plane, start, first, second);
     const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
-    reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), differs),
+    const Truth isCircle = reading_.both(mapping.staysCircle, reading_.truth(turnsOf().has_value()));
+    const Truth mayDiffer =
+        context_.either(reading_.both(isCircle, differs), reading_.both(reading_.negation(isCircle), maybeNot()));
+    reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), mayDiffer),
                    {AlarmKind::ArcRadius, context_.place()});
     if (reading_.wantsMoves() && context_.certain(arc))
-      tellArc(start, {*plane, first, second, byRadius});
+      tellArc(start, {*plane, first, second, byRadius}, mapping);
+  }
+  /// Not so in a run, and unknown where all runs are looked at.
+  Truth maybeNot() {
+    return reading_.compare(Relation::NotEqual, reading_.either(context_.zero(), reading_.anyNumber()),
+                            context_.zero());
+  }
+  /// Through the mappings and back a coordinate comes out a rounding error away, and a full circle would be none.
+  void closeCircle(const Plane &plane, const Point &start) {
+    constexpr double kSame = 1e-9;
+    const auto isBack = [&](Axis axis) {
+      const auto before = reading_.constantOf(start[indexOf(axis)]);
+      const auto after = reading_.constantOf(state_.at(axis));
+      return before && after && std::abs(*before - *after) < kSame;
+    };
+    if (!reading_.mayBe(state_.transformed) || !isBack(plane.first) || !isBack(plane.second))
+      return;
+    state_.at(plane.first) = start[indexOf(plane.first)];
+    state_.at(plane.second) = start[indexOf(plane.second)];
   }
   void alarmsOfUnknownPlane(Truth arc) {
     const Truth byCentre = reading_.both(arc, reading_.negation(present('R')));
     const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
-    const Truth without = context_.either(reading_.negation(anyDistance), reading_.unknownTruth());
+    const Truth without = context_.either(reading_.negation(anyDistance), maybeNot());
     reading_.alarm(reading_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
-    reading_.alarm(reading_.both(byCentre, reading_.unknownTruth()), {AlarmKind::ArcRadius, context_.place()});
+    reading_.alarm(reading_.both(byCentre, maybeNot()), {AlarmKind::ArcRadius, context_.place()});
   }
   Truth present(char letter) const {
     const auto *entry = words_.find(letter);
     return entry ? entry->present : reading_.truth(false);
   }
-  /// I, J, K are distances from the start point; absolute only where the control has that mode.
-  Value centreOf(char letter, Axis axis, const Point &start) {
-    const Value distance = distanceWord(letter);
-    const Value fromStart = reading_.add(start[indexOf(axis)], axis == Axis::X ? diameter(distance) : distance);
-    if (!context_.behaviour().arcDistanceModes)
-      return fromStart;
-    const Truth absolute = context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, reading_.truth(false));
-    return reading_.select(absolute, distance, fromStart);
+  /// I, J, K are distances from the start point, mapped like those of the axes; absolute only where the control has
+  /// that mode.
+  std::pair<Value, Value> centreOf(const Plane &plane, const Point &start) {
+    Point distance;
+    distance.fill(context_.zero());
+    distance[indexOf(plane.first)] = asCoordinate(plane.first, distanceWord(plane.firstCentre));
+    distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(plane.secondCentre));
+    const Point mapped = toWorkDistance(context_, distance);
+    const auto centreOn = [&](Axis axis, char letter) {
+      const Value fromStart = reading_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
+      if (!context_.behaviour().arcDistanceModes)
+        return fromStart;
+      const Truth absolute = context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, reading_.truth(false));
+      return reading_.select(absolute, distanceWord(letter), fromStart);
+    };
+    return {centreOn(plane.first, plane.firstCentre), centreOn(plane.second, plane.secondCentre)};
   }
   Value distanceWord(char letter) {
     const auto *entry = words_.find(letter);
     return entry ? reading_.select(entry->present, entry->value, context_.zero()) : context_.zero();
   }
   /// On a lathe X is a diameter, I a radius.
-  Value diameter(const Value &radius) {
-    return context_.dialect().machine == MachineKind::Turning ? reading_.multiply(radius, reading_.number(2)) : radius;
+  Value asCoordinate(Axis axis, const Value &length) {
+    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
+               ? reading_.multiply(length, reading_.number(2))
+               : length;
   }
   Value asRadius(Axis axis, const Value &length) {
     return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
@@ -223,27 +301,55 @@ private:
     return reading_.select(isMetric(context_), metric, reading_.number(context_.behaviour().arcTolerance / 25.4));
   }
 
-  void tellArc(const Point &start, const Arc &arc) {
-    const bool clockwise =
-        context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, reading_.truth(false)));
+  void tellArc(const Point &start, const Arc &arc, const CircleMapping<R> &mapping) {
+    const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
+    const std::optional<std::uint32_t> turns = turnsOf();
+    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || hasCommaWord()) {
+      if (!context_.certain(mapping.staysCircle))
+        reading_.notModelled("an arc whose axes are scaled differently", context_.place());
+      else if (!clockwise)
+        reading_.notModelled("an arc that may go either way round", context_.place());
+      else if (!turns)
+        reading_.notModelled("an arc with words of a spiral or of turns", context_.place());
+      return tell(context_, MoveKind::Unfollowed, start);
+    }
     Move<Value> move;
-    move.kind = clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
+    move.kind = *clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
     move.start = start;
     move.end = state_.position;
     move.plane = arc.plane;
-    const auto byRadius = centreFromRadius(arc.plane, start, clockwise);
+    const auto byRadius = centreFromRadius(arc.plane, start, *clockwise, mapping.scale);
     move.firstCentre = reading_.select(arc.byRadius, byRadius.first, arc.first);
     move.secondCentre = reading_.select(arc.byRadius, byRadius.second, arc.second);
-    move.turns = turnsOf();
+    move.turns = *turns;
     move.feed = state_.word('F');
     if (context_.certain(arc.byRadius) && sameInPlane(arc.plane, start))
       move.kind = MoveKind::Feed; // no arc at all: 0 degrees
-    reading_.move(move);
+    tell(context_, std::move(move));
   }
-  std::uint32_t turnsOf() {
-    const auto *entry = context_.behaviour().arcDistanceModes ? words_.find('P') : nullptr;
-    const std::optional<double> turns = entry ? reading_.constantOf(entry->value) : std::nullopt;
-    return turns && *turns >= 1 && *turns < 1e6 ? static_cast<std::uint32_t>(*turns) : 1;
+  /// Seen in work coordinates; absent when it can be either.
+  std::optional<bool> turnsClockwise(Truth turnsOver) {
+    const Truth none = reading_.truth(false);
+    const bool clockwise = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, none));
+    const bool counter = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcCounterclockwise}, none));
+    const bool over = context_.certain(turnsOver);
+    if (clockwise == counter || (!over && reading_.mayBe(turnsOver)))
+      return std::nullopt;
+    return clockwise != over;
+  }
+  /// P turns of controls that count them; absent: not known, or the block has words of a spiral or of a cone.
+  std::optional<std::uint32_t> turnsOf() {
+    if (!context_.behaviour().arcDistanceModes) {
+      const bool isOther = words_.find('L') || words_.find('Q') || words_.find('P');
+      return isOther ? std::nullopt : std::optional<std::uint32_t>(1);
+    }
+    const auto *entry = words_.find('P');
+    if (!entry)
+      return 1;
+    const std::optional<double> turns = reading_.constantOf(entry->value);
+    if (!turns || *turns >= 1e6 || !context_.certain(entry->present))
+      return std::nullopt;
+    return *turns >= 1 ? static_cast<std::uint32_t>(*turns) : 1;
   }
   bool sameInPlane(const Plane &plane, const Point &start) {
     const auto same = [&](Axis axis) {
@@ -252,17 +358,18 @@ private:
     return same(plane.first) && same(plane.second);
   }
   /// The centre lies on the perpendicular through the middle of the chord; the sign of R chooses the longer arc.
-  std::pair<Value, Value> centreFromRadius(const Plane &plane, const Point &start, bool clockwise) {
+  std::pair<Value, Value> centreFromRadius(const Plane &plane, const Point &start, bool clockwise, const Value &scale) {
     const Value zero = context_.zero();
     const auto *entry = words_.find('R');
     if (!entry)
       return {zero, zero};
+    const Value radius = reading_.multiply(entry->value, scale);
     const Value two = reading_.number(2);
     const Value a = reading_.subtract(state_.at(plane.first), start[indexOf(plane.first)]);
     const Value b = reading_.subtract(state_.at(plane.second), start[indexOf(plane.second)]);
     const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
-    const Value heightSquare = reading_.subtract(reading_.multiply(entry->value, entry->value),
-                                                 reading_.divide(chordSquare, reading_.number(4)));
+    const Value heightSquare =
+        reading_.subtract(reading_.multiply(radius, radius), reading_.divide(chordSquare, reading_.number(4)));
     const Truth negative = reading_.compare(Relation::Less, heightSquare, zero);
     const Value height = reading_.function(FunctionKind::Sqrt, reading_.select(negative, zero, heightSquare));
     const Truth noChord = reading_.compare(Relation::Equal, chordSquare, zero);
@@ -299,7 +406,9 @@ private:
         Value &position = state_.at(axis);
         position = reading_.select(entry->present, reading_.subtract(entry->value, originOf(context_, axis)), position);
       }
-    if (reading_.wantsMoves())
+    if (!context_.behaviour().machineMoveByMode)
+      tell(context_, MoveKind::Rapid, start);
+    else if (reading_.wantsMoves())
       tellLine(start);
   }
   /// By way of the programmed point to the reference position.
@@ -308,15 +417,23 @@ private:
     state_.position = targetOf(context_, words_);
     tell(context_, MoveKind::Rapid, start);
     const Point between = state_.position;
-    const Truth all = reading_.both(reading_.truth(context_.behaviour().bareReferenceReturn),
-                                    reading_.negation(axisWords()));
+    const Truth all =
+        reading_.both(reading_.truth(context_.behaviour().bareReferenceReturn), reading_.negation(axisWords()));
     for (const Axis axis : kAllAxes)
       if (const Truth homes = context_.either(present(letterOf(axis)), all); reading_.mayBe(homes))
         home(axis, homes, word);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
         home(axis, entry->present, word);
-    tell(context_, MoveKind::Rapid, between);
+    const bool isKnown =
+        word.code->action == CodeAction::ReferenceReturn || referenceRange(VariableRole::SecondReference);
+    tell(context_, isKnown ? MoveKind::Rapid : MoveKind::Unfollowed, between);
+  }
+  /// G27: rapid to where the reference position should be.
+  void referenceCheck() {
+    const Point start = state_.position;
+    state_.position = targetOf(context_, words_);
+    tell(context_, MoveKind::Rapid, start);
   }
   void home(Axis axis, Truth present, const CodeWord &word) {
     Value &position = state_.at(axis);
@@ -346,7 +463,7 @@ private:
     const Point start = state_.position;
     const Point target = targetOf(context_, words_);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-      if (words_.find(kAxisLetters[axis]))
+      if (words_.find(kAxisLetters[axis]) || reading_.mayBe(state_.transformed))
         state_.position[axis] = reading_.between(start[axis], target[axis]);
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::SkipPosition)

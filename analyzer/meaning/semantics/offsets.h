@@ -67,6 +67,12 @@ private:
   }
   /// G92: the tool stands, from now on, at the named coordinates.
   void set() {
+    if (reading_.mayBe(state_.transformed)) {
+      for (auto *numbers : {&state_.shift, &state_.position})
+        numbers->fill(reading_.anyNumber());
+      reading_.notModelled("the tool's coordinates set under mirror, scaling or rotation", context_.place());
+      return keep();
+    }
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         Value &position = state_.at(axis);
@@ -109,6 +115,7 @@ private:
     const std::optional<std::uint32_t> first = firstOfSystem();
     if (which == 50.0 || which == 52.0)
       return; // parameters of the machine
+    turnSystem(word, which);
     if (first && which == 2.0)
       return setWorkOffset(*first);
     if (first && which == 20.0 && context_.behaviour().positionByData)
@@ -132,6 +139,19 @@ private:
     const std::uint32_t first = kFirstWorkOffset + kWorkOffsetStride * row;
     const VariableRange *range = findVariable(context_.dialect(), first);
     return range && range->role == VariableRole::WorkOffset ? std::optional(first) : std::nullopt;
+  }
+  /// R of L2 turns the coordinate system.
+  void turnSystem(const CodeWord &word, std::optional<double> which) {
+    const auto *angle = words_.find('R');
+    if (!angle || (which && which != 2.0))
+      return;
+    const Truth isSystem = which ? reading_.truth(true) : reading_.unknownTruth();
+    const Truth isAngle = reading_.negation(reading_.compare(Relation::Equal, angle->value, context_.zero()));
+    const Truth turns = reading_.both(reading_.both(angle->present, isAngle), isSystem);
+    if (!reading_.mayBe(turns))
+      return;
+    detail::enterOtherGeometry(context_, kLastingGeometry, turns);
+    reading_.notModelled("a coordinate system that is turned by G10", word.span);
   }
   void setWorkOffset(std::uint32_t first) {
     const Truth always = reading_.truth(true);

@@ -57,14 +57,19 @@ template <typename Value> struct CycleState {
   friend bool operator==(const CycleState &, const CycleState &) = default;
 };
 
+/// What TransformState::other holds: a mode that is told by the code of its group, or one that is taken to last.
+inline constexpr int kModalGeometry = 1;
+inline constexpr int kLastingGeometry = 2;
+
 /// Mappings between programmed and work coordinates (G51.1, G51, G68, G16), in the order in which the control applies
-/// them: polar, scaling, mirror, rotation.
+/// them: polar, scaling, rotation, mirror.
 template <typename Value> struct TransformState {
   std::array<Value, kAxisCount> scale;        // 1: not scaled
   std::array<Value, kAxisCount> scaleCentre;
   std::array<Value, kAxisCount> mirrorAt;     // vacant: not mirrored
   Value angle;                                // degrees, counterclockwise
-  std::array<Value, 2> centre;                // of the rotation, in the plane of G68
+  std::array<Value, 2> centre;                // of the rotation, in the plane of G68: scaled, not mirrored
+  Value other; // a mode that is not followed has given movements another meaning; vacant: none since the start
   friend bool operator==(const TransformState &, const TransformState &) = default;
 };
 

@@ -18,6 +18,8 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
 /// Tells the reading of a movement from `start` to the present position.
 template <ValueAlgebra R>
 void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
+/// In a mode that is not followed no movement is told as one whose way is known.
+template <ValueAlgebra R> void tell(StepContext<R> &context, Move<typename R::Value> move);
 
 /// What a word adds to, or puts in place of, a coordinate.
 template <ValueAlgebra R>
@@ -72,9 +74,50 @@ typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords
   return reading.select(entry.present, moved, from);
 }
 
+namespace detail {
+
+/// An axis keeps its coordinate exactly where no word of the block is mapped to it.
+template <ValueAlgebra R>
+void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
+                 std::array<typename R::Value, kAxisCount> &target) {
+  const std::optional<Plane> plane = planeOf(context);
+  const bool turned =
+      !context.certain(context.reading.compare(Relation::Equal, context.state.transform.angle, context.zero()));
+  if (turned && !plane)
+    return;
+  const auto named = [&](Axis axis) { return words.find(letterOf(axis)) != nullptr; };
+  for (const Axis axis : kAllAxes) {
+    const bool inPlane = turned && (axis == plane->first || axis == plane->second);
+    const bool mapped = inPlane ? named(plane->first) || named(plane->second) : named(axis);
+    if (!mapped)
+      target[indexOf(axis)] = context.state.at(axis);
+  }
+}
+
+/// Under G91 the distances alone are mapped.
+template <ValueAlgebra R>
+std::array<typename R::Value, kAxisCount> mappedIncrement(StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &reading = context.reading;
+  std::array<typename R::Value, kAxisCount> distance;
+  for (const Axis axis : kAllAxes) {
+    const auto *entry = words.find(letterOf(axis));
+    distance[indexOf(axis)] = entry ? reading.select(entry->present, entry->value, context.zero()) : context.zero();
+  }
+  distance = toWorkDistance(context, std::move(distance));
+  for (const Axis axis : kAllAxes)
+    distance[indexOf(axis)] = reading.add(context.state.at(axis), distance[indexOf(axis)]);
+  return distance;
+}
+
+} // namespace detail
+
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
   R &reading = context.reading;
+  const bool isMapped = reading.mayBe(context.state.transformed);
+  if (isMapped && context.modes.groupOf(ModalKind::Distance) && !reading.mayBe(detail::isAbsolute(context)) &&
+      !reading.mayBe(context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false))))
+    return detail::mappedIncrement(context, words);
   auto target = toProgrammed(context, context.state.position);
   const bool incrementsByLetter =
       context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
@@ -89,7 +132,10 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
         coordinate = reading.select(entry->present, reading.add(coordinate, entry->value), coordinate);
       }
   detail::fromPolar(context, words, target);
-  return toWork(context, std::move(target));
+  target = toWork(context, std::move(target));
+  if (isMapped && !incrementsByLetter)
+    detail::keepUnnamed(context, words, target);
+  return target;
 }
 
 template <ValueAlgebra R>
@@ -101,6 +147,12 @@ void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::V
   move.start = start;
   move.end = context.state.position;
   move.feed = context.state.word('F');
+  tell(context, std::move(move));
+}
+
+template <ValueAlgebra R> void tell(StepContext<R> &context, Move<typename R::Value> move) {
+  if (move.kind != MoveKind::Dwell && context.reading.mayBe(otherGeometry(context)))
+    move.kind = MoveKind::Unfollowed;
   context.reading.move(move);
 }
 
