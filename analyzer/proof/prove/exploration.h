@@ -149,8 +149,8 @@ struct ExploreOptions {
   std::size_t mostTerms = 1'000'000; // of those that are made
 };
 
-/// Follows every path of the program.  Paths are merged where they are too many for a quarter of the work, unless each
-/// pass is followed.
+/// Follows every path of the program.  Paths are merged where there are too many of them for a part of the work, unless
+/// each pass is followed: programs that call large macros one after another are long, but have few paths.
 Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
                     const ExploreOptions &options);
 

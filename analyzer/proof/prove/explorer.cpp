@@ -386,8 +386,8 @@ Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee
   ExploreOptions first = options;
   first.mostSteps /= 4;
   first.mostPaths /= 4;
-  first.mostWork /= 4;
-  first.mostTerms /= 4;
+  first.mostWork /= 2;
+  first.mostTerms /= 2;
   Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
   if (found.incomplete != kTooMany)
     return found;
