@@ -126,6 +126,13 @@ class Plot(Scratch):
                           "7 mm below the clearance height in a rapid move at N50"])
         self.assertLessEqual(set(result.stderr.splitlines()), set(self.texts(ElementTree.fromstring(result.stdout))))
 
+    def test_gouge_of_rounding(self):
+        self.write("O1.nc", SLOT)
+        result = self.plot("O1.nc", "--arg", "A=50.0004", "--arg", "R=6.0008")
+        self.assertExit(result, 0)
+        self.assertEqual(result.stderr, "0.0004 mm outside of CAVITY at N30, by the rounding of words to the least "
+                                        "increment alone\n")
+
     def test_starts_as_the_contract_says(self):
         plan, side = self.views(self.slot())
         self.assertEqual(len(self.paths(side, "path rapid")), 2)

@@ -13,8 +13,6 @@ namespace {
 
 /// Depths up to here come from rounding: the tool touches.
 constexpr double kTouch = 1e-7;
-/// A later point is named only where it is deeper by more than rounding.
-constexpr double kDeeper = 1e-9;
 
 bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }

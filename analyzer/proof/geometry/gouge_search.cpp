@@ -22,7 +22,7 @@ public:
 
   double at(double share) {
     const double depth = depth_(path_.at(share));
-    if (depth > best_) {
+    if (depth > best_ + kDeeper) {
       best_ = depth;
       share_ = share;
     }
@@ -104,7 +104,7 @@ public:
 
   double at(const Point<double> &point) {
     const double depth = depth_(point);
-    if (depth > best_) {
+    if (depth > best_ + kDeeper) {
       best_ = depth;
       at_ = point;
     }

@@ -9,6 +9,9 @@ namespace feedhold::geometry {
 
 using Depth = std::function<double(const Point<double> &)>;
 
+/// A later point is named only where it is deeper by more than rounding.
+inline constexpr double kDeeper = 1e-9;
+
 struct Deepest {
   Point<double> at;
   double depth;

@@ -91,16 +91,33 @@ std::string placeOf(const PlottedProgram &plotted, Place place) {
   return program == startedProgram(plotted.prepared) ? text : fmt::format("{} of {}", text, program);
 }
 
-/// Where the run breaks each clause most; the deepest first.
-std::vector<PlottedGouge> gougesOf(const PlottedProgram &plotted, const geometry::PlainSpace &space) {
+struct Gouges {
+  std::vector<PlottedGouge> all;       // where the run breaks each clause most; the deepest first
+  std::vector<std::string> byRounding; // a proof takes words as they are written, and would not see them
+};
+
+Gouges gougesOf(const PlottedProgram &plotted, const geometry::PlainSpace &space) {
   using geometry::SpaceClaim;
-  std::vector<PlottedGouge> gouges;
+  Gouges gouges;
+  std::optional<RunResult> unrounded;
+  const auto isByRounding = [&](SpaceClaim claim, std::size_t region) {
+    if (!unrounded) {
+      RunOptions options = plotted.prepared.options;
+      options.words = WordRounding::None;
+      unrounded = run(*plotted.prepared.programs->set, plotted.prepared.start, options);
+    }
+    return !geometry::deepestGouge(space, claim, region, unrounded->moves);
+  };
   const auto look = [&](SpaceClaim claim, std::size_t region) {
     const auto gouge = geometry::deepestGouge(space, claim, region, plotted.result.moves);
     if (!gouge)
       return;
     const RecordedMove &move = plotted.result.moves[gouge->move];
-    gouges.push_back({*gouge, gougeText(space, claim, region, gouge->depth, move.unit, placeOf(plotted, move.place))});
+    std::string text = gougeText(space, claim, region, gouge->depth, move.unit, placeOf(plotted, move.place));
+    if (isByRounding(claim, region))
+      gouges.byRounding.push_back(text + ", by the rounding of words to the least increment alone");
+    else
+      gouges.all.push_back({*gouge, std::move(text)});
   };
   for (std::size_t i = 0; i < space.keepIn.size(); ++i)
     look(SpaceClaim::KeepIn, i);
@@ -108,7 +125,7 @@ std::vector<PlottedGouge> gougesOf(const PlottedProgram &plotted, const geometry
     look(SpaceClaim::KeepOut, i);
   look(SpaceClaim::Clearance, 0);
   look(SpaceClaim::Travel, 0);
-  std::stable_sort(gouges.begin(), gouges.end(),
+  std::stable_sort(gouges.all.begin(), gouges.all.end(),
                    [](const PlottedGouge &a, const PlottedGouge &b) { return a.gouge.depth > b.gouge.depth; });
   return gouges;
 }
@@ -173,12 +190,14 @@ DrawnPlot drawn(const PlottedProgram &first, const std::optional<PlottedProgram>
         fmt::format("without the space of the contract, which asks for {}", fmt::join(missing, " ")));
   else
     picture.space = spaceOf(first.prepared);
+  const Gouges gouges = gougesOf(first, picture.space);
+  for (const std::string &text : gouges.byRounding)
+    picture.notes.push_back(text);
   DrawnPlot plot{"", picture.notes, hasEnded(first.result.end) ? kExitClean : kExitFindings};
-  const std::vector<PlottedGouge> gouges = gougesOf(first, picture.space);
-  for (const PlottedGouge &gouge : gouges) {
+  for (const PlottedGouge &gouge : gouges.all) {
     plot.said.push_back(gouge.text);
     plot.exitCode = kExitFindings;
-    if (&gouge == &gouges.front())
+    if (&gouge == &gouges.all.front())
       picture.gouge = gouge;
     else
       picture.notes.push_back(gouge.text);
