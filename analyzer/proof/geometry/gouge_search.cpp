@@ -12,7 +12,8 @@ constexpr int kMostHalvings = 9; // of a round
 constexpr std::size_t kMostQuarterings = 2000;
 constexpr double kNearEnough = 1e-3;
 /// Of a depth of which nothing is known.
-constexpr std::size_t kSteps = 128;
+constexpr std::size_t kSteps = 128; // of a round
+constexpr std::size_t kMostRounds = 100;
 constexpr std::size_t kGrid = 24;
 
 /// Takes down the deepest of the points that are tried.
@@ -83,13 +84,15 @@ private:
 
 void searchRounds(Search &search, const GougePath &path) {
   const auto rounds = static_cast<double>(path.rounds());
+  // Many rounds are alike: each is cut less.
+  const int halvings = std::max(3, kMostHalvings - static_cast<int>(std::log2(rounds)));
   double depthFrom = search.at(0);
   for (double round = 0; round < rounds; ++round) {
     const double depthTo = search.at((round + 1) / rounds);
-    search.halve(round / rounds, (round + 1) / rounds, depthFrom, depthTo, kMostHalvings);
+    search.halve(round / rounds, (round + 1) / rounds, depthFrom, depthTo, halvings);
     depthFrom = depthTo;
   }
-  search.climbAround(1 / rounds / (1 << kMostHalvings));
+  search.climbAround(1 / rounds / (1 << halvings));
 }
 
 void searchLine(Search &search, double length) {
@@ -177,7 +180,7 @@ std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, C
     break;
   case Course::NoFaster: searchRounds(search, path); break;
   case Course::Any: {
-    const double steps = static_cast<double>(kSteps * path.rounds());
+    const double steps = static_cast<double>(kSteps * std::min(path.rounds(), kMostRounds));
     for (double i = 0; i <= steps; ++i)
       search.at(i / steps);
     search.climbAround(1 / steps);

@@ -17,6 +17,7 @@ namespace {
 using geometry::GougePath;
 
 constexpr std::size_t kMostMoves = 200'000; // of a run; a viewer takes no more
+constexpr double kFarthest = 1e8;           // no machine is as large
 constexpr double kWidth = 940;
 constexpr double kLeft = 64;
 constexpr double kRight = 20;
@@ -141,10 +142,21 @@ public:
 private:
   DrawnRun drawn(const PlottedRun &run, std::string_view role) {
     DrawnRun result{&run, {}, role};
-    for (const RecordedMove &move : run.moves.first(std::min(run.moves.size(), kMostMoves)))
-      if (move.move.kind != MoveKind::Dwell)
+    for (const RecordedMove &move : run.moves.first(std::min(run.moves.size(), kMostMoves))) {
+      if (move.move.kind == MoveKind::Dwell)
+        continue;
+      if (isNear(move))
         result.moves.push_back(converted(move, unit_));
+      else
+        ++tooFar_;
+    }
     return result;
+  }
+
+  static bool isNear(const RecordedMove &move) {
+    const GougePath path(move);
+    return path.length() < kFarthest && std::all_of(path.start().begin(), path.start().end(),
+                                                    [](double coordinate) { return std::abs(coordinate) < kFarthest; });
   }
 
   // ---- text above ----
@@ -169,6 +181,8 @@ private:
     for (const PlottedRun &run : picture_.runs)
       if (run.moves.size() > kMostMoves)
         line("note", fmt::format("the first {} of {} movements are drawn", kMostMoves, run.moves.size()));
+    if (tooFar_ > 0)
+      line("note", fmt::format("{} movements are too far away to be drawn", tooFar_));
     for (const auto *regions : {&picture_.space.keepIn, &picture_.space.keepOut})
       for (const geometry::PlainRegion &region : *regions)
         if (!std::all_of(region.parts.begin(), region.parts.end(), isDrawn))
@@ -380,6 +394,7 @@ private:
 
   const Picture &picture_;
   LengthUnit unit_ = LengthUnit::Millimetre;
+  std::size_t tooFar_ = 0; // movements
   std::vector<DrawnRun> runs_;
   std::optional<geometry::Point<double>> gougeAt_;
   std::array<PlotRange, 3> ranges_{};

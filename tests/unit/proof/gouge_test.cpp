@@ -397,6 +397,21 @@ TEST_F(Definition, OfKeepingIn) {
   EXPECT_LT(violated, 900U);
 }
 
+// ---- numbers that no machine has ----
+
+TEST(Gouge, FarAwayIsNoTrouble) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const PlainShape triangle = Prism<double>{{{0, 0}, {10, 0}, {0, 10}}, {0, 20}};
+  EXPECT_EQ(depthOut(keepOut(flat(3), {triangle}), {rapid({0, 0, 0}, {infinity, 9, 0})}), 0);
+  EXPECT_GT(depthOut(keepOut(flat(3), {triangle}), {rapid({0, 0, 0}, {1e6, 9, 0})}), 3);
+  EXPECT_GT(depthOut(keepOut(flat(3), {kClamp}), {feed({-1e12, 0, 0}, {1e12, 0, 0})}), 3);
+  RecordedMove helix = arc(MoveKind::ArcCounterclockwise, {4, 0, 0}, {4, 0, -10}, 0, 0);
+  helix.move.turns = 100'000;
+  const PlainShape square = Prism<double>{{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, {-20, 0}};
+  EXPECT_NEAR(marginIn(keepIn(flat(3), {square}), {helix}), 0, kNear); // at the upper end
+  EXPECT_NEAR(depthIn(keepIn(flat(6), {square}), {helix}), 1, 1e-3);
+}
+
 // ---- time ----
 
 TEST(Gouge, TwentyThousandMovesInABoxTakeNoTime) {

@@ -1,6 +1,7 @@
 #include "surface/sink/plot_sink.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace feedhold {
 namespace {
@@ -72,6 +73,14 @@ TEST(Picture, DwellsAreNotDrawnAndTheUnknownIsTold) {
   RecordedMove compensated = moveOf(MoveKind::Feed, {0, 0, 0}, {9, 0, 0});
   compensated.isOfTool = false;
   EXPECT_EQ(count(drawn({compensated}), "path other"), 3U);
+}
+
+TEST(Picture, PlacesThatNoMachineHas) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double far : {1e17, 1e300, infinity, -infinity})
+    EXPECT_NE(drawn({moveOf(MoveKind::Rapid, {far, 0, 0}, {far, 1, 0}), moveOf(MoveKind::Feed, {0, 0, 0}, {9, 0, far})})
+                  .find("2 movements are too far away to be drawn"),
+              std::string::npos);
 }
 
 } // namespace
