@@ -149,7 +149,7 @@ private:
     Point target = targetOf(context_, words_);
     target[indexOf(plane_.normal)] = travelLevel();
     state_.position = target;
-    tell(context_, MoveKind::Rapid, start);
+    tell(context_, isOpenPolar(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid, start);
     const Kind kind = reading_.wantsMoves() ? kindOf() : Kind::Straight;
     if (kind == Kind::NotFollowed) {
       reading_.notModelled("the way of this boring cycle", context_.place());

@@ -52,6 +52,7 @@ private:
   void enter(const CodeWord &word) {
     const CodeAction action = word.code->action;
     if (word.address == 'G') {
+      beginCycle(word);
       if (const auto index = context_.modes.indexOf(*word.code))
         state_.codes[word.code->group] = reading_.code(*index);
       if (word.code->group != 0 && word.code->group == context_.modes.groupOf(ModalKind::Cycle) &&
@@ -83,8 +84,8 @@ private:
       enterOther(kModalGeometry);
   }
   void enterOther(int what) { detail::enterOtherGeometry(context_, what, reading_.truth(true)); }
-  /// What the control's manual forbids and is not followed.
-  void forbidden(Truth when, std::string_view what) {
+  /// What the control's manual forbids, or what is not told by a code in force.
+  void notFollowed(Truth when, std::string_view what) {
     if (!reading_.mayBe(when))
       return;
     detail::enterOtherGeometry(context_, kLastingGeometry, when);
@@ -114,6 +115,17 @@ private:
                              &state_.cycle.dwell})
           *level = reading_.anything();
     }
+  }
+  /// What is left of a cycle has no part in one that begins.
+  void beginCycle(const CodeWord &word) {
+    const auto group = context_.modes.groupOf(ModalKind::Cycle);
+    if (!isDrillingCycle(word.code->action) || word.code->group != group)
+      return;
+    const Truth off = context_.inForce(ModalKind::Cycle, {CodeAction::CycleOff}, reading_.truth(false));
+    const Truth active =
+        reading_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
+    if (context_.certain(off) || !reading_.mayBe(active))
+      endCycle(context_);
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
 
@@ -283,10 +295,10 @@ private:
     const Truth stillTurned = reading_.both(turned, isTurned());
     const Truth stillMapped = reading_.both(scaledOrTurned, context_.either(isTurned(), isScaled()));
     if (words_.has(CodeAction::MirrorOn) || words_.has(CodeAction::MirrorOff))
-      forbidden(reading_.both(stillMapped, context_.either(mirrored, isMirrored())),
-                "a mirror image that changes under scaling or rotation");
+      notFollowed(reading_.both(stillMapped, context_.either(mirrored, isMirrored())),
+                  "a mirror image that changes under scaling or rotation");
     if (words_.has(CodeAction::ScalingOn) || words_.has(CodeAction::ScalingOff))
-      forbidden(stillTurned, "scaling that changes under rotation");
+      notFollowed(stillTurned, "scaling that changes under rotation");
     state_.transformed =
         context_.either(context_.either(isTurned(), isScaled()), context_.either(isMirrored(), isOther()));
   }
@@ -295,7 +307,7 @@ private:
       return;
     const std::optional<Plane> now = planeOf(context_);
     if (!now || !before || now->normal != before->normal)
-      forbidden(isTurned(), "another plane under rotation");
+      notFollowed(isTurned(), "another plane under rotation");
   }
   bool namesPlane() const {
     const auto plane = context_.modes.groupOf(ModalKind::Plane);
@@ -337,6 +349,8 @@ private:
   /// G68 X Y R: the centre is where the tool stands when it is not written; the angle is then a parameter's.  Whether R
   /// counts from the angle in force under G91 is a parameter's too.
   void rotation() {
+    if (words_.find('I') || words_.find('J') || words_.find('K'))
+      notFollowed(reading_.truth(true), "rotation in space");
     const std::optional<Plane> plane = planeOf(context_);
     auto &[first, second] = state_.transform.centre;
     first = plane ? centreOfRotation(plane->first) : reading_.anyNumber();

@@ -173,7 +173,7 @@ private:
     const auto isMotion = [&](CodeAction action) {
       return context_.certain(context_.inForce(ModalKind::Motion, {action}, reading_.truth(false)));
     };
-    const MoveKind kind = hasOtherWay()                                                  ? MoveKind::Unfollowed
+    const MoveKind kind = hasOtherWay() || hasLatheCorner()                              ? MoveKind::Unfollowed
                           : isMotion(CodeAction::Rapid)                                  ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
                                                                                          : MoveKind::Unfollowed;
@@ -181,8 +181,10 @@ private:
   }
   /// Corners that are rounded or chamfered, dimensions given by an angle, single direction positioning (G60).
   bool hasOtherWay() const {
-    if (words_.has(CodeAction::OtherCurve) || hasCommaWord())
-      return true;
+    return words_.has(CodeAction::OtherCurve) || hasCommaWord() || isOpenPolar(context_, words_);
+  }
+  /// The same corners and angles, as lines of a lathe have them.
+  bool hasLatheCorner() const {
     const auto isWritten = [&](char letter) { return words_.find(letter) != nullptr; };
     return context_.dialect().machine == MachineKind::Turning &&
            (isWritten('R') || isWritten('I') || isWritten('K') || isWritten('A') || isWritten('C'));
@@ -304,7 +306,7 @@ private:
   void tellArc(const Point &start, const Arc &arc, const CircleMapping<R> &mapping) {
     const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
     const std::optional<std::uint32_t> turns = turnsOf();
-    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || hasCommaWord()) {
+    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || hasOtherWay()) {
       if (!context_.certain(mapping.staysCircle))
         reading_.notModelled("an arc whose axes are scaled differently", context_.place());
       else if (!clockwise)

@@ -34,13 +34,28 @@ template <ValueAlgebra R> typename R::Truth isAbsolute(StepContext<R> &context) 
   return context.inForce(ModalKind::Distance, {CodeAction::Absolute}, context.reading.truth(true));
 }
 
+template <ValueAlgebra R> typename R::Truth isPolar(StepContext<R> &context) {
+  return context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, context.reading.truth(false));
+}
+
+/// Polar coordinates of which one is not written, or incremental ones: where they lead is not followed.
+template <ValueAlgebra R> bool isOpenPolar(StepContext<R> &context, const ExecutedWords<R> &words) {
+  const auto polar = isPolar(context);
+  const std::optional<Plane> plane = planeOf(context);
+  if (!context.reading.mayBe(polar) || !plane)
+    return context.reading.mayBe(polar);
+  const bool radius = words.find(letterOf(plane->first));
+  const bool angle = words.find(letterOf(plane->second));
+  const bool isKnown = radius && angle && context.certain(isAbsolute(context)) && context.certain(polar);
+  return (radius || angle) && !isKnown;
+}
+
 /// G16: the first axis of the plane is a radius, the second an angle, about the zero point of the program.
 template <ValueAlgebra R>
 void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
                std::array<typename R::Value, kAxisCount> &target) {
   R &reading = context.reading;
-  const auto polar = context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false));
-  if (!reading.mayBe(polar))
+  if (!reading.mayBe(isPolar(context)))
     return;
   const std::optional<Plane> plane = planeOf(context);
   if (!plane) {
@@ -51,9 +66,9 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
   const auto *angle = words.find(letterOf(plane->second));
   auto &first = target[indexOf(plane->first)];
   auto &second = target[indexOf(plane->second)];
-  if (!radius || !angle || !context.certain(isAbsolute(context)) || !context.certain(polar)) {
-    if (!radius && !angle)
-      return;
+  if (!radius && !angle)
+    return;
+  if (isOpenPolar(context, words)) {
     first = second = reading.anyNumber();
     return reading.notModelled("polar coordinates of which one is not written, or incremental ones", context.place());
   }
@@ -116,7 +131,7 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   R &reading = context.reading;
   const bool isMapped = reading.mayBe(context.state.transformed);
   if (isMapped && context.modes.groupOf(ModalKind::Distance) && !reading.mayBe(detail::isAbsolute(context)) &&
-      !reading.mayBe(context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, reading.truth(false))))
+      !reading.mayBe(detail::isPolar(context)))
     return detail::mappedIncrement(context, words);
   auto target = toProgrammed(context, context.state.position);
   const bool incrementsByLetter =
