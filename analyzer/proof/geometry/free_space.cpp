@@ -103,6 +103,8 @@ public:
         space.convexParts.push_back(half([=, this](const TermPoint &p) { return store_.subtract(p[i], *high); }));
     }
     addAbove(space, box.sides[2].high);
+    if (space.convexParts.size() == 1) // a half space
+      return convex(space.convexParts);
     space.all = [=, this](const TermPoint &p) { return outsideOfBox(p, box, space.convexParts); };
     return space;
   }

@@ -130,6 +130,12 @@ ToolPath::Hull ToolPath::boxHull() const {
   return hull;
 }
 
+TermPoint ToolPath::atCentre(TermPoint point) const {
+  point[in(move_.plane.first)] = move_.firstCentre;
+  point[in(move_.plane.second)] = move_.secondCentre;
+  return point;
+}
+
 /// The box around the full circle; of an arc whose ends are not as far from the centre, around the larger one.
 ToolPath::Hull ToolPath::arcHull() {
   const Spokes ends = spokes();

@@ -38,6 +38,8 @@ public:
   PointOnWay anyPoint();
   /// The hull is the way itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
+  /// Of an arc: the same level, at its centre.
+  TermPoint atCentre(TermPoint point) const;
 
 private:
   bool isArc() const { return move_.kind == MoveKind::ArcClockwise || move_.kind == MoveKind::ArcCounterclockwise; }

@@ -172,11 +172,15 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     const geometry::PointOnWay any = path.anyPoint();
     return {any.conditions, all(any.point)};
   };
+  const auto isOfLevel = [&](const geometry::Formula &bound) { // speaks of the axis of the helix alone
+    return std::all_of(hull.corners.begin(), hull.corners.end(),
+                       [&](const TermPoint &corner) { return bound(corner) == bound(path.atCentre(corner)); });
+  };
   for (const FreeSpace &space : rule.spaces) {
     for (const geometry::Formula &bound : space.bounds) {
       const std::set<TermId> corners = atCorners(bound);
       SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
-      if (!path.isHull() && corners.size() > 2) // a bound on the level of a helix speaks of two levels
+      if (!path.isHull() && !isOfLevel(bound))
         question.ways.push_back(anyPoint(bound));
     }
     if (space.isConvex())
