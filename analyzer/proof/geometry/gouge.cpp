@@ -28,12 +28,12 @@ Tool<double> toolOf(const PlainSpace &space) {
   return {tool.radius, std::clamp(tool.corner, 0.0, std::max(0.0, tool.radius))};
 }
 
+/// Of points that are tried where nothing is known of how a depth changes.
+double stepOf(const Tool<double> &tool) { return std::max(tool.radius / 4, 0.05); }
+
 std::optional<Deepest> outsideOnWay(const PlainRegion &region, const Tool<double> &tool, const GougePath &path,
                                     double floor) {
-  const Depth depth = [&](const Point<double> &point) { return depthOutside(region, tool, point); };
   const auto &parts = region.parts;
-  if (!std::all_of(parts.begin(), parts.end(), hasDistances))
-    return deepestOnWay(path, depth, Course::Any, floor);
   const bool isConvexLine = path.isStraight() && std::all_of(parts.begin(), parts.end(), isConvex);
   const auto atEnds = [&](const PlainShape &part) {
     return std::max(depthOutside(part, tool, path.start()), depthOutside(part, tool, path.end()));
@@ -41,9 +41,15 @@ std::optional<Deepest> outsideOnWay(const PlainRegion &region, const Tool<double
   if (isConvexLine && parts.size() > 1 &&
       std::any_of(parts.begin(), parts.end(), [&](const PlainShape &part) { return atEnds(part) <= floor; }))
     return std::nullopt;
-  if (parts.size() == 1 && std::holds_alternative<Box<double>>(parts.front()))
-    return deepestOnWay(path, depth, Course::SingleAxes, floor);
-  return deepestOnWay(path, depth, isConvexLine && parts.size() == 1 ? Course::RisesToEnds : Course::NoFaster, floor);
+  const auto course = [&] {
+    if (!std::all_of(parts.begin(), parts.end(), hasDistances))
+      return Course::Any;
+    if (parts.size() == 1 && std::holds_alternative<Box<double>>(parts.front()))
+      return Course::SingleAxes;
+    return isConvexLine && parts.size() == 1 ? Course::RisesToEnds : Course::NoFaster;
+  };
+  const Depth depth = [&](const Point<double> &point) { return depthOutside(region, tool, point); };
+  return deepestOnWay(path, {depth, course(), floor, stepOf(tool)});
 }
 
 /// Axes that each go at a rate of their own may be anywhere in the box between the ends; the tool reaches up without
@@ -55,8 +61,10 @@ std::optional<Deepest> insideInBox(const PlainShape &part, const Tool<double> &t
   Point<double> high = path.end();
   low[2] = high[2] = std::min(low[2], high[2]);
   const auto place = deepestInRectangle(part, low, high);
-  if (!place)
-    return deepestInRectangle(low, high, depth, hasDistances(part) ? Course::NoFaster : Course::Any, floor);
+  if (!place) {
+    const Course course = hasDistances(part) ? Course::NoFaster : Course::Any;
+    return deepestInRectangle(low, high, {depth, course, floor, 2 * stepOf(tool)});
+  }
   const Point<double> point{(*place)[0], (*place)[1], low[2]};
   const double there = depth(point);
   return there > floor ? std::optional(Deepest{point, there}) : std::nullopt;
@@ -65,10 +73,9 @@ std::optional<Deepest> insideInBox(const PlainShape &part, const Tool<double> &t
 std::optional<Deepest> insideOnWay(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
                                    double floor) {
   const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
-  if (!hasDistances(part))
-    return deepestOnWay(path, depth, Course::Any, floor);
   const bool isHill = path.isStraight() && isConvex(part);
-  return deepestOnWay(path, depth, isHill ? Course::RisesToOne : Course::NoFaster, floor);
+  const Course course = !hasDistances(part) ? Course::Any : isHill ? Course::RisesToOne : Course::NoFaster;
+  return deepestOnWay(path, {depth, course, floor, stepOf(tool)});
 }
 
 std::optional<Deepest> insideOfRegion(const PlainRegion &region, const Tool<double> &tool, const RecordedMove &recorded,
@@ -167,7 +174,7 @@ private:
       if (!space_.travel)
         return std::nullopt;
       const Depth depth = [&](const Point<double> &point) { return depthOutside(*space_.travel, point); };
-      return deepestOnWay(GougePath(recorded), depth, Course::SingleAxes, floor);
+      return deepestOnWay(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
     }
     }
     FEEDHOLD_UNREACHABLE("the switch names every claim");

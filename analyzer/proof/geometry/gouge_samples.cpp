@@ -12,6 +12,7 @@ namespace feedhold::geometry {
 namespace {
 
 constexpr std::size_t kAngles = 64;
+constexpr std::size_t kFewAngles = kAngles / 4; // of conditions, which are slow to read
 
 /// Distances from the nearest that counts to the largest that a machine travels, each double the last.
 constexpr double kShortest = 1e-8;
@@ -35,13 +36,18 @@ struct Ring {
   double height; // above the tip
 };
 /// From the rim of the shank to the middle.
-std::array<Ring, 6> ringsOf(const Tool<double> &tool) {
+std::vector<Ring> ringsOf(const Tool<double> &tool) {
   const double flat = tool.radius - tool.corner;
   const auto onCorner = [&](double angle) {
     return Ring{flat + tool.corner * std::sin(angle), tool.corner * (1 - std::cos(angle))};
   };
   constexpr double right = std::numbers::pi / 2;
-  return {onCorner(right), onCorner(right * 2 / 3), onCorner(right / 3), onCorner(0), Ring{flat / 2, 0}, Ring{0, 0}};
+  std::vector<Ring> rings = {onCorner(right)};
+  if (tool.corner > 0)
+    rings.insert(rings.end(), {onCorner(right * 2 / 3), onCorner(right / 3), onCorner(0)});
+  if (flat > 0)
+    rings.push_back({flat / 2, 0});
+  return rings;
 }
 
 Point<double> pointAt(const Ring &ring, std::size_t angle, const Point<double> &tip) {
@@ -60,24 +66,34 @@ double distance(const Point<double> &a, const Point<double> &b) {
 template <typename Holds> double distanceTo(const Holds &holds, const Point<double> &a, const Point<double> &b) {
   double good = 0;
   double bad = 1;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const double middle = (good + bad) / 2;
     (holds(between(a, b, middle)) ? good : bad) = middle;
   }
   return (1 - good) * distance(a, b);
 }
 
+std::array<Point<double>, 6> around(const Point<double> &point, double reach) {
+  std::array<Point<double>, 6> points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = point;
+    points[i][i / 2] += i % 2 == 0 ? -reach : reach;
+  }
+  return points;
+}
+
+template <typename Holds> bool hasNear(const Holds &holds, const Point<double> &point, double reach) {
+  const auto points = around(point, reach);
+  return std::any_of(points.begin(), points.end(), holds);
+}
+
 /// How far the nearest point is where `holds`, along the axes.
 template <typename Holds> double nearest(const Holds &holds, const Point<double> &point) {
   for (double reach = kShortest; reach < kLongest; reach *= 2) {
     double least = kLongest;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const double side : {-reach, reach}) {
-        Point<double> there = point;
-        there[axis] += side;
-        if (holds(there))
-          least = std::min(least, distanceTo(holds, there, point));
-      }
+    for (const Point<double> &there : around(point, reach))
+      if (holds(there))
+        least = std::min(least, distanceTo(holds, there, point));
     if (least < kLongest)
       return least;
   }
@@ -104,10 +120,12 @@ double outsideOfConditions(std::span<const PlainShape> parts, const Tool<double>
     return nearest(isInside, tip);
   double worst = kNoDepth;
   for (const Ring &ring : ringsOf(tool))
-    for (std::size_t angle = 0; angle < kAngles; ++angle) {
+    for (std::size_t angle = 0; angle < kAngles; angle += kAngles / kFewAngles) {
       const Point<double> point = pointAt(ring, angle, tip);
-      if (!isAbove(point))
-        worst = std::max(worst, distanceTo(isAbove, tip, point));
+      const Point<double> axis{tip[0], tip[1], point[2]}; // above the tip, and so it is free
+      const bool isWorse = !isAbove(point) && (worst <= 0 || !isAbove(between(point, axis, worst / ring.radius)));
+      if (isWorse)
+        worst = std::max(worst, std::min(distanceTo(isAbove, tip, point), distanceTo(isAbove, axis, point)));
     }
   return worst;
 }
@@ -147,19 +165,21 @@ double sampledOutside(std::span<const PlainShape> parts, const Tool<double> &too
 double sampledInside(const Condition<double, bool> &condition, const Tool<double> &tool, const Point<double> &tip) {
   const auto isFree = [&](const Point<double> &point) { return !condition.holds(point); };
   double worst = kNoDepth;
-  const auto tryAt = [&](Point<double> point, double rise) {
-    point[2] += rise;
-    if (!isFree(point))
-      worst = std::max(worst, nearest(isFree, point));
+  const auto tryAt = [&](const Point<double> &point) {
+    if (isFree(point) || (worst > 0 && hasNear(isFree, point, worst)))
+      return;
+    worst = std::max(worst, nearest(isFree, point));
   };
-  const double step = std::max(tool.radius, 1e-2);
-  for (const Ring &ring : ringsOf(tool))
-    for (std::size_t angle = 0; angle < kAngles; angle += 2) {
-      const Point<double> point = pointAt(ring, angle, tip);
-      tryAt(point, 0);
-      for (double rise = step / 4; rise < 100 * step; rise *= 2)
-        tryAt(point, rise);
-    }
+  const double step = std::max(tool.radius, 1e-2) / 4;
+  std::vector<Ring> rings = ringsOf(tool);
+  rings.push_back({0, 0});
+  for (const Ring &ring : rings)
+    for (std::size_t angle = 0; angle < (ring.radius > 0 ? kAngles : 1); angle += kAngles / kFewAngles)
+      for (double rise = 0; rise < 300 * step; rise = rise * 3 + step) { // up the shank
+        Point<double> point = pointAt(ring, angle, tip);
+        point[2] += rise;
+        tryAt(point);
+      }
   return worst;
 }
 

@@ -11,10 +11,12 @@ namespace {
 constexpr int kMostHalvings = 9; // of a round
 constexpr std::size_t kMostQuarterings = 2000;
 constexpr double kNearEnough = 1e-3;
+constexpr int kClimbs = 50;
 /// Of a depth of which nothing is known.
-constexpr std::size_t kSteps = 128; // of a round
-constexpr std::size_t kMostRounds = 100;
-constexpr std::size_t kGrid = 24;
+constexpr double kMostSteps = 128; // of a way
+constexpr double kMostGrid = 24;   // of a side
+
+double stepsOf(double length, double step, double most) { return std::clamp(std::ceil(length / step), 1.0, most); }
 
 /// Takes down the deepest of the points that are tried.
 class Search {
@@ -52,7 +54,7 @@ public:
     double right = from + kGolden * (to - from);
     double depthLeft = at(left);
     double depthRight = at(right);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < kClimbs; ++i) {
       if (depthLeft > depthRight) {
         to = std::exchange(right, left);
         depthRight = depthLeft;
@@ -132,11 +134,12 @@ public:
     if (at_)
       climb(low, high);
   }
-  void grid(const Point<double> &low, const Point<double> &high) {
-    for (std::size_t i = 0; i <= kGrid; ++i)
-      for (std::size_t j = 0; j <= kGrid; ++j)
-        at({low[0] + (high[0] - low[0]) * static_cast<double>(i) / kGrid,
-            low[1] + (high[1] - low[1]) * static_cast<double>(j) / kGrid, low[2]});
+  void grid(const Point<double> &low, const Point<double> &high, double step) {
+    const double columns = stepsOf(high[0] - low[0], step, kMostGrid);
+    const double rows = stepsOf(high[1] - low[1], step, kMostGrid);
+    for (double i = 0; i <= columns; ++i)
+      for (double j = 0; j <= rows; ++j)
+        at({low[0] + (high[0] - low[0]) * i / columns, low[1] + (high[1] - low[1]) * j / rows, low[2]});
   }
   std::optional<Deepest> found() const { return at_ ? std::optional(Deepest{*at_, best_}) : std::nullopt; }
 
@@ -166,9 +169,9 @@ private:
 
 } // namespace
 
-std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, Course course, double floor) {
-  Search search(path, depth, floor);
-  switch (course) {
+std::optional<Deepest> deepestOnWay(const GougePath &path, const Wanted &wanted) {
+  Search search(path, wanted.depth, wanted.floor);
+  switch (wanted.course) {
   case Course::RisesToEnds:
     search.at(0);
     search.at(1);
@@ -180,7 +183,7 @@ std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, C
     break;
   case Course::NoFaster: searchRounds(search, path); break;
   case Course::Any: {
-    const double steps = static_cast<double>(kSteps * std::min(path.rounds(), kMostRounds));
+    const double steps = stepsOf(path.length(), wanted.step, kMostSteps);
     for (double i = 0; i <= steps; ++i)
       search.at(i / steps);
     search.climbAround(1 / steps);
@@ -190,16 +193,15 @@ std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, C
   return search.found();
 }
 
-std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Depth &depth,
-                                          Course course, double floor) {
-  RectangleSearch search(depth, floor);
+std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Wanted &wanted) {
+  RectangleSearch search(wanted.depth, wanted.floor);
   const Point<double> low{std::min(a[0], b[0]), std::min(a[1], b[1]), a[2]};
   const Point<double> high{std::max(a[0], b[0]), std::max(a[1], b[1]), a[2]};
   for (const double x : {low[0], high[0]})
     for (const double y : {low[1], high[1]})
       search.at({x, y, low[2]});
-  if (course == Course::Any)
-    search.grid(low, high);
+  if (wanted.course == Course::Any)
+    search.grid(low, high, wanted.step);
   else
     search.quarter(low, high);
   return search.found();

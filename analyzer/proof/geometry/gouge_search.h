@@ -26,10 +26,17 @@ enum class Course : std::uint8_t {
   Any,
 };
 
-/// Where it is deeper than `floor`; absent: nowhere that was found.
-std::optional<Deepest> deepestOnWay(const GougePath &path, const Depth &depth, Course course, double floor);
+/// What is looked for.
+struct Wanted {
+  Depth depth;
+  Course course;
+  double floor; // deeper than that
+  double step;  // between points that are tried, where the course is any
+};
+
+/// Absent: nowhere that was found.
+std::optional<Deepest> deepestOnWay(const GougePath &path, const Wanted &wanted);
 /// In the rectangle between two points, at the Z of `a`.
-std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Depth &depth,
-                                          Course course, double floor);
+std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Wanted &wanted);
 
 } // namespace feedhold::geometry

@@ -28,10 +28,9 @@ public:
     return within<double>(state_, [&](auto &context) { return evaluate(context, expression).number; });
   }
   bool holds(ExpressionId condition, const geometry::Point<double> &point) {
-    State state = state_;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
-      state.variables.set(pointVariable(letterOf(axis)), ConcreteValue::of(point[indexOf(axis)]));
-    return within<bool>(state, [&](auto &context) { return evaluateCondition(context, condition); });
+      state_.variables.set(pointVariable(letterOf(axis)), ConcreteValue::of(point[indexOf(axis)]));
+    return within<bool>(state_, [&](auto &context) { return evaluateCondition(context, condition); });
   }
 
 private:

@@ -184,6 +184,9 @@ TEST(KeepIn, Condition) {
   EXPECT_EQ(depthIn(keepIn(flat(4), {cone}), {feed({0, 0, 10}, {0, 0, -6})}), 0);
   EXPECT_NEAR(depthIn(keepIn(flat(4), {cone}), {feed({0, 0, 10}, {0, 0, -7})}), 1, kNear);
   EXPECT_NEAR(depthIn(keepIn(ball(4), {cone}), {feed({0, 0, 10}, {0, 0, -6})}), 0, kNear);
+  const PlainShape round = Condition<double, bool>{
+      [](const Point<double> &point) { return std::hypot(point[0], point[1]) <= 50 && point[2] >= -5; }};
+  EXPECT_NEAR(depthIn(keepIn(ball(11), {round}), {feed({0, 0, 0}, {40, 0, -5})}), 1, kNear);
   EXPECT_EQ(smallestMargin(keepIn(flat(4), {cone}), SpaceClaim::KeepIn, 0, std::vector{feed({0, 0, 10}, {0, 0, 0})}),
             std::nullopt);
 }
@@ -360,7 +363,7 @@ protected:
 
 TEST_F(Definition, OfKeepingOut) {
   std::size_t violated = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const PlainShape region = shape();
     const Tool<double> cutter = tool();
     const Point<double> tip{any(-15, 15), any(-15, 15), any(-15, 15)};
@@ -372,8 +375,8 @@ TEST_F(Definition, OfKeepingOut) {
     EXPECT_TRUE(touches || depth < 0.6) << "run " << i << ": " << depth;
     violated += depth > 0 ? 1 : 0;
   }
-  EXPECT_GT(violated, 400U);
-  EXPECT_LT(violated, 1600U);
+  EXPECT_GT(violated, 200U);
+  EXPECT_LT(violated, 800U);
 }
 
 TEST_F(Definition, OfKeepingIn) {
