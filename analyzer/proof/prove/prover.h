@@ -54,6 +54,8 @@ private:
 
   // ---- claims about space (prover_space.cpp) ----
   void spaces();
+  bool mayHaveSign(smt::TermId id) const;
+  void learnSigns();
   void space(const SpaceRule &rule, Place own, const std::vector<const MoveInstance *> &moves);
   void decideSpace(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves,
                    const Violation &violation);
@@ -136,6 +138,7 @@ private:
   const Obligation *focus_ = nullptr; // all others are passed over
   std::vector<OpenClaim> open_;       // that were not proved
   std::vector<smt::Model> sampleInputs_;
+  std::vector<smt::TermId> signs_; // facts about the inputs that the contract allows
   std::map<std::pair<std::vector<smt::TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
   std::uint64_t guardWork_ = 2'000'000; // of explorations under conditions
   std::optional<Wto> wto_; // of the program, for guards

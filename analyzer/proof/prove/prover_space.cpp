@@ -128,6 +128,7 @@ void Prover::noteRounding(Obligation &obligation, const SpaceRule &rule) const {
 void Prover::spaces() {
   if (!contract() || !hasSpaceClause(*contract()) || isSingleRun_)
     return;
+  learnSigns();
   for (const SpaceRule &rule : space_->rules()) {
     if (!wanted(rule.kind))
       continue;
@@ -229,6 +230,7 @@ bool Prover::isProvedFor(Obligation &obligation, const std::vector<TermId> &cond
   for (const SpaceQuestion::Way &way : question.ways) {
     std::vector<TermId> all = conditions;
     all.insert(all.end(), way.conditions.begin(), way.conditions.end());
+    all.insert(all.end(), signs_.begin(), signs_.end());
     const bool isLast = &way == &question.ways.back();
     const Budget quick{
         .search = std::min(budget.search, kCorners), .z3 = 0, .cvc5 = 0}; // where corners will do, they do so at once
