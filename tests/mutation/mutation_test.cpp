@@ -1,8 +1,9 @@
-// Mutation: the programs of corpus/ and of the literature with one slip each.  A claim that a run breaks must not be
+// Mutation: the programs of the literature with one slip each.  A claim that a run breaks must not be
 // proved of the mutant, and a mutant whose runs come to other ends must lose a proof, with a witness or a reason.
 // MUTATION_MUTANTS chooses how many of them are tried, of all programs.
 #include "base/support/parallel.h"
 #include "mutation/mutants.h"
+#include "mutation/packages.h"
 #include "proof/sample_proofs.h"
 #include "proof/short_programs.h"
 
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -29,32 +29,17 @@ constexpr int kRuns = 60;
 constexpr std::uint64_t kInputs = 1;
 constexpr SampleKind kMutants{"mutant", proof_tests::shortSample, proof_tests::shortEntry};
 
-ProgramLines linesOf(const std::filesystem::path &path) {
-  std::ifstream file(path);
-  ProgramLines lines;
-  for (std::string line; std::getline(file, line);)
-    if (line != "%")
-      lines.push_back(line);
-  return lines;
-}
-
-/// The programs with what they call behind them.
+/// Programs of the literature, most of them without contracts; package_mutation_test.cpp has the others.
 std::vector<std::pair<std::string, ProgramLines>> originals() {
-  const std::filesystem::path root = FEEDHOLD_ROOT;
+  const std::filesystem::path folder = std::filesystem::path(FEEDHOLD_ROOT) / "tests/proof/literature";
   std::vector<std::filesystem::path> paths;
-  for (const char *folder : {"corpus/packages", "tests/proof/literature"})
-    for (const auto &entry : std::filesystem::recursive_directory_iterator(root / folder))
-      if (entry.path().extension() == ".nc" && !entry.path().stem().string().starts_with("O924"))
-        paths.push_back(entry.path());
+  for (const auto &entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".nc")
+      paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   std::vector<std::pair<std::string, ProgramLines>> programs;
-  for (const auto &path : paths) {
-    ProgramLines lines = linesOf(path);
-    if (path.parent_path().filename() == "ims")
-      for (const char *called : {"O9242.nc", "O9244.nc", "O9246.nc", "O9248.nc"})
-        std::ranges::copy(linesOf(path.parent_path() / called), std::back_inserter(lines));
-    programs.emplace_back(path.stem().string(), std::move(lines));
-  }
+  for (const auto &path : paths)
+    programs.emplace_back(path.stem().string(), linesOf(path.string()));
   return programs;
 }
 
