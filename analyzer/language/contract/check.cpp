@@ -61,7 +61,7 @@ public:
     checkTool();
     if (usesEveryVariable())
       return;
-    useOfTool();
+    useOfSetUp();
     for (const EntryValue &param : contract_.params)
       checkRead(param);
     for (const EntryValue &global : contract_.globals)
@@ -157,15 +157,21 @@ private:
     return false;
   }
 
-  /// The tool is in the spindle before the call: a macro need not read its radius to depend on it.
-  void useOfTool() {
-    if (!contract_.tool)
-      return;
-    for (const std::optional<ExpressionId> &size : {std::optional(contract_.tool->radius), contract_.tool->corner})
-      if (size)
-        for (const ExpressionId each : subexpressions(reading_.result.tree, *size))
-          if (const std::optional<std::uint32_t> variable = variableNumber(reading_.result.tree, each))
-            read_.insert(*variable);
+  /// The tool is in the spindle and at its place before the call: a macro need not read what they are to depend on it.
+  void useOfSetUp() {
+    if (contract_.tool) {
+      use(contract_.tool->radius);
+      if (contract_.tool->corner)
+        use(*contract_.tool->corner);
+    }
+    if (contract_.start)
+      for (const AxisValue &axis : contract_.start->axes)
+        use(axis.value);
+  }
+  void use(ExpressionId expression) {
+    for (const ExpressionId each : subexpressions(reading_.result.tree, expression))
+      if (const std::optional<std::uint32_t> variable = variableNumber(reading_.result.tree, each))
+        read_.insert(*variable);
   }
 
   /// Whether it is for this program alone to use the variable.

@@ -29,14 +29,20 @@ template <ValueAlgebra R> bool isAsAtEntry(StepContext<R> &context, const Machin
   return !group || context.state.codes[*group] == entry.codes[*group];
 }
 
-/// An offset has been written, and it is not known of which system that in force is.
+/// An offset has been written, or may have been, and it is not known of which system that in force is.
 template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
   if (workOffsetInForce(context))
     return false;
-  const auto &entries = context.state.variables.entries();
-  return std::any_of(entries.begin(), entries.end(), [&](const auto &entry) {
-    const VariableRange *range = findVariable(context.dialect(), entry.first);
-    return range && range->role == VariableRole::WorkOffset;
+  const auto &rows = context.dialect().variables;
+  return std::any_of(rows.begin(), rows.end(), [&](const VariableRange &row) {
+    if (row.role != VariableRole::WorkOffset)
+      return false;
+    const auto &written = context.state.variables.entries();
+    const auto &forgotten = context.state.forgotten;
+    return std::any_of(written.begin(), written.end(),
+                       [&](const auto &each) { return row.first <= each.first && each.first <= row.last; }) ||
+           std::any_of(forgotten.begin(), forgotten.end(),
+                       [&](const auto &range) { return range.first <= row.last && row.first <= range.second; });
   });
 }
 
@@ -46,13 +52,19 @@ std::array<typename R::Value, 3> zeroShift(StepContext<R> &context, MachineState
   StepContext<R> atEntry{reading, entry, context.programs, context.file, context.modes, context.block};
   const bool sameSystem = isAsAtEntry(context, entry, ModalKind::WorkOffset);
   const bool unknownSystem = !workOffsetInForce(context);
+  // `G54.1 P2` stays the same code when another P comes.
+  const auto additional = [&] {
+    const auto group = context.modes.groupOf(ModalKind::WorkOffset);
+    return group && reading.onlyCode(context.state.codes[*group]) ? reading.anyNumber() : context.zero();
+  };
   std::array<typename R::Value, 3> shift;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     auto &distance = shift[indexOf(axis)];
     const std::size_t i = indexOf(axis);
     if (unknownSystem && sameSystem && !offsetIsOpen(context))
-      distance = reading.subtract(reading.add(context.state.shift[i], context.state.local[i]),
-                                  reading.add(entry.shift[i], entry.local[i]));
+      distance = reading.add(reading.subtract(reading.add(context.state.shift[i], context.state.local[i]),
+                                              reading.add(entry.shift[i], entry.local[i])),
+                             additional());
     else
       distance = reading.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
   }

@@ -119,6 +119,12 @@ public:
             notBelow(sumOfSquares(from(p[0], cylinder.centre[0]), from(p[1], cylinder.centre[1])), squared(reach));
         return cylinder.along.high ? store_.logicalOr(far, notBelow(p[2], *cylinder.along.high)) : far;
       };
+      space.beyond.push_back([=, this](const TermPoint &anchor, const TermPoint &p) {
+        const auto spoke = [&](const TermPoint &to) {
+          return std::vector{from(to[0], cylinder.centre[0]), from(to[1], cylinder.centre[1])};
+        };
+        return beyondPlane(spoke(anchor), spoke(p), reach);
+      });
       return space;
     }
     const auto [along, across] = lying(cylinder);
@@ -138,6 +144,10 @@ public:
       std::vector<TermId> cases;
       for (const Formula &part : space.convexParts)
         cases.push_back(part(p));
+      if (disc_ == zero_) {
+        cases.push_back(store_.logicalAnd(notBelow(h, zero_), notBelow(sumOfSquares(e(p), h), grown)));
+        return store_.logicalOr(cases);
+      }
       for (const TermId side : {e(p), store_.negate(e(p))}) {
         const TermId gap = store_.subtract(side, disc_);
         const std::array beside{notBelow(h, zero_), notBelow(gap, zero_), notBelow(sumOfSquares(gap, h), grown)};
@@ -145,6 +155,13 @@ public:
       }
       return store_.logicalOr(cases);
     };
+    if (disc_ == zero_)
+      space.beyond.push_back([=, this](const TermPoint &anchor, const TermPoint &p) {
+        const auto spoke = [&](const TermPoint &to) {
+          return std::vector{e(to), from(store_.add(to[2], corner_), cylinder.centre[1])};
+        };
+        return store_.logicalAnd(notBelow(spoke(anchor).back(), zero_), beyondPlane(spoke(anchor), spoke(p), reach));
+      });
     return space;
   }
   FreeSpace outside(const Sphere<TermId> &sphere) const {
@@ -163,6 +180,14 @@ public:
                              notBelow(p[2], store_.add(sphere.centre[2], sphere.radius)), store_.logicalAnd(above)};
       return store_.logicalOr(cases);
     };
+    if (disc_ == zero_)
+      space.beyond.push_back([=, this](const TermPoint &anchor, const TermPoint &p) {
+        const auto spoke = [&](const TermPoint &to) {
+          return std::vector{from(to[0], sphere.centre[0]), from(to[1], sphere.centre[1]),
+                             from(store_.add(to[2], corner_), sphere.centre[2])};
+        };
+        return store_.logicalAnd(notBelow(spoke(anchor).back(), zero_), beyondPlane(spoke(anchor), spoke(p), reach));
+      });
     return space;
   }
   FreeSpace outside(const Prism<TermId> &prism) const {
@@ -224,6 +249,24 @@ private:
 
   // ---- regions to keep out of ----
 
+  /// With both as seen from the centre: the point is no nearer than the anchor in the direction of the anchor, which is
+  /// so far away itself.
+  TermId beyondPlane(const std::vector<TermId> &anchor, const std::vector<TermId> &point, TermId reach) const {
+    TermId further = zero_; // anchor * (point - anchor)
+    TermId square = zero_;
+    std::vector<TermId> ways; // for one coordinate: without the product
+    for (std::size_t i = 0; i < anchor.size(); ++i) {
+      const TermId change = store_.subtract(point[i], anchor[i]);
+      square = store_.add(square, squared(anchor[i]));
+      if (change == zero_)
+        continue;
+      further = store_.add(further, store_.multiply(anchor[i], change));
+      ways.push_back(store_.logicalOr(store_.logicalAnd(notBelow(anchor[i], zero_), notBelow(change, zero_)),
+                                      store_.logicalAnd(notBelow(zero_, anchor[i]), notBelow(zero_, change))));
+    }
+    const TermId isBeyond = ways.size() == 1 ? ways.front() : notBelow(further, zero_);
+    return store_.logicalAnd(isBeyond, notBelow(square, squared(reach)));
+  }
   /// Where a distance from a flat side is at least the radius.
   template <typename Distance> Formula half(Distance distance) const {
     return [=, this](const TermPoint &p) { return notBelow(distance(p), radius_); };
@@ -319,6 +362,10 @@ template <typename Make> FreeSpace owning(TermStore &store, const Tool<TermId> &
     formula = [maker, inner = std::move(formula)](const TermPoint &p) { return inner(p); };
   };
   keep(space.all);
+  for (FreeSpace::Beyond &beyond : space.beyond)
+    beyond = [maker, inner = std::move(beyond)](const TermPoint &anchor, const TermPoint &p) {
+      return inner(anchor, p);
+    };
   for (std::vector<Formula> *formulas : {&space.convexParts, &space.bounds})
     for (Formula &formula : *formulas)
       keep(formula);
@@ -357,8 +404,11 @@ FreeSpace inside(TermStore &store, const Tool<TermId> &tool, const std::vector<T
 }
 
 FreeSpace outside(TermStore &store, const Tool<TermId> &tool, const TermShape &part) {
-  return owning(store, tool,
-                [&](const SpaceOf &of) { return match(part, [&](const auto &shape) { return of.outside(shape); }); });
+  FreeSpace space = owning(store, tool, [&](const SpaceOf &of) {
+    return match(part, [&](const auto &shape) { return of.outside(shape); });
+  });
+  space.isOpenUpwards = true; // the tool reaches up without end: higher up, less of it is there
+  return space;
 }
 
 TermId isTool(TermStore &store, const Tool<TermId> &tool) {

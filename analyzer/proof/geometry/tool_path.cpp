@@ -11,6 +11,11 @@ std::size_t in(Axis axis) { return indexOf(axis); }
 
 } // namespace
 
+ToolPath::ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::move(move)) {
+  if (isArc() && move_.radius && findCentre())
+    move_.radius.reset();
+}
+
 TermId ToolPath::share(PointOnWay &way) {
   const TermId share = freshVariable(store_, "share of the way");
   way.conditions.push_back(store_.lessOrEqual(store_.number(Number(0)), share));
@@ -87,7 +92,77 @@ TermId ToolPath::sector(TermId x, TermId y) const {
   return store_.logicalOr(cases);
 }
 
+/// R says the distance of the centre from both ends, and the side of the chord on which it lies: these polynomial facts
+/// are of more use than the formula of the centre.  Where R is shorter than half the chord, the arc is a half circle
+/// about the middle of it; where the ends are one, there is none.
+PointOnWay ToolPath::pointOfArcByRadius() {
+  ToolPath about = *this;
+  about.move_.radius.reset();
+  about.move_.firstCentre = freshVariable(store_, "centre");
+  about.move_.secondCentre = freshVariable(store_, "centre");
+  const Spokes ends = about.spokes();
+  PointOnWay way = about.pointOfArc();
+  const TermId zero = store_.number(Number(0));
+  const TermId chordFirst = store_.subtract(ends.endFirst, ends.startFirst);
+  const TermId chordSecond = store_.subtract(ends.endSecond, ends.startSecond);
+  const TermId chord = square(chordFirst, chordSecond);
+  const TermId diameter = store_.scale(Number(4), store_.multiply(move_.radius->size, move_.radius->size));
+  const TermId distance = store_.scale(Number(4), square(ends.startFirst, ends.startSecond));
+  const std::array reaches{store_.lessOrEqual(chord, diameter), store_.equal(distance, diameter)};
+  const std::array tooShort{store_.less(diameter, chord), store_.equal(distance, chord)};
+  const TermId left = store_.subtract(store_.multiply(chordFirst, store_.negate(ends.startSecond)),
+                                      store_.multiply(chordSecond, store_.negate(ends.startFirst)));
+  const TermId inner = centreIsLeft() ? left : store_.negate(left);
+  const std::array arc{store_.equal(square(ends.startFirst, ends.startSecond), square(ends.endFirst, ends.endSecond)),
+                       store_.logicalOr(store_.logicalAnd(reaches), store_.logicalAnd(tooShort)),
+                       store_.lessOrEqual(zero, inner), store_.less(zero, chord)};
+  const std::size_t first = in(move_.plane.first);
+  const std::size_t second = in(move_.plane.second);
+  const std::array none{store_.equal(chord, zero), store_.equal(way.point[first], move_.start[first]),
+                        store_.equal(way.point[second], move_.start[second])};
+  way.conditions.push_back(store_.logicalOr(store_.logicalAnd(arc), store_.logicalAnd(none)));
+  return way;
+}
+
+/// Seen along the chord, the centre of the shorter arc lies to the right of a clockwise one.
+bool ToolPath::centreIsLeft() const {
+  return (move_.kind == MoveKind::ArcCounterclockwise) == (move_.radius->length == ArcLength::Short);
+}
+
+/// Of a quarter or three quarters from axis to axis, and of a half along an axis, by the form of its terms.
+bool ToolPath::findCentre() {
+  const std::size_t first = in(move_.plane.first);
+  const std::size_t second = in(move_.plane.second);
+  const TermId a = store_.subtract(move_.end[first], move_.start[first]);
+  const TermId b = store_.subtract(move_.end[second], move_.start[second]);
+  const TermId zero = store_.number(Number(0));
+  const auto isTimes = [&](TermId term, int factor) {
+    return term == store_.scale(Number(factor), move_.radius->size);
+  };
+  const auto isHalf = [&](TermId along, TermId across) {
+    return across == zero && (isTimes(along, 2) || isTimes(along, -2));
+  };
+  const auto middle = [&](std::size_t axis) {
+    return store_.scale(Number(1) / Number(2), store_.add(move_.start[axis], move_.end[axis]));
+  };
+  if (isHalf(a, b) || isHalf(b, a)) {
+    move_.firstCentre = middle(first);
+    move_.secondCentre = middle(second);
+    return true;
+  }
+  if ((!isTimes(a, 1) && !isTimes(a, -1)) || (!isTimes(b, 1) && !isTimes(b, -1)))
+    return false;
+  const bool sameSign = isTimes(a, 1) == isTimes(b, 1);
+  const bool aboveStart =
+      sameSign == centreIsLeft(); // in the first coordinate where it starts, in the other where it ends
+  move_.firstCentre = aboveStart ? move_.start[first] : move_.end[first];
+  move_.secondCentre = aboveStart ? move_.end[second] : move_.start[second];
+  return true;
+}
+
 PointOnWay ToolPath::pointOfArc() {
+  if (move_.radius)
+    return pointOfArcByRadius();
   PointOnWay way{move_.start, {}};
   const Spokes ends = spokes();
   const TermId x = freshVariable(store_, "arc");

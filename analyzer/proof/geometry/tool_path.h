@@ -6,6 +6,14 @@
 
 namespace feedhold::geometry {
 
+/// An arc of less than half a circle, or of more.
+enum class ArcLength : std::uint8_t { Short, Long };
+/// Of an arc that is given by R in place of its centre.
+struct ArcRadius {
+  TermId size; // above 0
+  ArcLength length;
+};
+
 /// In the space of the start (shapes.h); a movement whose way is known.
 struct TermMove {
   MoveKind kind;
@@ -15,6 +23,7 @@ struct TermMove {
   TermId firstCentre = TermId(0);
   TermId secondCentre = TermId(0);
   std::uint32_t turns = 1;
+  std::optional<ArcRadius> radius = {};
 };
 
 /// A point on the way: any one, by new variables that `conditions` keep to the way.
@@ -25,7 +34,7 @@ struct PointOnWay {
 
 class ToolPath {
 public:
-  ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::move(move)) {}
+  ToolPath(TermStore &store, TermMove move);
 
   /// Points whose convex hull has all of the way in it.  `conditions` of their variables.
   struct Hull {
@@ -38,6 +47,8 @@ public:
   PointOnWay anyPoint();
   /// The hull is the way itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
+  /// X and Y stay as they are.
+  bool isVertical() const { return !isArc() && move_.start[0] == move_.end[0] && move_.start[1] == move_.end[1]; }
   /// Of an arc: the same level, at its centre.
   TermPoint atCentre(TermPoint point) const;
 
@@ -48,6 +59,9 @@ private:
   PointOnWay pointOfLine();
   PointOnWay pointOfBox();
   PointOnWay pointOfArc();
+  PointOnWay pointOfArcByRadius();
+  bool findCentre();
+  bool centreIsLeft() const;
   TermId share(PointOnWay &way);
   TermId between(PointOnWay &way, TermId start, TermId end);
   TermId sector(TermId x, TermId y) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/tool_point.h"
+#include "proof/geometry/tool_path.h"
 #include "proof/prove/path.h"
 
 #include <functional>
@@ -43,7 +44,7 @@ struct LoopInstance {
   std::vector<smt::TermId> variables = {}; // of the parts of the state of which no closed form is known
   std::vector<smt::TermId> facts = {};     // that hold before each pass
   std::vector<Transition> transitions = {};
-  smt::Substitution first = {}; // from `passes` and all that goes with them to what the arrival found
+  smt::Substitution first = {};           // from `passes` and all that goes with them to what the arrival found
   std::vector<smt::TermId> measures = {}; // that the contract suggests
   /// Of the variables of programs: their numbers at the arrival, and those before any pass.
   struct Value {
@@ -81,6 +82,7 @@ struct MoveInstance {
   Place own;   // the same, or the block of the started program that called it
   std::vector<smt::TermId> conditions;
   Move<SymbolicValue> move;
+  std::optional<geometry::ArcRadius> radius; // of an arc that is given by R, unmapped
   ToolPoint<SymbolicReading> point;
   SymbolicValue spindleSpeed;
   smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (free_column.h)
@@ -95,7 +97,7 @@ struct Unfollowed {
 
 /// A call that is not followed: the run may stop in it with any alarm, behind any movement, or never come back.
 struct UnfollowedCall {
-  Place own; // of the block of the started program
+  Place own;                           // of the block of the started program
   std::vector<smt::TermId> conditions; // of the way there
   std::vector<std::size_t> loops;      // that the call is in: their instances
 };
@@ -139,8 +141,8 @@ struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyPass;
   Sums sums = Sums::Exact;
-  LoopHints invariants = {}; // tried with those that are guessed
-  LoopHints measures = {};   // kept for LoopInstance::measures
+  LoopHints invariants = {};                         // tried with those that are guessed
+  LoopHints measures = {};                           // kept for LoopInstance::measures
   std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
   KeepMoves moves = KeepMoves::No;
   std::size_t mostSteps = 100'000;

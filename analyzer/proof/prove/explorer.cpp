@@ -18,9 +18,13 @@ constexpr std::uint32_t kLongestPath = 20'000; // steps
 // ---- Path ----
 
 bool Path::says(const smt::TermStore &store, TermId condition) const {
-  if (condition == store.yes())
+  if (condition == store.yes() || std::find(conditions.begin(), conditions.end(), condition) != conditions.end())
     return true;
-  return std::find(conditions.begin(), conditions.end(), condition) != conditions.end();
+  const smt::Term &term = store[condition];
+  const auto isSaid = [&](TermId part) { return says(store, part); };
+  if (term.kind == TermKind::Or)
+    return std::any_of(term.arguments.begin(), term.arguments.end(), isSaid);
+  return term.kind == TermKind::And && std::all_of(term.arguments.begin(), term.arguments.end(), isSaid);
 }
 
 bool Path::assume(const smt::TermStore &store, TermId condition) {
@@ -49,6 +53,7 @@ Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const E
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   result_.treatment = options_.loops;
   entry_ = start;
+  reading_.start();
   Path path{.at = {entry.file, entry.entry},
             .state = start,
             .conditions = {},

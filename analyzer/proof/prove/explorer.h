@@ -64,6 +64,7 @@ private:
   bool takeChecks(Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
+  std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
   static Place ownPlace(const Path &path) { return path.frames.size() > 1 ? path.frames[1].call : path.at; }
   void stopsWhen(Path &path, Condition when, AlarmKind alarm);
@@ -91,7 +92,7 @@ private:
   const Path *path_ = nullptr; // on which the present step is made
   Purpose purpose_ = Purpose::Record;
   Exploration result_;
-  SymbolicState entry_; // as it was at the start
+  SymbolicState entry_;                                                          // as it was at the start
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Wto>> wtos_; // by file and entry
   std::map<std::uint32_t, std::unique_ptr<ModalTable>> modes_;
   ExecutedWords<SymbolicReading> words_;

@@ -21,12 +21,27 @@ void Explorer::takeMoves(Path &path) {
   for (const Move<SymbolicValue> &move : moves) {
     if (purpose_ == Purpose::Record)
       result_.moves.push_back(
-          {path.at, ownPlace(path), path.conditions, move, point, path.state.word('S'), column});
+          {path.at, ownPlace(path), path.conditions, move, radiusOf(path, move), point, path.state.word('S'), column});
     if (withColumn)
       column = columnBehind(path, move, column, level(move.end[indexOf(Axis::Z)]));
   }
   if (withColumn)
     path.state.variables.set(kFreeColumn, {store_.no(), column});
+}
+
+/// Where it is known whether the arc is the shorter or the longer one.
+std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Move<SymbolicValue> &move) {
+  const bool isArc = move.kind == MoveKind::ArcClockwise || move.kind == MoveKind::ArcCounterclockwise;
+  const auto *entry = isArc && path.state.transformed.term == store_.no() ? words_.find('R') : nullptr;
+  if (!entry || !path.says(store_, entry->present.term))
+    return std::nullopt;
+  const TermId radius = entry->value.number;
+  const TermId zero = store_.number(smt::Number(0));
+  if (entails_(reading_.facts(), path.conditions, store_.less(zero, radius)))
+    return geometry::ArcRadius{radius, geometry::ArcLength::Short};
+  if (entails_(reading_.facts(), path.conditions, store_.less(radius, zero)))
+    return geometry::ArcRadius{store_.negate(radius), geometry::ArcLength::Long};
+  return std::nullopt;
 }
 
 /// The tool stands at `end`, and has cut down to where it was before if X and Y are the same.

@@ -62,6 +62,7 @@ private:
   bool isProvedFor(Obligation &obligation, const std::vector<smt::TermId> &conditions, const SpaceQuestion &question,
                    const Budget &budget, std::optional<smt::Model> *model = nullptr);
   const Outcome &answered(const Query &query, const Budget &budget);
+  bool isGivenAtStart(Axis axis) const;
   std::string whyOpen(const std::vector<smt::TermId> &conditions, const SpaceQuestion &question);
   std::optional<GougeAt> gougeIn(const SpaceRule &rule, Place own, const RunResult &run,
                                  const GivenVariables &given) const;
@@ -139,9 +140,10 @@ private:
   std::vector<OpenClaim> open_;       // that were not proved
   std::vector<smt::Model> sampleInputs_;
   std::vector<smt::TermId> signs_; // facts about the inputs that the contract allows
-  std::map<std::pair<std::vector<smt::TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
+  std::map<std::pair<std::vector<smt::TermId>, std::uint64_t>, Outcome>
+      answers_;                         // by assumptions with the goal, budget
   std::uint64_t guardWork_ = 2'000'000; // of explorations under conditions
-  std::optional<Wto> wto_; // of the program, for guards
+  std::optional<Wto> wto_;              // of the program, for guards
   ProgramProof proof_;
 };
 

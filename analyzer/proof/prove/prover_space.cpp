@@ -15,7 +15,7 @@ using smt::TermId;
 
 namespace {
 
-constexpr std::uint64_t kCorners = 60'000; // effort to prove a claim by corners
+constexpr std::uint64_t kCorners = 40'000; // effort to prove a claim in one of its simple ways
 
 /// Less than this is the rounding of the machine's numbers, not a gouge.
 constexpr double kLeastDepth = 1e-6;
@@ -254,6 +254,12 @@ bool Prover::isProvedFor(Obligation &obligation, const std::vector<TermId> &cond
   return false;
 }
 
+bool Prover::isGivenAtStart(Axis axis) const {
+  const auto &start = contract()->start;
+  return start && std::any_of(start->axes.begin(), start->axes.end(),
+                              [&](const AxisValue &value) { return value.axis == letterOf(axis); });
+}
+
 /// What the start leaves open, if the claim speaks of it.
 std::string Prover::whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question) {
   const Query query = onPath(conditions, question.ways.back().goal);
@@ -263,7 +269,7 @@ std::string Prover::whyOpen(const std::vector<TermId> &conditions, const SpaceQu
       variables.insert(variable);
   std::string axes;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
-    if (variables.contains(entry_.at(axis).number))
+    if (variables.contains(entry_.at(axis).number) && !isGivenAtStart(axis))
       axes += fmt::format("{}{}..", axes.empty() ? "" : " ", letterOf(axis));
   if (!axes.empty())
     return fmt::format("where the tool stands at the start is not known: `@START {}` would say", axes);

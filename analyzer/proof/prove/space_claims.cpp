@@ -35,6 +35,7 @@ geometry::TermMove termMove(smt::TermStore &store, const MoveInstance &instance)
   result.firstCentre = store.add(move.firstCentre.number, zero(move.plane.first));
   result.secondCentre = store.add(move.secondCentre.number, zero(move.plane.second));
   result.turns = move.turns;
+  result.radius = instance.radius;
   return result;
 }
 
@@ -117,6 +118,7 @@ SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
     for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
       for (geometry::Formula &formula : *formulas)
         lower(formula);
+    space.beyond.clear(); // margins are found without
   }
   return grown;
 }
@@ -153,6 +155,23 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
   return premises;
 }
 
+/// All corners lie in one convex part, or beyond one of the ends.
+std::vector<TermId> SpaceClaims::simpleWays(const FreeSpace &space, const std::vector<TermPoint> &corners) const {
+  const auto atAll = [&](const auto &formula) {
+    std::set<TermId> parts;
+    for (const TermPoint &corner : corners)
+      parts.insert(formula(corner));
+    return store_.logicalAnd(std::vector(parts.begin(), parts.end()));
+  };
+  std::vector<TermId> ways;
+  for (const geometry::Formula &part : space.convexParts)
+    ways.push_back(atAll(part));
+  for (const FreeSpace::Beyond &beyond : space.beyond)
+    for (const TermPoint &anchor : {corners.front(), corners.back()})
+      ways.push_back(atAll([&](const TermPoint &corner) { return beyond(anchor, corner); }));
+  return ways;
+}
+
 std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
   if (rule.kind == ObligationKind::Clearance)
     return {clearanceOf(rule, instance)};
@@ -185,12 +204,16 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     }
     if (space.isConvex())
       continue;
-    std::vector<TermId> cases;
-    for (const geometry::Formula &part : space.convexParts)
-      cases.push_back(together(atCorners(part)));
     SpaceQuestion &question = questions.emplace_back();
-    if (!cases.empty())
-      question.ways.push_back({hull.conditions, store_.logicalOr(cases)});
+    if (space.isOpenUpwards && path.isVertical()) { // all of it lies above its lower end
+      question.ways.push_back({{}, together(atCorners(space.all))});
+      continue;
+    }
+    const std::vector<TermId> simple = simpleWays(space, hull.corners);
+    for (const TermId way : simple)
+      question.ways.push_back({hull.conditions, way});
+    if (simple.size() > 1) // one or the other, as the case may be
+      question.ways.push_back({hull.conditions, store_.logicalOr(simple)});
     question.ways.push_back(anyPoint(space.all));
   }
   return questions;

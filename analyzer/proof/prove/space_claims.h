@@ -52,6 +52,8 @@ public:
 
 private:
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
+  std::vector<smt::TermId> simpleWays(const geometry::FreeSpace &space,
+                                      const std::vector<geometry::TermPoint> &corners) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 
   smt::TermStore &store_;

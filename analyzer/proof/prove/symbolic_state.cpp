@@ -193,7 +193,7 @@ void SymbolicReading::anyMapping(State &state) {
 
 void SymbolicReading::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);
-  moved_ = true;
+  Move<Value> anywhere{.kind = MoveKind::Unfollowed, .start = state.position};
   forgetVariables(state, 0, 0xffffffff);
   for (auto *values : {&state.locals})
     fillWith(*values, [&] { return anything(); });
@@ -218,6 +218,8 @@ void SymbolicReading::havoc(State &state, std::string_view reason, Span place) {
     *level = anything();
   for (auto &call : state.modalCalls)
     fillWith(call.locals, [&] { return anything(); });
+  anywhere.end = state.position;
+  move(anywhere);
 }
 
 } // namespace feedhold::prove
