@@ -15,6 +15,8 @@ using soundness::ProgramLines;
 
 namespace {
 
+constexpr std::string_view kPackages = "packages/";
+
 struct ManifestEntry {
   std::string path;
   bool isProved = false;
@@ -84,10 +86,11 @@ std::vector<PackageText> provedPackages() {
   const fs::path corpus = fs::path(FEEDHOLD_ROOT) / "corpus";
   std::vector<PackageText> packages;
   for (const ManifestEntry &entry : manifest(corpus)) {
-    if (!entry.path.starts_with("packages/") || !entry.isProved || entry.isOpen)
+    if (!entry.path.starts_with(kPackages) || !entry.isProved || entry.isOpen)
       continue;
     const fs::path path = corpus / entry.path;
-    PackageText package{(path.parent_path().filename() / path.stem()).string(), {}};
+    const std::string name = (fs::path(entry.path).parent_path() / path.stem()).string().substr(kPackages.size());
+    PackageText package{name.substr(0, name.find('/')), name, {}};
     std::set<fs::path> known;
     appendWithCalled(package.lines, known, path);
     const bool promisesAlarms =

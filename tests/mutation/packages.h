@@ -9,6 +9,7 @@
 namespace feedhold::mutation {
 
 struct PackageText {
+  std::string package;           // `pocket`
   std::string name;              // `pocket/O9311`
   soundness::ProgramLines lines; // with what it calls behind it
 };

@@ -180,20 +180,30 @@ std::vector<Break> ReplayedProgram::breaks(const std::vector<Start> &starts) con
   return breaks;
 }
 
-bool ReplayedProgram::isBrokenAround(const Break &found, const Start &start) const {
-  constexpr int kAround = 12;
-  constexpr int kMost = 9;
+std::vector<Break> ReplayedProgram::breaksAround(const Start &start) const {
+  constexpr int kAround = 24;
+  constexpr int kMost = 20;
   Random random(1);
-  int same = 0;
+  std::vector<std::pair<Break, int>> all;
   for (int i = 0; i < kAround; ++i) {
     Start near = start;
     for (auto &[variable, value] : near.given.entries())
       if (std::floor(value.number) != value.number || std::fabs(value.number) > 8) // no class, no strategy
         value.number *= 1 + (static_cast<double>(random.below(2'000)) - 1'000) * 1e-8;
-    const std::vector<Break> there = breaks({near});
-    same += std::any_of(there.begin(), there.end(), [&](const Break &each) { return each.isOfSameClaim(found); });
+    for (Break &found : breaks({near})) {
+      const auto known =
+          std::find_if(all.begin(), all.end(), [&](const auto &each) { return each.first.isOfSameClaim(found); });
+      if (known == all.end())
+        all.emplace_back(std::move(found), 1);
+      else
+        ++known->second;
+    }
   }
-  return same >= kMost;
+  std::vector<Break> most;
+  for (auto &[found, times] : all)
+    if (times >= kMost)
+      most.push_back(std::move(found));
+  return most;
 }
 
 bool ReplayedProgram::clearlyBreaks(ExpressionId condition, const EntryValues &entry, const RunResult &result) const {

@@ -46,8 +46,8 @@ public:
   std::vector<Start> starts(soundness::Random &random, int count) const;
   /// Each claim once, with the first call that breaks it.
   std::vector<Break> breaks(const std::vector<Start> &starts) const;
-  /// Whether calls close by break the claim, too: most of them, where it is not for what doubles round.
-  bool isBrokenAround(const Break &found, const Start &start) const;
+  /// What most calls close by break: nothing that only comes of how doubles round.
+  std::vector<Break> breaksAround(const Start &start) const;
   /// Words are taken as they are written, as proofs take them.
   RunResult run(const Start &start) const;
 
