@@ -1,5 +1,6 @@
 #include "proof/prove/space_claims.h"
 
+#include "base/support/match.h"
 #include "proof/prove/region_shapes.h"
 
 #include <algorithm>
@@ -37,6 +38,75 @@ geometry::TermMove termMove(smt::TermStore &store, const MoveInstance &instance)
   result.turns = move.turns;
   result.radius = instance.radius;
   return result;
+}
+
+bool isCondition(const TermShape &part) { return std::holds_alternative<geometry::Condition<TermId, TermId>>(part); }
+
+std::vector<FreeSpace> spacesOf(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
+                                const std::vector<TermShape> &parts) {
+  if (kind == ObligationKind::KeepIn)
+    return {geometry::inside(store, tool, parts)};
+  std::vector<FreeSpace> spaces;
+  for (const TermShape &part : parts)
+    spaces.push_back(geometry::outside(store, tool, part));
+  return spaces;
+}
+
+/// What is so far from the border, or further; of a polygon only its height becomes less.
+TermShape shrunk(smt::TermStore &store, const TermShape &part, TermId margin) {
+  const auto within = [&](geometry::Interval<TermId> interval) {
+    if (interval.low)
+      interval.low = store.add(*interval.low, margin);
+    if (interval.high)
+      interval.high = store.subtract(*interval.high, margin);
+    return interval;
+  };
+  TermShape result = part;
+  match(
+      result,
+      [&](geometry::Box<TermId> &box) {
+        for (geometry::Interval<TermId> &side : box.sides)
+          side = within(side);
+      },
+      [&](geometry::Cylinder<TermId> &cylinder) {
+        cylinder.radius = store.subtract(cylinder.radius, margin);
+        cylinder.along = within(cylinder.along);
+      },
+      [&](geometry::Sphere<TermId> &sphere) { sphere.radius = store.subtract(sphere.radius, margin); },
+      [&](geometry::Prism<TermId> &prism) { prism.height = within(prism.height); },
+      [](geometry::Condition<TermId, TermId> &) {});
+  return result;
+}
+
+/// Also of its upper border, to which a larger tool comes no nearer.
+std::vector<FreeSpace> insideWithMargin(smt::TermStore &store, geometry::Tool<TermId> tool,
+                                        std::vector<TermShape> parts, TermId margin) {
+  for (TermShape &part : parts)
+    part = shrunk(store, part, margin);
+  if (std::any_of(parts.begin(), parts.end(),
+                  [](const TermShape &part) { return std::holds_alternative<geometry::Prism<TermId>>(part); }))
+    tool.radius = store.add(tool.radius, margin);
+  return spacesOf(store, ObligationKind::KeepIn, tool, parts);
+}
+
+/// By a tool that is larger, whose point lies lower by as much.
+std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::Tool<TermId> &tool,
+                                         const std::vector<TermShape> &parts, TermId margin) {
+  const auto lower = [&store, margin](geometry::Formula &formula) {
+    formula = [&store, margin, inner = std::move(formula)](const TermPoint &point) {
+      return inner({point[0], point[1], store.subtract(point[2], margin)});
+    };
+  };
+  const geometry::Tool<TermId> larger{store.add(tool.radius, margin), store.add(tool.corner, margin)};
+  std::vector<FreeSpace> spaces = spacesOf(store, ObligationKind::KeepOut, larger, parts);
+  for (FreeSpace &space : spaces) {
+    lower(space.all);
+    for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
+      for (geometry::Formula &formula : *formulas)
+        lower(formula);
+    space.beyond.clear(); // margins are found without
+  }
+  return spaces;
 }
 
 } // namespace
@@ -88,39 +158,21 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
     rule.isSound = geometry::isTool(store_, tool);
     for (const TermShape &part : parts)
       rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
-    rule.spacesFor = [this, tool, parts, kind](TermId larger) {
-      const geometry::Tool<TermId> grown{store_.add(tool.radius, larger), store_.add(tool.corner, larger)};
-      std::vector<FreeSpace> spaces;
-      if (kind == ObligationKind::KeepIn)
-        spaces.push_back(geometry::inside(store_, grown, parts));
-      else
-        for (const TermShape &part : parts)
-          spaces.push_back(geometry::outside(store_, grown, part));
-      return spaces;
-    };
-    rule.spaces = rule.spacesFor(store_.number(smt::Number(0)));
+    rule.spaces = spacesOf(store_, kind, tool, parts);
+    const bool hasDistances = std::none_of(parts.begin(), parts.end(), isCondition);
+    if (kind == ObligationKind::KeepOut || hasDistances)
+      rule.spacesFor = [this, tool, parts, kind](TermId margin) {
+        return kind == ObligationKind::KeepIn ? insideWithMargin(store_, tool, parts, margin)
+                                              : outsideWithMargin(store_, tool, parts, margin);
+      };
     rules_.push_back(std::move(rule));
   }
 }
 
-/// Its point lies lower by as much.
 SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
-  const TermId larger = store_.number(smt::Number::fromTyped(margin));
-  const auto lower = [store = &store_, larger](geometry::Formula &formula) {
-    formula = [store, larger, inner = std::move(formula)](const TermPoint &point) {
-      return inner({point[0], point[1], store->subtract(point[2], larger)});
-    };
-  };
-  SpaceRule grown = rule;
-  grown.spaces = rule.spacesFor(larger);
-  for (FreeSpace &space : grown.spaces) {
-    lower(space.all);
-    for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
-      for (geometry::Formula &formula : *formulas)
-        lower(formula);
-    space.beyond.clear(); // margins are found without
-  }
-  return grown;
+  SpaceRule wider = rule;
+  wider.spaces = rule.spacesFor(store_.number(smt::Number::fromTyped(margin)));
+  return wider;
 }
 
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
@@ -134,8 +186,9 @@ bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) 
 
 std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
   if (instance.move.kind == MoveKind::Unfollowed)
-    return "the way of this movement is not known: its code is not followed, or `@MODAL` has to say which of G00, G01, "
-           "G02 and which plane is in force at the start";
+    return "where this block leads is not known: it could not be read, its code is not followed, or `@MODAL` has to "
+           "say "
+           "which of G00, G01, G02 and which plane is in force at the start";
   for (const Axis axis : kAllAxes)
     if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
       return fmt::format("axis {} moves, and regions are those of X, Y and Z alone", letterOf(axis));
@@ -147,11 +200,14 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
   std::vector<std::pair<TermId, std::string>> premises;
   if (rule.kind != ObligationKind::Travel)
     premises.emplace_back(instance.point.withoutCompensation.term,
-                          "cutter compensation (G41, G42) may be in force, and the path that it makes is not followed; "
-                          "`@MODAL G40` says that there is none at the start");
+                          "cutter compensation (G41, G42) may be in force or end here, and the path that it makes is "
+                          "not followed; `@MODAL G40` says that there is none at the start");
   premises.emplace_back(instance.point.lengthKnown.term,
-                        "the tool length has been taken away (G49): how high the tip is, is not known");
-  premises.emplace_back(instance.point.sameUnits.term, "the units change in the program (G20, G21)");
+                        "the tool length has been taken away (G49): how high the tip is, is not known; `@MODAL G49` "
+                        "says that there was none at the start either");
+  premises.emplace_back(instance.point.sameUnits.term,
+                        "the units may be others than at the start (G20, G21): `@MODAL G21`, for instance, says which "
+                        "those are");
   return premises;
 }
 
@@ -175,7 +231,8 @@ std::vector<TermId> SpaceClaims::simpleWays(const FreeSpace &space, const std::v
 std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
   if (rule.kind == ObligationKind::Clearance)
     return {clearanceOf(rule, instance)};
-  geometry::ToolPath path(store_, termMove(store_, instance));
+  const geometry::TermMove move = termMove(store_, instance);
+  geometry::ToolPath path(store_, move);
   std::vector<SpaceQuestion> questions;
   const geometry::ToolPath::Hull hull = path.hull();
   const auto atCorners = [&](const geometry::Formula &part) {
@@ -214,6 +271,13 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
       question.ways.push_back({hull.conditions, way});
     if (simple.size() > 1) // one or the other, as the case may be
       question.ways.push_back({hull.conditions, store_.logicalOr(simple)});
+    if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
+      for (const TermId level : std::set{move.start[2], move.end[2]}) {
+        const geometry::PointOnWay any = path.anyPoint();
+        const TermId isAbove = store_.lessOrEqual(level, any.point[2]);
+        question.ways.push_back(
+            {any.conditions, store_.logicalAnd(isAbove, space.all({any.point[0], any.point[1], level}))});
+      }
     question.ways.push_back(anyPoint(space.all));
   }
   return questions;

@@ -16,8 +16,8 @@ struct SpaceRule {
   std::size_t region = 0;                       // of KeepIn and KeepOut: of namesOf
   std::string name = {};                        // of the region
   std::vector<geometry::FreeSpace> spaces = {}; // the point of the tool is in all of them
-  /// Of KeepIn and KeepOut: the spaces of a tool that is larger by so much on all sides.
-  std::function<std::vector<geometry::FreeSpace>(smt::TermId larger)> spacesFor = {};
+  /// Of KeepIn and KeepOut: the same where the tool keeps so far away; empty where a region knows no distances.
+  std::function<std::vector<geometry::FreeSpace>(smt::TermId margin)> spacesFor = {};
   std::optional<smt::TermId> height = {};  // of Clearance
   smt::TermId isSound = smt::TermId(1);    // without that the claim means nothing
   std::optional<std::string> missing = {}; // why nothing can be told of it
@@ -43,7 +43,7 @@ public:
   /// What has to hold on the way there so that coordinates are those of the tool, and what is missing otherwise.
   std::vector<std::pair<smt::TermId, std::string>> premises(const SpaceRule &rule, const MoveInstance &move) const;
   std::vector<SpaceQuestion> questions(const SpaceRule &rule, const MoveInstance &move) const;
-  /// The rule for a tool that is larger by so much.
+  /// The rule for a tool that has to keep so far away; there is SpaceRule::spacesFor.
   SpaceRule withMargin(const SpaceRule &rule, double margin) const;
   /// The feed or the speed in force; of a cutting movement.
   smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;

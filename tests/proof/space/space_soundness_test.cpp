@@ -1,0 +1,73 @@
+// Random milling programs: what is proved of their space is kept in runs on random arguments, and what is refuted is
+// broken by the witness.  SPACE_FIRST and SPACE_PROGRAMS choose other programs, SPACE_SHOW=1 shows them.
+#include "base/support/parallel.h"
+#include "proof/space/space_programs.h"
+#include "proof/space/space_proofs.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iostream>
+#include <map>
+
+namespace feedhold::proof_tests {
+namespace {
+
+using soundness::Random;
+using soundness::Sample;
+
+constexpr int kRuns = 24;
+constexpr prove::Budget kBudget{.search = 100'000, .z3 = 0, .cvc5 = 0};
+
+std::uint64_t fromEnvironment(const char *name, std::uint64_t otherwise) {
+  const char *text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+SpaceTrial tryProgram(std::uint64_t seed) {
+  Random random(seed);
+  const Sample sample = withSpaceClauses(millingProgram(random), random);
+  const std::uint64_t inputs = random.next();
+  if (std::getenv("SPACE_SHOW"))
+    std::cout << fmt::format("--- {}\n{}\n", seed, soundness::textOf(sample.lines)) << std::flush;
+  SpaceTrial trial = trySpaceProofs(sample, inputs, kRuns, kBudget);
+  if (!trial.wrong)
+    return trial;
+  const Sample least = leastWrong(sample, inputs, kRuns, kBudget);
+  trial.wrong = fmt::format("program {}: {}\n{}", seed,
+                            trySpaceProofs(least, inputs, kRuns, kBudget).wrong.value_or(*trial.wrong),
+                            soundness::textOf(least.lines));
+  return trial;
+}
+
+TEST(SpaceSoundness, MillingPrograms) {
+  const std::uint64_t first = fromEnvironment("SPACE_FIRST", 1);
+  std::vector<SpaceTrial> trials(fromEnvironment("SPACE_PROGRAMS", 60));
+  parallelFor(trials.size(), 0, [&](std::size_t i) {
+    trials[i] = tryProgram(first + i);
+    if (trials[i].wrong && std::getenv("SPACE_PROGRAMS")) // such runs are long
+      std::cout << *trials[i].wrong << std::endl;
+  });
+  SpaceTally tally;
+  std::map<std::string, int> reasons;
+  for (const SpaceTrial &each : trials) {
+    tally += each.tally;
+    for (const std::string &reason : each.reasons)
+      ++reasons[reason];
+    if (each.wrong)
+      ADD_FAILURE() << *each.wrong;
+  }
+  std::cout << tally.programs << " programs, " << tally.incomplete << " not followed, " << tally.unread << " not read, "
+            << tally.claims << " claims, " << tally.proved << " proved (" << tally.margins << " with a margin), "
+            << tally.unreachable << " unreachable, " << tally.refuted << " refuted, " << tally.missed
+            << " broken and not refuted, " << tally.runs << " runs, " << tally.moves << " moves\n";
+  if (std::getenv("SPACE_REASONS"))
+    for (const auto &[reason, count] : reasons)
+      std::cout << count << "  " << reason << "\n";
+  EXPECT_EQ(tally.unread, 0U);
+  EXPECT_GT(tally.proved, tally.claims / 4);
+}
+
+} // namespace
+} // namespace feedhold::proof_tests
