@@ -85,7 +85,7 @@ struct MoveInstance {
   std::optional<geometry::ArcRadius> radius; // of an arc that is given by R, unmapped
   ToolPoint<SymbolicReading> point;
   SymbolicValue spindleSpeed;
-  smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (free_column.h)
+  smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (path_memory.h)
 };
 
 /// Something was taken as anything at all.

@@ -2,6 +2,7 @@
 
 #include "proof/prove/entails.h"
 #include "proof/prove/loops.h"
+#include "proof/prove/path_memory.h"
 
 #include <algorithm>
 
@@ -60,8 +61,10 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
             .frames = {{.callee = entry, .call = {entry.file, entry.entry}}},
             .loops = {},
             .moved = store_.no()};
-  if (options_.moves != KeepMoves::No)
+  if (options_.moves != KeepMoves::No) {
+    path.state.variables.set(kBesidePath, reading_.number(0));
     takeMoves(path);
+  }
   bool possible = true;
   for (const TermId assumption : options_.assumptions)
     possible = possible && path.assume(store_, assumption);

@@ -1,6 +1,6 @@
 // Calls: the programs that a block calls, or that a modal call calls after a movement.
 #include "proof/prove/explorer.h"
-#include "proof/prove/free_column.h"
+#include "proof/prove/path_memory.h"
 
 #include <algorithm>
 #include <set>
@@ -132,7 +132,7 @@ std::optional<AlarmKind> Explorer::nestingAlarm(const Path &path, bool macro) co
 std::vector<VariableMap<SymbolicValue>::Entry> Explorer::takeOwnNames(SymbolicState &state) const {
   auto &entries = state.variables.entries();
   const auto isShared = [&](const auto &entry) {
-    return entry.first < kFirstNamedVariable || entry.first == kFreeColumn || programs_.isGlobalName(entry.first);
+    return entry.first < kFirstNamedVariable || isPathMemory(entry.first) || programs_.isGlobalName(entry.first);
   };
   const auto own = std::stable_partition(entries.begin(), entries.end(), isShared);
   std::vector<VariableMap<SymbolicValue>::Entry> names(own, entries.end());

@@ -1,6 +1,8 @@
 // Movements of a path: what they are, and how deep the tool has been where it stands.
 #include "proof/prove/explorer.h"
-#include "proof/prove/free_column.h"
+#include "proof/prove/path_memory.h"
+
+#include <algorithm>
 
 namespace feedhold::prove {
 
@@ -13,9 +15,10 @@ void Explorer::takeMoves(Path &path) {
   if (reading_.moves().empty() && !isMissing)
     return;
   auto context = contextOf(path);
-  const ToolPoint<SymbolicReading> point = toolPointOf(context, entry_);
+  ToolPoint<SymbolicReading> point = toolPointOf(context, entry_);
   const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]).number; };
   const std::vector<Move<SymbolicValue>> moves = reading_.moves();
+  leavePath(path, moves, point);
   const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
   TermId column = withColumn && !isMissing ? path.state.variables.find(kFreeColumn)->number : level(z);
   for (const Move<SymbolicValue> &move : moves) {
@@ -27,6 +30,28 @@ void Explorer::takeMoves(Path &path) {
   }
   if (withColumn)
     path.state.variables.set(kFreeColumn, {store_.no(), column});
+}
+
+/// Whether cutter compensation puts the tool beside the path, or has done so before: a movement without it comes back
+/// to the path at its end, if it is one in the plane (FANUC operator's manual: the offset is cancelled by the first
+/// movement in the plane).
+void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point) {
+  const TermId one = store_.number(smt::Number(1));
+  const TermId zero = store_.number(smt::Number(0));
+  const SymbolicValue *known = path.state.variables.find(kBesidePath);
+  const TermId before = known ? known->number : one; // forgotten with all else
+  const TermId without = point.withoutCompensation.term;
+  point.withoutCompensation.term = store_.logicalAnd(without, store_.equal(before, zero));
+  const auto changes = [&](Axis axis) {
+    return std::any_of(moves.begin(), moves.end(), [&](const Move<SymbolicValue> &move) {
+      return move.start[indexOf(axis)].number != move.end[indexOf(axis)].number;
+    });
+  };
+  auto context = contextOf(path);
+  const std::optional<Plane> plane = planeOf(context);
+  const bool comesBack = plane && (changes(plane->first) || changes(plane->second));
+  if (!moves.empty())
+    path.state.variables.set(kBesidePath, {store_.no(), store_.ite(without, comesBack ? zero : before, one)});
 }
 
 /// Where it is known whether the arc is the shorter or the longer one.

@@ -2,7 +2,7 @@
 
 #include "proof/prove/entails.h"
 #include "proof/prove/explorer.h"
-#include "proof/prove/free_column.h"
+#include "proof/prove/path_memory.h"
 #include "proof/prove/invariant_candidates.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const Sy
   for (std::uint32_t local = 1; local < arrival.locals.size(); ++local)
     values.push_back({local, arrival.locals[local].number, generic.locals[local].number});
   for (const auto &[variable, value] : arrival.variables.entries())
-    if (const SymbolicValue *before = variable == kFreeColumn ? nullptr : generic.variables.find(variable))
+    if (const SymbolicValue *before = isPathMemory(variable) ? nullptr : generic.variables.find(variable))
       values.push_back({variable, value.number, before->number});
   return values;
 }

@@ -264,9 +264,8 @@ bool Prover::isGivenAtStart(Axis axis) const {
 std::string Prover::whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question) {
   const Query query = onPath(conditions, question.ways.back().goal);
   std::set<TermId> variables;
-  for (const TermId term : {query.goal})
-    for (const TermId variable : smt::variablesOf(store_, term))
-      variables.insert(variable);
+  for (const TermId variable : smt::variablesOf(store_, query.goal))
+    variables.insert(variable);
   std::string axes;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
     if (variables.contains(entry_.at(axis).number) && !isGivenAtStart(axis))
@@ -280,6 +279,11 @@ std::string Prover::whyOpen(const std::vector<TermId> &conditions, const SpaceQu
       return fmt::format("the code of the group of G{:02} in force at the start is not known: `@MODAL` would say",
                          code.tenths / 10);
     }
+  for (const auto &[variable, value] : reading_.entryValues())
+    if (const VariableRange *range = findVariable(*file().dialect, variable);
+        range && range->role == VariableRole::WorkOffset && variables.contains(value.number))
+      return fmt::format("how far the zero point is moved is not known: `@GLOBAL #{} ..` says what the work offset is",
+                         variable);
   return "no proof was found, and no call that breaks it";
 }
 
@@ -295,6 +299,8 @@ void Prover::limits() {
             move.conditions, move.move.kind == MoveKind::Unfollowed ? store_.no() : space_->keepsLimit(limit, move)));
     for (const UnfollowedCall &call : found_.unfollowedCalls)
       queries[call.own].push_back(onPath(call.conditions, store_.no()));
+    if (queries.empty() && found_.incomplete)
+      queries[{program_.file, program_.entry}];
     for (const auto &[own, parts] : queries) {
       Obligation &obligation = add(ObligationKind::Limit, own, file().tree->blocks[programs_.node(own).block].span(),
                                    contracts_->clauses[limit.clause].text);

@@ -187,8 +187,7 @@ bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) 
 std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
   if (instance.move.kind == MoveKind::Unfollowed)
     return "where this block leads is not known: it could not be read, its code is not followed, or `@MODAL` has to "
-           "say "
-           "which of G00, G01, G02 and which plane is in force at the start";
+           "say which of G00, G01, G02 and which plane is in force at the start";
   for (const Axis axis : kAllAxes)
     if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
       return fmt::format("axis {} moves, and regions are those of X, Y and Z alone", letterOf(axis));
