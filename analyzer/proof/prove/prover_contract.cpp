@@ -275,6 +275,8 @@ void Prover::guarded() {
   auto outsideWitnesses =
       std::make_unique<WitnessSearch>(reading_, programs_, program_, options.assumptions, constants());
   start(*outsideWitnesses);
+  if (const smt::Model *model = anyCall_->counterexample()) // what breaks one clause may keep the others
+    outsideWitnesses->sampleAround(*model);
   const Violation moves{[](const RunResult &run) -> std::optional<std::string> {
     const bool moved = std::any_of(run.moves.begin(), run.moves.end(),
                                    [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });

@@ -15,6 +15,15 @@ constexpr std::size_t kFewSamples = 30;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
 
+/// A third that has to be met exactly is met by no double: the same inputs with three places.
+GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
+  GivenVariables near = given;
+  for (const auto &[variable, value] : given.entries())
+    if (!value.vacant)
+      near.set(variable, ConcreteValue::of(whole(value.number * 1000) / 1000));
+  return near;
+}
+
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; } // no -0
 
 } // namespace
@@ -189,8 +198,11 @@ std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const V
                                                 std::uint64_t fuel) {
   smt::Model whole = model;
   whole.insert(others_.begin(), others_.end());
-  const auto found = tried(inputsOf(whole), violation, fuel);
-  return found ? std::optional(plainest(*found, violation, fuel)) : std::nullopt;
+  const GivenVariables given = inputsOf(whole);
+  for (const GivenVariables &each : {given, shortened(given, std::floor), shortened(given, std::ceil)})
+    if (const auto found = tried(each, violation, fuel))
+      return plainest(*found, violation, fuel);
+  return std::nullopt;
 }
 
 /// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.
