@@ -432,7 +432,9 @@ TermId isNotEmpty(TermStore &store, const TermShape &part) {
       },
       [&](const Sphere<TermId> &sphere) { return store.less(zero, sphere.radius); },
       [&](const Prism<TermId> &prism) {
-        return store.logicalAnd(PolygonTerms(store, prism.corners).hasArea(), open(prism.height));
+        const PolygonTerms polygon(store, prism.corners);
+        const std::array parts{polygon.hasArea(), polygon.isSimple(), open(prism.height)};
+        return store.logicalAnd(parts);
       },
       [&](const Condition<TermId, TermId> &) { return store.yes(); });
 }

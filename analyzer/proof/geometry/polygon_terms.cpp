@@ -116,6 +116,38 @@ TermId PolygonTerms::keepsFromSides(const Point &point, TermId distance) const {
   return store_.logicalAnd(all);
 }
 
+TermId PolygonTerms::isSimple() const {
+  std::vector<std::size_t> sides; // a corner that is written twice makes none
+  for (std::size_t side = 0; side < corners_.size(); ++side)
+    if (from(side) != to(side))
+      sides.push_back(side);
+  std::vector<TermId> all;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t j = i + 2; j < sides.size(); ++j)
+      if (i != 0 || j + 1 != sides.size())
+        all.push_back(store_.logicalOr(isApart(sides[i], sides[j]), isApart(sides[j], sides[i])));
+  return store_.logicalAnd(all);
+}
+
+/// Both ends of the other side lie left of the line of a side, or right of it, or before its start, or behind its end.
+TermId PolygonTerms::isApart(std::size_t side, std::size_t other) const {
+  const TermId zero = store_.number(Number(0));
+  const TermId ex = store_.subtract(to(side)[0], from(side)[0]);
+  const TermId ey = store_.subtract(to(side)[1], from(side)[1]);
+  const auto along = [&](const Corner &corner) {
+    return store_.add(store_.multiply(ex, store_.subtract(corner[0], from(side)[0])),
+                      store_.multiply(ey, store_.subtract(corner[1], from(side)[1])));
+  };
+  const auto both = [&](auto &&holds) { return store_.logicalAnd(holds(from(other)), holds(to(other))); };
+  const auto beside = [&](Turn turn) {
+    return both([&](const Corner &corner) { return store_.less(zero, cross(side, corner[0], corner[1], turn)); });
+  };
+  const std::array cases{beside(Turn::Left), beside(Turn::Right),
+                         both([&](const Corner &corner) { return store_.less(along(corner), zero); }),
+                         both([&](const Corner &corner) { return store_.less(along(to(side)), along(corner)); })};
+  return store_.logicalOr(cases);
+}
+
 TermId PolygonTerms::hasArea() const {
   TermId twice = store_.number(Number(0));
   for (std::size_t side = 0; side < corners_.size(); ++side)

@@ -33,6 +33,8 @@ public:
   /// No point of any side is nearer.
   TermId keepsFromSides(const Point &point, TermId distance) const;
   TermId hasArea() const;
+  /// No two sides have a point in common but for the corner between them: which points are inside is clear then.
+  TermId isSimple() const;
 
 private:
   const Corner &from(std::size_t side) const { return corners_[side]; }
@@ -40,6 +42,7 @@ private:
   TermId cross(std::size_t side, TermId x, TermId y, Turn turn) const;
   TermId cornersOnSide(std::size_t side, Turn turn) const;
   TermId length(std::size_t side) const;
+  TermId isApart(std::size_t side, std::size_t other) const;
   TermId keepsFrom(std::size_t side, const Point &point, TermId distance) const;
 
   smt::TermStore &store_;

@@ -25,7 +25,21 @@ bool Path::says(const smt::TermStore &store, TermId condition) const {
   const auto isSaid = [&](TermId part) { return says(store, part); };
   if (term.kind == TermKind::Or)
     return std::any_of(term.arguments.begin(), term.arguments.end(), isSaid);
-  return term.kind == TermKind::And && std::all_of(term.arguments.begin(), term.arguments.end(), isSaid);
+  if (term.kind == TermKind::And)
+    return std::all_of(term.arguments.begin(), term.arguments.end(), isSaid);
+  return term.kind == TermKind::Not && denies(store, term.arguments.front());
+}
+
+bool Path::denies(const smt::TermStore &store, TermId condition) const {
+  const smt::Term &term = store[condition];
+  const auto isDenied = [&](TermId part) { return denies(store, part); };
+  if (term.kind == TermKind::And)
+    return std::any_of(term.arguments.begin(), term.arguments.end(), isDenied);
+  if (term.kind == TermKind::Or)
+    return std::all_of(term.arguments.begin(), term.arguments.end(), isDenied);
+  return std::any_of(conditions.begin(), conditions.end(), [&](TermId each) {
+    return store[each].kind == TermKind::Not && store[each].arguments.front() == condition;
+  });
 }
 
 bool Path::assume(const smt::TermStore &store, TermId condition) {
@@ -87,9 +101,7 @@ void Explorer::giveUp(std::string_view reason) {
 
 bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
 
-bool Explorer::proves(TermId condition) {
-  return path_ && entails_(reading_.facts(), path_->conditions, condition);
-}
+bool Explorer::proves(TermId condition) { return path_ && entails_(reading_.facts(), path_->conditions, condition); }
 
 bool Explorer::isPossible(const Path &path, TermId condition) {
   const TermId opposite = store_.logicalNot(condition);

@@ -55,11 +55,13 @@ struct Path {
   std::shared_ptr<const Landmark> landmark = {};
   std::uint32_t visits = 0;     // to heads of loops, since the landmark
   std::uint32_t mostVisits = 1; // before a new landmark is taken
-  bool atOpenedHead = false; // the loop at whose head the path stands has just been opened
+  bool atOpenedHead = false;    // the loop at whose head the path stands has just been opened
 
   /// False when the condition contradicts the path at first sight: the path ends.
   bool assume(const smt::TermStore &store, smt::TermId condition);
+  /// By a look at the conditions.
   bool says(const smt::TermStore &store, smt::TermId condition) const;
+  bool denies(const smt::TermStore &store, smt::TermId condition) const;
 };
 
 } // namespace feedhold::prove

@@ -88,6 +88,11 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   return space;
 }
 
+double numberOf(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run,
+                ExpressionId expression) {
+  return ContractNumbers(programs, program, contracts, run).number(expression);
+}
+
 RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run) {
   const Contract *contract = contracts.of(program.program);
   if (contract == nullptr)

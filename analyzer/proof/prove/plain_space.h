@@ -10,6 +10,10 @@ namespace feedhold::prove {
 geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
                                 const RunOptions &run);
 
+/// An expression of the contract, for the arguments of a run.
+double numberOf(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run,
+                ExpressionId expression);
+
 /// The same run, started as the contract says: with its modal codes, and where it says.
 RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run);
 

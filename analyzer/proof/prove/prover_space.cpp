@@ -190,7 +190,7 @@ void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const st
       return unknown("a program that is called here is not followed, and may move the tool");
   if (const Outcome sound = discharge(store_, onPath(demands_, rule.isSound), options_.budget); !sound.proved())
     return unknown("the tool or the region may be empty or turned inside out (a radius below 0, a range from high to "
-                   "low): `@REQUIRE` has to exclude it");
+                   "low, a polygon whose sides cross): `@REQUIRE` has to exclude it");
   obligation.verdict = Verdict::Proved;
   for (const MoveInstance *move : moves) {
     if (const auto reason = space_->whyNotTold(*move))
