@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kModes = "( @MODAL G17 G21 G40 G90 G94 )";
 
-/// What is told of the region of a block; absent: nothing.
+/// What is told of the regions of a block, the last of them; absent: nothing.
 std::optional<Verdict> verdictOn(std::string_view block, std::string_view body, std::string_view modes = kModes) {
   const std::string contract = "( @START X0. Y0. Z10. )\n( @TOOL FLAT RADIUS 5. )\n"
                                "( @KEEPIN POCKET BOX X-20..20 Y-20..20 )\n";
@@ -24,10 +24,12 @@ std::optional<Verdict> verdictOn(std::string_view block, std::string_view body, 
   const FileContracts contracts = readContracts(source, tree, model, dialect);
   const Callee main{FileId(0), set.file(FileId(0)).cfg.entryOf(ProgramId(0)), ProgramId(0)};
   EXPECT_TRUE(contracts.of(main.program)->isSound);
-  for (const Obligation &each : prove(set, main, &contracts, {.only = {ObligationKind::KeepIn}}).obligations)
+  std::optional<Verdict> verdict;
+  for (const Obligation &each :
+       prove(set, main, &contracts, {.only = {ObligationKind::KeepIn, ObligationKind::KeepOut}}).obligations)
     if (source.text(tree.blocks[set.node(each.place).block].span()) == block)
-      return each.verdict;
-  return std::nullopt;
+      verdict = each.verdict;
+  return verdict;
 }
 
 TEST(SpaceCases, WhatStaysInIsProved) {
@@ -71,6 +73,18 @@ TEST(SpaceCases, EndOfCutterCompensationInALaterBlock) {
   EXPECT_EQ(verdictOn("Z20.", body), Verdict::Unknown);
   EXPECT_EQ(verdictOn("X5.", body), Verdict::Unknown);
   EXPECT_EQ(verdictOn("X0.", body), Verdict::Proved);
+}
+
+/// By what is written, the tool stands in the middle of the clamp or beside it.
+TEST(SpaceCases, PolygonWhoseSidesCross) {
+  const auto verdict = [](std::string corners) {
+    return verdictOn("G01 X1.", "( @KEEPOUT CLAMP POLYGON " + corners + " Z-50..50 )\nG01 X1. F100.\nG01 X1.\nM99\n");
+  };
+  EXPECT_EQ(verdict("X30 Y-9 / X50 Y-9 / X50 Y9 / X40 Y9 / X40 Y5 / X30 Y5"), Verdict::Proved);
+  EXPECT_EQ(verdict("X30 Y-9 / X50 Y-9 / X50 Y9 / X30 Y9 / X30 Y-9"), Verdict::Proved);
+  EXPECT_EQ(verdict("X30 Y-9 / X50 Y-9 / X50 Y9 / X30 Y-5 / X30 Y9"), Verdict::Unknown);
+  EXPECT_EQ(verdict("X-30 Y-30 / X30 Y-30 / X30 Y30 / X-30 Y30 / X-30 Y-30 / X30 Y-30 / X30 Y30 / X-30 Y30"),
+            Verdict::Unknown);
 }
 
 } // namespace
