@@ -85,7 +85,12 @@ bool breaks(const Obligation &claim, const RunResult &result) {
   case ObligationKind::ModalPreserved:
   case ObligationKind::Guarded:
   case ObligationKind::CallMeetsContract:
-  case ObligationKind::ContractSatisfiable: return false;
+  case ObligationKind::ContractSatisfiable:
+  case ObligationKind::KeepIn:
+  case ObligationKind::KeepOut:
+  case ObligationKind::Clearance:
+  case ObligationKind::Travel:
+  case ObligationKind::Limit: return false;
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }
