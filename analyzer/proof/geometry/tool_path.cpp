@@ -92,6 +92,21 @@ TermId ToolPath::sector(TermId x, TermId y) const {
   return store_.logicalOr(cases);
 }
 
+/// What follows from the circle and its sector: seen along the chord, all of an arc lies to the right of it when it
+/// turns to the left.  The chord of a full circle is a point.
+TermId ToolPath::besideChord(TermId x, TermId y) const {
+  Spokes ends = spokes();
+  if (move_.kind == MoveKind::ArcClockwise) {
+    std::swap(ends.startFirst, ends.endFirst);
+    std::swap(ends.startSecond, ends.endSecond);
+  }
+  const TermId right =
+      store_.multiply(store_.subtract(ends.endSecond, ends.startSecond), store_.subtract(x, ends.startFirst));
+  const TermId left =
+      store_.multiply(store_.subtract(ends.endFirst, ends.startFirst), store_.subtract(y, ends.startSecond));
+  return store_.lessOrEqual(left, right);
+}
+
 /// R says the distance of the centre from both ends, and the side of the chord on which it lies: these polynomial facts
 /// are of more use than the formula of the centre.  Where R is shorter than half the chord, the arc is a half circle
 /// about the middle of it; where the ends are one, there is none.
@@ -176,6 +191,8 @@ PointOnWay ToolPath::pointOfArc() {
   way.conditions.push_back(atStart == atEnd ? store_.equal(distance, atStart)
                                             : store_.logicalOr(within(atStart, atEnd), within(atEnd, atStart)));
   way.conditions.push_back(sector(x, y));
+  if (atStart == atEnd && move_.turns <= 1)
+    way.conditions.push_back(besideChord(x, y));
   way.point[in(move_.plane.first)] = store_.add(move_.firstCentre, x);
   way.point[in(move_.plane.second)] = store_.add(move_.secondCentre, y);
   const std::size_t normal = in(move_.plane.normal);

@@ -65,6 +65,7 @@ private:
   TermId share(PointOnWay &way);
   TermId between(PointOnWay &way, TermId start, TermId end);
   TermId sector(TermId x, TermId y) const;
+  TermId besideChord(TermId x, TermId y) const;
 
   /// From the centre to the ends, in the plane.
   struct Spokes {
