@@ -50,21 +50,11 @@ std::string startedProgram(const PreparedRun &prepared) {
   return toString(prepared.programs->set->file(prepared.start.file).model->programs[prepared.start.program].name);
 }
 
-/// Codes and the place; `--start` has the last word on the place.
-void startAsContractSays(PreparedRun &ready, const RunInput &input) {
-  const std::array place = ready.options.start;
-  ready.options = prove::startedAsSaid(*ready.programs->set, ready.start,
-                                       ready.programs->file(ready.start.file).contracts, std::move(ready.options));
-  if (!input.start.empty())
-    ready.options.start = place;
-}
-
 Result<PlottedProgram> plotted(const RunInput &input) {
   auto prepared = prepareRun(input);
   if (!prepared)
     return prepared.error();
   PreparedRun ready = prepared.take();
-  startAsContractSays(ready, input);
   const std::string name = startedProgram(ready);
   RunResult result = run(*ready.programs->set, ready.start, ready.options);
   const std::string values = fmt::format("{}", fmt::join(input.arguments, " "));

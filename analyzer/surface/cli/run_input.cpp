@@ -3,6 +3,7 @@
 #include "base/support/text.h"
 #include "dialects/registry.h"
 #include "language/syntax/tree.h"
+#include "proof/prove/plain_space.h"
 #include "rules/registry.h"
 #include "surface/cli/terminal.h"
 
@@ -149,6 +150,9 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
                      .start = position.value(),
                      .fuel = input.fuel,
                      .blockSkip = input.blockSkip ? BlockSkipSwitch::On : BlockSkipSwitch::Off};
+  options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
+  if (!input.start.empty()) // it has the last word on the place
+    options.start = position.value();
   return PreparedRun{loaded.take(), *start, std::move(options)};
 }
 
