@@ -256,7 +256,7 @@ TEST(PackageMutation, ProvedPackagesKeepTheirContractsInRuns) {
 }
 
 TEST(PackageMutation, WhatRunsBreakIsNotProved) {
-  constexpr std::uint64_t kUsual = 24;
+  constexpr std::uint64_t kUsual = 18;
   std::vector<Original> programs = originals();
   ASSERT_FALSE(programs.empty());
   dropRounded(programs);
