@@ -293,10 +293,15 @@ void Prover::limits() {
   for (const WordLimit &limit : contract()->limits) {
     const SpaceRule rule{.kind = ObligationKind::Limit, .clause = limit.clause};
     std::map<Place, std::vector<Query>> queries;
-    for (const MoveInstance &move : found_.moves)
-      if (space_->concerns(rule, move))
-        queries[move.own].push_back(onPath(
-            move.conditions, move.move.kind == MoveKind::Unfollowed ? store_.no() : space_->keepsLimit(limit, move)));
+    std::set<Place> inOtherUnits;
+    for (const MoveInstance &move : found_.moves) {
+      if (!space_->concerns(rule, move))
+        continue;
+      queries[move.own].push_back(onPath(
+          move.conditions, move.move.kind == MoveKind::Unfollowed ? store_.no() : space_->keepsLimit(limit, move)));
+      if (limit.address == 'F' && !answered(onPath(move.conditions, move.point.sameUnits.term), budget_).proved())
+        inOtherUnits.insert(move.own);
+    }
     for (const UnfollowedCall &call : found_.unfollowedCalls)
       queries[call.own].push_back(onPath(call.conditions, store_.no()));
     if (queries.empty() && found_.incomplete)
@@ -305,6 +310,11 @@ void Prover::limits() {
       Obligation &obligation = add(ObligationKind::Limit, own, file().tree->blocks[programs_.node(own).block].span(),
                                    contracts_->clauses[limit.clause].text);
       obligation.id.insert(obligation.id.rfind('.'), fmt::format(".{}", limit.address));
+      if (inOtherUnits.contains(own)) {
+        obligation.reason =
+            "F may be in other units than at the start (G20, G21), and those are the units of the limit";
+        continue;
+      }
       const auto cuts = [own = own, address = limit.address](const RunResult &run) -> std::optional<std::string> {
         const bool isMet =
             std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) { return move.own == own; });
