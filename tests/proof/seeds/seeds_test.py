@@ -16,7 +16,7 @@ STOPS = ("no-control-alarm", "alarm-unreachable", "loop-ends", "program-ends")
 
 
 def feedhold(*arguments):
-    return subprocess.run([FEEDHOLD, *arguments], cwd=CORPUS, capture_output=True, text=True, timeout=300)
+    return subprocess.run([FEEDHOLD, *arguments], cwd=CORPUS, capture_output=True, text=True, timeout=900)
 
 
 def programs():
