@@ -25,7 +25,7 @@ public:
     case 5:
     case 6:
       centre_ = random_.oneIn(2) ? std::array<std::string, 3>{"0", "0", "0"} : near(0.5);
-      return leastSize({fmt::format("(@KEEPIN {} {})", name_, shape()), Freer});
+      return leastSize({random_.oneIn(5) ? twoParts() : fmt::format("(@KEEPIN {} {})", name_, shape()), Freer});
     default: centre_ = near(6); return leastSize({keepOut(shape()), Tighter});
     }
   }
@@ -34,6 +34,11 @@ private:
   std::string pick(std::initializer_list<const char *> choices) { return random_.of<const char *>(choices); }
   std::string keepOut(const std::string &shape) const { return fmt::format("(@KEEPOUT {} {})", name_, shape); }
 
+  /// One region of two boxes that overlap.
+  std::string twoParts() {
+    return fmt::format("(@KEEPIN {0} BOX X..{1} Y{2}..{3})\n(@KEEPIN {0} BOX X{4}.. Y{2}..{3})", name_, times(0, ".5"),
+                       less(1), more(1), times(0, "-.5"));
+  }
   OpenClause leastSize(OpenClause clause) const {
     if (size_ == "[@@]")
       clause.least = 0.2;

@@ -171,27 +171,28 @@ bool isInside(const geometry::PlainRegion &region, const SpacePoint &point, doub
 }
 
 /// The middle of a part, or so: what is small lies between the points that are tried.
-std::optional<SpacePoint> middleOf(const PlainShape &part) {
-  const auto of = [](const geometry::Interval<double> &interval) {
-    return (interval.low.value_or(interval.high.value_or(0)) + interval.high.value_or(interval.low.value_or(0))) / 2;
+std::optional<SpacePoint> middleOf(const PlainShape &part, const SpacePoint &tip) {
+  const auto of = [&](const geometry::Interval<double> &interval, std::size_t axis) {
+    const double low = interval.low.value_or(interval.high.value_or(tip[axis]));
+    return (low + interval.high.value_or(low)) / 2;
   };
   using Middle = std::optional<SpacePoint>;
   return match(
       part,
       [&](const geometry::Box<double> &box) {
-        return Middle({of(box.sides[0]), of(box.sides[1]), of(box.sides[2])});
+        return Middle({of(box.sides[0], 0), of(box.sides[1], 1), of(box.sides[2], 2)});
       },
       [&](const geometry::Cylinder<double> &cylinder) {
         const std::size_t along = indexOf(cylinder.axis);
         SpacePoint middle{};
         middle[along == 0 ? 1 : 0] = cylinder.centre[0];
         middle[along == 2 ? 1 : 2] = cylinder.centre[1];
-        middle[along] = of(cylinder.along);
+        middle[along] = of(cylinder.along, along);
         return Middle(middle);
       },
       [](const geometry::Sphere<double> &sphere) { return Middle(sphere.centre); },
       [&](const geometry::Prism<double> &prism) {
-        SpacePoint middle{0, 0, of(prism.height)};
+        SpacePoint middle{0, 0, of(prism.height, 2)};
         for (const auto &[x, y] : prism.corners) {
           middle[0] += x / static_cast<double>(prism.corners.size());
           middle[1] += y / static_cast<double>(prism.corners.size());
@@ -245,9 +246,13 @@ std::optional<SpacePoint> wrongPoint(const PlainSpace &space, SpaceClaim claim, 
       return tip;
   } else {
     for (const PlainShape &part : space.keepOut[region].parts)
-      if (const auto middle = middleOf(part))
-        if (const SpacePoint point = towards(tool, tip, *middle); isInside(space.keepOut[region], point, depth))
-          return point;
+      if (const auto middle = middleOf(part, tip))
+        for (const double level : {tip[2], (*middle)[2]}) {
+          SpacePoint point = towards(tool, tip, *middle);
+          point[2] = std::max(point[2], level);
+          if (isInside(space.keepOut[region], point, depth))
+            return point;
+        }
   }
   for (int i = 0; i < kPoints; ++i) {
     const SpacePoint point = endPoint(tool, tip, random);

@@ -1,5 +1,6 @@
 #include "proof/space/space_programs.h"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace feedhold::proof_tests {
@@ -68,7 +69,7 @@ private:
       add("(@REQUIRE " + pick({"#1 LE #2", "#2 GT #3", "[#1+#2] GE 2", "#3 NE 0", "#1*#2 LE 9"}) + ")");
     add("(@START " + pick({"X0 Y0 Z20.", "X0 Y0 Z20.", "X#1 Y-#2 Z12.", "Y3. X0 Z[#3+5]", "X0 Y0", "Z10. X1. Y0"}) +
         ")");
-    add("(@MODAL G21 G40 G80 G50 G69 G50.1 G15 " + pick({"G90", "G90", "G91"}) + pick({" G0", " G0", " G1", ""}) +
+    add("(@MODAL G21 G40 G80 G50 G69 G50.1 G15 " + pick({"G90", "G90", "G91", ""}) + pick({" G0", " G0", " G1", ""}) +
         pick({" G17", " G17", " G17", " G18", " G19", ""}) + pick({" G98", " G98", " G99", ""}) +
         pick({"", " G49", " G54", " G94"}) + ")");
     add("(@TOOL " +
@@ -134,7 +135,9 @@ private:
     std::string text = std::string(isRelative ? "G91" : "G90") + pick({"", "G17"}) + pick({"G2", "G3"});
     switch (random_.below(4)) {
     case 0: text += "I" + pick({"", "-"}) + r; break;
-    case 1: text += "X" + to(x, "[" + r + "*2]") + "I" + r; break;
+    case 1: // or nearly to half of it: the control allows for that
+      text += "X" + to(x, "[" + r + pick({"*2]", "*2]", "*2+.01]", "*2-.015]"})) + "I" + r;
+      break;
     case 2: text += "X" + to(x, r) + "Y" + to(y, r) + pick({"I", "J"}) + r; break;
     default: text += "X" + to(x, r) + "Y" + to(y, "[0-" + r + "]") + pick({"I" + r, "J-" + r}); break;
     }
@@ -262,7 +265,58 @@ private:
   bool called_ = false;
 };
 
+class OneMovement {
+public:
+  explicit OneMovement(Random &random) : random_(random) {}
+
+  ProgramLines run() {
+    for (double &coordinate : start_)
+      coordinate = quarter(80) - 10;
+    const std::string start = fmt::format("(@START X{} Y{} Z{})", start_[0], start_[1], start_[2]);
+    const double corner = quarter(12);
+    const std::string tool = fmt::format("(@TOOL BULL RADIUS {} CORNER {})", corner + quarter(12) + 0.25, corner);
+    return {"O1",
+            "(@PARAM #1 1..1)",
+            "(@PARAM #2 2..2)",
+            "(@PARAM #3 3..3)",
+            start,
+            tool,
+            "(@MODAL G21 G40 G80 G50 G69 G50.1 G15 G90 G54)",
+            movement(),
+            "M30"};
+  }
+
+private:
+  double quarter(std::uint32_t most) { return static_cast<double>(random_.below(most + 1)) / 4; }
+  std::string end(std::size_t axis) {
+    return random_.oneIn(3) ? "" : fmt::format("{}{:.2f}", "XYZ"[axis], start_[axis] + quarter(64) - 8);
+  }
+  std::string movement() {
+    if (random_.oneIn(3))
+      return random_.of<const char *>({"G0", "G1"}) + end(0) + end(1) + end(2);
+    const std::size_t plane = random_.below(3); // G17, G18, G19
+    constexpr std::array<std::array<std::size_t, 3>, 3> kAxes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+    const auto [first, second, normal] = kAxes[plane];
+    // Whole numbers of which many have the same sum of squares: 65 = 1 + 64 = 16 + 49.
+    constexpr std::array<std::array<int, 2>, 8> kSpokes{
+        {{8, 1}, {7, 4}, {4, 7}, {1, 8}, {-8, 1}, {-7, -4}, {4, -7}, {-1, -8}}};
+    const auto from = kSpokes[random_.below(8)];
+    const auto to = random_.oneIn(4) ? from : kSpokes[random_.below(8)];
+    const double scale = random_.of<double>({0.25, 0.5, 1});
+    const auto word = [&](char letter, double value) { return fmt::format("{}{:.2f}", letter, value); };
+    return fmt::format("G{}G{}", 17 + plane, random_.oneIn(2) ? 2 : 3) +
+           word("XYZ"[first], start_[first] + scale * (to[0] - from[0])) +
+           word("XYZ"[second], start_[second] + scale * (to[1] - from[1])) + word("IJK"[first], -scale * from[0]) +
+           word("IJK"[second], -scale * from[1]) + (random_.oneIn(2) ? end(normal) : "");
+  }
+
+  Random &random_;
+  std::array<double, 3> start_{};
+};
+
 } // namespace
+
+Sample oneMovement(Random &random) { return {"fanuc-30i", OneMovement(random).run()}; }
 
 Sample millingProgram(Random &random) { return {"fanuc-30i", Writer(random).run()}; }
 

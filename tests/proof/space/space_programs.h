@@ -8,5 +8,7 @@ namespace feedhold::proof_tests {
 
 /// Nothing is said of space yet.
 soundness::Sample millingProgram(soundness::Random &random);
+/// One movement by plain numbers.
+soundness::Sample oneMovement(soundness::Random &random);
 
 } // namespace feedhold::proof_tests

@@ -99,10 +99,11 @@ private:
   std::vector<std::pair<std::uint8_t, std::uint8_t>> anyCodes(Random &random) const {
     const ModalTable modes(loaded_.dialect());
     std::vector<std::pair<std::uint8_t, std::uint8_t>> codes;
-    for (const ModalKind kind : {ModalKind::Motion, ModalKind::Plane, ModalKind::WorkOffset})
-      if (const auto group = modes.groupOf(kind); group && !modes.group(*group).codes.empty())
-        codes.emplace_back(*group, static_cast<std::uint8_t>(random.below(std::min<std::uint32_t>(
-                                       3, static_cast<std::uint32_t>(modes.group(*group).codes.size())))));
+    for (const std::initializer_list<int> group :
+         {std::initializer_list<int>{0, 10, 20, 30}, {170, 180, 190}, {540, 550, 590}, {980, 990}, {900, 910}})
+      if (const Code *code = findGCode(loaded_.dialect(), static_cast<std::uint16_t>(random.of(group))))
+        if (const auto index = modes.indexOf(*code))
+          codes.emplace_back(code->group, *index);
     return codes;
   }
   SpaceRun run(RunOptions options) const {
@@ -132,6 +133,17 @@ std::vector<Clause> clausesOf(const PlainSpace &space) {
   if (space.travel)
     clauses.push_back({ObligationKind::Travel, SpaceClaim::Travel, 0, ""});
   return clauses;
+}
+
+/// Depths are known, and not only looked for at some points.
+bool hasFormulas(const PlainSpace &space, const Clause &clause) {
+  if (clause.claim != SpaceClaim::KeepIn && clause.claim != SpaceClaim::KeepOut)
+    return true;
+  const auto &region = (clause.claim == SpaceClaim::KeepIn ? space.keepIn : space.keepOut)[clause.region];
+  return region.parts.size() == 1 &&
+         std::none_of(region.parts.begin(), region.parts.end(), [](const geometry::PlainShape &part) {
+           return std::holds_alternative<geometry::Condition<double, bool>>(part);
+         });
 }
 
 bool isOf(const Obligation &obligation, const Clause &clause) {
@@ -195,7 +207,7 @@ private:
 
   /// What is refuted is seen in a run.
   std::optional<std::string> wrongWitness() {
-    constexpr double kSeen = 0.05; // much less may lie between the points that are tried
+    constexpr double kSeen = 0.3; // much less may lie between the points that are tried
     for (const Obligation &obligation : proof_.obligations) {
       if (obligation.verdict != Verdict::Refuted)
         continue;
@@ -272,7 +284,7 @@ private:
     if (!looksClosely)
       return std::nullopt;
     const auto seen = seenGouge(run.space, clause.claim, clause.region, run.result.moves, own, 2 * kRounding, random_);
-    if (seen && (isProved || depth <= kRounding))
+    if (seen && (isProved || (depth <= kRounding && hasFormulas(run.space, clause))))
       return fmt::format("{} {} is {}, {} deep, and the tool at {}, {}, {} is wrong at {}, {}, {} in {}",
                          nameOf(clause.kind), clause.name, claim ? nameOf(claim->verdict) : "not claimed", depth,
                          seen->tip[0], seen->tip[1], seen->tip[2], seen->point[0], seen->point[1], seen->point[2],
@@ -353,10 +365,10 @@ Sample withSpaceClauses(Sample program, Random &random) {
     return list[random.below(static_cast<std::uint32_t>(list.size()))];
   };
   Sample result = program;
-  std::set<std::string_view> kinds;
+  std::set<std::string> kinds;
   for (const char *name : {"RA", "RB", "RC"}) {
     const OpenClause open = openClause(random, name, anyTip(any(any(runs).result.moves), random));
-    const std::string_view kind = std::string_view(open.text).substr(0, 6);
+    const std::string kind = open.text.substr(0, 6);
     const bool isOnce = kind == "(@CLEA" || kind == "(@TRAV";
     if ((isOnce && !kinds.insert(kind).second) || random.oneIn(4))
       continue;
