@@ -26,7 +26,7 @@ public:
     case 6:
       centre_ = random_.oneIn(2) ? std::array<std::string, 3>{"0", "0", "0"} : near(0.5);
       return leastSize({random_.oneIn(5) ? twoParts() : fmt::format("(@KEEPIN {} {})", name_, shape()), Freer});
-    default: centre_ = near(6); return leastSize({keepOut(shape()), Tighter});
+    default: centre_ = near(6); return {keepOut(shape()), Tighter, 0.2};
     }
   }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 namespace feedhold::proof_tests {
@@ -185,6 +186,9 @@ public:
       trial_.wrong = broken(*run, i % 4 == 0);
     }
     trial_.tally.missed = missed_.size();
+    for (const auto &[claim, arguments] : missed_)
+      trial_.reasons.push_back(fmt::format("{}, and a run breaks it: {}; {} with{}", nameOf(claim->kind), claim->reason,
+                                           claim->id, arguments));
     return std::move(trial_);
   }
 
@@ -272,7 +276,7 @@ private:
         return fmt::format("nothing is claimed of {} {} in {}, and the tool is {} too deep", nameOf(clause.kind),
                            clause.name, at(own), depth);
       if (claim)
-        missed_.insert(claim);
+        missed_.emplace(claim, argumentsOf(run.given));
     }
     if (isProved && claim->margin && depth <= kRounding) {
       const auto margin =
@@ -296,7 +300,7 @@ private:
   Random random_;
   prove::ProgramProof proof_;
   SpaceTrial trial_;
-  std::set<const Obligation *> missed_;
+  std::map<const Obligation *, std::string> missed_; // and with which arguments
 };
 
 // ---- clauses round a way ----

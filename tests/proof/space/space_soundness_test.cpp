@@ -1,5 +1,6 @@
 // Random milling programs: what is proved of their space is kept in runs on random arguments, and what is refuted is
-// broken by the witness.  SPACE_FIRST and SPACE_PROGRAMS choose other programs, SPACE_SHOW=1 shows them.
+// broken by the witness.  SPACE_FIRST and SPACE_PROGRAMS choose other programs, SPACE_SHOW=1 shows
+// them, SPACE_REASONS=1 what is said of claims that are neither proved nor refuted.
 #include "base/support/parallel.h"
 #include "proof/space/space_programs.h"
 #include "proof/space/space_proofs.h"
