@@ -63,6 +63,7 @@ private:
                    const Budget &budget, std::optional<smt::Model> *model = nullptr);
   const Outcome &answered(const Query &query, const Budget &budget);
   bool isGivenAtStart(Axis axis) const;
+  std::optional<std::string> notFollowedAt(Place place) const;
   std::string whyOpen(const std::vector<smt::TermId> &conditions, const SpaceQuestion &question);
   std::optional<GougeAt> gougeIn(const SpaceRule &rule, Place own, const RunResult &run,
                                  const GivenVariables &given) const;

@@ -174,6 +174,14 @@ void Prover::space(const SpaceRule &rule, Place own, const std::vector<const Mov
   }
 }
 
+/// What is not followed there, by its name.
+std::optional<std::string> Prover::notFollowedAt(Place place) const {
+  for (const Unfollowed &each : found_.unfollowed)
+    if (each.place == place)
+      return fmt::format("where this block leads is not known: not followed is \"{}\"", each.reason);
+  return std::nullopt;
+}
+
 void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves,
                          const Violation &violation) {
   const auto unknown = [&](std::string reason) {
@@ -194,7 +202,7 @@ void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const st
   obligation.verdict = Verdict::Proved;
   for (const MoveInstance *move : moves) {
     if (const auto reason = space_->whyNotTold(*move))
-      return unknown(*reason);
+      return unknown(notFollowedAt(move->place).value_or(*reason));
     for (const auto &[premise, reason] : space_->premises(rule, *move))
       if (!isProvedFor(obligation, move->conditions, {{{{}, premise}}}, budget_))
         return unknown(reason);
