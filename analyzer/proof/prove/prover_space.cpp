@@ -178,7 +178,7 @@ void Prover::space(const SpaceRule &rule, Place own, const std::vector<const Mov
 std::optional<std::string> Prover::notFollowedAt(Place place) const {
   for (const Unfollowed &each : found_.unfollowed)
     if (each.place == place)
-      return fmt::format("where this block leads is not known: not followed is \"{}\"", each.reason);
+      return fmt::format("where this block leads is not known: \"{}\" is not followed", each.reason);
   return std::nullopt;
 }
 
@@ -195,7 +195,8 @@ void Prover::decideSpace(Obligation &obligation, const SpaceRule &rule, const st
     return unknown(*rule.missing);
   for (const UnfollowedCall &call : found_.unfollowedCalls)
     if (call.own == obligation.place)
-      return unknown("a program that is called here is not followed, and may move the tool");
+      return unknown(notFollowedAt(call.own).value_or("a program that is called here is not followed, and may move the "
+                                                      "tool"));
   if (const Outcome sound = discharge(store_, onPath(demands_, rule.isSound), options_.budget); !sound.proved())
     return unknown("the tool or the region may be empty or turned inside out (a radius below 0, a range from high to "
                    "low, a polygon whose sides cross): `@REQUIRE` has to exclude it");
