@@ -100,7 +100,7 @@ public:
 
 private:
   bool agrees(const Start &start) const {
-    return prove::agreesExactly(program_.loaded().set, program_.entry(), start.given, program_.run(start)) ==
+    return prove::ExactRuns(program_.loaded().set, program_.entry()).agrees(start.given, program_.run(start)) ==
            prove::Agreement::Same;
   }
 

@@ -5,7 +5,7 @@
 #include "base/support/match.h"
 #include "proof/check/certificate.h"
 #include "proof/prove/discharge_eliminate.h"
-#include "proof/prove/discharge_search.h"
+#include "proof/prove/discharge_memo.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
 
@@ -78,11 +78,11 @@ public:
       std::optional<Outcome> outcome = byCertificate(budget_.search);
       return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
     }
-    // Most of what a short search does not prove is not so: a model is cheaper than a long search.
+    // Much of what a short search does not prove is not so: a model that Z3 finds soon is cheaper than a long search.
     if (std::optional<Outcome> outcome = byCertificate(budget_.search / 10))
       return std::move(*outcome);
     text_ = smt::writeSmtLib(store_, pure_);
-    if (std::optional<Outcome> outcome = byModel(budget_.z3 / 5))
+    if (std::optional<Outcome> outcome = byModel(budget_.z3 / 40))
       return std::move(*outcome);
     if (std::optional<Outcome> outcome = byCertificate(budget_.search))
       return std::move(*outcome);
@@ -96,7 +96,7 @@ private:
       reason_ = claim.error().message;
       return std::nullopt;
     }
-    const SearchResult search = searchCertificate(claim.value(), work);
+    const SearchResult search = searchOnce(claim.value(), work);
     effort_ += search.work;
     const bool isLinear = search.reasoning == SearchResult::Reasoning::Linear;
     const std::string method = isLinear ? "linear" : "products";
@@ -143,7 +143,7 @@ private:
 
   /// Values by Z3; its `unsat` is remembered.
   std::optional<Outcome> byModel(std::uint64_t work) {
-    z3_ = smt::askZ3(text_, smt::arithmeticOf(store_, pure_), work);
+    z3_ = askZ3Once(text_, smt::arithmeticOf(store_, pure_), work);
     effort_ += z3_.effort;
     if (const auto *sat = std::get_if<smt::Sat>(&z3_.result))
       return Outcome{Counterexample{completed(sat->model)}, "z3", effort_};
@@ -159,7 +159,7 @@ private:
       return {Unknown{z3.isUnsat() ? "one solver only" : reason_}, "z3", effort_};
     if (!z3.isUnsat())
       return {Unknown{reason_ + "; " + std::get<smt::NoAnswer>(z3.result).reason}, "z3", effort_};
-    const smt::Answer cvc5 = smt::askCvc5(text_, budget_.cvc5);
+    const smt::Answer cvc5 = askCvc5Once(text_, budget_.cvc5);
     effort_ += cvc5.effort;
     if (const auto *none = std::get_if<smt::NoAnswer>(&cvc5.result))
       return {Unknown{"one solver only: " + none->reason}, "z3+cvc5", effort_};

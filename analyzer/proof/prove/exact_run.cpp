@@ -10,6 +10,7 @@ namespace feedhold::prove {
 ExploreOptions exactOptions() {
   ExploreOptions options;
   options.loops = LoopTreatment::EachPass;
+  options.mayEnclose = true;
   options.mostSteps = 6'000;
   options.mostPaths = 20;
   options.mostWork = 1'000'000;
@@ -27,44 +28,52 @@ void startExactly(SymbolicReading &reading, const GivenVariables &given) {
   reading.startFrom(std::move(values));
 }
 
-namespace {
-
-bool hasStop(const Exploration &found, const RunResult &run) {
-  return std::any_of(found.checks.begin(), found.checks.end(), [&](const Check &check) {
-    return check.place == run.place &&
-           check.alarm == (run.end == RunEnd::Alarm ? std::optional(run.alarm) : std::nullopt);
-  });
-}
-
-bool hasEnd(const Exploration &found, const RunResult &run) {
+bool ExactRuns::has(const Ends &ends, const RunResult &run) {
+  const auto stopsAt = [&](std::optional<AlarmKind> alarm) {
+    return std::find(ends.stops.begin(), ends.stops.end(), std::pair(run.place, alarm)) != ends.stops.end();
+  };
   switch (run.end) {
-  case RunEnd::Alarm:
-  case RunEnd::UserAlarm: return hasStop(found, run);
+  case RunEnd::Alarm: return stopsAt(run.alarm);
+  case RunEnd::UserAlarm: return stopsAt(std::nullopt);
   case RunEnd::Fuel:
-  case RunEnd::Repeats: return !found.repeats.empty();
+  case RunEnd::Repeats: return ends.repeats;
   case RunEnd::NotModelled: return false;
   case RunEnd::M02:
   case RunEnd::M30:
   case RunEnd::EndOfFile:
-  case RunEnd::Returned:
-    return std::any_of(found.exits.begin(), found.exits.end(),
-                       [&](const PathExit &exit) { return exit.place == run.place; });
+  case RunEnd::Returned: return std::find(ends.exits.begin(), ends.exits.end(), run.place) != ends.exits.end();
   }
   return false;
 }
 
-} // namespace
-
-Agreement agreesExactly(const ProgramSet &programs, Callee entry, const GivenVariables &given, const RunResult &run) {
+ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   smt::TermStore store;
-  SymbolicReading reading(store, *programs.file(entry.file).dialect);
+  const Dialect &dialect = *programs_.file(entry_.file).dialect;
+  SymbolicReading reading(store, dialect);
   startExactly(reading, given);
-  const ModalTable modes(*programs.file(entry.file).dialect);
+  const ModalTable modes(dialect);
   reading.keepPolar(modes.groupOf(ModalKind::Polar));
-  const Exploration found = explore(reading, programs, entry, symbolicEntry(reading), exactOptions());
-  if (hasEnd(found, run))
+  const Exploration found = explore(reading, programs_, entry_, symbolicEntry(reading), exactOptions());
+  Ends ends;
+  ends.repeats = !found.repeats.empty();
+  ends.isIncomplete = found.incomplete.has_value();
+  for (const Check &check : found.checks)
+    ends.stops.emplace_back(check.place, check.alarm);
+  for (const PathExit &exit : found.exits)
+    ends.exits.push_back(exit.place);
+  return ends;
+}
+
+Agreement ExactRuns::agrees(const GivenVariables &given, const RunResult &run) {
+  std::vector<std::pair<std::uint32_t, std::optional<double>>> key;
+  for (const auto &[variable, value] : given.entries())
+    key.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+  auto known = known_.find(key);
+  if (known == known_.end())
+    known = known_.emplace(std::move(key), follow(given)).first;
+  if (has(known->second, run))
     return Agreement::Same;
-  return found.incomplete ? Agreement::NotKnown : Agreement::Different;
+  return known->second.isIncomplete ? Agreement::NotKnown : Agreement::Different;
 }
 
 } // namespace feedhold::prove

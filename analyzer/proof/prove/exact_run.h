@@ -4,6 +4,11 @@
 #include "meaning/machine/machine.h"
 #include "proof/prove/exploration.h"
 
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
 namespace feedhold::prove {
 
 enum class Agreement : std::uint8_t {
@@ -17,7 +22,27 @@ ExploreOptions exactOptions();
 /// The reading starts from these inputs.
 void startExactly(SymbolicReading &reading, const GivenVariables &given);
 
-/// Whether the run on these inputs also ends in exact numbers as the machine's run ended.
-Agreement agreesExactly(const ProgramSet &programs, Callee entry, const GivenVariables &given, const RunResult &run);
+/// The exact runs of one program, each followed once.
+class ExactRuns {
+public:
+  ExactRuns(const ProgramSet &programs, Callee entry) : programs_(programs), entry_(entry) {}
+  /// Whether the run on these inputs also ends in exact numbers as the machine's run ended.
+  Agreement agrees(const GivenVariables &given, const RunResult &run);
+
+private:
+  /// Where the paths of one run may end: one path, but where something is not known.
+  struct Ends {
+    std::vector<std::pair<Place, std::optional<AlarmKind>>> stops; ///< no kind: the program's own alarm
+    std::vector<Place> exits;
+    bool repeats = false;
+    bool isIncomplete = false;
+  };
+  static bool has(const Ends &ends, const RunResult &run);
+  Ends follow(const GivenVariables &given) const;
+
+  const ProgramSet &programs_;
+  Callee entry_;
+  std::map<std::vector<std::pair<std::uint32_t, std::optional<double>>>, Ends> known_; // by inputs; no number: vacant
+};
 
 } // namespace feedhold::prove

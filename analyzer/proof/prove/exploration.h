@@ -141,6 +141,9 @@ struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyPass;
   Sums sums = Sums::Exact;
+  /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
+  /// refutations alone.
+  bool mayEnclose = false;
   LoopHints invariants = {};                         // tried with those that are guessed
   LoopHints measures = {};                           // kept for LoopInstance::measures
   std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none

@@ -60,7 +60,7 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options,
                    PathMerging merging)
     : reading_(reading), store_(reading.store()), programs_(programs), options_(options), merging_(merging),
-      termsBefore_(store_.size()), entails_(store_) {
+      termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   reading_.usePath(this);
   entails_.allow(options.mostWork);
 }
@@ -101,9 +101,19 @@ void Explorer::giveUp(std::string_view reason) {
 
 bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
 
-bool Explorer::proves(TermId condition) { return path_ && entails_(reading_.facts(), path_->conditions, condition); }
+bool Explorer::proves(TermId condition) {
+  if (const auto known = byEnclosure(condition))
+    return *known;
+  return path_ && entails_(reading_.facts(), path_->conditions, condition);
+}
+
+std::optional<bool> Explorer::byEnclosure(TermId condition) {
+  return options_.mayEnclose ? groundTruth_.of(condition) : std::nullopt;
+}
 
 bool Explorer::isPossible(const Path &path, TermId condition) {
+  if (const auto known = byEnclosure(condition))
+    return *known;
   const TermId opposite = store_.logicalNot(condition);
   if (condition == store_.no() || path.says(store_, opposite))
     return false;

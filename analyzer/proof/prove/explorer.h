@@ -6,6 +6,7 @@
 #include "proof/prove/exploration.h"
 #include "proof/prove/loops.h"
 #include "proof/prove/merging.h"
+#include "proof/smt/ground_truth.h"
 
 #include <memory>
 
@@ -75,6 +76,7 @@ private:
   Worklist::Position positionOf(const Path &path);
   std::vector<Path> merged(std::vector<Path> paths, const Trial *trial);
   bool isPossible(const Path &path, smt::TermId condition);
+  std::optional<bool> byEnclosure(smt::TermId condition);
 
   StepContext<SymbolicReading> contextOf(Path &path);
   const Node &nodeOf(const Path &path) const { return programs_.node(path.at); }
@@ -90,7 +92,8 @@ private:
   PathMerging merging_;
   std::size_t termsBefore_;
   Entailment entails_;
-  const Path *path_ = nullptr; // on which the present step is made
+  smt::GroundTruth groundTruth_;
+  const Path *path_ = nullptr;   // on which the present step is made
   Purpose purpose_ = Purpose::Record;
   Exploration result_;
   SymbolicState entry_;                                                          // as it was at the start

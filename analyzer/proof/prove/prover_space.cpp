@@ -1,5 +1,4 @@
 // Claims about space: where the tool may go (docs/geometry.md).
-#include "proof/prove/exact_run.h"
 #include "proof/prove/plain_space.h"
 #include "proof/prove/prover.h"
 #include "proof/prove/space_claims.h"
@@ -67,8 +66,7 @@ Violation Prover::gouges(const SpaceRule &rule, Place own) const {
             options.fuel = WitnessSearch::kFuel;
             options.words = WordRounding::None;
             const RunResult run = feedhold::run(programs_, program_, options);
-            return gougeIn(rule, own, run, given) &&
-                   agreesExactly(programs_, program_, given, run) != Agreement::Different;
+            return gougeIn(rule, own, run, given) && witnesses_->agreesExactly(given, run) != Agreement::Different;
           }};
 }
 

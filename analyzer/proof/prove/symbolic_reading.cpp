@@ -230,6 +230,8 @@ bool SymbolicReading::mayBe(Truth a) {
 // ---- modal codes ----
 
 Condition SymbolicReading::isOneOf(ModalCode code, CodeMask mask) {
+  if (const auto only = onlyCode(code))
+    return truth(((mask >> *only) & 1) != 0);
   std::vector<TermId> cases;
   for (CodeMask rest = mask; rest != 0; rest &= rest - 1)
     cases.push_back(store_.equal(code.index, store_.number(Number(std::countr_zero(rest)))));

@@ -1,7 +1,5 @@
 #include "proof/prove/witness.h"
 
-#include "proof/prove/exact_run.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -31,7 +29,7 @@ double rounded(double value, double step) { return std::round(value / step) * st
 WitnessSearch::WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry,
                              std::vector<smt::TermId> demands, std::vector<double> constants)
     : reading_(reading), programs_(programs), entry_(entry), demands_(std::move(demands)),
-      constants_(std::move(constants)) {}
+      constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)) {}
 
 std::vector<std::uint32_t> WitnessSearch::inputs() const {
   std::vector<std::uint32_t> inputs;
@@ -63,6 +61,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
   WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
   narrowed.startFrom(start_, place_);
   narrowed.others_ = others_;
+  narrowed.exactRuns_ = exactRuns_;
   narrowed.demands_.push_back(demand);
   for (const Sample &sample : samples_)
     if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
@@ -154,7 +153,7 @@ std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
 bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const {
   if (violation.breaksExactly)
     return violation.breaksExactly(given);
-  switch (agreesExactly(programs_, entry_, given, run)) {
+  switch (agreesExactly(given, run)) {
   case Agreement::Same: return true;
   case Agreement::Different: return false;
   case Agreement::NotKnown: return run.end != RunEnd::Repeats; // doubles that grow or shrink come to rest

@@ -1,11 +1,13 @@
 // Witnesses: inputs that the concrete machine runs to the violation of a claim.
 #pragma once
 
+#include "proof/prove/exact_run.h"
 #include "proof/prove/obligation.h"
 #include "proof/prove/symbolic_reading.h"
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -61,6 +63,10 @@ public:
   smt::Model modelOf(const GivenVariables &given) const;
   /// They satisfy what the inputs have to.
   bool allowed(const GivenVariables &given) const;
+  /// Whether the run ends so in exact numbers, too.
+  Agreement agreesExactly(const GivenVariables &given, const RunResult &run) const {
+    return exactRuns_->agrees(given, run);
+  }
   /// The samples that satisfy one more condition.
   WitnessSearch narrowed(smt::TermId demand) const;
 
@@ -83,7 +89,8 @@ private:
   RunOptions start_;
   std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
-  smt::Model others_; // inputs that satisfy what they have to
+  std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
+  smt::Model others_;                    // inputs that satisfy what they have to
 };
 
 } // namespace feedhold::prove

@@ -138,7 +138,11 @@ TermId TermStore::add(std::span<const TermId> terms) {
   return fromLinear(fromFactors(constant, factors));
 }
 
-TermId TermStore::add(TermId left, TermId right) { return add(std::array{left, right}); }
+TermId TermStore::add(TermId left, TermId right) {
+  if (isNumber(left) && isNumber(right))
+    return number(terms_[left].number + terms_[right].number);
+  return add(std::array{left, right});
+}
 
 TermId TermStore::subtract(TermId left, TermId right) { return add(left, negate(right)); }
 
@@ -222,12 +226,17 @@ TermId TermStore::equal(TermId left, TermId right) {
 
 /// `left - right` over its first factor: a sum that begins with factor 1, beside a constant.
 TermId TermStore::compare(TermKind kind, TermId left, TermId right) {
-  LinearSum sum = linear(subtract(left, right));
-  if (sum.terms.empty()) {
-    int sign = sum.constant.sign();
-    bool holds = kind == TermKind::Less ? sign < 0 : kind == TermKind::LessOrEqual ? sign <= 0 : sign == 0;
+  const auto decided = [&](const Number &less, const Number &more) {
+    const bool holds = kind == TermKind::Less          ? less < more
+                       : kind == TermKind::LessOrEqual ? less <= more
+                                                       : less == more;
     return holds ? yes() : no();
-  }
+  };
+  if (isNumber(left) && isNumber(right))
+    return decided(terms_[left].number, terms_[right].number);
+  LinearSum sum = linear(subtract(left, right));
+  if (sum.terms.empty())
+    return decided(sum.constant, Number());
   const Number first = sum.terms.front().second;
   Number bound = -sum.constant / first;
   sum.constant = Number();
