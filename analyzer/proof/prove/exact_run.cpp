@@ -28,6 +28,13 @@ void startExactly(SymbolicReading &reading, const GivenVariables &given) {
   reading.startFrom(std::move(values));
 }
 
+InputsKey keyOf(const GivenVariables &given) {
+  InputsKey key;
+  for (const auto &[variable, value] : given.entries())
+    key.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+  return key;
+}
+
 bool ExactRuns::has(const Ends &ends, const RunResult &run) {
   const auto stopsAt = [&](std::optional<AlarmKind> alarm) {
     return std::find(ends.stops.begin(), ends.stops.end(), std::pair(run.place, alarm)) != ends.stops.end();
@@ -65,12 +72,9 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
 }
 
 Agreement ExactRuns::agrees(const GivenVariables &given, const RunResult &run) {
-  std::vector<std::pair<std::uint32_t, std::optional<double>>> key;
-  for (const auto &[variable, value] : given.entries())
-    key.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
-  auto known = known_.find(key);
-  if (known == known_.end())
-    known = known_.emplace(std::move(key), follow(given)).first;
+  const auto [known, isNew] = known_.try_emplace(keyOf(given));
+  if (isNew)
+    known->second = follow(given);
   if (has(known->second, run))
     return Agreement::Same;
   return known->second.isIncomplete ? Agreement::NotKnown : Agreement::Different;

@@ -22,6 +22,10 @@ ExploreOptions exactOptions();
 /// The reading starts from these inputs.
 void startExactly(SymbolicReading &reading, const GivenVariables &given);
 
+/// Each input by its number; no value: vacant.
+using InputsKey = std::vector<std::pair<std::uint32_t, std::optional<double>>>;
+InputsKey keyOf(const GivenVariables &given);
+
 /// The exact runs of one program, each followed once.
 class ExactRuns {
 public:
@@ -42,7 +46,7 @@ private:
 
   const ProgramSet &programs_;
   Callee entry_;
-  std::map<std::vector<std::pair<std::uint32_t, std::optional<double>>>, Ends> known_; // by inputs; no number: vacant
+  std::map<InputsKey, Ends> known_;
 };
 
 } // namespace feedhold::prove

@@ -93,7 +93,7 @@ private:
   std::size_t termsBefore_;
   Entailment entails_;
   smt::GroundTruth groundTruth_;
-  const Path *path_ = nullptr;   // on which the present step is made
+  const Path *path_ = nullptr; // on which the present step is made
   Purpose purpose_ = Purpose::Record;
   Exploration result_;
   SymbolicState entry_;                                                          // as it was at the start

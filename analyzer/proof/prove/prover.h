@@ -24,6 +24,7 @@ private:
   Prover(const ProgramSet &programs, Callee program, const FileContracts *contracts, const ProveOptions &options,
          const GivenVariables &given);
   bool breaksExactly(const GivenVariables &given, ObligationKind kind, const std::string &claim, Place place) const;
+  std::vector<Obligation> brokenPromises(const GivenVariables &given) const;
   Violation brokenPromise(const Obligation &obligation) const;
   void explore();
   void settleAll();
@@ -142,9 +143,10 @@ private:
   std::vector<smt::Model> sampleInputs_;
   std::vector<smt::TermId> signs_; // facts about the inputs that the contract allows
   std::map<std::pair<std::vector<smt::TermId>, std::uint64_t>, Outcome>
-      answers_;                         // by assumptions with the goal, budget
-  std::uint64_t guardWork_ = 2'000'000; // of explorations under conditions
-  std::optional<Wto> wto_;              // of the program, for guards
+      answers_;                                                        // by assumptions with the goal, budget
+  mutable std::map<InputsKey, std::vector<Obligation>> brokenExactly_; // by inputs
+  std::uint64_t guardWork_ = 2'000'000;                                // of explorations under conditions
+  std::optional<Wto> wto_;                                             // of the program, for guards
   ProgramProof proof_;
 };
 

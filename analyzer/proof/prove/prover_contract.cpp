@@ -48,18 +48,27 @@ Violation Prover::brokenPromise(const Obligation &obligation) const {
                         const GivenVariables &given) { return breaksExactly(given, kind, claim, place); }};
 }
 
-/// The program is followed once more, from these inputs alone.
 bool Prover::breaksExactly(const GivenVariables &given, ObligationKind kind, const std::string &claim,
                            Place place) const {
+  auto [known, isNew] = brokenExactly_.try_emplace(keyOf(given));
+  if (isNew)
+    known->second = brokenPromises(given);
+  return std::any_of(known->second.begin(), known->second.end(), [&](const Obligation &each) {
+    return each.kind == kind && each.claim == claim && each.place == place;
+  });
+}
+
+/// The program is followed once more, from these inputs alone.
+std::vector<Obligation> Prover::brokenPromises(const GivenVariables &given) const {
   ProveOptions options = options_;
-  options.only = {kind};
+  options.only.clear();
   options.guards = InferGuards::No;
   Prover exact(programs_, program_, contracts_, options, given);
   exact.explore();
   exact.promises();
-  return std::any_of(exact.proof_.obligations.begin(), exact.proof_.obligations.end(), [&](const Obligation &each) {
-    return each.kind == kind && each.claim == claim && each.place == place && each.verdict == Verdict::Refuted;
-  });
+  std::vector<Obligation> all = std::move(exact.proof_.obligations);
+  std::erase_if(all, [](const Obligation &each) { return each.verdict != Verdict::Refuted; });
+  return all;
 }
 
 /// A contract that no call satisfies would make everything true.

@@ -93,7 +93,8 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
 /// A number that grows without end (`#1=#1*#1` in a loop) is taken as any number at some size.
 SymbolicValue SymbolicReading::of(TermId number) {
   const smt::Term &term = store_[number];
-  const bool isHuge = store_.isNumber(number) ? term.number.words() > kMostWords : term.arguments.size() > kMostArguments;
+  const bool isHuge =
+      store_.isNumber(number) ? term.number.words() > kMostWords : term.arguments.size() > kMostArguments;
   return isHuge ? anyNumber() : SymbolicValue{store_.no(), number};
 }
 
