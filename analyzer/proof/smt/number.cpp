@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace feedhold::smt {
 namespace {
@@ -17,10 +18,41 @@ bool allDigits(std::string_view text) {
 
 } // namespace
 
-Number::Number(std::int64_t value) : value_(std::to_string(value)) {}
+static_assert(sizeof(long) == sizeof(std::int64_t), "GMP takes and gives long");
 
-Number::Number(const Rational &value)
-    : value_(std::to_string(value.numerator()) + "/" + std::to_string(value.denominator())) {}
+Number::Number(std::int64_t value) {
+  if (const auto small = Rational::make(value, 1)) // all but the most negative
+    small_ = *small;
+  else
+    big_ = std::make_shared<const mpq_class>(mpz_class(static_cast<long>(value)));
+}
+
+Number::Number(mpq_class value) {
+  const mpz_class &above = value.get_num(), &below = value.get_den();
+  std::optional<Rational> small;
+  if (above.fits_slong_p() && below.fits_slong_p())
+    small = Rational::make(above.get_si(), below.get_si());
+  if (small)
+    small_ = *small;
+  else
+    big_ = std::make_shared<const mpq_class>(std::move(value));
+}
+
+mpq_class Number::wide() const {
+  if (big_)
+    return *big_;
+  return {mpz_class(static_cast<long>(small_.numerator())), mpz_class(static_cast<long>(small_.denominator()))};
+}
+
+int Number::sign() const {
+  if (big_)
+    return sgn(*big_);
+  return small_.isNegative() ? -1 : small_.isZero() ? 0 : 1;
+}
+
+Number Number::numerator() const { return big_ ? Number(mpq_class(big_->get_num())) : Number(small_.numerator()); }
+
+Number Number::denominator() const { return big_ ? Number(mpq_class(big_->get_den())) : Number(small_.denominator()); }
 
 std::optional<Number> Number::parse(std::string_view text) {
   bool negative = !text.empty() && text.front() == '-';
@@ -60,36 +92,87 @@ Number Number::fromTyped(double value) {
 }
 
 double Number::toDouble() const {
+  constexpr std::int64_t kExact = std::int64_t{1} << 53;
+  if (!big_ && std::abs(small_.numerator()) <= kExact && small_.denominator() <= kExact)
+    return static_cast<double>(small_.numerator()) / static_cast<double>(small_.denominator());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double near = value_.get_d(); // cut off towards 0
+  const mpq_class value = wide();
+  const double near = value.get_d(); // cut off towards 0
   const double far = std::nextafter(near, sign() < 0 ? -kInfinity : kInfinity);
-  if (!std::isfinite(far) || value_ == near)
+  if (!std::isfinite(far) || value == near)
     return near;
-  return ::abs(value_ - mpq_class(near)) <= ::abs(mpq_class(far) - value_) ? near : far;
-}
-
-std::optional<Rational> Number::toRational() const {
-  const mpz_class limit("9223372036854775807");
-  if (::abs(value_.get_num()) > limit || value_.get_den() > limit)
-    return std::nullopt;
-  return Rational::make(std::stoll(value_.get_num().get_str()), std::stoll(value_.get_den().get_str()));
+  return ::abs(value - mpq_class(near)) <= ::abs(mpq_class(far) - value) ? near : far;
 }
 
 std::size_t Number::hash() const {
   // The low limbs and the sizes: enough to tell apart the numbers of one program.
-  std::size_t above = mpz_get_ui(value_.get_num_mpz_t()) * 2 + (sgn(value_) < 0 ? 1 : 0);
-  return above * 0x9E3779B97F4A7C15u ^ mpz_get_ui(value_.get_den_mpz_t());
+  const std::size_t above = big_ ? mpz_get_ui(big_->get_num_mpz_t()) : static_cast<std::size_t>(small_.numerator());
+  const std::size_t below = big_ ? mpz_get_ui(big_->get_den_mpz_t()) : static_cast<std::size_t>(small_.denominator());
+  return (above * 2 + (sign() < 0 ? 1 : 0)) * 0x9E3779B97F4A7C15u ^ below;
+}
+
+std::size_t Number::words() const {
+  if (!big_)
+    return small_.isZero() ? 1 : 2;
+  return mpz_size(big_->get_num_mpz_t()) + mpz_size(big_->get_den_mpz_t());
+}
+
+Number Number::operator-() const {
+  if (const auto small = big_ ? std::nullopt : negate(small_))
+    return Number(*small);
+  return Number(mpq_class(-wide()));
+}
+
+Number &Number::operator+=(const Number &other) {
+  if (const auto small = big_ || other.big_ ? std::nullopt : add(small_, other.small_))
+    take(small);
+  else
+    *this = Number(mpq_class(wide() + other.wide()));
+  return *this;
+}
+
+Number &Number::operator-=(const Number &other) {
+  if (const auto small = big_ || other.big_ ? std::nullopt : subtract(small_, other.small_))
+    take(small);
+  else
+    *this = Number(mpq_class(wide() - other.wide()));
+  return *this;
+}
+
+Number &Number::operator*=(const Number &other) {
+  if (const auto small = big_ || other.big_ ? std::nullopt : multiply(small_, other.small_))
+    take(small);
+  else
+    *this = Number(mpq_class(wide() * other.wide()));
+  return *this;
 }
 
 Number &Number::operator/=(const Number &other) {
   FEEDHOLD_CHECK(!other.isZero(), "a Number was divided by 0");
-  value_ /= other.value_;
+  if (const auto small = big_ || other.big_ ? std::nullopt : divide(small_, other.small_))
+    take(small);
+  else
+    *this = Number(mpq_class(wide() / other.wide()));
   return *this;
 }
 
+bool operator==(const Number &left, const Number &right) {
+  if (!left.big_ && !right.big_)
+    return left.small_ == right.small_;
+  return left.big_ && right.big_ && *left.big_ == *right.big_;
+}
+
+std::strong_ordering operator<=>(const Number &left, const Number &right) {
+  if (!left.big_ && !right.big_)
+    return left.small_ <=> right.small_;
+  return cmp(left.wide(), right.wide()) <=> 0;
+}
+
 Number floor(const Number &value) {
+  if (!value.big_)
+    return Number(floor(value.small_));
   mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), value.value_.get_num_mpz_t(), value.value_.get_den_mpz_t());
+  mpz_fdiv_q(result.get_mpz_t(), value.big_->get_num_mpz_t(), value.big_->get_den_mpz_t());
   return Number(mpq_class(result));
 }
 
@@ -97,17 +180,22 @@ Number ceiling(const Number &value) { return -floor(-value); }
 
 Number gcd(const Number &left, const Number &right) {
   FEEDHOLD_CHECK(left.isInteger() && right.isInteger(), "gcd of fractions");
-  return Number(mpq_class(gcd(left.value_.get_num(), right.value_.get_num())));
+  if (!left.big_ && !right.big_)
+    return Number(std::gcd(left.small_.numerator(), right.small_.numerator()));
+  return Number(mpq_class(gcd(left.wide().get_num(), right.wide().get_num())));
 }
 
 Number lcm(const Number &left, const Number &right) {
   FEEDHOLD_CHECK(left.isInteger() && right.isInteger(), "lcm of fractions");
-  return Number(mpq_class(lcm(left.value_.get_num(), right.value_.get_num())));
+  if (!left.big_ && !right.big_ && left.small_ == right.small_)
+    return abs(left);
+  return Number(mpq_class(lcm(left.wide().get_num(), right.wide().get_num())));
 }
 
 std::optional<Number> exactSquareRoot(const Number &value) {
   FEEDHOLD_CHECK(value.sign() >= 0, "the square root of a negative number");
-  const mpz_class above = value.value_.get_num(), below = value.value_.get_den();
+  const mpq_class wide = value.wide();
+  const mpz_class &above = wide.get_num(), &below = wide.get_den();
   if (mpz_perfect_square_p(above.get_mpz_t()) == 0 || mpz_perfect_square_p(below.get_mpz_t()) == 0)
     return std::nullopt;
   return Number(mpq_class(sqrt(above), sqrt(below)));
