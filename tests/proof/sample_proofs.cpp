@@ -255,6 +255,8 @@ private:
         continue;
       const std::optional<double> most = valueAtEntry(obligation.bound, entry);
       ++tally.bounded;
+      if (!most && seen->second.times == 1) // a quotient by a step of 0, where no pass is made
+        continue;
       if (!most || std::max(*most, 0.0) + 1 < static_cast<double>(seen->second.times))
         return fmt::format("{}: at most {} = {} passes, and the run comes there {} times", obligation.id,
                            obligation.bound, most.value_or(-1), seen->second.times);

@@ -121,6 +121,18 @@ std::vector<TermId> ContractTerms::demands(const Contract &contract, const Symbo
   return demands;
 }
 
+std::vector<InputEnds> ContractTerms::inputEnds(const Contract &contract, const SymbolicState &entry) {
+  const auto number = [&](std::optional<ExpressionId> end) {
+    return end ? std::optional(value(*end, entry).number) : std::nullopt;
+  };
+  std::vector<InputEnds> ends;
+  for (const auto *inputs : {&contract.params, &contract.globals})
+    for (const EntryValue &input : *inputs)
+      if (const auto *range = std::get_if<Range>(&input.values))
+        ends.push_back({input.variable, number(range->low), number(range->high)});
+  return ends;
+}
+
 std::vector<TermId> ContractTerms::demandsOfCall(const Contract &contract, const SymbolicState &called) {
   smt::TermStore &store = reading_.store();
   std::vector<TermId> all = demands(contract, called);

@@ -4,9 +4,16 @@
 #include "language/contract/contract.h"
 #include "proof/prove/symbolic_reading.h"
 
+#include <optional>
 #include <vector>
 
 namespace feedhold::prove {
+
+/// Numbers over the inputs; an absent end is no bound.
+struct InputEnds {
+  std::uint32_t variable;
+  std::optional<smt::TermId> low, high;
+};
 
 class ContractTerms {
 public:
@@ -25,6 +32,9 @@ public:
   smt::TermId conditionAt(ExpressionId expression, const SymbolicState &entry, const std::array<smt::TermId, 3> &point);
   /// A number of the contract over a state, as condition().
   smt::TermId number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+
+  /// Between which ends the contract has the inputs, in its order; those it bounds.
+  std::vector<InputEnds> inputEnds(const Contract &contract, const SymbolicState &entry);
 
 private:
   SymbolicValue valueOf(std::uint32_t variable, const SymbolicState &state) const;

@@ -126,6 +126,7 @@ void Prover::explore() {
   anyCall_ = discharge(store_, onPath(demands_, store_.no()), options_.budget);
   if (const smt::Model *model = anyCall_->counterexample())
     witnesses_->sampleAround(*model);
+  witnesses_->sampleEnds(terms_->inputEnds(*contract(), entry_));
 }
 
 /// The machine starts with the codes and at the place that the contract says.

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kSamples = 150;
 constexpr std::size_t kFewSamples = 30;
+constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
 
@@ -123,6 +124,30 @@ void WitnessSearch::sampleAround(const smt::Model &allowed) {
       continue;
     keepSample(other);
     given = std::move(other);
+  }
+}
+
+void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
+  const smt::TermStore &store = reading_.store();
+  std::mt19937 random(1);
+  for (int i = 0; i < kSamplesOfEnds; ++i) {
+    GivenVariables given = inputsOf(others_);
+    for (const auto &[variable, low, high] : ends) {
+      const smt::Model model = modelOf(given); // an end may depend on the inputs before
+      const auto valueOf = [&](const std::optional<smt::TermId> &end) {
+        const auto value = end ? smt::evaluate(store, *end, model) : std::nullopt;
+        return value ? std::optional(std::get<smt::Number>(*value).toDouble()) : std::nullopt;
+      };
+      const auto least = valueOf(low), most = valueOf(high);
+      const auto choice = i < 2 ? static_cast<unsigned>(i) : random() % 5;
+      if (choice <= 1) {
+        if (const auto end = choice == 0 ? least : most)
+          given.set(variable, ConcreteValue::of(*end));
+      } else if (choice == 2 && least && most) {
+        given.set(variable, ConcreteValue::of(rounded((*least + *most) / 2, 1)));
+      }
+    }
+    keepSample(std::move(given));
   }
 }
 

@@ -1,6 +1,7 @@
 // Witnesses: inputs that the concrete machine runs to the violation of a claim.
 #pragma once
 
+#include "proof/prove/contract_terms.h"
 #include "proof/prove/exact_run.h"
 #include "proof/prove/obligation.h"
 #include "proof/prove/symbolic_reading.h"
@@ -49,6 +50,8 @@ public:
   /// Where plain numbers seldom satisfy what they have to: the same, around inputs that do.  A model that names some
   /// inputs is completed by these.
   void sampleAround(const smt::Model &allowed);
+  /// At the ends of what the inputs may be, and midway: where claims break first.
+  void sampleEnds(const std::vector<InputEnds> &ends);
   /// Among the sampled runs.
   std::optional<Witness> amongSamples(const Violation &violation);
   /// The inputs that a model of the solver names, then made as plain as they can be.
