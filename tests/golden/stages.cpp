@@ -129,7 +129,7 @@ std::string contract(const Input &input) {
     const SourceFile source = SourceFile::fromText(file.name, file.text);
     const SyntaxTree syntax = parse(source, *input.dialect);
     const ProgramModel programs = resolve(source, syntax, *input.dialect);
-    return dump(readContracts(source, syntax, programs, *input.dialect, sidecarsOf(file.name, programs)), programs,
+    return dump(readContracts(source, syntax, programs, *input.dialect, sidecarsOf(file.name, programs, nullptr)), programs,
                 syntax);
   });
 }

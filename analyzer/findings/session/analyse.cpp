@@ -27,8 +27,9 @@ struct Read {
   std::unique_ptr<const ProgramModel> model;
 };
 
-FileContracts contractsOf(const WorkItem &item, const Read &read) {
-  return readContracts(item.source, *read.tree, *read.model, item.profile->dialect, sidecarsOf(item.path, *read.model));
+FileContracts contractsOf(const WorkItem &item, const Read &read, const std::shared_ptr<const OpenTexts> &open) {
+  return readContracts(item.source, *read.tree, *read.model, item.profile->dialect,
+                       sidecarsOf(item.path, *read.model, open));
 }
 
 Read read(const WorkItem &item) {
@@ -156,7 +157,7 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     if (items[i].foreign != nullptr)
       return;
     reads[i] = read(items[i]);
-    contracts[i] = contractsOf(items[i], reads[i]);
+    contracts[i] = contractsOf(items[i], reads[i], options.open);
   });
   const CallGraph callGraph = joinModels(items, reads);
   std::optional<ProgramSet> programs;

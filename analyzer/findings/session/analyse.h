@@ -11,10 +11,11 @@ namespace feedhold {
 struct AnalyseOptions {
   unsigned jobs = 0;
   std::function<void(std::size_t, std::size_t)> progress = {};
+  std::shared_ptr<const OpenTexts> open = {}; // of editors: files with contracts among them
 };
 
-/// One result for each item, in their order; the index of an item is its FileId.  Behind them those files with contracts
-/// of which there is something to say.
+/// One result for each item, in their order; the index of an item is its FileId.  Behind them those files with
+/// contracts of which there is something to say.
 std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
                                  const AnalyseOptions &options);
 

@@ -64,7 +64,7 @@ public:
 
 private:
   std::vector<CheckedFile> analyseAll() const {
-    return analyse(workload_.items, known_.rules, {options_.jobs, options_.progress});
+    return analyse(workload_.items, known_.rules, {options_.jobs, options_.progress, options_.open});
   }
 
   bool applyAll(const std::vector<CheckedFile> &files) {

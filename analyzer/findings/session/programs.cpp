@@ -17,16 +17,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::unique_ptr<const LoadedFile> read(std::string shown, fs::path path, SourceFile source, const Dialect &dialect) {
+std::unique_ptr<const LoadedFile> read(std::string shown, fs::path path, SourceFile source, const Dialect &dialect,
+                                       const std::shared_ptr<const OpenTexts> &open) {
   SyntaxTree tree = parse(source, dialect);
   ProgramModel model = resolve(source, tree, dialect);
-  FileContracts contracts = readContracts(source, tree, model, dialect, sidecarsOf(path, model));
+  FileContracts contracts = readContracts(source, tree, model, dialect, sidecarsOf(path, model, open));
   return std::make_unique<const LoadedFile>(LoadedFile{std::move(shown), std::move(path), std::move(source),
                                                        std::move(tree), std::move(model), std::move(contracts)});
 }
 
 /// The files beside `path` that are programs by their names and their looks, by name.
-std::vector<std::pair<fs::path, SourceFile>> neighboursOf(const fs::path &path, const KnownNames &known) {
+std::vector<std::pair<fs::path, SourceFile>> neighboursOf(const fs::path &path, const ProgramsWish &wish,
+                                                          const KnownNames &known) {
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   std::vector<fs::path> names;
   std::error_code error; // a folder that cannot be listed has no other programs for us
@@ -39,7 +41,7 @@ std::vector<std::pair<fs::path, SourceFile>> neighboursOf(const fs::path &path, 
   std::sort(names.begin(), names.end());
   std::vector<std::pair<fs::path, SourceFile>> neighbours;
   for (const fs::path &name : names) {
-    Result<SourceFile> source = SourceFile::open(name);
+    Result<SourceFile> source = openSource(name, wish.open);
     if (!source || whyNotText(source.value().text()))
       continue;
     if (guessLanguage(source.value().text(), name.generic_string(), known.dialects).looksLikeProgram)
@@ -83,6 +85,7 @@ Result<std::unique_ptr<const LoadedPrograms>> loadPrograms(const ProgramsWish &w
   options.piped = wish.piped;
   options.dialect = wish.dialect;
   options.config = wish.config;
+  options.open = wish.open;
   options.jobs = 1;
   if (!wish.piped)
     options.paths = {wish.path};
@@ -95,10 +98,10 @@ Result<std::unique_ptr<const LoadedPrograms>> loadPrograms(const ProgramsWish &w
 
   auto programs = std::make_unique<LoadedPrograms>();
   programs->dialect = item.profile->dialect;
-  programs->files.push_back(read(item.shown, item.path, item.source, programs->dialect));
+  programs->files.push_back(read(item.shown, item.path, item.source, programs->dialect, wish.open));
   if (!wish.piped && !programs->files.front()->model.calls.empty())
-    for (auto &[path, source] : neighboursOf(item.path, known))
-      programs->files.push_back(read(path.generic_string(), path, std::move(source), programs->dialect));
+    for (auto &[path, source] : neighboursOf(item.path, wish, known))
+      programs->files.push_back(read(path.generic_string(), path, std::move(source), programs->dialect, wish.open));
   connect(*programs);
   return std::unique_ptr<const LoadedPrograms>(std::move(programs));
 }

@@ -18,6 +18,7 @@ struct ProgramsWish {
   std::optional<PipedText> piped = std::nullopt; // instead of `path`; such a program sees no folder
   std::optional<std::string> dialect = std::nullopt;
   ConfigWish config = {};
+  std::shared_ptr<const OpenTexts> open = {}; // of editors
 };
 
 /// One file, from its text to its model.

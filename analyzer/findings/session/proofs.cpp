@@ -15,7 +15,8 @@ namespace {
 using Loaded = Result<std::unique_ptr<const LoadedPrograms>>;
 
 Loaded load(const ProofsWish &wish, const WorkItem &item, const KnownNames &known) {
-  ProgramsWish programs{.path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config};
+  ProgramsWish programs{.path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config,
+                        .open = wish.files.open};
   if (item.path.empty())
     programs.piped = wish.files.piped;
   return loadPrograms(programs, known);

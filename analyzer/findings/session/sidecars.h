@@ -1,6 +1,7 @@
 // Sidecars: the files beside a program that hold contracts.
 #pragma once
 
+#include "findings/session/open_texts.h"
 #include "language/contract/contract.h"
 
 #include <filesystem>
@@ -10,6 +11,7 @@ namespace feedhold {
 
 /// Of `part.nc`: `O9100.contract` for each of its programs, then `part.contract` and `part.nc.contract`.  One that is
 /// there and cannot be read is in the list with the reason.
-std::vector<Sidecar> sidecarsOf(const std::filesystem::path &file, const ProgramModel &model);
+std::vector<Sidecar> sidecarsOf(const std::filesystem::path &file, const ProgramModel &model,
+                                const std::shared_ptr<const OpenTexts> &open);
 
 } // namespace feedhold

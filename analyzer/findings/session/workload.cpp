@@ -39,8 +39,8 @@ void look(Candidate &candidate, const KnownNames &known) {
     candidate.guess = guessLanguage(text, candidate.found.shown, known.dialects);
 }
 
-void open(Candidate &candidate, const KnownNames &known) {
-  Result<SourceFile> source = SourceFile::open(candidate.found.path);
+void open(Candidate &candidate, const CheckOptions &options, const KnownNames &known) {
+  Result<SourceFile> source = openSource(candidate.found.path, options.open);
   if (!source) {
     candidate.problem = source.error().message;
     return;
@@ -112,6 +112,8 @@ private:
     steps.push_back({Kind::Select, options_.select});
     steps.push_back({Kind::Ignore, options_.ignore});
     profile.rules = selectRules(known_.rules, steps);
+    if (options_.depth == CheckOptions::Depth::WithoutFlow)
+      std::erase_if(profile.rules, [](const Rule *rule) { return rule->hooks.asksFlow(); });
     profile.errorOn = options_.errorOn.value_or(config.errorOn.value_or(Severity::Warning));
     return profile;
   }
@@ -211,7 +213,7 @@ Workload loadWorkload(const CheckOptions &options, const KnownNames &known) {
   candidates.reserve(discovery.files.size() + 1);
   for (FoundFile &file : discovery.files)
     candidates.push_back({std::move(file)});
-  parallelFor(candidates.size(), options.jobs, [&](std::size_t i) { open(candidates[i], known); });
+  parallelFor(candidates.size(), options.jobs, [&](std::size_t i) { open(candidates[i], options, known); });
   if (options.piped)
     candidates.push_back(pipedCandidate(*options.piped, configs, known));
 

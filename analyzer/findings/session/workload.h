@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings/session/config_finder.h"
+#include "findings/session/open_texts.h"
 #include "findings/session/result.h"
 
 #include <filesystem>
@@ -27,7 +28,10 @@ struct CheckOptions {
   std::vector<std::string> ignore = {};
   std::optional<Severity> errorOn = std::nullopt;
   ConfigWish config = {};
-  unsigned jobs = 0; // 0: one per processor
+  unsigned jobs = 0;                          // 0: one per processor
+  std::shared_ptr<const OpenTexts> open = {}; // of editors; null: none
+  /// Which rules run: without those that follow the flow of programs, a file takes a fraction of the time.
+  enum class Depth : std::uint8_t { All, WithoutFlow } depth = Depth::All;
   /// Called from several threads: files analysed so far, and all.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };

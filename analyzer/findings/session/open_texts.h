@@ -1,0 +1,19 @@
+// OpenTexts: what editors show of files, which counts instead of what lies on disk.
+#pragma once
+
+#include "base/source/source_file.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace feedhold {
+
+/// By absolute path in normal form; in UTF-8.
+using OpenTexts = std::map<std::filesystem::path, std::shared_ptr<const std::string>>;
+
+/// The open text of the file, else what lies on disk.  Errors as SourceFile::open.
+Result<SourceFile> openSource(const std::filesystem::path &path, const std::shared_ptr<const OpenTexts> &open);
+
+} // namespace feedhold

@@ -1,0 +1,95 @@
+#include "surface/lsp/places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace feedhold::lsp {
+namespace {
+
+/// The bytes of one character of UTF-8, by its first one; a stray byte counts as one.
+std::size_t lengthAt(std::string_view text, std::size_t at) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const std::size_t length = byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+  return std::min(length, text.size() - at);
+}
+
+constexpr std::size_t kBeyondUtf16Unit = 4; // characters of four bytes are two units
+
+} // namespace
+
+std::uint32_t Places::units(std::string_view utf8) const {
+  if (encoding_ == PositionEncoding::Utf8)
+    return static_cast<std::uint32_t>(utf8.size());
+  std::uint32_t count = 0;
+  for (std::size_t at = 0; at < utf8.size(); at += lengthAt(utf8, at))
+    count += lengthAt(utf8, at) == kBeyondUtf16Unit ? 2 : 1;
+  return count;
+}
+
+nlohmann::json Places::position(std::uint32_t offset) const {
+  offset = std::min(offset, static_cast<std::uint32_t>(source_.text().size()));
+  const std::uint32_t line = source_.lineOf(offset);
+  const Span whole = source_.lineSpan(line);
+  const std::uint32_t end = std::clamp(offset, whole.begin, whole.end);
+  return {{"line", line - 1}, {"character", units(source_.text(Span{whole.begin, end}))}};
+}
+
+nlohmann::json Places::range(Span span) const { return {{"start", position(span.begin)}, {"end", position(span.end)}}; }
+
+std::uint32_t Places::offset(const nlohmann::json &position) const {
+  const auto line = position.at("line").get<std::uint64_t>();
+  const auto wanted = position.at("character").get<std::uint64_t>();
+  if (line >= source_.lineCount())
+    return static_cast<std::uint32_t>(source_.text().size());
+  const Span whole = source_.lineSpan(static_cast<std::uint32_t>(line) + 1);
+  const std::string_view text = source_.text(whole);
+  std::size_t at = 0;
+  std::uint64_t passed = 0;
+  while (at < text.size()) {
+    const std::size_t length = lengthAt(text, at);
+    const std::uint64_t next = passed + units(text.substr(at, length));
+    if (next > wanted)
+      break;
+    passed = next;
+    at += length;
+  }
+  return whole.begin + static_cast<std::uint32_t>(at);
+}
+
+Span Places::span(const nlohmann::json &range) const {
+  const std::uint32_t begin = offset(range.at("start")), end = offset(range.at("end"));
+  return {std::min(begin, end), std::max(begin, end)};
+}
+
+std::filesystem::path pathOfUri(std::string_view uri) {
+  constexpr std::string_view kScheme = "file://";
+  if (!uri.starts_with(kScheme))
+    return {};
+  uri.remove_prefix(kScheme.size());
+  uri.remove_prefix(std::min(uri.find('/'), uri.size())); // a host
+  std::string path;
+  for (std::size_t at = 0; at < uri.size(); ++at) {
+    unsigned value = 0;
+    const char *digits = uri.data() + at + 1;
+    if (uri[at] == '%' && at + 2 < uri.size() && std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+      path += static_cast<char>(value);
+      at += 2;
+    } else {
+      path += uri[at];
+    }
+  }
+  return path;
+}
+
+std::string uriOfPath(const std::filesystem::path &path) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+  std::string uri = "file://";
+  for (const char c : std::filesystem::absolute(path).lexically_normal().generic_string())
+    uri += kPlain.find(c) != std::string_view::npos ? std::string(1, c)
+                                                    : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return uri;
+}
+
+} // namespace feedhold::lsp

@@ -1,0 +1,40 @@
+// Places: lines and characters as an editor counts them, and offsets in a text.
+#pragma once
+
+#include "base/source/source_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace feedhold::lsp {
+
+/// Units in which a client counts within a line.
+enum class PositionEncoding : std::uint8_t { Utf8, Utf16 };
+
+class Places {
+public:
+  Places(SourceFile source, PositionEncoding encoding) : source_(std::move(source)), encoding_(encoding) {}
+
+  /// `{"line": 0, "character": 0}`, both from 0.
+  nlohmann::json position(std::uint32_t offset) const;
+  /// `{"start": .., "end": ..}`
+  nlohmann::json range(Span span) const;
+  /// Of a position from the client; behind the end of a line or of the text: that end.
+  std::uint32_t offset(const nlohmann::json &position) const;
+  Span span(const nlohmann::json &range) const;
+
+private:
+  std::uint32_t units(std::string_view utf8) const;
+
+  SourceFile source_;
+  PositionEncoding encoding_;
+};
+
+/// `file:///c%20d/part.nc` and back.  Of another scheme: empty.
+std::filesystem::path pathOfUri(std::string_view uri);
+std::string uriOfPath(const std::filesystem::path &path);
+
+} // namespace feedhold::lsp
