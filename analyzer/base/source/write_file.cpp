@@ -52,6 +52,13 @@ public:
     return ::fchmod(descriptor_, mode) == 0;
   }
 
+  /// What the mask of the process leaves; it can only be read by setting it.
+  bool takeUsualMode() const {
+    const mode_t mask = ::umask(0077);
+    ::umask(mask);
+    return ::fchmod(descriptor_, 0666U & ~mask) == 0;
+  }
+
   bool flush() const { return ::fsync(descriptor_) == 0; }
 
   bool renameTo(const fs::path &path) {
@@ -92,6 +99,20 @@ std::optional<Error> putFile(const fs::path &path, std::string_view text) {
   if (!file.isOpen())
     return systemError("no file can be made in its folder");
   if (!file.write(text) || !file.renameTo(path))
+    return systemError("the text cannot be put in place");
+  return std::nullopt;
+}
+
+std::optional<Error> saveFile(const fs::path &path, std::string_view text) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored))
+    return replaceFile(path, text);
+  TemporaryFile file(path);
+  if (!file.isOpen())
+    return systemError("no file can be made in its folder");
+  if (!file.write(text) || !file.takeUsualMode() || !file.flush())
+    return systemError("the text cannot be written");
+  if (!file.renameTo(path))
     return systemError("the text cannot be put in place");
   return std::nullopt;
 }

@@ -16,6 +16,9 @@ std::optional<Error> replaceFile(const std::filesystem::path &path, std::string_
 /// Puts a file in its place, new or not, readable for its owner.  A power cut may leave it without its bytes.
 std::optional<Error> putFile(const std::filesystem::path &path, std::string_view text);
 
+/// The same for a file that others read, too: an old one keeps its permissions, a new one gets the usual ones.
+std::optional<Error> saveFile(const std::filesystem::path &path, std::string_view text);
+
 /// Writes a file, new or not.
 std::optional<Error> writeFile(const std::filesystem::path &path, std::string_view text);
 

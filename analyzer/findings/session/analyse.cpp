@@ -190,6 +190,8 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   for (std::size_t i = 0; i < items.size(); ++i) {
     files.push_back(headOf(items[i]));
     files.back().findings = std::move(findings[i]);
+    for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
+      files.back().sidecars.push_back(contracts[i].sources[k].path());
   }
   std::set<std::string> seen; // two programs of one number in a folder share a file
   for (std::vector<CheckedFile> &of : sidecars)

@@ -36,6 +36,7 @@ struct CheckedFile {
   std::vector<std::string_view> reasons; // of a guess
   Severity errorOn;                      // findings from here on fail the run
   std::vector<Finding> findings;         // by place, then by rule
+  std::vector<std::string> sidecars = {}; // paths of the files beside it that were read with it
 };
 
 struct SkippedFile {

@@ -3,8 +3,10 @@
 #include "base/source/write_file.h"
 #include "dialects/registry.h"
 #include "findings/session/discovery.h"
+#include "findings/session/selection.h"
 #include "findings/session/session.h"
 #include "rules/registry.h"
+#include "surface/cli/baseline_file.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/sink.h"
@@ -39,6 +41,7 @@ struct CheckArguments {
   bool quiet = false;
   bool statistics = false;
   bool exitZero = false;
+  BaselineWish baseline;
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
@@ -68,6 +71,7 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
   app.add_flag("--statistics", arguments.statistics, "print the number of findings of each rule instead of them");
   app.add_flag("--exit-zero", arguments.exitZero, "exit 0 even with findings");
+  addBaselineOptions(app, arguments.baseline);
 }
 
 const KnownNames &knownNames() {
@@ -87,6 +91,8 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
   const bool isPiped = std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end();
   if (isPiped && arguments.fix && !arguments.diff)
     return "standard input cannot be repaired in place; --diff shows the repairs";
+  if (arguments.baseline.isAsked() && (arguments.fix || arguments.diff))
+    return "--baseline is for reports; repairs are made in all findings, so give one or the other";
   if (arguments.unsafeFixes && !arguments.fix && !arguments.diff)
     return "--unsafe-fixes says which repairs; add --fix to make them or --diff to see them";
   return std::nullopt;
@@ -146,6 +152,16 @@ void printProblems(const CheckResult &result) {
     printError(problem.path + ": " + problem.message);
 }
 
+/// The rules that the options leave; which of them a configuration turns off makes their old findings gone.
+BaselineScope scopeOf(const CheckArguments &arguments, const std::vector<const Rule *> &rules) {
+  return {.folder = folderOf(arguments.baseline), .rules = rules};
+}
+
+std::vector<const Rule *> rulesOf(const CheckArguments &arguments) {
+  return selectRules(
+      allRules(), {{SelectionStep::Kind::Select, arguments.select}, {SelectionStep::Kind::Ignore, arguments.ignore}});
+}
+
 /// Prints the findings; returns the exit code.
 int present(const CheckResult &result, const CheckArguments &arguments) {
   const Format format = *formatFromName(arguments.format);
@@ -202,10 +218,41 @@ int repair(const CheckOptions &options, const CheckArguments &arguments, Progres
   return present(fixed.remaining, arguments);
 }
 
+int updateBaseline(const CheckResult &result, const Baseline &before, const CheckArguments &arguments) {
+  const std::vector<const Rule *> rules = rulesOf(arguments);
+  const Baseline after = updated(before, result, scopeOf(arguments, rules));
+  printProblems(result);
+  if (const auto error = writeBaseline(arguments.baseline, after)) {
+    printError(arguments.baseline.file + ": " + error->message);
+    return kExitCouldNotRun;
+  }
+  if (!arguments.quiet)
+    print(toldOfUpdate(before, after, arguments.baseline));
+  return result.errors.empty() ? kExitClean : kExitCouldNotRun;
+}
+
+int presentNew(CheckResult result, const Baseline &baseline, const CheckArguments &arguments) {
+  const std::vector<const Rule *> rules = rulesOf(arguments);
+  const NewFindings found = withoutKnown(std::move(result), baseline, scopeOf(arguments, rules));
+  const int exitCode = present(found.result, arguments);
+  if (!arguments.quiet)
+    printAside(told(found, arguments.baseline));
+  return exitCode;
+}
+
 int runCheck(const CheckArguments &arguments) {
   if (const auto complaint = complaintAbout(arguments)) {
     printError(*complaint);
     return kExitCouldNotRun;
+  }
+  Baseline baseline;
+  if (arguments.baseline.isAsked()) {
+    Result<Baseline> known = readBaseline(arguments.baseline);
+    if (!known) {
+      printError(known.error().message);
+      return kExitCouldNotRun;
+    }
+    baseline = known.take();
   }
   CheckOptions options = toOptions(arguments);
   ProgressLine progress;
@@ -216,6 +263,10 @@ int runCheck(const CheckArguments &arguments) {
   CheckResult result = check(options, knownNames());
   progress.clear();
   complainIfNothingWasChecked(result, arguments);
+  if (arguments.baseline.update)
+    return updateBaseline(result, baseline, arguments);
+  if (arguments.baseline.isAsked())
+    return presentNew(std::move(result), baseline, arguments);
   return present(result, arguments);
 }
 

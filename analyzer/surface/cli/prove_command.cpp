@@ -1,6 +1,7 @@
 // `feedhold prove [PATHS]`: verdicts on the obligations of programs, for every input that their contracts allow.
 #include "dialects/registry.h"
 #include "rules/registry.h"
+#include "surface/cli/baseline_file.h"
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/cache_place.h"
 #include "surface/cli/commands.h"
@@ -36,6 +37,7 @@ struct ProveArguments {
   bool verbose = false;
   bool quiet = false;
   bool withoutCache = false;
+  BaselineWish baseline;
 };
 
 constexpr std::array kKinds = {
@@ -71,6 +73,7 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
   app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
   app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
+  addBaselineOptions(app, arguments.baseline);
 }
 
 /// The evidence is not in the cache.
@@ -156,18 +159,8 @@ std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
   return std::nullopt;
 }
 
-int runProve(const ProveArguments &arguments) {
-  if (const auto complaint = complaintAbout(arguments)) {
-    printError(*complaint);
-    return kExitCouldNotRun;
-  }
-  const ProofsWish wish = toWish(arguments);
-  ProofsResult result = proveAll(wish, {allDialects(), allRules()});
-  complainIfNothingWasProved(result);
-  if (!arguments.certificate.empty())
-    if (const auto error = writeBundle(
-            arguments.certificate, makeBundle(result, bundleReading(wish), FEEDHOLD_VERSION, arguments.certificate)))
-      result.errors.push_back({arguments.certificate, error->message});
+/// Prints the verdicts; returns the exit code.
+int present(const ProofsResult &result, const ProveArguments &arguments) {
   const ProveReport report{.result = result,
                            .version = FEEDHOLD_VERSION,
                            .root = std::filesystem::current_path(),
@@ -185,6 +178,53 @@ int runProve(const ProveArguments &arguments) {
   return report.exitCode;
 }
 
+int updateBaseline(const ProofsResult &result, const Baseline &before, const BaselineScope &scope,
+                   const ProveArguments &arguments) {
+  const Baseline after = updated(before, result, scope);
+  for (const PathProblem &problem : result.errors)
+    printError(problem.path + ": " + problem.message);
+  if (const auto error = writeBaseline(arguments.baseline, after)) {
+    printError(arguments.baseline.file + ": " + error->message);
+    return kExitCouldNotRun;
+  }
+  if (!arguments.quiet)
+    print(toldOfUpdate(before, after, arguments.baseline));
+  return result.errors.empty() ? kExitClean : kExitCouldNotRun;
+}
+
+int runProve(const ProveArguments &arguments) {
+  if (const auto complaint = complaintAbout(arguments)) {
+    printError(*complaint);
+    return kExitCouldNotRun;
+  }
+  Baseline baseline;
+  if (arguments.baseline.isAsked()) {
+    Result<Baseline> known = readBaseline(arguments.baseline);
+    if (!known) {
+      printError(known.error().message);
+      return kExitCouldNotRun;
+    }
+    baseline = known.take();
+  }
+  const ProofsWish wish = toWish(arguments);
+  ProofsResult result = proveAll(wish, {allDialects(), allRules()});
+  complainIfNothingWasProved(result);
+  if (!arguments.certificate.empty())
+    if (const auto error = writeBundle(
+            arguments.certificate, makeBundle(result, bundleReading(wish), FEEDHOLD_VERSION, arguments.certificate)))
+      result.errors.push_back({arguments.certificate, error->message});
+  const BaselineScope scope{.folder = arguments.baseline.isAsked() ? folderOf(arguments.baseline) : fs::path(),
+                            .kinds = wish.prove.only};
+  if (arguments.baseline.update)
+    return updateBaseline(result, baseline, scope, arguments);
+  if (!arguments.baseline.isAsked())
+    return present(result, arguments);
+  const NewVerdicts found = withoutKnown(std::move(result), baseline, scope);
+  const int exitCode = present(found.result, arguments);
+  if (!arguments.quiet)
+    printAside(told(found, arguments.baseline));
+  return exitCode;
+}
 } // namespace
 
 Command addProveCommand(CLI::App &parent) {
