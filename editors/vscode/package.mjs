@@ -1,0 +1,52 @@
+// Makes build/feedhold-VERSION.vsix: one bundle, the licences of what is in it, and the same bytes from the same tree.
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { createVSIX } from "@vscode/vsce";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "../..");
+process.chdir(here);
+
+const bundled = await build({
+  entryPoints: ["src/extension.ts"],
+  outfile: "dist/extension.js",
+  bundle: true,
+  minify: true,
+  platform: "node",
+  format: "cjs",
+  target: "node18", // that of VS Code 1.82, the oldest one
+  external: ["vscode"],
+  legalComments: "none", // THIRD-PARTY.txt has the whole texts
+  metafile: true,
+});
+writeFileSync("THIRD-PARTY.txt", notices(Object.keys(bundled.metafile.inputs)));
+copyFileSync(join(root, "LICENSE"), "LICENSE");
+
+// vsce puts this time on every entry of the archive.
+process.env.SOURCE_DATE_EPOCH ??= timeOfLastCommit();
+const { name, version } = JSON.parse(readFileSync("package.json", "utf8"));
+mkdirSync(join(root, "build"), { recursive: true });
+await createVSIX({ cwd: here, packagePath: join(root, `build/${name}-${version}.vsix`), dependencies: false });
+
+/** Name, version and licence text of each package that went into the bundle. */
+function notices(inputs) {
+  const folders = new Set(inputs.map((path) => /^.*node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
+  return [...folders].sort().map(notice).join("\n");
+}
+
+function notice(folder) {
+  const { name, version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+  const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+  if (!file) throw new Error(`${name}@${version} (${license}) has no text of its licence`);
+  return `${name} ${version} (${license})\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`;
+}
+
+/** 1980 is the first year that an archive can name: for trees without history. */
+function timeOfLastCommit() {
+  if (!existsSync(join(root, ".git"))) return "315532800";
+  return execFileSync("git", ["-C", root, "log", "-1", "--format=%ct"], { encoding: "utf8" }).trim();
+}

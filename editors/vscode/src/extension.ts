@@ -1,0 +1,91 @@
+// Starts `feedhold lsp` and hands it the settings; everything else is the server's work.
+import { execFile } from "node:child_process";
+import { promisify } from "node:util";
+
+import * as vscode from "vscode";
+import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
+
+const LANGUAGES = ["macrob", "macrob-contract"];
+const SETUP_PAGE = "feedhold.path";
+
+let client: LanguageClient | undefined;
+
+export async function activate(context: vscode.ExtensionContext): Promise<void> {
+  context.subscriptions.push(
+    vscode.commands.registerCommand("feedhold.restart", restart),
+    vscode.workspace.onDidChangeConfiguration(async (change) => {
+      if (change.affectsConfiguration("feedhold.path")) await restart();
+    }),
+    vscode.workspace.onDidGrantWorkspaceTrust(restart),
+  );
+  await start();
+}
+
+export async function deactivate(): Promise<void> {
+  await stop();
+}
+
+async function restart(): Promise<void> {
+  await stop();
+  await start();
+}
+
+async function stop(): Promise<void> {
+  const old = client;
+  client = undefined;
+  await vscode.commands.executeCommand("setContext", "feedhold.running", false);
+  await old?.dispose();
+}
+
+async function start(): Promise<void> {
+  const command = vscode.workspace.getConfiguration("feedhold").get("path", "feedhold");
+  const problem = await whyNot(command);
+  if (problem) {
+    void complain(problem); // the editor need not wait for an answer
+    return;
+  }
+  const server: ServerOptions = { command, args: ["lsp"] };
+  client = new LanguageClient("feedhold", "Feedhold", server, clientOptions());
+  await client.start();
+  await vscode.commands.executeCommand("setContext", "feedhold.running", true);
+}
+
+function clientOptions(): LanguageClientOptions {
+  const { proofs } = vscode.workspace.getConfiguration("feedhold");
+  return {
+    documentSelector: LANGUAGES.flatMap((language) => ["file", "untitled"].map((scheme) => ({ scheme, language }))),
+    initializationOptions: { proofs },
+    synchronize: { configurationSection: "feedhold" },
+    middleware: {
+      // The palette passes nothing: then the program in front of the user is meant.
+      executeCommand: (command, args, next) => next(command, args.length ? args : activeDocument()),
+    },
+  };
+}
+
+function activeDocument(): string[] {
+  const document = vscode.window.activeTextEditor?.document;
+  return document ? [document.uri.toString()] : [];
+}
+
+/** Why `command` cannot be the server; nothing when it can. */
+async function whyNot(command: string): Promise<string | undefined> {
+  try {
+    await promisify(execFile)(command, ["lsp", "--help"]);
+    return undefined;
+  } catch (error) {
+    const { code } = error as NodeJS.ErrnoException;
+    if (code === "ENOENT") return `The program \`${command}\` was not found.`;
+    if (code === "EACCES") return `\`${command}\` is not a program that may be executed.`;
+    return `\`${command} lsp\` does not start: it is older than this extension, or another program.`;
+  }
+}
+
+async function complain(problem: string): Promise<void> {
+  const settings = "Open Settings";
+  const again = "Try Again";
+  const wayOut = "Install Feedhold, put it on the PATH, or say in `feedhold.path` where it is.";
+  const answer = await vscode.window.showErrorMessage(`${problem} ${wayOut}`, settings, again);
+  if (answer === settings) await vscode.commands.executeCommand("workbench.action.openSettings", SETUP_PAGE);
+  if (answer === again) await start();
+}
