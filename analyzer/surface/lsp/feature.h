@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,11 @@ struct View {
   Places places(FileId id) const { return Places(programs->file(id).source, encoding); }
   /// The URI of any of its files; that of the document as the client wrote it.
   std::string uriOf(FileId id) const;
+};
+
+/// A request that is understood and cannot be done safely, with the reason in shop words: answered as RequestFailed.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Answers one kind of request: `params` as the protocol defines them, the result likewise; null where there is

@@ -1,0 +1,30 @@
+// Here: what is known before a line of the document.  The flow of the program is followed for it, which takes longer
+// than any other answer.
+#pragma once
+
+#include "surface/lsp/feature.h"
+#include "surface/sink/ranges_facts.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feedhold::lsp {
+
+/// As one way of calls reaches the line.
+struct FactsHere {
+  std::string way; // `called in line 12`; empty: started by itself
+  StateFacts facts;
+};
+struct KnownHere {
+  std::vector<FactsHere> ways;
+  bool isReached = true; // false: no run comes here
+};
+
+/// Absent: nothing is executed there, or the program could not be followed.
+std::optional<KnownHere> knownBefore(const View &view, std::uint32_t line);
+
+/// One line for each different text, with the ways that lead to it where there are several.
+std::string together(const std::vector<std::pair<std::string, std::string>> &wayAndText);
+
+} // namespace feedhold::lsp

@@ -1,0 +1,40 @@
+#include "surface/lsp/feature_json.h"
+
+#include <algorithm>
+
+namespace feedhold::lsp {
+
+std::string View::uriOf(FileId id) const {
+  const LoadedFile &loaded = programs->file(id);
+  return id == kDocument || loaded.path.empty() ? uri : uriOfPath(loaded.path);
+}
+
+std::uint32_t offsetOf(const View &view, const Json &params) { return view.places().offset(params.at("position")); }
+
+std::optional<ThingAt> thingAt(const View &view, const Json &params) {
+  return thingAt(*view.programs, offsetOf(view, params));
+}
+
+Json rangeOf(const View &view, FileId file, Span span) { return view.places(file).range(span); }
+
+Json locationOf(const View &view, FileId file, Span span) {
+  return {{"uri", view.uriOf(file)}, {"range", rangeOf(view, file, span)}};
+}
+
+Json locationOf(const View &view, const Use &use) { return locationOf(view, use.file, use.span); }
+
+Json markdown(std::string text) { return {{"kind", "markdown"}, {"value", std::move(text)}}; }
+
+Span spanOf(const LoadedFile &file, ProgramId program) {
+  const Program &named = file.model.programs[program];
+  Span span = file.tree.blocks[named.first].span();
+  for (BlockId block = named.first; block < named.last && block.index() < file.tree.blockCount(); block = block.next())
+    if (const Block &each = file.tree.blocks[block];
+        !each.span().empty() && !each.has(Block::kAfterEnd) && !each.has(Block::kLeader))
+      span = cover(span, each.span());
+  return cover(span, nameSpanOf(file, program));
+}
+
+Span nameSpanOf(const LoadedFile &file, ProgramId program) { return file.model.programs[program].header; }
+
+} // namespace feedhold::lsp

@@ -1,0 +1,25 @@
+// Answers of the protocol made of our places.
+#pragma once
+
+#include "surface/lsp/feature.h"
+#include "surface/lsp/feature_uses.h"
+
+namespace feedhold::lsp {
+
+/// The offset of `params.position` in the document.
+std::uint32_t offsetOf(const View &view, const Json &params);
+/// What stands at `params.position`.
+std::optional<ThingAt> thingAt(const View &view, const Json &params);
+Json rangeOf(const View &view, FileId file, Span span);
+/// `{"uri": .., "range": ..}`
+Json locationOf(const View &view, FileId file, Span span);
+Json locationOf(const View &view, const Use &use);
+/// `{"kind": "markdown", "value": ..}`
+Json markdown(std::string text);
+
+/// From its O word up to its last block that the control reads.
+Span spanOf(const LoadedFile &file, ProgramId program);
+/// The O word, or the first block of a program without one.
+Span nameSpanOf(const LoadedFile &file, ProgramId program);
+
+} // namespace feedhold::lsp

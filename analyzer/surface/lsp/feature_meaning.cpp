@@ -1,0 +1,158 @@
+#include "surface/lsp/feature_meaning.h"
+
+#include "base/support/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace feedhold::lsp {
+
+namespace {
+
+/// Without its parentheses.
+std::string textOf(const LoadedFile &file, const Comment &comment) {
+  std::string text = file.source.utf8(comment.span);
+  if (text.starts_with('(') || text.starts_with(';'))
+    text.erase(0, 1);
+  if (comment.closed && text.ends_with(')'))
+    text.pop_back();
+  return std::string(trimmed(text));
+}
+
+bool isClause(std::string_view comment) { return comment.starts_with('@'); }
+
+/// `#21 = DEPTH`, `U - DEPTH`, `U(#21): DEPTH`: what stands behind the sign, when the comment is about the variable.
+std::optional<std::string> saidOf(std::string_view comment, std::uint32_t variable, std::optional<char> letter) {
+  const std::size_t sign = comment.find_first_of("=:-");
+  if (sign == std::string_view::npos || sign == 0)
+    return std::nullopt;
+  const std::string_view head = trimmed(comment.substr(0, sign));
+  const std::string_view said = trimmed(comment.substr(sign + 1));
+  const std::string number = fmt::format("#{}", variable);
+  const bool isLetter = letter && !head.empty() && toUpper(head.front()) == *letter &&
+                        (head.size() == 1 || head.substr(1).find(number) != std::string_view::npos);
+  if (said.empty() || !(isLetter || head == number))
+    return std::nullopt;
+  return std::string(said);
+}
+
+/// The comment in the block of the first assignment, when the block does nothing else.
+std::optional<std::string> saidBesideAssignment(const LoadedFile &file, ProgramId program, std::uint32_t variable) {
+  for (const VariableUse &use : file.model.variablesOf(program)) {
+    if (!use.write || use.number != variable)
+      continue;
+    const auto comments = file.tree.commentsOf(use.block);
+    if (comments.size() != 1 || file.tree.statementsOf(use.block).size() != 1)
+      return std::nullopt;
+    const std::string text = textOf(file, comments.front());
+    return text.empty() || isClause(text) ? std::nullopt : std::optional(text);
+  }
+  return std::nullopt;
+}
+
+const EntryValue *entryOf(const LoadedFile &file, ProgramId program, std::uint32_t variable) {
+  const Contract *contract = file.contracts.of(program);
+  if (!contract)
+    return nullptr;
+  for (const auto *entries : {&contract->params, &contract->globals})
+    for (const EntryValue &entry : *entries)
+      if (entry.variable == variable)
+        return &entry;
+  return nullptr;
+}
+
+} // namespace
+
+std::string nameOf(const LoadedPrograms &programs, ProgramRef program) {
+  const std::string name = toString(programs.file(program.file).model.programs[program.program].name);
+  return name.empty() ? "this program" : name;
+}
+
+std::string titleOf(const LoadedFile &file, ProgramId program) {
+  const Program &named = file.model.programs[program];
+  if (named.name.empty())
+    return {};
+  for (const Comment &comment : file.tree.commentsOf(file.tree.blockAt(named.header.begin)))
+    if (const std::string text = textOf(file, comment); comment.span.begin >= named.header.end && !isClause(text))
+      return text;
+  return {};
+}
+
+std::string meaningOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t variable) {
+  const LoadedFile &file = programs.file(program.file);
+  if (const EntryValue *entry = entryOf(file, program.program, variable); entry && !entry->name.empty())
+    return entry->name;
+  const Program &named = file.model.programs[program.program];
+  const auto letter = letterOf(programs.dialect, variable);
+  for (BlockId block = named.first; block < named.last && block.index() < file.tree.blockCount(); block = block.next())
+    for (const Comment &comment : file.tree.commentsOf(block))
+      if (auto said = saidOf(textOf(file, comment), variable, letter))
+        return *said;
+  return saidBesideAssignment(file, program.program, variable).value_or("");
+}
+
+std::string clauseOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t variable) {
+  const FileContracts &contracts = programs.file(program.file).contracts;
+  const EntryValue *entry = entryOf(programs.file(program.file), program.program, variable);
+  return entry ? contracts.clauses[entry->clause].text : "";
+}
+
+std::optional<char> letterOf(const Dialect &dialect, std::uint32_t variable) {
+  const auto &letters = dialect.argumentVariables;
+  const auto found = std::find(letters.begin(), letters.end(), variable);
+  if (variable == 0 || found == letters.end())
+    return std::nullopt;
+  return static_cast<char>('A' + (found - letters.begin()));
+}
+
+std::string kindOf(const LoadedPrograms &programs, std::uint32_t variable) {
+  if (variable >= kFirstNamedVariable)
+    return programs.set->isGlobalName(variable) ? "named variable of all programs" : "named variable of this program";
+  const VariableRange *range = findVariable(programs.dialect, variable);
+  if (!range)
+    return fmt::format("{} has no such variable", programs.dialect.title);
+  std::string text(range->meaning);
+  if (const auto letter = letterOf(programs.dialect, variable))
+    text += fmt::format(", argument {}", *letter);
+  if (!range->name.empty())
+    text = fmt::format("`{}` {}", range->name, text);
+  if (range->access == VariableAccess::ReadOnly)
+    text += ", read only";
+  if (range->access == VariableAccess::WriteOnly)
+    text += ", write only";
+  if (range->option == VariableOption::Optional)
+    text += ", an option of the machine";
+  return text;
+}
+
+std::string_view helpOf(ClauseKind kind) {
+  switch (kind) {
+  case ClauseKind::Param: return "the argument in a local variable: name, range, unit";
+  case ClauseKind::Global: return "a common variable on entry: name, range, unit";
+  case ClauseKind::Require: return "a condition that holds on entry";
+  case ClauseKind::Modal: return "G and M codes in force on entry";
+  case ClauseKind::Start: return "where the tool is on entry";
+  case ClauseKind::Tool: return "shape and radius of the tool";
+  case ClauseKind::KeepIn: return "on cutting moves the whole tool is in this region";
+  case ClauseKind::KeepOut: return "no move brings the tool into this region";
+  case ClauseKind::Clearance: return "rapid moves stay at or above this height";
+  case ClauseKind::Travel: return "no programmed point is outside";
+  case ClauseKind::Limit: return "the feed or the speed while cutting";
+  case ClauseKind::Ensure: return "holds whenever the program returns";
+  case ClauseKind::Assigns: return "no other common variable is written";
+  case ClauseKind::Guarded: return "a call outside of the contract raises an alarm before the first motion";
+  case ClauseKind::Alarm: return "the calls for which an alarm comes";
+  case ClauseKind::Invariant: return "holds each time the loop at this block begins anew";
+  case ClauseKind::Variant: return "falls with each pass of the loop";
+  case ClauseKind::Cyclic: return "the program is meant to run for ever";
+  }
+  return "";
+}
+
+std::uint32_t lineOf(const LoadedFile &file, BlockId block) {
+  return file.source.lineOf(file.tree.blocks[block].begin);
+}
+
+} // namespace feedhold::lsp

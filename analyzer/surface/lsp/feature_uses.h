@@ -1,0 +1,28 @@
+// Uses: all places at which a name of a program stands.
+#pragma once
+
+#include "surface/lsp/feature_thing.h"
+
+#include <vector>
+
+namespace feedhold::lsp {
+
+enum class UseRole : std::uint8_t {
+  Definition, // the N word, the O word, the DO; an assignment
+  Reference,
+};
+struct Use {
+  FileId file;
+  Span span;
+  UseRole role;
+  friend auto operator<=>(const Use &, const Use &) = default;
+};
+
+// In order of files and places.
+std::vector<Use> usesOf(const LoadedPrograms &programs, const LabelRef &label);
+std::vector<Use> usesOf(const LoadedPrograms &programs, const VariableRef &variable);
+std::vector<Use> usesOf(const LoadedPrograms &programs, ProgramRef program);
+/// Of what stands at a place of the document; empty: it has no name, or its name is computed.
+std::vector<Use> usesOf(const LoadedPrograms &programs, const Thing &thing);
+
+} // namespace feedhold::lsp

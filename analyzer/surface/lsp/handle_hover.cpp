@@ -1,0 +1,230 @@
+// What the thing at a place is, and what is known of it there.
+#include "base/support/match.h"
+#include "base/support/text.h"
+#include "language/model/block_facts.h"
+#include "meaning/semantics/modal_table.h"
+#include "surface/lsp/feature_handlers.h"
+#include "surface/lsp/feature_here.h"
+#include "surface/lsp/feature_json.h"
+#include "surface/lsp/feature_meaning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::lsp {
+
+namespace {
+
+std::string modeName(const ModalTable &modes, std::uint8_t group) {
+  for (std::size_t kind = 0; kind < kModalKinds; ++kind)
+    if (modes.groupOf(static_cast<ModalKind>(kind)) == group)
+      return std::string(nameOf(static_cast<ModalKind>(kind)));
+  return fmt::format("group {}", group);
+}
+
+class Hover {
+public:
+  Hover(const View &view, const ThingAt &at) : view_(view), programs_(*view.programs), file_(view.file()), at_(at) {}
+
+  std::string write() {
+    match(
+        at_.thing,
+        [&](const HeaderThing &it) {
+          program({kDocument, it.program});
+        },
+        [&](const LabelThing &it) { label(it.label); }, [&](const JumpThing &it) { jump(file_.model.jumps[it.jump]); },
+        [&](const CallThing &it) { call(file_.model.calls[it.call]); },
+        [&](const ArgumentThing &it) { argument(file_.model.calls[it.call], it.argument); },
+        [&](const VariableThing &it) { variable(it.use); },
+        [&](const LoopThing &it) { loop(file_.model.loops[it.loop]); }, [](const OWordThing &) {},
+        [&](const CodeThing &it) { code(file_.tree.words[it.word]); },
+        [&](const WordThing &it) { word(file_.tree.words[it.word]); },
+        [&](const ClauseThing &it) {
+          const ClauseKind kind = file_.contracts.clauses[it.clause].kind;
+          line("**{}** {}", feedhold::nameOf(kind), helpOf(kind));
+        });
+    return std::move(text_);
+  }
+
+private:
+  template <typename... Parts> void line(fmt::format_string<Parts...> form, Parts &&...parts) {
+    text_ += (text_.empty() ? "" : "\n\n") + fmt::format(form, std::forward<Parts>(parts)...);
+  }
+  std::uint32_t lineHere() const { return lineOf(file_, at_.block); }
+
+  // ---- programs ----
+
+  void program(ProgramRef ref) {
+    const LoadedFile &in = programs_.file(ref.file);
+    const std::string title = titleOf(in, ref.program);
+    line("**{}**{}", nameOf(programs_, ref), title.empty() ? "" : " " + title);
+    if (ref.file != kDocument)
+      line("in `{}`", in.path.filename().generic_string());
+    if (const auto callers = programs_.set->callGraph().callers(ref); !callers.empty())
+      line("called {} times in the files that are read", callers.size());
+    std::string clauses;
+    for (const Clause &clause : in.contracts.clauses)
+      if (clause.program == ref.program)
+        clauses += clause.text + "\n";
+    if (!clauses.empty())
+      line("```\n{}```", clauses);
+  }
+  void call(const Call &call) {
+    if (at_.span == file_.tree.words[call.code].span())
+      code(file_.tree.words[call.code]);
+    const bool goes =
+        call.kind != CallKind::MacroA && call.kind != CallKind::ModalCancel && call.kind != CallKind::Local;
+    if (!goes)
+      return;
+    if (const auto callee = programs_.set->callGraph().callee(kDocument, call))
+      program(*callee);
+    else if (!call.callee.empty())
+      line("{} is in none of the files that are read", toString(call.callee));
+    else if (call.programWord)
+      line("the program is computed");
+  }
+  void argument(const Call &call, const Argument &argument) {
+    const Word &passed = file_.tree.words[argument.word];
+    if (argument.variable == 0)
+      return line("**{}** passes nothing", passed.address());
+    line("**{}** sets `#{}` of the called program{}", passed.address(), argument.variable,
+         argument.role == ArgumentRole::Overridden ? "; a later word sets it again" : "");
+    const auto callee = programs_.set->callGraph().callee(kDocument, call);
+    if (!callee)
+      return;
+    if (const std::string meaning = meaningOf(programs_, *callee, argument.variable); !meaning.empty())
+      line("{}: {}", nameOf(programs_, *callee), meaning);
+    if (const std::string clause = clauseOf(programs_, *callee, argument.variable); !clause.empty())
+      line("`{}`", clause);
+  }
+
+  // ---- jumps and loops ----
+
+  void label(const LabelRef &label) {
+    const auto uses = usesOf(programs_, label);
+    std::string lines;
+    for (const Use &use : uses)
+      if (use.role == UseRole::Reference)
+        lines += fmt::format("{}{}", lines.empty() ? "" : ", ", placeOf(use));
+    line("**N{}** of {}", label.number, nameOf(programs_, label.program));
+    line("{}", lines.empty() ? "no jump names it" : "named in " + lines);
+  }
+  std::string placeOf(const Use &use) const {
+    const LoadedFile &in = programs_.file(use.file);
+    const std::uint32_t at = in.source.lineOf(use.span.begin);
+    return use.file == kDocument ? fmt::format("line {}", at)
+                                 : fmt::format("{}:{}", in.path.filename().generic_string(), at);
+  }
+  void jump(const Jump &jump) {
+    const auto number = targetNumber(jump);
+    if (!number)
+      return line("the target is computed: any sequence number of the program may be meant");
+    std::string lines;
+    for (const LabelRef &label : labelsOf(programs_, kDocument, jump))
+      for (const Use &use : usesOf(programs_, label))
+        if (use.role == UseRole::Definition)
+          lines += fmt::format("{}{} of {}", lines.empty() ? "" : ", ", placeOf(use), nameOf(programs_, label.program));
+    if (lines.empty())
+      line("there is no N{} to go to", *number);
+    else
+      line("goes to **N{}** in {}", *number, lines);
+    if (jump.target && jump.kind != JumpKind::ReturnTo && jump.kind != JumpKind::CallAt)
+      line("```\n{}\n```", file_.source.utf8(file_.tree.blocks[*jump.target].span()));
+  }
+  void loop(const Loop &loop) {
+    if (!loop.endBlock)
+      return line("this loop has no END");
+    line("loop from line {} to line {}", lineOf(file_, loop.doBlock), lineOf(file_, *loop.endBlock));
+  }
+
+  // ---- values ----
+
+  void variable(const VariableUse &use) {
+    const auto ref = variableOf(programs_, kDocument, use);
+    if (!ref)
+      return line("which variable this is, is computed or known to the control alone");
+    const std::string name = programs_.set->nameOfVariable(ref->number);
+    const ProgramRef program{kDocument, file_.model.programOf(use.block)};
+    const std::string meaning = meaningOf(programs_, program, ref->number);
+    line("**{}**{} ({})", name, meaning.empty() ? "" : " " + meaning, kindOf(programs_, ref->number));
+    if (const std::string clause = clauseOf(programs_, program, ref->number); !clause.empty())
+      line("`{}`", clause);
+    before([&](const StateFacts &facts) { return textOf(facts.variables, name, "as at start: nothing is known"); });
+  }
+  static std::string textOf(const std::vector<ValueFact> &facts, const std::string &name, std::string otherwise) {
+    const auto found =
+        std::find_if(facts.begin(), facts.end(), [&](const ValueFact &fact) { return fact.name == name; });
+    return found == facts.end() ? otherwise : feedhold::textOf(*found);
+  }
+  /// What is known before this line, on each way of calls.
+  template <typename Tell> void before(Tell tell) {
+    const auto known = knownBefore(view_, lineHere());
+    if (!known)
+      return;
+    if (!known->isReached)
+      return line("no run comes to this line");
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const FactsHere &way : known->ways)
+      texts.emplace_back(way.way, tell(way.facts));
+    if (const std::string text = together(texts); !text.empty())
+      line("before this line: {}", text);
+  }
+
+  // ---- words ----
+
+  void code(const Word &word) {
+    const std::string name = toUpper(file_.source.utf8(word.span()));
+    if (word.form() == WordForm::Expression)
+      return line("**{}**: the code is computed", name);
+    const Code *row = codeOf(word, programs_.dialect);
+    const auto tenths = word.tenths();
+    const CodeCall *calls = tenths ? findCodeCall(programs_.dialect, word.address(), *tenths) : nullptr;
+    if (calls)
+      return line("**{}** calls O{} on this machine", name, calls->program);
+    if (!row && word.address() == 'M')
+      return line("**{}**: what it does is up to the builder of the machine", name);
+    if (!row)
+      return line("**{}**: {} has no such code", name, programs_.dialect.title);
+    line("**{}** {} ({})", name, row->meaning, programs_.dialect.title);
+    if (row->group == 0 || word.address() != 'G')
+      return;
+    const std::string mode = modeName(ModalTable(programs_.dialect), row->group);
+    line("modal group {}{}", row->group, mode.starts_with("group") ? "" : ": " + mode);
+    before([&](const StateFacts &facts) {
+      const auto found =
+          std::find_if(facts.modes.begin(), facts.modes.end(), [&](const ModeFact &fact) { return fact.name == mode; });
+      return found == facts.modes.end() ? std::string("as at start") : feedhold::textOf(*found);
+    });
+  }
+  void word(const Word &word) {
+    constexpr std::string_view kAxes = "XYZABCUVW";
+    if (kAxes.find(word.address()) == std::string_view::npos)
+      return;
+    const std::string name(1, word.address());
+    before([&](const StateFacts &facts) {
+      const std::string text = textOf(facts.positions, name, "");
+      return text.empty() ? text : fmt::format("**{}** {}", name, text);
+    });
+  }
+
+  const View &view_;
+  const LoadedPrograms &programs_;
+  const LoadedFile &file_;
+  const ThingAt &at_;
+  std::string text_;
+};
+
+} // namespace
+
+Json hover(const View &view, const Json &params) {
+  const auto thing = thingAt(view, params);
+  if (!thing)
+    return nullptr;
+  std::string text = Hover(view, *thing).write();
+  if (text.empty())
+    return nullptr;
+  return {{"contents", markdown(std::move(text))}, {"range", rangeOf(view, kDocument, thing->span)}};
+}
+
+} // namespace feedhold::lsp
