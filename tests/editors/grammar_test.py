@@ -9,6 +9,7 @@ from pathlib import Path
 
 from harness import FEEDHOLD, NODE, ORACLES, ROOT, SKIPPED
 
+FENCE = re.compile(r"^```nc ([a-z0-9-]+)(?: O?[0-9]+\.nc)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TOKEN = re.compile(r"^(\S+) +([0-9]+)-([0-9]+) ", re.MULTILINE)
 REMARKS = ("comment.", "meta.contract.", "string.quoted.alarm.", "punctuation.definition.string.")
 VARIABLES = ("variable.", "support.variable.", "constant.language.", "keyword.operator.indirect.")
@@ -39,13 +40,26 @@ def coloured(scope, *files):
         yield scopes
 
 
-def tokens(file):
-    dump = subprocess.run([FEEDHOLD, "tokens", file], capture_output=True, check=True).stdout.decode(errors="replace")
-    return [(kind, int(begin), int(end)) for kind, begin, end in TOKEN.findall(dump)]
+def tokens(file, *options):
+    dump = subprocess.run([FEEDHOLD, "tokens", *options, file], capture_output=True, check=True)
+    return [(kind, int(begin), int(end)) for kind, begin, end in TOKEN.findall(dump.stdout.decode(errors="replace"))]
 
 
 def is_one_of(scopes, beginnings):
     return any(scope.startswith(beginnings) for scope in scopes)
+
+
+def compared(file, scopes, *options):
+    """How many tokens of the program there are, and what is wrong with the colours of some."""
+    text, seen, wrong = file.read_bytes(), 0, []
+    for kind, begin, end in tokens(file, *options):
+        if kind not in SCOPES:
+            continue
+        seen += 1
+        if not is_one_of(scopes[begin], SCOPES[kind]) or (kind == "comment") != is_one_of(scopes[begin], REMARKS):
+            line = text.count(b"\n", 0, begin) + 1
+            wrong.append(f"{file.name}:{line}: {kind} {text[begin:end]} as {scopes[begin]}")
+    return seen, wrong
 
 
 class Grammar(unittest.TestCase):
@@ -53,19 +67,24 @@ class Grammar(unittest.TestCase):
 
     def test_programs_are_coloured_as_they_are_read(self):
         files = sorted((ROOT / "corpus").rglob("*.nc"))
-        wrong, seen = [], 0
-        for file, scopes in zip(files, coloured("source.macrob", *files)):
-            text = file.read_bytes()
-            for kind, begin, end in tokens(file):
-                if kind not in SCOPES:
-                    continue
-                seen += 1
-                fits = is_one_of(scopes[begin], SCOPES[kind]) and (kind == "comment") == is_one_of(scopes[begin], REMARKS)
-                if not fits:
-                    line = text.count(b"\n", 0, begin) + 1
-                    wrong.append(f"{file.relative_to(ROOT)}:{line}: {kind} {text[begin:end]} as {scopes[begin]}")
-        self.assertEqual(wrong[:20], [])
-        self.assertGreater(seen, 20000)
+        seen, wrong = zip(*(compared(*it) for it in zip(files, coloured("source.macrob", *files))))
+        self.assertEqual(sum(wrong, []), [])
+        self.assertGreater(sum(seen), 20000)
+
+    def test_programs_of_the_pages(self):
+        """Those of rules and goldens are of every dialect; some are no programs at all, on purpose."""
+        with tempfile.TemporaryDirectory() as folder:
+            files = {}
+            for page in (page for room in ("rules", "tests/golden") for page in sorted((ROOT / room).rglob("*.md"))):
+                for number, (dialect, text) in enumerate(FENCE.findall(page.read_text())):
+                    if dialect != "guess":
+                        file = Path(folder) / f"{page.stem}-{number}.nc"
+                        file.write_text(text)
+                        files[file] = dialect
+            seen, wrong = zip(*(compared(file, scopes, "--dialect", files[file])
+                                for file, scopes in zip(files, coloured("source.macrob", *files))))
+        self.assertLess(len(sum(wrong, [])), sum(seen) / 500, "\n".join(sum(wrong, [])))
+        self.assertGreater(sum(seen), 20000)
 
     def assertColours(self, text, expected, scope="source.macrob"):
         """`expected`: pieces of the text from left to right, with the innermost scope of each."""
