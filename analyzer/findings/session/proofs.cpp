@@ -3,10 +3,12 @@
 
 #include "base/support/parallel.h"
 #include "base/support/process.h"
+#include "proof/prove/stop.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace feedhold {
 
@@ -15,8 +17,8 @@ namespace {
 using Loaded = Result<std::unique_ptr<const LoadedPrograms>>;
 
 Loaded load(const ProofsWish &wish, const WorkItem &item, const KnownNames &known) {
-  ProgramsWish programs{.path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config,
-                        .open = wish.files.open};
+  ProgramsWish programs{
+      .path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config, .open = wish.files.open};
   if (item.path.empty())
     programs.piped = wish.files.piped;
   return loadPrograms(programs, known);
@@ -76,6 +78,16 @@ void proveOrRecall(const Job &job, const ProofsWish &wish) {
     remember(*wish.cache, key, job.result->proof);
 }
 
+void proveUnlessStopped(const Job &job, const ProofsWish &wish) {
+  const prove::StopScope scope(wish.stop);
+  try {
+    prove::throwIfStopped();
+    proveOrRecall(job, wish);
+  } catch (const prove::Stopped &) {
+    // proveAll sees it, too.
+  }
+}
+
 } // namespace
 
 ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
@@ -97,7 +109,9 @@ ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
     }
     ProvedFile &file = result.files.emplace_back(ProvedFile{loaded[i]->take(), {}});
     for (std::size_t program = 0; program < file.file().model.programs.size(); ++program)
-      if (auto mistake = contractMistake(file.file(), ProgramId(program)))
+      if (wish.which == ProofsWish::Which::WithContract && file.file().contracts.of(ProgramId(program)) == nullptr)
+        continue;
+      else if (auto mistake = contractMistake(file.file(), ProgramId(program)))
         result.errors.push_back(std::move(*mistake));
       else
         file.programs.push_back({ProgramId(program), {}});
@@ -107,7 +121,14 @@ ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
   for (ProvedFile &file : result.files)
     for (ProvedProgram &program : file.programs)
       jobs.push_back({file.loaded.get(), &program});
-  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) { proveOrRecall(jobs[i], wish); });
+  std::atomic<std::size_t> done{0};
+  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) {
+    proveUnlessStopped(jobs[i], wish);
+    if (wish.files.progress)
+      wish.files.progress(++done, jobs.size());
+  });
+  if (wish.stop.stop_requested())
+    result.files.clear(); // a program that was not proved to its end would look like one without mistakes
   return result;
 }
 

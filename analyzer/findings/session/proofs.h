@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 namespace feedhold {
@@ -18,6 +19,8 @@ struct ProofsWish {
   prove::ProveOptions prove = {};
   std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
   KeepSteps steps = KeepSteps::No;      // of what is proved anew
+  enum class Which : std::uint8_t { All, WithContract } which = Which::All; // of the programs
+  std::stop_token stop = {}; // once it is requested, there are no files in the result
 };
 
 struct ProvedProgram {

@@ -6,6 +6,7 @@
 #include "proof/check/certificate.h"
 #include "proof/prove/discharge_eliminate.h"
 #include "proof/prove/discharge_memo.h"
+#include "proof/prove/stop.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
 
@@ -205,6 +206,7 @@ std::optional<Query> nearPart(const smt::TermStore &store, const Query &query) {
 
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
   constexpr std::uint64_t kShareOfNear = 8;
+  throwIfStopped();
   std::uint64_t spent = 0;
   if (const auto near = nearPart(store, query)) {
     Outcome outcome = Discharge(store, *near, {.search = budget.search / kShareOfNear, .z3 = 0, .cvc5 = 0}).run();

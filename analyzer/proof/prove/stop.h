@@ -1,0 +1,26 @@
+// Stopping a proof that nobody waits for any more: an editor's text has changed.
+#pragma once
+
+#include <stop_token>
+
+namespace feedhold::prove {
+
+/// Thrown out of prove() on a thread with a StopScope, soon after its stop was requested.
+struct Stopped {};
+
+/// Lets the proofs of this thread end early while it lives.
+class StopScope {
+public:
+  explicit StopScope(const std::stop_token &stop);
+  ~StopScope();
+  StopScope(const StopScope &) = delete;
+  StopScope &operator=(const StopScope &) = delete;
+
+private:
+  const std::stop_token *outer_;
+};
+
+/// Called wherever work that takes long begins.
+void throwIfStopped();
+
+} // namespace feedhold::prove

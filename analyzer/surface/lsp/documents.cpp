@@ -1,0 +1,66 @@
+#include "surface/lsp/documents.h"
+
+#include <algorithm>
+
+namespace feedhold::lsp {
+
+namespace {
+
+std::uint32_t size32(std::string_view text) { return static_cast<std::uint32_t>(text.size()); }
+
+/// The whole text anew: what is the same at both ends has not changed.
+TextChange difference(std::string_view before, std::string_view after) {
+  const auto [left, right] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+  const auto head = static_cast<std::size_t>(left - before.begin());
+  static_cast<void>(right);
+  const std::size_t most = std::min(before.size(), after.size()) - head;
+  std::size_t tail = 0;
+  while (tail < most && before[before.size() - 1 - tail] == after[after.size() - 1 - tail])
+    ++tail;
+  return {static_cast<std::uint32_t>(head), size32(before) - static_cast<std::uint32_t>(head + tail),
+          size32(after) - static_cast<std::uint32_t>(head + tail)};
+}
+
+} // namespace
+
+Document openDocument(const Json &textDocument) {
+  Document document;
+  document.uri = textDocument.at("uri").get<std::string>();
+  document.version = textDocument.at("version").get<std::int64_t>();
+  document.text = std::make_shared<const std::string>(textDocument.at("text").get<std::string>());
+  const std::filesystem::path path = pathOfUri(document.uri);
+  document.path = path.is_absolute() ? path.lexically_normal() : std::filesystem::path();
+  return document;
+}
+
+std::vector<TextChange> applyChanges(Document &document, const Json &contentChanges, PositionEncoding encoding) {
+  std::vector<TextChange> changes;
+  std::shared_ptr<const std::string> text = document.text; // what came before a change that is wrong stays undone, too
+  for (const Json &change : contentChanges) {
+    std::string added = change.at("text").get<std::string>();
+    if (!change.contains("range")) {
+      changes.push_back(difference(*text, added));
+      text = std::make_shared<const std::string>(std::move(added));
+      continue;
+    }
+    const Span span = Places(SourceFile::fromText({}, *text), encoding).span(change.at("range"));
+    changes.push_back({span.begin, span.size(), size32(added)});
+    std::string next;
+    next.reserve(text->size() + added.size());
+    next.append(*text, 0, span.begin).append(added).append(*text, span.end);
+    text = std::make_shared<const std::string>(std::move(next));
+  }
+  document.text = std::move(text);
+  return changes;
+}
+
+std::optional<Span> moved(Span span, const TextChange &change) {
+  if (span.end <= change.at && !(span.end == change.at && change.removed == 0 && span.empty()))
+    return span;
+  if (span.begin < change.at + change.removed)
+    return std::nullopt;
+  const std::uint32_t begin = span.begin - change.removed + change.added;
+  return Span{begin, begin + span.size()};
+}
+
+} // namespace feedhold::lsp

@@ -1,0 +1,100 @@
+// ClientSession: one client from `initialize` to `exit`.  Internal to the server: what it receives, in which order it
+// works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.
+#pragma once
+
+#include "surface/lsp/lane.h"
+#include "surface/lsp/rpc.h"
+#include "surface/lsp/server.h"
+#include "surface/lsp/workspace.h"
+
+namespace feedhold::lsp {
+
+class ClientSession {
+public:
+  ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options);
+  /// Works until the end; returns the exit code.
+  int run();
+
+private:
+  using Answer = Json (ClientSession::*)(const Json &params);
+  using Reaction = void (ClientSession::*)(const Json &params);
+  enum class Phase : std::uint8_t { Fresh, Initialized, ShutDown };
+
+  // ---- messages (session.cpp) ----
+  void receive(const Event &event);
+  void receiveRequest(const Json &id, const std::string &method, const Json &params);
+  Json answer(const std::string &method, const Json &params);
+  void receiveNotification(const std::string &method, const Json &params);
+  static const std::map<std::string_view, Answer> &requests();
+  static const std::map<std::string_view, Reaction> &notifications();
+  void notify(std::string_view method, Json params);
+  void ask(std::string_view method, Json params);
+  void show(Severity severity, const std::string &message);
+  void log(const std::string &message);
+
+  // ---- from the beginning to the end (session_lifecycle.cpp) ----
+  Json initialize(const Json &params);
+  Json shutDown(const Json &params);
+  void initialized(const Json &params);
+  void changeSettings(const Json &params);
+  void changeFolders(const Json &params);
+  void changeFiles(const Json &params);
+  void cancelProgress(const Json &params);
+  Json capabilities() const;
+
+  // ---- texts and what is found in them (session_documents.cpp) ----
+  void open(const Json &params);
+  void change(const Json &params);
+  void save(const Json &params);
+  void close(const Json &params);
+  OpenDocument &documentOf(const Json &params);
+  void workOnDue();
+  std::optional<Clock::time_point> nextDue() const;
+  enum class Reason : std::uint8_t { Opened, Typed, Saved };
+  void plan(OpenDocument &document, Reason reason);
+  void planProofs(OpenDocument &document, Reason reason);
+  void planAll();
+  void checkQuickly(OpenDocument &document);
+  void startFlow(OpenDocument &document);
+  void takeFlow(OpenDocument &document, const CheckResult &result);
+  void publish(const OpenDocument &document);
+  void publishOthers(OpenDocument &document, const CheckResult &result);
+  void checkContract(OpenDocument &contract);
+  void complainAbout(const std::vector<PathProblem> &problems);
+  Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks) const;
+  RemarkContext remarkContext() const;
+  std::string pageOf(std::string_view rule) const;
+
+  // ---- proofs (session_proofs.cpp) ----
+  void startProofs(OpenDocument &document);
+  void takeProofs(const std::string &uri, std::uint64_t stamp, const std::shared_ptr<ProofsResult> &result);
+  void beginProgress(const std::string &token, const std::string &uri);
+  void reportProgress(const std::string &token, std::size_t done, std::size_t all); // from any thread
+  void endProgress(const std::string &token, const std::string &message);
+
+  // ---- requests about a document (session_requests.cpp) ----
+  Json askFeature(const Feature &feature, const Json &params);
+  Json askFeatureOfAll(const Feature &feature, const Json &params);
+  Json pullDiagnostics(const Json &params);
+  Json colours(const Json &params);
+
+  EventQueue &queue_;
+  MessageWriter &writer_;
+  const ServerOptions &options_;
+  Phase phase_ = Phase::Fresh;
+  std::optional<int> exitCode_;
+  Workspace workspace_;
+  Settings settings_;
+  bool pullsDiagnostics_ = false;
+  bool showsProgress_ = false;
+  bool refreshesDiagnostics_ = false;
+  bool refreshesLenses_ = false;
+  bool registersWatchers_ = false;
+  std::uint64_t lastAsked_ = 0;
+  std::set<std::string> complaints_;            // each is shown once
+  std::map<std::string, std::string> progress_; // documents by the token of their proofs
+  Lane flowLane_;
+  Lane proofLane_;
+};
+
+} // namespace feedhold::lsp

@@ -1,0 +1,80 @@
+// Requests about documents: findings on demand, and the features.
+#include "surface/lsp/session.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace feedhold::lsp {
+
+namespace {
+
+/// Of the document that a request is about; absent: it is about all.
+std::optional<std::string> uriIn(const Json &params) {
+  for (const char *member : {"textDocument", "item", "data"})
+    if (params.is_object() && params.contains(member) && params.at(member).is_object() &&
+        params.at(member).contains("uri"))
+      return params.at(member).at("uri").get<std::string>();
+  if (params.is_object() && params.contains("textDocument"))
+    return params.at("textDocument").at("uri").get<std::string>(); // says what is wrong with it
+  return std::nullopt;
+}
+
+} // namespace
+
+Json ClientSession::askFeature(const Feature &feature, const Json &params) {
+  const std::optional<std::string> uri = uriIn(params);
+  if (!uri)
+    return askFeatureOfAll(feature, params);
+  if (OpenDocument *document = workspace_.find(*uri))
+    return workspace_.programsOf(*document) ? feature.answer(workspace_.viewOf(*document), params) : Json();
+  OpenDocument closed; // a file beside one that is open: where a call led
+  closed.document.uri = *uri;
+  closed.document.path = pathOfUri(*uri);
+  closed.document.text = std::make_shared<const std::string>();
+  const bool isThere = !closed.document.path.empty() && workspace_.programsOf(closed);
+  if (!isThere)
+    throw RequestError(ErrorCode::InvalidParams, fmt::format("the document {} is not open", *uri));
+  return feature.answer(workspace_.viewOf(closed), params);
+}
+
+/// What several documents see of one folder comes once.
+Json ClientSession::askFeatureOfAll(const Feature &feature, const Json &params) {
+  Json all = Json::array();
+  std::set<std::string> seen;
+  for (auto &[uri, document] : workspace_.documents()) {
+    if (!workspace_.programsOf(document))
+      continue;
+    const Json found = feature.answer(workspace_.viewOf(document), params);
+    if (!found.is_array())
+      return found;
+    for (const Json &each : found)
+      if (seen.insert(each.dump(-1, ' ', false, Json::error_handler_t::replace)).second)
+        all.push_back(each);
+  }
+  return all;
+}
+
+Json ClientSession::pullDiagnostics(const Json &params) {
+  OpenDocument &document = documentOf(params);
+  if (document.quickDue) {
+    document.quickDue.reset();
+    document.isContract() ? checkContract(document) : checkQuickly(document);
+  }
+  if (!document.isContract() && !refreshesDiagnostics_ && !document.isFlowKnown) {
+    document.flowDue.reset();
+    takeFlow(document, check(workspace_.optionsFor(document), options_.known));
+  }
+  const std::string resultId = fmt::format("{}{}", document.stamp, document.isFlowKnown ? "" : "-quick");
+  if (params.value("previousResultId", Json()) == resultId)
+    return {{"kind", "unchanged"}, {"resultId", resultId}};
+  const std::array<const std::vector<Remark> *, 2> findings = {&document.quick, &document.flow};
+  return {{"kind", "full"}, {"resultId", resultId}, {"items", diagnosticsOf(document, findings)}};
+}
+
+Json ClientSession::colours(const Json &params) {
+  static_cast<void>(documentOf(params));
+  return Json::array();
+}
+
+} // namespace feedhold::lsp

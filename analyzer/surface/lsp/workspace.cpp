@@ -1,0 +1,145 @@
+#include "surface/lsp/workspace.h"
+
+#include "base/support/check.h"
+#include "findings/session/discovery.h"
+
+#include <algorithm>
+
+namespace feedhold::lsp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<Remark> movedAll(const std::vector<Remark> &remarks, const std::vector<TextChange> &changes) {
+  std::vector<Remark> result;
+  for (const Remark &remark : remarks) {
+    std::optional<Remark> here = remark;
+    for (const TextChange &change : changes)
+      if (here)
+        here = moved(*here, change);
+    if (here)
+      result.push_back(std::move(*here));
+  }
+  return result;
+}
+
+} // namespace
+
+OpenDocument &Workspace::add(Document document) {
+  const std::string uri = document.uri;
+  OpenDocument &open = documents_[uri];
+  open.document = std::move(document);
+  textChanged(open, {});
+  return open;
+}
+
+void Workspace::remove(const std::string &uri) {
+  documents_.erase(uri);
+  textsChanged();
+}
+
+OpenDocument *Workspace::find(const std::string &uri) {
+  const auto found = documents_.find(uri);
+  return found == documents_.end() ? nullptr : &found->second;
+}
+
+void Workspace::textChanged(OpenDocument &changed, const std::vector<TextChange> &changes) {
+  changed.flow = movedAll(changed.flow, changes);
+  changed.proofs = movedAll(changed.proofs, changes);
+  const fs::path folder = changed.document.path.parent_path();
+  for (auto &[uri, open] : documents_) {
+    if (&open != &changed && (folder.empty() || open.document.path.parent_path() != folder))
+      continue;
+    open.programs.reset();
+    open.verdicts.reset();
+    // Its findings stay as they are when another program changes; a contract is read with it.
+    if (&open == &changed || changed.isContract()) {
+      open.stamp = ++lastStamp_;
+      open.isFlowKnown = false;
+    }
+  }
+  textsChanged();
+}
+
+void Workspace::surroundingsChanged() {
+  for (auto &[uri, open] : documents_) {
+    open.stamp = ++lastStamp_;
+    open.isFlowKnown = false;
+    open.programs.reset();
+    open.verdicts.reset();
+  }
+}
+
+void Workspace::textsChanged() {
+  OpenTexts texts;
+  for (const auto &[uri, open] : documents_)
+    if (!open.document.path.empty())
+      texts[open.document.path] = open.document.text;
+  texts_ = std::make_shared<const OpenTexts>(std::move(texts));
+}
+
+CheckOptions Workspace::optionsFor(const OpenDocument &document) const {
+  CheckOptions options;
+  options.open = texts_;
+  options.jobs = 1; // the editor has the other processors
+  std::error_code ignored;
+  const fs::path &path = document.document.path;
+  if (!path.empty() && fs::is_regular_file(path, ignored)) {
+    options.paths = {path.generic_string()};
+    return options;
+  }
+  // Not on disk: a name in the first folder, so that its configuration holds.
+  const fs::path name = !path.empty() ? path : fs::path(document.document.uri).filename();
+  const fs::path folder = folders.empty() || !path.empty() ? fs::path() : folders.front();
+  options.piped = PipedText{(folder / name).generic_string(), *document.document.text};
+  return options;
+}
+
+std::vector<std::string> Workspace::programsBeside(const fs::path &contract) {
+  std::vector<std::string> named, all;
+  std::error_code error; // of a folder that cannot be listed there is nothing to say
+  for (fs::directory_iterator at(contract.parent_path(), error), end; !error && at != end; at.increment(error)) {
+    const fs::path path = at->path();
+    std::error_code ignored;
+    if (path.extension() == kContractExtension || !at->is_regular_file(ignored) ||
+        !kindOfFileName(path.filename().generic_string()))
+      continue;
+    all.push_back(path.generic_string());
+    if (path.filename() == contract.stem() || path.stem() == contract.stem())
+      named.push_back(path.generic_string());
+  }
+  return named.empty() ? all : named;
+}
+
+std::shared_ptr<const LoadedPrograms> Workspace::programsOf(OpenDocument &document) const {
+  if (document.programs || document.isContract())
+    return document.programs;
+  const CheckOptions options = optionsFor(document);
+  const ProgramsWish wish{.path = options.paths.empty() ? std::string() : options.paths.front(),
+                          .piped = options.piped,
+                          .open = options.open};
+  if (auto loaded = loadPrograms(wish, known_))
+    document.programs = loaded.take();
+  return document.programs;
+}
+
+View Workspace::viewOf(OpenDocument &document) const {
+  std::shared_ptr<const LoadedPrograms> programs = programsOf(document);
+  FEEDHOLD_CHECK(programs != nullptr, "a view of what is no program");
+  return {.uri = document.document.uri,
+          .programs = std::move(programs),
+          .proofs = document.verdicts,
+          .known = known_,
+          .encoding = encoding,
+          .folders = folders};
+}
+
+std::string Workspace::uriOf(const fs::path &path) const {
+  for (const auto &[uri, open] : documents_)
+    if (open.document.path == path)
+      return uri;
+  return uriOfPath(path);
+}
+
+} // namespace feedhold::lsp
