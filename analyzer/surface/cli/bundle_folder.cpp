@@ -38,14 +38,14 @@ void keepEvidence(ProofsWish &wish) {
   wish.prove.guards = prove::InferGuards::No;
 }
 
-std::optional<Error> whyNoBundleFits(const fs::path &folder) {
+std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view mark) {
   std::error_code error;
   if (!fs::exists(folder, error))
     return std::nullopt;
   if (!fs::is_directory(folder, error))
     return Error{"is no folder"};
-  if (!fs::is_empty(folder, error) && !fs::exists(folder / kBundleIndex, error))
-    return Error{"holds other files; name a new folder or one with a bundle of proofs"};
+  if (!fs::is_empty(folder, error) && !fs::exists(folder / mark, error))
+    return Error{fmt::format("holds other files; name a new folder or one with a {}", mark)};
   return error ? std::optional(Error{error.message()}) : std::nullopt;
 }
 

@@ -10,8 +10,9 @@ namespace feedhold {
 /// What a proof must be told for a bundle: all steps, and no search for guards, which are no part of one.
 void keepEvidence(ProofsWish &wish);
 
-/// A folder is only taken when it is new, empty, or a bundle itself.  Absent: it can be taken.
-std::optional<Error> whyNoBundleFits(const std::filesystem::path &folder);
+/// A folder is only taken when it is new, empty, or holds what it will hold again, which has a file `mark`.  Absent: it
+/// can be taken.
+std::optional<Error> whyNoBundleFits(const std::filesystem::path &folder, std::string_view mark);
 
 /// Puts the whole bundle in place of what was there: a reader sees the old one or the new one.  Absent: it worked.
 std::optional<Error> writeBundle(const std::filesystem::path &folder, const Bundle &bundle);

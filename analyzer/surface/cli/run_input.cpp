@@ -156,8 +156,4 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
   return PreparedRun{loaded.take(), *start, std::move(options)};
 }
 
-bool hasEnded(RunEnd end) {
-  return end == RunEnd::M02 || end == RunEnd::M30 || end == RunEnd::Returned || end == RunEnd::EndOfFile;
-}
-
 } // namespace feedhold

@@ -3,6 +3,7 @@
 
 #include "findings/session/programs.h"
 #include "meaning/machine/machine.h"
+#include "proof/prove/example_run.h"
 
 #include <CLI/CLI.hpp>
 
@@ -34,8 +35,5 @@ struct PreparedRun {
   RunOptions options;
 };
 Result<PreparedRun> prepareRun(const RunInput &input);
-
-/// The program has come to an end of its own.
-bool hasEnded(RunEnd end);
 
 } // namespace feedhold

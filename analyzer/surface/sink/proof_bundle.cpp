@@ -17,14 +17,6 @@ using Json = nlohmann::ordered_json;
 using prove::Obligation;
 namespace fs = std::filesystem;
 
-/// From the bundle; absolute where no way leads from there.
-std::string pathFrom(const fs::path &folder, const fs::path &path) {
-  const fs::path absolute = fs::absolute(path).lexically_normal();
-  const std::string relative =
-      absolute.lexically_relative(fs::absolute(folder / "").lexically_normal()).generic_string();
-  return relative.empty() ? absolute.generic_string() : relative;
-}
-
 /// Ids hold names of programs, which may hold anything.
 std::string fileNameOf(std::size_t number, const std::string &id) {
   constexpr std::size_t kLongest = 80;
@@ -161,6 +153,13 @@ constexpr std::array kKinds = {
 };
 
 } // namespace
+
+std::string pathFrom(const fs::path &folder, const fs::path &path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  const std::string relative =
+      absolute.lexically_relative(fs::absolute(folder / "").lexically_normal()).generic_string();
+  return relative.empty() ? absolute.generic_string() : relative;
+}
 
 Bundle makeBundle(const ProofsResult &result, const BundleReading &reading, std::string_view version,
                   const fs::path &folder) {

@@ -21,6 +21,9 @@ struct BundleReading {
 /// File names, `/` as separator, and their texts.
 using Bundle = std::map<std::string, std::string>;
 
+/// How a file is named in a folder that will hold a bundle; absolute where no way leads from there.
+std::string pathFrom(const std::filesystem::path &folder, const std::filesystem::path &path);
+
 /// `folder`: where the bundle will lie; sources are named from there.  Same proofs, same bytes.
 Bundle makeBundle(const ProofsResult &result, const BundleReading &reading, std::string_view version,
                   const std::filesystem::path &folder);
@@ -38,7 +41,9 @@ std::vector<std::string> differences(const Bundle &stored, const Bundle &now);
 
 struct BundleCheck {
   std::size_t certificates = 0; // that the checker verified
-  std::size_t solved = 0;       // texts that both solvers refute again
+  std::size_t solved = 0;       // texts that solvers were asked again
+  std::size_t byZ3 = 0;         // of them those that each refutes
+  std::size_t byCvc5 = 0;
   std::vector<std::string> problems;
 };
 /// Follows every certificate and asks the solvers again.

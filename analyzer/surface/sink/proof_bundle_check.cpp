@@ -102,17 +102,21 @@ std::optional<Error> followed(const std::string &claimText, const std::string &c
 }
 
 /// Absent: both solvers refute the text.
-std::optional<Error> solved(const std::string &text) {
+std::optional<Error> solved(const std::string &text, BundleCheck &check) {
   const prove::Budget budget;
   smt::TermStore store;
   const Result<std::vector<smt::TermId>> formulas = smt::readSmtLib(store, text);
   if (!formulas)
     return formulas.error();
-  if (!smt::askZ3(text, smt::arithmeticOf(store, formulas.value()), budget.z3).isUnsat())
-    return Error{"Z3 does not refute it"};
-  if (!smt::askCvc5(text, budget.cvc5).isUnsat())
-    return Error{"cvc5 does not refute it"};
-  return std::nullopt;
+  const bool z3 = smt::askZ3(text, smt::arithmeticOf(store, formulas.value()), budget.z3).isUnsat();
+  const bool cvc5 = smt::askCvc5(text, budget.cvc5).isUnsat();
+  check.byZ3 += z3 ? 1 : 0;
+  check.byCvc5 += cvc5 ? 1 : 0;
+  if (z3 && cvc5)
+    return std::nullopt;
+  return Error{z3     ? "Z3 refutes it, and cvc5 does not"
+               : cvc5 ? "cvc5 refutes it, and Z3 does not"
+                      : "neither Z3 nor cvc5 refutes it"};
 }
 
 } // namespace
@@ -128,7 +132,7 @@ BundleCheck checkEvidence(const Bundle &bundle) {
       wrong = certificate == bundle.end() ? Error{"it has no certificate"} : followed(text, certificate->second);
       ++result.certificates;
     } else if (name.ends_with(".smt2")) {
-      wrong = solved(text);
+      wrong = solved(text, result);
       ++result.solved;
     }
     if (wrong)

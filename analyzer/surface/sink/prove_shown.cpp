@@ -38,18 +38,6 @@ std::optional<char> letterFor(const Dialect &dialect, std::uint32_t variable) {
   return std::nullopt;
 }
 
-/// As a shell takes it for one word.
-std::string quoted(const std::string &word) {
-  const bool isPlain = !word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                                               "0123456789_-+=./,:%@") == std::string::npos;
-  if (isPlain)
-    return word;
-  std::string text = "'";
-  for (const char c : word)
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
   const auto number = alarmNumber(dialect, kind);
   return number ? fmt::format("{} ({})", *number, meaningOf(kind)) : std::string(meaningOf(kind));
@@ -75,15 +63,26 @@ std::string programName(const ProvedFile &file, const ProvedProgram &program) {
   return name.empty() ? "a program without a number" : name;
 }
 
+std::string quotedWord(const std::string &word) {
+  const bool isPlain = !word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                                               "0123456789_-+=./,:%@") == std::string::npos;
+  if (isPlain)
+    return word;
+  std::string text = "'";
+  for (const char c : word)
+    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const ProvedProgram &program,
                    const ProveReport &report) {
   const ProgramModel &model = file.file().model;
   const ProgramName &name = model.programs[program.program].name;
   TypedWitness result;
   std::string letters;
-  result.options = quoted(file.file().shown);
+  result.options = quotedWord(file.file().shown);
   if (model.programs.size() > 1 && !toString(name).empty())
-    result.options += " --program " + quoted(toString(name));
+    result.options += " --program " + quotedWord(toString(name));
   for (const auto &[variable, value] : witness.variables.entries()) {
     if (value.vacant)
       continue;
@@ -95,7 +94,7 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     const std::string shown = file.loaded->set->nameOfVariable(variable);
     result.others.emplace_back(shown, shortest(value.number));
     result.variables.emplace_back(shown.substr(1), value.number);
-    result.options += " --var " + quoted(shown.substr(1) + "=" + shortest(value.number));
+    result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
   result.options += report.readingOptions;
   if (name.number)
@@ -150,9 +149,9 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
                      : "it is not known whether this call always keeps the contract of the program that it calls";
   case ObligationKind::ContractSatisfiable: return "no call satisfies this contract";
   case ObligationKind::KeepIn:
-    return isRefuted ? fmt::format("the tool leaves the region of `{}`", obligation.claim)
-                     : fmt::format("it is not known whether the tool always keeps in the region of `{}`",
-                                   obligation.claim);
+    return isRefuted
+               ? fmt::format("the tool leaves the region of `{}`", obligation.claim)
+               : fmt::format("it is not known whether the tool always keeps in the region of `{}`", obligation.claim);
   case ObligationKind::KeepOut:
     return isRefuted ? fmt::format("the tool enters the region of `{}`", obligation.claim)
                      : fmt::format("it is not known whether the tool always keeps out of the region of `{}`",

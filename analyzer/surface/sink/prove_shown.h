@@ -24,6 +24,9 @@ std::string textOf(const VerdictCounts &counts);
 /// `O9100`; `a program without a number`
 std::string programName(const ProvedFile &file, const ProvedProgram &program);
 
+/// As a shell takes it for one word.
+std::string quotedWord(const std::string &word);
+
 /// A witness as a machinist types it.
 struct TypedWitness {
   std::optional<std::string> call;                         // `G65 P9100 D6. U12.`; absent: it has no number

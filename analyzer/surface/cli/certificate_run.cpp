@@ -1,0 +1,111 @@
+#include "surface/cli/certificate_run.h"
+
+#include "dialects/registry.h"
+#include "findings/session/session.h"
+#include "proof/smt/solver.h"
+#include "rules/registry.h"
+#include "surface/cli/bundle_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+KnownNames known() { return {allDialects(), allRules()}; }
+
+/// Absolute paths: what is said of a file must not depend on the folder in which somebody stands.
+CheckOptions filesOf(const CertificateWish &wish, unsigned jobs) {
+  CheckOptions files;
+  for (const fs::path &path : wish.paths)
+    files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
+  files.dialect = wish.reading.dialect;
+  if (wish.reading.isolated)
+    files.config.source = ConfigSource::None;
+  else if (wish.reading.config)
+    files.config = {ConfigSource::Named, fs::absolute(*wish.reading.config).lexically_normal()};
+  files.jobs = jobs;
+  return files;
+}
+
+std::optional<fs::path> configFor(const ConfigWish &wish, const fs::path &file) {
+  if (wish.source == ConfigSource::Named)
+    return wish.file;
+  ConfigFinder finder(wish, known());
+  const Config *config = finder.forFolder(file.parent_path());
+  return config == nullptr || config->folder.empty() ? std::nullopt : std::optional(config->folder / kConfigFileName);
+}
+
+bool isOpen(const prove::Obligation &obligation) { return !prove::holds(obligation.verdict); }
+
+/// The search for clauses is no part of the evidence, so that it is made apart.
+void addGuards(ProofsResult &proofs, const ProofsWish &made) {
+  ProofsWish wish = made;
+  wish.steps = KeepSteps::No;
+  wish.prove.guards = prove::InferGuards::Yes;
+  wish.files.paths.clear();
+  for (const ProvedFile &file : proofs.files)
+    if (std::any_of(file.programs.begin(), file.programs.end(), [](const ProvedProgram &program) {
+          return std::any_of(program.proof.obligations.begin(), program.proof.obligations.end(), isOpen);
+        }))
+      wish.files.paths.push_back(file.file().shown);
+  if (wish.files.paths.empty())
+    return;
+  const ProofsResult guarded = proveAll(wish, known());
+  std::map<std::pair<std::string, std::string>, const prove::Guard *> guards; // by file and obligation
+  for (const ProvedFile &file : guarded.files)
+    for (const ProvedProgram &program : file.programs)
+      for (const prove::Obligation &obligation : program.proof.obligations)
+        if (obligation.guard)
+          guards[{file.file().shown, obligation.id}] = &*obligation.guard;
+  for (ProvedFile &file : proofs.files)
+    for (ProvedProgram &program : file.programs)
+      for (prove::Obligation &obligation : program.proof.obligations)
+        if (const auto guard = guards.find({file.file().shown, obligation.id}); guard != guards.end())
+          obligation.guard = *guard->second;
+}
+
+std::vector<std::string> solvers() {
+  std::vector<std::string> names = {smt::z3Version()};
+  names.push_back(smt::cvc5Version().value_or("cvc5 is not installed"));
+  return names;
+}
+
+} // namespace
+
+CertificateRun runCertificate(const CertificateWish &wish, const fs::path &folder, unsigned jobs) {
+  ProofsWish proofsWish{.files = filesOf(wish, jobs)};
+  proofsWish.prove.only = wish.reading.only;
+  keepEvidence(proofsWish);
+  ProofsResult proofs = proveAll(proofsWish, known());
+  CertificateRun run;
+  if (proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
+    proofs.errors.push_back({proofs.skipped.front().path, "nothing to prove: " + proofs.skipped.front().reason});
+  run.problems = proofs.errors;
+  if (!run.problems.empty())
+    return run;
+  addGuards(proofs, proofsWish);
+  const CheckResult findings = check(proofsWish.files, known());
+  for (const ProvedFile &file : proofs.files)
+    for (const ProvedProgram &program : file.programs) {
+      run.counts.add(program.proof);
+      ++run.programs;
+    }
+  run.report =
+      makeCertificate({.wish = wish,
+                       .proofs = proofs,
+                       .findings = findings,
+                       .dialects = allDialects(),
+                       .configOf = [&](const fs::path &file) { return configFor(proofsWish.files.config, file); },
+                       .version = FEEDHOLD_VERSION,
+                       .solvers = solvers(),
+                       .folder = folder,
+                       .jobs = jobs});
+  return run;
+}
+
+} // namespace feedhold

@@ -1,0 +1,145 @@
+// `feedhold certify [PATHS] -o FOLDER`: a report of proofs for people who release programs.
+#include "dialects/registry.h"
+#include "surface/cli/bundle_folder.h"
+#include "surface/cli/certificate_run.h"
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <memory>
+
+namespace feedhold {
+
+namespace {
+
+struct CertifyArguments {
+  std::vector<std::string> paths;
+  std::vector<std::string> only;
+  std::string output;
+  std::string dialect;
+  std::string config;
+  std::string date;
+  unsigned jobs = 0;
+  bool isolated = false;
+  bool quiet = false;
+};
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) prove::ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+std::vector<std::string> namesOfKinds() {
+  std::vector<std::string> names;
+  for (const prove::ObligationKind kind : kKinds)
+    names.emplace_back(nameOf(kind));
+  return names;
+}
+
+void addOptions(CLI::App &app, CertifyArguments &arguments) {
+  app.add_option("paths", arguments.paths, "files and folders (default: the current folder)");
+  app.add_option("-o,--output", arguments.output, "the folder of the report; a report in it is replaced")->required();
+  app.add_option("--only", arguments.only, "prove only this kind of obligation (may be given again)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(namesOfKinds()));
+  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
+  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
+  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  app.add_option("--date", arguments.date,
+                 "the date of the report, as it is to stand there (default: that of SOURCE_DATE_EPOCH, or none)");
+  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
+  app.add_flag("-q,--quiet", arguments.quiet, "print no summary");
+}
+
+/// The reproducible-builds.org convention: seconds since 1970, in UTC.
+Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
+  if (!arguments.date.empty())
+    return std::optional(arguments.date);
+  const char *epoch = std::getenv("SOURCE_DATE_EPOCH");
+  if (epoch == nullptr || *epoch == '\0')
+    return std::optional<std::string>();
+  const std::string_view text = epoch;
+  std::uint32_t seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size())
+    return Error{fmt::format("SOURCE_DATE_EPOCH is `{}`, which is no number of seconds", text)};
+  return std::optional(fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(seconds))));
+}
+
+Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
+  CertificateWish wish;
+  for (const std::string &path : arguments.paths) {
+    if (path == "-")
+      return Error{"standard input cannot be found again, so that there is nothing to certify"};
+    wish.paths.emplace_back(path);
+  }
+  if (wish.paths.empty())
+    wish.paths = {"."};
+  if (!arguments.dialect.empty()) {
+    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
+      return Error{*complaint};
+    wish.reading.dialect = arguments.dialect;
+  }
+  wish.reading.isolated = arguments.isolated;
+  if (!arguments.config.empty())
+    wish.reading.config = arguments.config;
+  for (const prove::ObligationKind kind : kKinds)
+    if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
+      wish.reading.only.push_back(kind);
+  const auto date = dateOf(arguments);
+  if (!date)
+    return date.error();
+  wish.date = date.value();
+  return wish;
+}
+
+int exitCodeOf(const VerdictCounts &counts) {
+  return counts.of(prove::Verdict::Refuted) != 0   ? kExitFindings
+         : counts.of(prove::Verdict::Unknown) != 0 ? kExitUnknown
+                                                   : kExitClean;
+}
+
+Result<int> certify(const CertifyArguments &arguments) {
+  const Result<CertificateWish> wish = wishOf(arguments);
+  if (!wish)
+    return wish.error();
+  if (const auto refusal = whyNoBundleFits(arguments.output, kCertificate))
+    return Error{arguments.output + ": " + refusal->message};
+  const CertificateRun run = runCertificate(wish.value(), arguments.output, arguments.jobs);
+  for (const PathProblem &problem : run.problems)
+    printError(problem.path + ": " + problem.message);
+  if (!run.problems.empty())
+    return Error{"no report is written: it would not speak of all that was named"};
+  if (const auto error = writeBundle(arguments.output, run.report))
+    return Error{arguments.output + ": " + error->message};
+  if (!arguments.quiet)
+    print(fmt::format("{} in {} program{}: {}\n", textOf(run.counts), run.programs, run.programs == 1 ? "" : "s",
+                      (std::filesystem::path(arguments.output) / kCertificatePage).generic_string()));
+  return exitCodeOf(run.counts);
+}
+
+int certifyOrComplain(const CertifyArguments &arguments) {
+  const Result<int> exitCode = certify(arguments);
+  if (exitCode)
+    return exitCode.value();
+  printError(exitCode.error().message);
+  return kExitCouldNotRun;
+}
+
+} // namespace
+
+Command addCertifyCommand(CLI::App &parent) {
+  CLI::App *app = parent.add_subcommand("certify", "write a report of proofs for who releases programs");
+  const auto arguments = std::make_shared<CertifyArguments>();
+  addOptions(*app, *arguments);
+  return {app, [arguments] { return certifyOrComplain(*arguments); }};
+}
+
+} // namespace feedhold

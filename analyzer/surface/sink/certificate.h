@@ -1,0 +1,65 @@
+// Certificates: a report of proofs for people who release programs: `certificate.json`, which says everything
+// (docs/schemas/certificate.schema.json), a page made of it and of nothing else, pictures of runs, and the evidence.
+#pragma once
+
+#include "findings/session/result.h"
+#include "surface/sink/proof_bundle.h"
+
+#include <functional>
+
+namespace feedhold {
+
+inline constexpr std::string_view kCertificate = "certificate.json";
+inline constexpr std::string_view kCertificatePage = "index.html";
+inline constexpr std::string_view kEvidenceFolder = "certificate/"; // holds a bundle of proofs
+
+/// How a certificate was asked for, beside how programs are read.
+struct CertificateWish {
+  std::vector<std::filesystem::path> paths; // that were named
+  BundleReading reading;
+  std::optional<std::string> date; // as it is shown; absent: no date, so that the same input gives the same bytes
+};
+
+struct CertificateInput {
+  const CertificateWish &wish;
+  const ProofsResult &proofs;
+  const CheckResult &findings; // of the same files
+  const DialectRegistry &dialects;
+  /// The configuration that speaks for a file; absent: none does.
+  std::function<std::optional<std::filesystem::path>(const std::filesystem::path &)> configOf;
+  std::string version;
+  std::vector<std::string> solvers;
+  std::filesystem::path folder; // where it will lie
+  unsigned jobs = 0;
+};
+
+/// All files of the report.  The same input gives the same bytes.
+Bundle makeCertificate(const CertificateInput &input);
+
+/// How a report says that it was asked for.
+struct CertificateOrigin {
+  std::string version;
+  CertificateWish wish; // paths as seen from here
+};
+Result<CertificateOrigin> certificateOrigin(const Bundle &report, const std::filesystem::path &folder);
+
+/// Whether the report fits together: every file is the one that `certificate.json` names, and the page says what it
+/// says.  A line for each difference.
+std::vector<std::string> inconsistencies(const Bundle &report);
+
+/// The files that were read for a report, against those that are there now, in `place` instead of where they were.
+struct SourceCheck {
+  std::size_t same = 0;
+  std::vector<std::string> changed; // a line for each
+  std::vector<std::string> gone;    // by name
+};
+SourceCheck checkSources(const Bundle &report, const std::filesystem::path &folder,
+                         const std::optional<std::filesystem::path> &place);
+
+/// How a report differs from the one that the same programs give now, beside what differences() tells of its evidence.
+std::vector<std::string> certificateDifferences(const Bundle &stored, const Bundle &now);
+
+/// The bundle of proofs in a report.
+Bundle evidenceOf(const Bundle &report);
+
+} // namespace feedhold

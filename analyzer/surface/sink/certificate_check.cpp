@@ -1,0 +1,169 @@
+// What has become of a report: whether it fits together, and whether the same programs give the same one now.
+#include "base/support/sha256.h"
+#include "surface/sink/certificate_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace fs = std::filesystem;
+using certificate::Json;
+
+namespace {
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) prove::ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+Result<Json> documentOf(const Bundle &report) {
+  const auto text = report.find(std::string(kCertificate));
+  if (text == report.end())
+    return Error{fmt::format("no report: it has no {}", kCertificate)};
+  Json document = Json::parse(text->second, nullptr, false);
+  if (document.is_discarded() || !document.is_object())
+    return Error{fmt::format("{} cannot be read", kCertificate)};
+  return document;
+}
+
+/// The first place at which two documents are not alike, as a person finds it: `files[O1.nc].programs[O1].summary`.
+class DocumentComparison {
+public:
+  std::vector<std::string> run(const Json &before, const Json &now) {
+    compare("", before, now);
+    return std::move(lines_);
+  }
+
+private:
+  static constexpr std::size_t kMostLines = 20;
+
+  void compare(const std::string &where, const Json &before, const Json &now) {
+    if (before == now || lines_.size() >= kMostLines)
+      return;
+    if (before.is_object() && now.is_object())
+      compareMembers(where, before, now);
+    else if (before.is_array() && now.is_array() && before.size() == now.size())
+      for (std::size_t i = 0; i < now.size(); ++i)
+        compare(where + "[" + nameOf(now[i], i) + "]", before[i], now[i]);
+    else
+      lines_.push_back(fmt::format("`{}`: `{}` is not what a proof now gives", kCertificate, where));
+  }
+  void compareMembers(const std::string &where, const Json &before, const Json &now) {
+    const auto of = [&](const std::string &name) { return where.empty() ? name : where + "." + name; };
+    for (const auto &[name, value] : now.items())
+      compare(of(name), before.contains(name) ? before.at(name) : Json(), value);
+    for (const auto &[name, value] : before.items())
+      if (!now.contains(name))
+        lines_.push_back(fmt::format("`{}`: `{}` does not belong there", kCertificate, of(name)));
+  }
+  static std::string nameOf(const Json &row, std::size_t index) {
+    for (const char *member : {"id", "path", "name", "file"})
+      if (row.is_object() && row.contains(member) && row.at(member).is_string())
+        return row.at(member);
+    return std::to_string(index);
+  }
+
+  std::vector<std::string> lines_;
+};
+
+} // namespace
+
+Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path &folder) {
+  const Result<Json> document = documentOf(report);
+  if (!document)
+    return document.error();
+  try {
+    if (document.value().at("version") != 1)
+      return Error{"a report of another version"};
+    const auto pathOf = [&](const Json &path) {
+      return (fs::absolute(folder) / path.get<std::string>()).lexically_normal();
+    };
+    CertificateOrigin origin{.version = document.value().at("feedhold"), .wish = {}};
+    const Json &reading = document.value().at("reading");
+    for (const Json &path : reading.at("paths"))
+      origin.wish.paths.push_back(pathOf(path));
+    if (!reading.at("dialect").is_null())
+      origin.wish.reading.dialect = reading.at("dialect").get<std::string>();
+    origin.wish.reading.isolated = reading.at("isolated");
+    if (!reading.at("config").is_null())
+      origin.wish.reading.config = pathOf(reading.at("config"));
+    for (const prove::ObligationKind kind : kKinds)
+      for (const Json &name : reading.at("only"))
+        if (name == prove::nameOf(kind))
+          origin.wish.reading.only.push_back(kind);
+    if (!document.value().at("date").is_null())
+      origin.wish.date = document.value().at("date").get<std::string>();
+    return origin;
+  } catch (const Json::exception &) {
+    return Error{fmt::format("{} cannot be read", kCertificate)};
+  }
+}
+
+std::vector<std::string> inconsistencies(const Bundle &report) {
+  std::vector<std::string> lines;
+  const std::string &text = report.at(std::string(kCertificate));
+  try {
+    const Json document = Json::parse(text);
+    if (certificate::textOf(document) != text)
+      lines.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+    std::map<std::string, std::string> hashes;
+    for (const Json &stored : document.at("stored"))
+      hashes.emplace(stored.at("file"), stored.at("sha256"));
+    for (const auto &[name, hash] : hashes)
+      if (const auto file = report.find(name); file == report.end())
+        lines.push_back(fmt::format("`{}` is missing", name));
+      else if (sha256(file->second) != hash)
+        lines.push_back(fmt::format("`{}` is not the one that `{}` names by its hash", name, kCertificate));
+    for (const auto &[name, content] : report)
+      if (name != kCertificate && name != kCertificatePage && !hashes.contains(name))
+        lines.push_back(fmt::format("`{}` does not belong to the report", name));
+    const auto page = report.find(std::string(kCertificatePage));
+    if (page == report.end())
+      lines.push_back(fmt::format("`{}` is missing", kCertificatePage));
+    else if (page->second != certificate::pageOf(text, report))
+      lines.push_back(fmt::format("`{}` is not the page of this `{}`", kCertificatePage, kCertificate));
+  } catch (const Json::exception &) {
+    lines.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+  }
+  return lines;
+}
+
+SourceCheck checkSources(const Bundle &report, const fs::path &folder, const std::optional<fs::path> &place) {
+  SourceCheck result;
+  const Result<Json> document = documentOf(report);
+  if (!document)
+    return result;
+  try {
+    for (const Json &source : document.value().at("sources")) {
+      const std::string path = source.at("path");
+      const fs::path file = place ? *place / fs::path(path).filename() : fs::absolute(folder) / path;
+      const Result<SourceFile> now = SourceFile::open(file.lexically_normal());
+      if (!now)
+        result.gone.push_back(path);
+      else if (sha256(now.value().text()) != source.at("sha256"))
+        result.changed.push_back(fmt::format("`{}` is not what it was when it was proved", path));
+      else
+        ++result.same;
+    }
+  } catch (const Json::exception &) {
+    result.changed.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+  }
+  return result;
+}
+
+std::vector<std::string> certificateDifferences(const Bundle &stored, const Bundle &now) {
+  const Result<Json> before = documentOf(stored);
+  const Result<Json> after = documentOf(now);
+  if (!before || !after)
+    return {fmt::format("`{}` is not as it was written", kCertificate)};
+  std::vector<std::string> lines = DocumentComparison().run(before.value(), after.value());
+  for (const auto &[name, text] : now)
+    if (const auto file = stored.find(name);
+        name.starts_with("pictures/") && file != stored.end() && file->second != text)
+      lines.push_back(fmt::format("`{}` is not as it was drawn", name));
+  return lines;
+}
+
+} // namespace feedhold

@@ -1,0 +1,352 @@
+// certificate.json: what was proved of which bytes, under which settings.
+#include "base/support/sha256.h"
+#include "base/support/text.h"
+#include "surface/sink/certificate_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace feedhold::certificate {
+
+namespace {
+
+namespace fs = std::filesystem;
+using prove::Obligation;
+using prove::Verdict;
+
+Json countsToJson(const VerdictCounts &counts) {
+  Json row = Json::object();
+  for (const Verdict verdict : {Verdict::Proved, Verdict::Refuted, Verdict::Unknown, Verdict::Unreachable})
+    row[std::string(prove::nameOf(verdict))] = counts.of(verdict);
+  return row;
+}
+
+/// `POCKET FROM THE MIDDLE`: the comment behind the name of a program.
+std::string titleOf(const LoadedFile &file, ProgramId program) {
+  const std::uint32_t header = file.source.lineOf(file.model.programs[program].header.begin);
+  for (const Comment &comment : file.tree.comments)
+    if (file.source.lineOf(comment.span.begin) == header) {
+      std::string text = file.source.utf8(comment.span);
+      std::erase_if(text, [](char c) { return c == '(' || c == ')'; });
+      return std::string(trimmed(text));
+    }
+  return {};
+}
+
+/// One sentence for who releases the program.
+std::string sentenceOf(const prove::ProgramProof &proof, const VerdictCounts &counts, bool hasContract) {
+  const std::size_t refuted = counts.of(Verdict::Refuted), unknown = counts.of(Verdict::Unknown);
+  const std::string_view calls = hasContract ? "every call that its contract allows" : "every input";
+  const auto claims = [](std::size_t count) { return fmt::format("{} claim{}", count, count == 1 ? "" : "s"); };
+  if (counts.all() == 0)
+    return "Nothing is claimed of it.";
+  if (refuted == 0 && unknown == 0)
+    return fmt::format("For {}, all {} hold.", calls, claims(counts.all()));
+  const auto space = std::find_if(proof.obligations.begin(), proof.obligations.end(),
+                                  [](const Obligation &each) { return each.witness && each.witness->gouge; });
+  const std::string open = unknown == 0 ? std::string() : fmt::format(" Of {} nothing is known.", claims(unknown));
+  if (refuted == 0)
+    return fmt::format("Not released by this report: of {} of {} nothing is known.", unknown, claims(counts.all()));
+  if (space != proof.obligations.end())
+    return fmt::format("Do not run: a call is known with which the tool goes where it must not. {} of {} are broken.{}",
+                       refuted, claims(counts.all()), open);
+  return fmt::format("Do not release: calls are known that break {} of {}.{}", refuted, claims(counts.all()), open);
+}
+
+class Document {
+public:
+  Document(const CertificateInput &input, const Bundle &evidence,
+           const std::vector<std::vector<std::vector<ShownRun>>> &runs)
+      : input_(input), runs_(runs) {
+    const Json index = Json::parse(evidence.at(std::string(kBundleIndex)));
+    for (const Json &file : index.at("files"))
+      evidence_[file.at("path")] = file.at("obligations");
+  }
+
+  Json write() {
+    Json files = Json::array();
+    std::vector<std::pair<std::string, std::size_t>> order;
+    for (std::size_t i = 0; i < input_.proofs.files.size(); ++i)
+      order.emplace_back(relative(input_.proofs.files[i].file().path), i);
+    std::sort(order.begin(), order.end());
+    for (const auto &[path, index] : order)
+      files.push_back(fileToJson(path, index));
+    Json solvers = input_.solvers;
+    return {{"version", 1},
+            {"feedhold", input_.version},
+            {"solvers", std::move(solvers)},
+            {"date", input_.wish.date ? Json(*input_.wish.date) : Json()},
+            {"reading", readingToJson()},
+            {"counts", countsToJson(counts_)},
+            {"assumptions", assumptions()},
+            {"sources", sourcesToJson()},
+            {"files", std::move(files)},
+            {"skipped", skippedToJson()}};
+  }
+
+private:
+  std::string relative(const fs::path &path) const { return pathFrom(input_.folder, path); }
+
+  Json readingToJson() const {
+    const BundleReading &reading = input_.wish.reading;
+    Json only = Json::array();
+    for (const prove::ObligationKind kind : reading.only)
+      only.push_back(prove::nameOf(kind));
+    Json paths = Json::array();
+    for (const fs::path &path : input_.wish.paths)
+      paths.push_back(relative(path));
+    return {{"paths", std::move(paths)},
+            {"dialect", reading.dialect ? Json(*reading.dialect) : Json()},
+            {"isolated", reading.isolated},
+            {"config", reading.config ? Json(relative(*reading.config)) : Json()},
+            {"only", std::move(only)}};
+  }
+  Json skippedToJson() const {
+    Json rows = Json::array();
+    for (const SkippedFile &skipped : input_.proofs.skipped)
+      rows.push_back({{"path", relative(skipped.path)}, {"reason", skipped.reason}});
+    return rows;
+  }
+
+  // ---- what was read ----
+
+  struct Source {
+    std::string sha256;
+    std::size_t bytes = 0;
+    std::set<std::string> roles;
+  };
+  void addSource(const fs::path &path, std::string_view text, const std::string &role) {
+    Source &source = sources_[relative(path)];
+    if (source.roles.empty())
+      source = {sha256(text), text.size(), {}};
+    source.roles.insert(role);
+  }
+  Json sourcesToJson() const {
+    Json rows = Json::array();
+    for (const auto &[path, source] : sources_)
+      rows.push_back({{"path", path}, {"sha256", source.sha256}, {"bytes", source.bytes}, {"roles", source.roles}});
+    return rows;
+  }
+  void addSources(const ProvedFile &file) {
+    std::set<std::size_t> called;
+    for (std::size_t i = 0; i < file.loaded->files.size(); ++i)
+      for (const Call &call : file.loaded->files[i]->model.calls)
+        if (const auto callee = file.loaded->set->callGraph().callee(FileId(i), call))
+          called.insert(callee->file.index());
+    for (std::size_t i = 0; i < file.loaded->files.size(); ++i) {
+      const LoadedFile &loaded = *file.loaded->files[i];
+      addSource(loaded.path, loaded.source.text(), i == 0 ? "program" : called.contains(i) ? "called" : "beside");
+      for (std::size_t contract = 1; contract < loaded.contracts.sources.size(); ++contract) {
+        const SourceFile &source = loaded.contracts.sources[contract];
+        addSource(source.path(), source.text(), "contract");
+      }
+    }
+    if (const auto config = input_.configOf(file.file().path))
+      if (const Result<SourceFile> text = SourceFile::open(*config))
+        addSource(*config, text.value().text(), "configuration");
+  }
+
+  // ---- a file ----
+
+  const CheckedFile *findingsOf(const ProvedFile &file) const {
+    const auto &files = input_.findings.files;
+    const auto found = std::find_if(files.begin(), files.end(),
+                                    [&](const CheckedFile &each) { return each.path == file.file().shown; });
+    return found == files.end() ? nullptr : &*found;
+  }
+  Json fileToJson(const std::string &path, std::size_t index) {
+    const ProvedFile &file = input_.proofs.files[index];
+    addSources(file);
+    Json programs = Json::array();
+    for (std::size_t i = 0; i < file.programs.size(); ++i)
+      programs.push_back(programToJson(path, file, file.programs[i], runs_[index][i]));
+    const auto config = input_.configOf(file.file().path);
+    const CheckedFile *checked = findingsOf(file);
+    Json reasons = Json::array();
+    if (checked != nullptr)
+      for (const std::string_view reason : checked->reasons)
+        reasons.push_back(reason);
+    return {{"path", path},
+            {"dialect", file.loaded->dialect.id},
+            {"control", fmt::format("{} ({})", file.loaded->dialect.title, file.loaded->dialect.controls)},
+            {"chosenBy", checked ? Json(feedhold::nameOf(checked->choice)) : Json()},
+            {"reasons", std::move(reasons)},
+            {"config", config ? Json(relative(*config)) : Json()},
+            {"switches", switchesOf(file.loaded->dialect)},
+            {"programs", std::move(programs)},
+            {"findings", checked ? findingsToJson(*checked) : Json::array()}};
+  }
+  /// `dpi=2`: 0 is off, 1 on, 2 not known.
+  Json switchesOf(const Dialect &dialect) const {
+    const Dialect *plain = findDialect(input_.dialects, dialect.id);
+    std::istringstream now(feedhold::textOf(dialect.switches));
+    std::istringstream before(plain ? feedhold::textOf(plain->switches) : std::string());
+    std::set<std::string> plainWords;
+    for (std::string word; before >> word;)
+      plainWords.insert(word);
+    Json rows = Json::array();
+    for (std::string word; now >> word;) {
+      const std::size_t equals = word.find('=');
+      const std::string value = word.substr(equals + 1);
+      const std::string_view shown = value == "0" ? "off" : value == "1" ? "on" : value == "2" ? "unknown" : value;
+      rows.push_back({{"name", word.substr(0, equals)},
+                      {"value", shown},
+                      {"chosenBy", plainWords.contains(word) ? "dialect" : "config"}});
+    }
+    return rows;
+  }
+  static Json findingsToJson(const CheckedFile &checked) {
+    Json rows = Json::array();
+    for (const Finding &finding : checked.findings) {
+      const Position at = checked.source.position(finding.diagnostic.span.begin);
+      rows.push_back({{"rule", finding.rule->name},
+                      {"severity", nameOf(finding.severity)},
+                      {"line", at.line},
+                      {"message", finding.diagnostic.message},
+                      {"notes", finding.diagnostic.notes},
+                      {"suppressed", finding.suppressed},
+                      {"reason", finding.reason.empty() ? Json() : Json(finding.reason)}});
+    }
+    return rows;
+  }
+
+  // ---- a program ----
+
+  Json programToJson(const std::string &path, const ProvedFile &file, const ProvedProgram &program,
+                     const std::vector<ShownRun> &runs) {
+    VerdictCounts counts;
+    counts.add(program.proof);
+    counts_.add(program.proof);
+    const LoadedFile &loaded = file.file();
+    Json obligations = Json::array();
+    for (const Obligation &obligation : program.proof.obligations)
+      obligations.push_back(obligationToJson(obligation, path, file, program));
+    return {{"name", programName(file, program)},
+            {"title", titleOf(loaded, program.program)},
+            {"line", loaded.source.lineOf(loaded.model.programs[program.program].header.begin)},
+            {"counts", countsToJson(counts)},
+            {"summary", sentenceOf(program.proof, counts, loaded.contracts.of(program.program) != nullptr)},
+            {"clauses", clausesOf(loaded, program.program)},
+            {"calls", callsOf(file, program.program)},
+            {"incomplete", program.proof.incomplete ? Json(*program.proof.incomplete) : Json()},
+            {"unfollowed", unfollowedOf(file, program)},
+            {"obligations", std::move(obligations)},
+            {"runs", runsToJson(path, runs)}};
+  }
+  Json clausesOf(const LoadedFile &file, ProgramId program) const {
+    Json rows = Json::array();
+    for (const Clause &clause : file.contracts.clauses)
+      if (clause.program == program) {
+        const SourceFile &source = file.contracts.source(clause.source);
+        rows.push_back({{"text", clause.text},
+                        {"path", relative(clause.source == kProgramText ? file.path : fs::path(source.path()))},
+                        {"line", source.lineOf(clause.span.begin)}});
+      }
+    return rows;
+  }
+  /// Of this program and of all that it leads to, each program once.
+  Json callsOf(const ProvedFile &file, ProgramId program) const {
+    Json rows = Json::array();
+    std::vector<ProgramRef> open = {{FileId(0), program}};
+    std::set<ProgramRef> seen(open.begin(), open.end());
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const ProgramRef caller = open[i];
+      const LoadedFile &from = file.loaded->file(caller.file);
+      for (const Call &call : from.model.callsOf(caller.program)) {
+        const auto callee = file.loaded->set->callGraph().callee(caller.file, call);
+        const std::string name = toString(call.callee);
+        rows.push_back({{"from", toString(from.model.programs[caller.program].name)},
+                        {"line", from.source.lineOf(call.span.begin)},
+                        {"to", name.empty() ? "a program that is computed" : name},
+                        {"path", callee ? Json(relative(file.loaded->file(callee->file).path)) : Json()}});
+        if (callee && seen.insert(*callee).second)
+          open.push_back(*callee);
+      }
+    }
+    return rows;
+  }
+  Json unfollowedOf(const ProvedFile &file, const ProvedProgram &program) const {
+    Json rows = Json::array();
+    for (const prove::Unfollowed &each : program.proof.unfollowed) {
+      const LoadedFile &where = file.loaded->file(each.place.file);
+      rows.push_back(
+          {{"reason", each.reason}, {"path", relative(where.path)}, {"line", where.source.lineOf(each.span.begin)}});
+    }
+    return rows;
+  }
+  Json runsToJson(const std::string &path, const std::vector<ShownRun> &runs) {
+    Json rows = Json::array();
+    for (const ShownRun &run : runs)
+      rows.push_back({{"witnessOf", run.witnessOf.empty() ? Json() : Json(run.witnessOf)},
+                      {"call", run.call},
+                      {"plot", fmt::format("feedhold plot {}{}", quotedWord(path), run.options + readingOptions())},
+                      {"notes", run.notes},
+                      {"picture", {{"file", pictureName(++pictures_)}, {"sha256", sha256(run.svg)}}}});
+    return rows;
+  }
+
+public:
+  static std::string pictureName(std::size_t number) { return fmt::format("pictures/{:04}.svg", number); }
+
+private:
+  /// What a replay has to be told, from the folder of the report.
+  std::string readingOptions() const {
+    const BundleReading &reading = input_.wish.reading;
+    std::string text;
+    if (reading.dialect)
+      text += " --dialect " + *reading.dialect;
+    if (reading.isolated)
+      text += " --isolated";
+    else if (reading.config)
+      text += " --config " + quotedWord(relative(*reading.config));
+    return text;
+  }
+  /// What the index of the evidence says of it, and what else there is to know.
+  Json obligationToJson(const Obligation &obligation, const std::string &path, const ProvedFile &file,
+                        const ProvedProgram &program) {
+    Json row;
+    for (const Json &each : evidence_.at(pathFrom(input_.folder / kEvidenceFolder, file.file().path)))
+      if (each.at("id") == obligation.id)
+        row = each;
+    const Dialect &dialect = file.loaded->dialect;
+    row.erase("program");
+    row["method"] = obligation.method.empty() ? Json() : Json(obligation.method);
+    row["rlimit"] = obligation.effort;
+    row["margin"] = obligation.margin ? Json(*obligation.margin) : Json();
+    row["path"] = relative(file.loaded->file(obligation.place.file).path);
+    row["line"] = file.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
+    row["message"] = holds(obligation.verdict) ? Json() : Json(messageOf(obligation, dialect));
+    row["guard"] = obligation.guard ? Json(obligation.guard->clause) : Json();
+    if (!obligation.witness)
+      return row;
+    const TypedWitness call = typed(*obligation.witness, file, program, {.result = input_.proofs});
+    const std::string options = quotedWord(path) + optionsBehindFile(call, file) + readingOptions();
+    Json &witness = row["witness"];
+    witness["call"] = feedhold::textOf(call);
+    witness["happened"] = happenedIn(*obligation.witness, obligation, dialect);
+    witness["run"] = "feedhold run " + options;
+    witness["plot"] = "feedhold plot " + options;
+    return row;
+  }
+
+  const CertificateInput &input_;
+  const std::vector<std::vector<std::vector<ShownRun>>> &runs_;
+  std::map<std::string, Json> evidence_; // obligations by the path from the evidence
+  std::map<std::string, Source> sources_;
+  VerdictCounts counts_;
+  std::size_t pictures_ = 0;
+};
+
+} // namespace
+
+std::string textOf(const Json &document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json documentOf(const CertificateInput &input, const Bundle &evidence,
+                const std::vector<std::vector<std::vector<ShownRun>>> &runs) {
+  return Document(input, evidence, runs).write();
+}
+
+} // namespace feedhold::certificate

@@ -1,0 +1,143 @@
+#include "surface/sink/run_picture.h"
+
+#include "base/support/text.h"
+#include "language/syntax/tree.h"
+#include "proof/prove/example_run.h"
+#include "proof/prove/plain_space.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace feedhold {
+
+namespace {
+
+const ProgramFile &fileOf(const PicturedRun &run, Place place) { return run.programs.set->file(place.file); }
+BlockId blockIdOf(const PicturedRun &run, Place place) { return run.programs.set->node(place).block; }
+std::string programAt(const PicturedRun &run, Place place) {
+  const ProgramModel &model = *fileOf(run, place).model;
+  return toString(model.programs[model.programOf(blockIdOf(run, place))].name);
+}
+
+/// `O9311 line 12: N40 G01 X10.`
+std::string blockOf(const PicturedRun &run, const RecordedMove &move) {
+  const ProgramFile &file = fileOf(run, move.place);
+  const std::uint32_t line = file.source->lineOf(file.tree->blocks[blockIdOf(run, move.place)].begin);
+  const std::string text = file.source->utf8(file.source->lineSpan(line));
+  return fmt::format("{} line {}: {}", programAt(run, move.place), line, trimmed(text));
+}
+
+/// `N40`, `line 7`, `N40 of O9311` where it is not in the program that was started.
+std::string placeOf(const PicturedRun &run, Place place) {
+  const ProgramFile &file = fileOf(run, place);
+  const BlockId block = blockIdOf(run, place);
+  const auto numbers = file.model->sequenceNumbersIn(block, block.next());
+  std::string text = numbers.empty() ? fmt::format("line {}", file.source->lineOf(file.tree->blocks[block].begin))
+                                     : fmt::format("N{}", numbers.front().number);
+  const std::string program = programAt(run, place);
+  return program == startedProgram(run) ? text : fmt::format("{} of {}", text, program);
+}
+
+struct Gouges {
+  std::vector<PlottedGouge> all;       // where the run breaks each clause most; the deepest first
+  std::vector<std::string> byRounding; // a proof takes words as they are written, and would not see them
+};
+
+Gouges gougesOf(const PicturedRun &run, const geometry::PlainSpace &space) {
+  using geometry::SpaceClaim;
+  Gouges gouges;
+  std::optional<RunResult> unrounded;
+  const auto isByRounding = [&](SpaceClaim claim, std::size_t region) {
+    if (!unrounded) {
+      RunOptions options = run.options;
+      options.words = WordRounding::None;
+      unrounded = feedhold::run(*run.programs.set, run.start, options);
+    }
+    return !geometry::deepestGouge(space, claim, region, unrounded->moves);
+  };
+  const auto look = [&](SpaceClaim claim, std::size_t region) {
+    const auto gouge = geometry::deepestGouge(space, claim, region, run.result.moves);
+    if (!gouge)
+      return;
+    const RecordedMove &move = run.result.moves[gouge->move];
+    std::string text = gougeText(space, claim, region, gouge->depth, move.unit, placeOf(run, move.place));
+    if (isByRounding(claim, region))
+      gouges.byRounding.push_back(text + ", by the rounding of words to the least increment alone");
+    else
+      gouges.all.push_back({*gouge, std::move(text)});
+  };
+  for (std::size_t i = 0; i < space.keepIn.size(); ++i)
+    look(SpaceClaim::KeepIn, i);
+  for (std::size_t i = 0; i < space.keepOut.size(); ++i)
+    look(SpaceClaim::KeepOut, i);
+  look(SpaceClaim::Clearance, 0);
+  look(SpaceClaim::Travel, 0);
+  std::stable_sort(gouges.all.begin(), gouges.all.end(),
+                   [](const PlottedGouge &a, const PlottedGouge &b) { return a.gouge.depth > b.gouge.depth; });
+  return gouges;
+}
+
+std::vector<std::string> notesOf(const PicturedRun &run) {
+  constexpr std::size_t kMostNotes = 4;
+  std::vector<std::string> notes;
+  if (!hasEnded(run.result.end))
+    notes.push_back(fmt::format("{}: the run does not come to its end ({}) but stops at {}", run.name,
+                                nameOf(run.result.end), placeOf(run, run.result.place)));
+  for (const RunNote &note : run.result.notes)
+    if (notes.size() < kMostNotes)
+      notes.push_back(fmt::format("not followed: {}, {}", note.reason, placeOf(run, note.place)));
+  return notes;
+}
+
+/// What the contract asks for and the run does not have: without it there are no regions.
+std::vector<std::string> missingArguments(const PicturedRun &run) {
+  std::vector<std::string> missing;
+  const Contract *contract = run.programs.file(run.start.file).contracts.of(run.start.program);
+  if (contract == nullptr)
+    return missing;
+  for (const auto *values : {&contract->params, &contract->globals})
+    for (const EntryValue &value : *values)
+      if (value.vacancy == Vacancy::Never && !run.options.variables.find(value.variable))
+        missing.push_back(run.programs.set->nameOfVariable(value.variable));
+  return missing;
+}
+
+} // namespace
+
+std::string startedProgram(const PicturedRun &run) {
+  return toString(run.programs.set->file(run.start.file).model->programs[run.start.program].name);
+}
+
+RunPicture drawRuns(const std::string &title, std::span<const PicturedRun> runs) {
+  Picture picture{.title = title, .runs = {}};
+  for (const PicturedRun &run : runs) {
+    picture.runs.push_back(
+        {run.name, run.result.moves, [&run](const RecordedMove &move) { return blockOf(run, move); }});
+    for (std::string &note : notesOf(run))
+      picture.notes.push_back(std::move(note));
+  }
+  const PicturedRun &first = runs.front();
+  if (const auto missing = missingArguments(first); !missing.empty())
+    picture.notes.push_back(
+        fmt::format("without the space of the contract, which asks for {}", fmt::join(missing, " ")));
+  else
+    picture.space = prove::plainSpace(*first.programs.set, first.start, first.programs.file(first.start.file).contracts,
+                                      first.options);
+  Gouges gouges = gougesOf(first, picture.space);
+  for (std::string &text : gouges.byRounding)
+    picture.notes.push_back(std::move(text));
+  RunPicture drawn{"", picture.notes, {}};
+  for (const PlottedGouge &gouge : gouges.all) {
+    drawn.gouges.push_back(gouge.text);
+    if (&gouge == &gouges.all.front())
+      picture.gouge = gouge;
+    else
+      picture.notes.push_back(gouge.text);
+  }
+  drawn.svg = drawPicture(picture);
+  return drawn;
+}
+
+} // namespace feedhold
