@@ -16,7 +16,7 @@ int run(int argc, char **argv) {
                                          addExplainCommand(app), addRulesCommand(app),  addDialectsCommand(app),
                                          addTokensCommand(app),  addTreeCommand(app),   addModelCommand(app),
                                          addCfgCommand(app),     addRangesCommand(app), addProveCommand(app),
-                                         addRecheckCommand(app)};
+                                         addCertifyCommand(app), addRecheckCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

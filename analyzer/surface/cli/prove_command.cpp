@@ -154,7 +154,7 @@ std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
     return std::nullopt;
   if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
     return "standard input cannot be found again, so that --certificate has nothing to speak of";
-  if (const auto refusal = whyNoBundleFits(arguments.certificate))
+  if (const auto refusal = whyNoBundleFits(arguments.certificate, kBundleIndex))
     return arguments.certificate + ": " + refusal->message;
   return std::nullopt;
 }
