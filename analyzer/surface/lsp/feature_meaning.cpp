@@ -84,6 +84,9 @@ std::string meaningOf(const LoadedPrograms &programs, ProgramRef program, std::u
   const LoadedFile &file = programs.file(program.file);
   if (const EntryValue *entry = entryOf(file, program.program, variable); entry && !entry->name.empty())
     return entry->name;
+  const VariableRange *range = findVariable(programs.dialect, variable);
+  if (variable >= kFirstNamedVariable || !range || range->kind == VariableKind::System)
+    return {}; // its name, or the table of the control, says it
   const Program &named = file.model.programs[program.program];
   const auto letter = letterOf(programs.dialect, variable);
   for (BlockId block = named.first; block < named.last && block.index() < file.tree.blockCount(); block = block.next())

@@ -11,8 +11,7 @@ namespace {
 class Finder {
 public:
   Finder(const LoadedPrograms &programs, std::uint32_t offset)
-      : file_(programs.file(kDocument)), offset_(offset),
-        block_(file_.tree.blockAt(offset)) {}
+      : file_(programs.file(kDocument)), offset_(offset), block_(file_.tree.blockAt(offset)) {}
 
   std::optional<ThingAt> find() {
     headers();

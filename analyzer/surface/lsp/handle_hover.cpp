@@ -62,7 +62,7 @@ private:
     if (ref.file != kDocument)
       line("in `{}`", in.path.filename().generic_string());
     if (const auto callers = programs_.set->callGraph().callers(ref); !callers.empty())
-      line("called {} times in the files that are read", callers.size());
+      line("called in {} {} of the files that are read", callers.size(), callers.size() == 1 ? "place" : "places");
     std::string clauses;
     for (const Clause &clause : in.contracts.clauses)
       if (clause.program == ref.program)
@@ -150,7 +150,7 @@ private:
     line("**{}**{} ({})", name, meaning.empty() ? "" : " " + meaning, kindOf(programs_, ref->number));
     if (const std::string clause = clauseOf(programs_, program, ref->number); !clause.empty())
       line("`{}`", clause);
-    before([&](const StateFacts &facts) { return textOf(facts.variables, name, "as at start: nothing is known"); });
+    before([&](const StateFacts &facts) { return textOf(facts.variables, name, "as at start"); });
   }
   static std::string textOf(const std::vector<ValueFact> &facts, const std::string &name, std::string otherwise) {
     const auto found =
