@@ -32,5 +32,6 @@ Command addRangesCommand(CLI::App &parent);
 Command addProveCommand(CLI::App &parent);
 Command addCertifyCommand(CLI::App &parent);
 Command addRecheckCommand(CLI::App &parent);
+Command addLspCommand(CLI::App &parent);
 
 } // namespace feedhold

@@ -8,19 +8,6 @@ namespace {
 
 std::uint32_t size32(std::string_view text) { return static_cast<std::uint32_t>(text.size()); }
 
-/// The whole text anew: what is the same at both ends has not changed.
-TextChange difference(std::string_view before, std::string_view after) {
-  const auto [left, right] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
-  const auto head = static_cast<std::size_t>(left - before.begin());
-  static_cast<void>(right);
-  const std::size_t most = std::min(before.size(), after.size()) - head;
-  std::size_t tail = 0;
-  while (tail < most && before[before.size() - 1 - tail] == after[after.size() - 1 - tail])
-    ++tail;
-  return {static_cast<std::uint32_t>(head), size32(before) - static_cast<std::uint32_t>(head + tail),
-          size32(after) - static_cast<std::uint32_t>(head + tail)};
-}
-
 } // namespace
 
 Document openDocument(const Json &textDocument) {
@@ -52,6 +39,21 @@ std::vector<TextChange> applyChanges(Document &document, const Json &contentChan
   }
   document.text = std::move(text);
   return changes;
+}
+
+TextChange difference(std::string_view before, std::string_view after) {
+  const std::size_t shorter = std::min(before.size(), after.size());
+  std::size_t head = 0, tail = 0;
+  while (head < shorter && before[head] == after[head])
+    ++head;
+  head = before.substr(0, head).rfind('\n') + 1; // npos + 1: the whole text is one line
+  while (tail < shorter - head && before[before.size() - 1 - tail] == after[after.size() - 1 - tail])
+    ++tail;
+  // Whole lines, so that no character and no line end is cut.
+  const std::size_t lineEnd = after.substr(after.size() - tail).find('\n');
+  tail -= lineEnd == std::string_view::npos ? tail : lineEnd + 1;
+  const auto kept = static_cast<std::uint32_t>(head + tail);
+  return {static_cast<std::uint32_t>(head), size32(before) - kept, size32(after) - kept};
 }
 
 std::optional<Span> moved(Span span, const TextChange &change) {

@@ -34,6 +34,9 @@ Document openDocument(const Json &textDocument);
 /// Applies `contentChanges`, each to what the one before has left.  A change without a range is the whole text.
 std::vector<TextChange> applyChanges(Document &document, const Json &contentChanges, PositionEncoding encoding);
 
+/// What leads from one text to another: all lines but those that are the same at both ends.
+TextChange difference(std::string_view before, std::string_view after);
+
 /// Where a span is after a change; absent when the change touches it.
 std::optional<Span> moved(Span span, const TextChange &change);
 

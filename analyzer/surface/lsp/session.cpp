@@ -107,6 +107,10 @@ const std::map<std::string_view, ClientSession::Answer> &ClientSession::requests
       {"initialize", &ClientSession::initialize},
       {"shutdown", &ClientSession::shutDown},
       {"textDocument/diagnostic", &ClientSession::pullDiagnostics},
+      {"textDocument/codeAction", &ClientSession::codeActions},
+      {"textDocument/formatting", &ClientSession::formatting},
+      {"textDocument/rangeFormatting", &ClientSession::formatting},
+      {"workspace/executeCommand", &ClientSession::execute},
       {"textDocument/documentColor", &ClientSession::colours},
       {"textDocument/colorPresentation", &ClientSession::colours},
   };

@@ -78,6 +78,14 @@ private:
   Json pullDiagnostics(const Json &params);
   Json colours(const Json &params);
 
+  // ---- what can be done (session_actions.cpp) ----
+  Json codeActions(const Json &params);
+  void addActions(const Remark &remark, OpenDocument &document, const Places &places, Json &actions);
+  std::optional<Edit> fixAll(OpenDocument &document);
+  Json formatting(const Json &params);
+  Json execute(const Json &params);
+  Json runWitness(const OpenDocument &document, const std::string &id);
+
   EventQueue &queue_;
   MessageWriter &writer_;
   const ServerOptions &options_;

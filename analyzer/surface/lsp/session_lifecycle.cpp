@@ -53,6 +53,10 @@ Json ClientSession::capabilities() const {
   result["positionEncoding"] = workspace_.encoding == PositionEncoding::Utf8 ? "utf-8" : "utf-16";
   constexpr int kIncremental = 2;
   result["textDocumentSync"] = {{"openClose", true}, {"change", kIncremental}, {"save", {{"includeText", false}}}};
+  result["codeActionProvider"] = {{"codeActionKinds", {"quickfix", "source.fixAll.feedhold"}}};
+  result["documentFormattingProvider"] = true;
+  result["documentRangeFormattingProvider"] = true;
+  result["executeCommandProvider"] = {{"commands", {"feedhold.prove", "feedhold.runWitness"}}};
   result["colorProvider"] = true; // with no colours: editors paint `#500` otherwise
   result["workspace"]["workspaceFolders"] = {{"supported", true}, {"changeNotifications", true}};
   if (pullsDiagnostics_)

@@ -70,6 +70,7 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
   if (document == nullptr || document->stamp != stamp)
     return;
   document->verdicts = verdictsOf(result);
+  document->proved = result;
   std::vector<Remark> remarks;
   if (!result->files.empty()) {
     const ProvedFile &file = result->files.front();

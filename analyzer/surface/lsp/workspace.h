@@ -13,6 +13,12 @@ namespace feedhold::lsp {
 
 inline constexpr std::string_view kContractExtension = ".contract";
 
+/// The text of `stamp` after all safe repairs.
+struct FixedText {
+  std::uint64_t stamp;
+  std::string text;
+};
+
 struct OpenDocument {
   Document document;
   std::uint64_t stamp = 0; // another one after each change of the text or of what it depends on
@@ -25,6 +31,8 @@ struct OpenDocument {
 
   std::shared_ptr<const LoadedPrograms> programs; // of the text in hand; null: not read yet
   std::shared_ptr<const std::vector<DocumentProof>> verdicts;
+  std::shared_ptr<const ProofsResult> proved; // what they come from
+  std::optional<FixedText> fixed;             // made when it was asked for
 
   std::optional<Clock::time_point> quickDue;
   std::optional<Clock::time_point> flowDue;

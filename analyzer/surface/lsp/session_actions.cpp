@@ -1,0 +1,185 @@
+// Code actions, formatting and commands.  Editors ask for actions at every movement of the cursor: they are made of
+// what is known already.
+#include "surface/lsp/session.h"
+
+#include "surface/lsp/formatter.h"
+#include "surface/sink/prove_shown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold::lsp {
+
+namespace {
+
+constexpr std::string_view kQuickFix = "quickfix";
+constexpr std::string_view kFixAll = "source.fixAll.feedhold";
+
+Json textEdits(const std::vector<Edit> &edits, const Places &places) {
+  Json rows = Json::array();
+  for (const Edit &edit : edits)
+    rows.push_back({{"range", places.range(edit.span)}, {"newText", edit.replacement}});
+  return rows;
+}
+
+Json workspaceEdit(const OpenDocument &document, const std::vector<Edit> &edits, const Places &places) {
+  return {{"changes", {{document.document.uri, textEdits(edits, places)}}}};
+}
+
+/// Kinds are trees: `source` asks for `source.fixAll.feedhold`, too.
+bool isWanted(const Json &context, std::string_view kind) {
+  const auto only = context.find("only");
+  if (only == context.end() || only->is_null())
+    return true;
+  return std::any_of(only->begin(), only->end(), [&](const Json &each) {
+    const auto wanted = each.get<std::string>();
+    return kind == wanted || kind.starts_with(wanted + ".");
+  });
+}
+
+std::vector<const Remark *> remarksAt(Span span, const OpenDocument &document) {
+  std::vector<const Remark *> found;
+  for (const std::vector<Remark> *some : {&document.proofs, &document.quick, &document.flow})
+    for (const Remark &remark : *some)
+      if (remark.span.begin <= span.end && span.begin <= remark.span.end)
+        found.push_back(&remark);
+  return found;
+}
+
+bool hasSafeFix(const std::vector<Remark> &remarks) {
+  return std::any_of(remarks.begin(), remarks.end(), [](const Remark &remark) {
+    return std::any_of(remark.fixes.begin(), remark.fixes.end(),
+                       [](const FixIt &fix) { return fix.safety == FixSafety::Safe; });
+  });
+}
+
+/// The comment stands behind what the block says; the reason is left to the person, and missed until it is there.
+std::optional<Edit> allowance(const Remark &remark, const LoadedFile &file) {
+  if (remark.span.begin > file.source.text().size())
+    return std::nullopt;
+  const Block &block = file.tree.blocks[file.tree.blockAt(remark.span.begin)];
+  std::string_view text = file.source.text(block.span());
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+    text.remove_suffix(1);
+  const std::uint32_t at = block.begin + static_cast<std::uint32_t>(text.size());
+  return Edit{{at, at}, fmt::format("{}(@ALLOW {} )", text.empty() ? "" : " ", remark.code)};
+}
+
+std::string styleText(const Json &options) {
+  constexpr std::size_t kWidest = 16;
+  if (options.value("insertSpaces", true))
+    return std::string(std::min(options.at("tabSize").get<std::size_t>(), kWidest), ' ');
+  return "\t";
+}
+
+} // namespace
+
+Json ClientSession::codeActions(const Json &params) {
+  OpenDocument &document = documentOf(params);
+  const Json context = params.at("context");
+  const Places places(SourceFile::fromText({}, *document.document.text), workspace_.encoding);
+  Json actions = Json::array();
+  if (isWanted(context, kQuickFix))
+    for (const Remark *remark : remarksAt(places.span(params.at("range")), document))
+      addActions(*remark, document, places, actions);
+  if (isWanted(context, kFixAll) && (hasSafeFix(document.quick) || hasSafeFix(document.flow)))
+    if (const std::optional<Edit> edit = fixAll(document))
+      actions.push_back(
+          {{"title", "make all safe repairs"}, {"kind", kFixAll}, {"edit", workspaceEdit(document, {*edit}, places)}});
+  return actions;
+}
+
+void ClientSession::addActions(const Remark &remark, OpenDocument &document, const Places &places, Json &actions) {
+  const Json diagnostics = Json::array({diagnosticOf(remark, places, document.document.uri, remarkContext())});
+  for (const FixIt &fix : remark.fixes) {
+    Json action = {{"title", fix.title},
+                   {"kind", kQuickFix},
+                   {"diagnostics", diagnostics},
+                   {"edit", workspaceEdit(document, fix.edits, places)}};
+    if (fix.safety == FixSafety::Safe)
+      action["isPreferred"] = true;
+    actions.push_back(std::move(action));
+  }
+  for (Json command : remark.commands) {
+    for (Json &argument : command["arguments"])
+      argument["uri"] = document.document.uri;
+    const Json title = command["title"];
+    actions.push_back({{"title", title}, {"kind", kQuickFix}, {"diagnostics", diagnostics}, {"command", command}});
+  }
+  const auto programs = workspace_.programsOf(document);
+  if (!programs || !remark.subject.empty())
+    return; // a verdict is no matter of opinion
+  if (const std::optional<Edit> edit = allowance(remark, programs->file(FileId(0))))
+    actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", remark.code)},
+                       {"kind", kQuickFix},
+                       {"diagnostics", diagnostics},
+                       {"edit", workspaceEdit(document, {*edit}, places)}});
+}
+
+/// What `check --fix` would make of the text; absent when it is the same.
+std::optional<Edit> ClientSession::fixAll(OpenDocument &document) {
+  if (!document.fixed || document.fixed->stamp != document.stamp) {
+    const FixResult result = fix(workspace_.optionsFor(document), FixWish::Safe, options_.known);
+    document.fixed =
+        FixedText{document.stamp, result.files.empty() ? *document.document.text : result.files.front().after};
+  }
+  const std::string &after = document.fixed->text;
+  const TextChange change = difference(*document.document.text, after);
+  if (change.removed == 0 && change.added == 0)
+    return std::nullopt;
+  return Edit{{change.at, change.at + change.removed}, after.substr(change.at, change.added)};
+}
+
+Json ClientSession::formatting(const Json &params) {
+  OpenDocument &document = documentOf(params);
+  const FormatStyle style{styleText(params.at("options"))};
+  const auto programs = workspace_.programsOf(document);
+  if (!programs)
+    return nullptr;
+  const LoadedFile &file = programs->file(FileId(0));
+  std::vector<Edit> edits = format(file.source, file.tree, programs->dialect, style);
+  const Places places(file.source, workspace_.encoding);
+  if (params.contains("range")) {
+    const Span asked = places.span(params.at("range"));
+    const Span lines{file.source.lineSpan(file.source.lineOf(asked.begin)).begin,
+                     file.source.lineSpan(file.source.lineOf(asked.end)).end};
+    std::erase_if(edits, [&](const Edit &edit) { return !lines.contains(edit.span); });
+  }
+  return textEdits(edits, places);
+}
+
+Json ClientSession::execute(const Json &params) {
+  const auto command = params.at("command").get<std::string>();
+  const Json argument = params.at("arguments").at(0);
+  const Json target = {{"textDocument", {{"uri", argument.is_string() ? argument : argument.at("uri")}}}};
+  OpenDocument &document = documentOf(target);
+  if (command == "feedhold.prove") {
+    document.verdicts.reset();
+    startProofs(document);
+    return nullptr;
+  }
+  if (command == "feedhold.runWitness")
+    return runWitness(document, argument.at("obligation").get<std::string>());
+  throw RequestError(ErrorCode::InvalidParams, fmt::format("there is no command `{}`", command));
+}
+
+/// The prover has run it already; a person reads what it came to, and how to see it again.
+Json ClientSession::runWitness(const OpenDocument &document, const std::string &id) {
+  if (document.verdicts && document.proved)
+    for (const ProvedFile &file : document.proved->files)
+      for (const ProvedProgram &program : file.programs)
+        for (const prove::Obligation &obligation : program.proof.obligations)
+          if (obligation.id == id && obligation.witness) {
+            const ProveReport report{.result = *document.proved};
+            const TypedWitness witness = typed(*obligation.witness, file, program, report);
+            const std::string happened = happenedIn(*obligation.witness, obligation, file.loaded->dialect);
+            show(Severity::Info, fmt::format("{}: {}\n{}", textOf(witness), happened, witness.run()));
+            return {{"call", textOf(witness)}, {"happened", happened}, {"run", witness.run()}};
+          }
+  throw RequestError(ErrorCode::RequestFailed,
+                     fmt::format("{} has no witness in the text as it is now; prove it first", id));
+}
+
+} // namespace feedhold::lsp
