@@ -1,4 +1,4 @@
-// Reads the suppression comments of a file and takes out what they allow.
+// Takes out what is allowed, and says what is wrong with the suppressions.
 #include "findings/rule/suppression.h"
 
 #include "base/support/text.h"
@@ -12,88 +12,26 @@ namespace feedhold {
 
 namespace {
 
-constexpr std::string_view kMark = "@ALLOW";
-constexpr std::string_view kProgramMark = "@ALLOW-PROGRAM";
-
-bool isNameCharacter(char c) { return isLetter(c) || isDigit(c) || c == '-'; }
-
-/// The head of `rest` as long as `belongs` holds, cut off from `rest`.
-template <typename Predicate> std::string_view takeWhile(std::string_view &rest, Predicate belongs) {
-  const auto end = std::find_if_not(rest.begin(), rest.end(), belongs);
-  const std::string_view head = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
-  rest.remove_prefix(head.size());
-  return head;
-}
-
-/// What stands between the parentheses of a comment.
-std::string_view bodyOf(std::string_view comment) {
-  if (!comment.empty() && comment.front() == '(')
-    comment.remove_prefix(1);
-  if (!comment.empty() && comment.back() == ')')
-    comment.remove_suffix(1);
-  return trimmed(comment);
-}
-
-/// `rule, rule reason` -> the rules in lower case, and the reason is what is left in `rest`.
-std::vector<std::string> takeRules(std::string_view &rest) {
-  std::vector<std::string> rules;
-  for (;;) {
-    takeWhile(rest, isBlank);
-    rules.push_back(toLower(takeWhile(rest, isNameCharacter)));
-    takeWhile(rest, isBlank);
-    if (!rest.starts_with(','))
-      return rules;
-    rest.remove_prefix(1);
-  }
-}
-
-/// The block that a suppression on `block` speaks of: itself, or the next one that does something.
-BlockId coveredBlock(const SyntaxTree &tree, BlockId block) {
-  BlockId covered = block;
-  while (covered.index() + 1 < tree.blockCount() && isEmpty(tree, covered))
-    covered = covered.next();
-  return covered;
-}
-
-/// One for each rule that the comment names; none when it is another comment.
-std::vector<Suppression> readComment(const Comment &comment, const FileContext &context) {
-  std::string_view rest = bodyOf(context.text(comment.span));
-  if (!rest.starts_with('@'))
-    return {};
-  const std::string_view keyword = takeWhile(rest, [](char c) { return c == '@' || isNameCharacter(c); });
-  const std::string mark = toUpper(keyword);
-  if (mark != kMark && mark != kProgramMark)
-    return {};
-  const BlockId block = context.tree.blockAt(comment.span.begin);
-  const std::vector<std::string> rules = takeRules(rest);
-  const auto begin = static_cast<std::uint32_t>(rest.data() - context.source.text().data());
-  const std::string reason = context.source.utf8({begin, begin + static_cast<std::uint32_t>(rest.size())});
-  std::vector<Suppression> found;
-  for (const std::string &rule : rules)
-    found.push_back({comment.span, rule, reason, coveredBlock(context.tree, block), mark == kProgramMark});
-  return found;
-}
-
 bool covers(const Suppression &suppression, const RawFinding &finding, BlockId block, const FileContext &context) {
-  if (suppression.rule != finding.rule->name)
+  if (suppression.rule != finding.rule->name || !suppression.missing.empty())
     return false;
-  const BlockId own = context.tree.blockAt(suppression.span.begin);
   if (suppression.wholeProgram)
-    return context.model.programOf(own) == context.model.programOf(block);
-  return own <= block && block <= suppression.block;
+    return *suppression.wholeProgram == context.model.programOf(block);
+  return suppression.first <= block && block <= suppression.last;
 }
 
-/// Marks every suppression that covers the finding as used; true when there is one.
-bool isSuppressed(const RawFinding &finding, std::vector<Suppression> &suppressions, const FileContext &context) {
+/// Marks every suppression that covers the finding as used, and gives the first one; null when there is none.
+const Suppression *suppressing(const RawFinding &finding, std::vector<Suppression> &suppressions,
+                               const FileContext &context) {
   const BlockId block = context.tree.blockAt(finding.diagnostic.span.begin);
-  bool suppressed = false;
+  const Suppression *first = nullptr;
   for (Suppression &suppression : suppressions) {
     if (!covers(suppression, finding, block, context))
       continue;
     suppression.used = true;
-    suppressed = true;
+    first = first != nullptr ? first : &suppression;
   }
-  return suppressed;
+  return first;
 }
 
 /// Says what is wrong with the suppressions themselves, by those rules that were selected.
@@ -102,14 +40,20 @@ public:
   SuppressionReview(const RuleRegistry &registry, std::span<const Rule *const> selected, const SyntaxTree &tree)
       : registry_(registry), selected_(selected), tree_(tree) {}
 
-  void review(std::span<const Suppression> suppressions, std::vector<RawFinding> &into) const {
+  void review(std::span<const Suppression> suppressions, SuppressionResult &into) const {
     for (const Suppression &suppression : suppressions) {
-      reviewName(suppression, into);
+      std::vector<RawFinding> found;
+      reviewName(suppression, found);
       if (suppression.reason.empty() && findRule(registry_, suppression.rule) != nullptr)
-        report("suppression-without-reason", withoutReason(suppression), into);
+        report("suppression-without-reason", withoutReason(suppression), found);
       const bool itsRuleRan = findSelected(suppression.rule) != nullptr;
       if (!suppression.used && itsRuleRan)
-        report("unused-suppression", unused(suppression, suppressions), into);
+        report("unused-suppression", unused(suppression, suppressions), found);
+      for (RawFinding &finding : found)
+        if (suppression.source == kProgramText)
+          into.kept.push_back(std::move(finding));
+        else
+          into.ofSidecars.push_back({suppression.source, std::move(finding)});
     }
   }
 
@@ -132,32 +76,45 @@ private:
                           .span = suppression.span};
     if (suppression.rule.empty())
       diagnostic.message = "the suppression names no rule";
-    diagnostic.notes.push_back(adviceFor(suppression.rule));
+    diagnostic.notes.push_back(adviceFor(suppression));
     report("unknown-suppressed-rule", std::move(diagnostic), into);
   }
 
-  std::string adviceFor(std::string_view name) const {
+  /// How one is written where this one stands.
+  static std::string written(const Suppression &suppression, std::string_view rule) {
+    return suppression.source == kProgramText ? fmt::format("`(@ALLOW {} reason)`", rule)
+                                              : fmt::format("`@ALLOW {} reason`", rule);
+  }
+
+  std::string adviceFor(const Suppression &suppression) const {
     std::vector<std::string_view> names;
     for (const RegisteredRule &entry : registry_.rules)
       names.push_back(entry.rule->info.name);
-    if (const auto nearest = nearestWord(name, names))
+    if (const auto nearest = nearestWord(suppression.rule, names))
       return fmt::format("did you mean `{}`?", *nearest);
-    return "`feedhold rules` lists the names; write `(@ALLOW rule reason)`";
+    return "`feedhold rules` lists the names; write " + written(suppression, "rule");
   }
 
   static Diagnostic withoutReason(const Suppression &suppression) {
     return {.message = fmt::format("`{}` is allowed without a reason", suppression.rule),
             .span = suppression.span,
-            .notes = {fmt::format("the next reader must know why: `(@ALLOW {} reason)`", suppression.rule)}};
+            .notes = {"the next reader must know why: " + written(suppression, suppression.rule)}};
   }
 
   Diagnostic unused(const Suppression &suppression, std::span<const Suppression> all) const {
+    if (!suppression.missing.empty())
+      return {.message = fmt::format("`{}` is allowed where nothing is: there is no {}", suppression.rule,
+                                     suppression.missing),
+              .span = suppression.span};
     const std::string_view where = suppression.wholeProgram ? "this program" : "this place";
     Diagnostic diagnostic{.message = fmt::format("`{}` is allowed here and finds nothing", suppression.rule),
                           .span = suppression.span,
                           .notes = {fmt::format("left in, it would hide the next finding of this rule at {}", where)}};
-    const auto sameComment =
-        std::count_if(all.begin(), all.end(), [&](const Suppression &other) { return other.span == suppression.span; });
+    if (suppression.source != kProgramText)
+      return diagnostic; // only programs are repaired, not the files beside them
+    const auto sameComment = std::count_if(all.begin(), all.end(), [&](const Suppression &other) {
+      return other.source == suppression.source && other.span == suppression.span;
+    });
     if (sameComment == 1)
       diagnostic.fixes = {{isOnScreen(suppression.span) ? FixSafety::NeedsReview : FixSafety::Safe,
                            "take the comment out",
@@ -182,23 +139,18 @@ private:
 
 } // namespace
 
-std::vector<Suppression> findSuppressions(const FileContext &context) {
-  std::vector<Suppression> found;
-  for (const Comment &comment : context.tree.comments)
-    for (Suppression &suppression : readComment(comment, context))
-      found.push_back(std::move(suppression));
-  return found;
-}
-
 SuppressionResult applySuppressions(std::vector<RawFinding> findings, const FileContext &context,
                                     const RuleRegistry &registry, std::span<const Rule *const> selected) {
   std::vector<Suppression> suppressions = findSuppressions(context);
   if (suppressions.empty())
-    return {std::move(findings), {}};
+    return {std::move(findings), {}, {}};
   SuppressionResult result;
   for (RawFinding &finding : findings)
-    (isSuppressed(finding, suppressions, context) ? result.suppressed : result.kept).push_back(std::move(finding));
-  SuppressionReview(registry, selected, context.tree).review(suppressions, result.kept);
+    if (const Suppression *by = suppressing(finding, suppressions, context))
+      result.suppressed.push_back({std::move(finding), by->reason, by->source});
+    else
+      result.kept.push_back(std::move(finding));
+  SuppressionReview(registry, selected, context.tree).review(suppressions, result);
   std::stable_sort(result.kept.begin(), result.kept.end(), comesBefore);
   return result;
 }

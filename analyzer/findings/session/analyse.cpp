@@ -59,9 +59,18 @@ Severity severityOf(const RawFinding &finding, const Profile &profile) {
   return finding.severity;
 }
 
-Finding toFinding(RawFinding finding, const Profile &profile, bool suppressed) {
+Finding toFinding(RawFinding finding, const Profile &profile) {
   const Severity severity = severityOf(finding, profile);
-  return {finding.rule, severity, std::move(finding.diagnostic), {}, suppressed};
+  return {finding.rule, severity, std::move(finding.diagnostic), {}};
+}
+
+Finding toFinding(SuppressedFinding suppressed, const FileContext &context, const Profile &profile) {
+  Finding finding = toFinding(std::move(suppressed.finding), profile);
+  finding.suppressed = true;
+  finding.reason = std::move(suppressed.reason);
+  if (suppressed.source != kProgramText)
+    finding.allowedIn = context.contracts[context.file.index()].source(suppressed.source).path();
+  return finding;
 }
 
 bool comesBefore(const Finding &a, const Finding &b) {
@@ -70,14 +79,13 @@ bool comesBefore(const Finding &a, const Finding &b) {
   return a.rule->name < b.rule->name;
 }
 
-std::vector<Finding> findingsOf(const FileContext &context, const Profile &profile, const RuleRegistry &rules) {
-  SuppressionResult raw = applySuppressions(runRules(profile.rules, context), context, rules, profile.rules);
+std::vector<Finding> findingsOf(SuppressionResult raw, const FileContext &context, const Profile &profile) {
   std::vector<Finding> findings;
   findings.reserve(raw.kept.size() + raw.suppressed.size());
   for (RawFinding &finding : raw.kept)
-    findings.push_back(toFinding(std::move(finding), profile, false));
-  for (RawFinding &finding : raw.suppressed)
-    findings.push_back(toFinding(std::move(finding), profile, true));
+    findings.push_back(toFinding(std::move(finding), profile));
+  for (SuppressedFinding &finding : raw.suppressed)
+    findings.push_back(toFinding(std::move(finding), context, profile));
   std::stable_sort(findings.begin(), findings.end(), comesBefore);
   Fingerprints fingerprints(context);
   for (Finding &finding : findings)
@@ -85,8 +93,9 @@ std::vector<Finding> findingsOf(const FileContext &context, const Profile &profi
   return findings;
 }
 
-/// A file beside the program, when there is something to say of its clauses.
-std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext &program, ContractSourceId source) {
+/// A file beside the program, when there is something to say of its clauses or its suppressions.
+std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext &program, ContractSourceId source,
+                                        std::span<const SidecarFinding> ofSuppressions) {
   const FileContracts &contracts = program.contracts[program.file.index()];
   const FileContext context{program.file,  contracts.source(source), program.dialect, program.tree,
                             program.model, program.callGraph,        nullptr,         program.contracts,
@@ -95,12 +104,40 @@ std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext 
   file.path = context.source.path();
   file.source = context.source;
   LineFingerprints fingerprints(context.source);
-  for (RawFinding &raw : runContractRules(item.profile->rules, context)) {
-    Finding finding = toFinding(std::move(raw), *item.profile, false);
+  std::vector<RawFinding> found = runContractRules(item.profile->rules, context);
+  for (const SidecarFinding &each : ofSuppressions)
+    if (each.source == source)
+      found.push_back(each.finding);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const RawFinding &a, const RawFinding &b) { return feedhold::comesBefore(a, b); });
+  for (RawFinding &raw : found) {
+    Finding finding = toFinding(std::move(raw), *item.profile);
     finding.fingerprint = fingerprints.of(*finding.rule, finding.diagnostic.span);
     file.findings.push_back(std::move(finding));
   }
   return file.findings.empty() ? std::nullopt : std::optional(std::move(file));
+}
+
+/// What rules say of one file and of those beside it.
+struct Analysed {
+  std::vector<Finding> findings;
+  std::vector<CheckedFile> sidecars;
+};
+
+Analysed analyseOne(const WorkItem &item, const FileContext &context, const RuleRegistry &rules) {
+  Analysed result;
+  SuppressionResult raw =
+      applySuppressions(runRules(item.profile->rules, context), context, rules, item.profile->rules);
+  const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
+  result.findings = findingsOf(std::move(raw), context, *item.profile);
+  for (std::size_t i = 1; i < context.contracts[context.file.index()].sources.size(); ++i)
+    if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(i), ofSidecars))
+      result.sidecars.push_back(std::move(*file));
+  return result;
+}
+
+bool isOnlyCalled(const WorkItem &item, const AnalyseOptions &options) {
+  return options.only != nullptr && !options.only->contains(item.shown);
 }
 
 Span firstLineWithText(const SourceFile &source) {
@@ -121,7 +158,7 @@ std::vector<Finding> refuse(const WorkItem &item) {
   if (!item.reasons.empty())
     finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));
   finding.diagnostic.notes.emplace_back(item.foreign->way);
-  Finding result = toFinding(std::move(finding), *item.profile, false);
+  Finding result = toFinding(std::move(finding), *item.profile);
   result.fingerprint = fingerprintOfFile(*result.rule, item.path.filename().generic_string());
   return {std::move(result)};
 }
@@ -164,20 +201,18 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   if (anyAsksFlow(items))
     programs.emplace(programsOf(items, reads, callGraph, options.jobs));
 
-  std::vector<std::vector<Finding>> findings(items.size());
-  std::vector<std::vector<CheckedFile>> sidecars(items.size());
+  std::vector<Analysed> analysed(items.size());
   std::atomic<std::size_t> done{0};
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
     const WorkItem &item = items[i];
+    if (isOnlyCalled(item, options))
+      return;
     if (item.foreign != nullptr) {
-      findings[i] = refuse(item);
+      analysed[i].findings = refuse(item);
     } else {
       const FileContext context{FileId(i),       item.source, item.profile->dialect,           *reads[i].tree,
                                 *reads[i].model, callGraph,   programs ? &*programs : nullptr, contracts};
-      findings[i] = findingsOf(context, *item.profile, rules);
-      for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
-        if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(k)))
-          sidecars[i].push_back(std::move(*file));
+      analysed[i] = analyseOne(item, context, rules);
       if (!programs)
         reads[i].tree.reset();
     }
@@ -189,13 +224,14 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   files.reserve(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
     files.push_back(headOf(items[i]));
-    files.back().findings = std::move(findings[i]);
+    files.back().findings = std::move(analysed[i].findings);
+    files.back().isOnlyCalled = isOnlyCalled(items[i], options);
     for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
       files.back().sidecars.push_back(contracts[i].sources[k].path());
   }
   std::set<std::string> seen; // two programs of one number in a folder share a file
-  for (std::vector<CheckedFile> &of : sidecars)
-    for (CheckedFile &file : of)
+  for (Analysed &of : analysed)
+    for (CheckedFile &file : of.sidecars)
       if (seen.insert(file.path).second)
         files.push_back(std::move(file));
   return files;

@@ -11,7 +11,8 @@ namespace feedhold {
 struct AnalyseOptions {
   unsigned jobs = 0;
   std::function<void(std::size_t, std::size_t)> progress = {};
-  std::shared_ptr<const OpenTexts> open = {}; // of editors: files with contracts among them
+  std::shared_ptr<const OpenTexts> open = {};  // of editors: files with contracts among them
+  const std::set<std::string> *only = nullptr; // as CheckOptions::only
 };
 
 /// One result for each item, in their order; the index of an item is its FileId.  Behind them those files with

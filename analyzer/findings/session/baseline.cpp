@@ -27,6 +27,8 @@ class Reach {
 public:
   Reach(const CheckResult &result, const BaselineScope &scope) : scope_(scope) {
     for (const CheckedFile &file : result.files) {
+      if (file.isOnlyCalled)
+        continue;
       paths_.insert(pathFrom(scope.folder, file.path));
       for (const std::string &sidecar : file.sidecars)
         paths_.insert(pathFrom(scope.folder, sidecar));

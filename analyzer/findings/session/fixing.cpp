@@ -64,7 +64,8 @@ public:
 
 private:
   std::vector<CheckedFile> analyseAll() const {
-    return analyse(workload_.items, known_.rules, {options_.jobs, options_.progress, options_.open});
+    return analyse(workload_.items, known_.rules,
+                   {options_.jobs, options_.progress, options_.open, options_.only ? &*options_.only : nullptr});
   }
 
   bool applyAll(const std::vector<CheckedFile> &files) {

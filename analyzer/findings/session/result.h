@@ -26,6 +26,8 @@ struct Finding {
   Diagnostic diagnostic;
   std::string fingerprint; // 16 hex digits
   bool suppressed = false;
+  std::string reason = {};    // of the suppression; may be empty
+  std::string allowedIn = {}; // the file beside the program that suppresses it; empty: a comment of the program
 };
 
 struct CheckedFile {
@@ -33,9 +35,10 @@ struct CheckedFile {
   SourceFile source;
   std::string_view dialect; // id
   DialectChoice choice;
-  std::vector<std::string_view> reasons; // of a guess
-  Severity errorOn;                      // findings from here on fail the run
-  std::vector<Finding> findings;         // by place, then by rule
+  std::vector<std::string_view> reasons;  // of a guess
+  Severity errorOn;                       // findings from here on fail the run
+  std::vector<Finding> findings;          // by place, then by rule
+  bool isOnlyCalled = false;              // no rules ran over it: it is there for the others
   std::vector<std::string> sidecars = {}; // paths of the files beside it that were read with it
 };
 

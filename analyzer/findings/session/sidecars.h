@@ -9,6 +9,11 @@
 
 namespace feedhold {
 
+/// The names that the sidecars of a program file have, whether they are there or not.
+std::vector<std::filesystem::path> sidecarNames(const std::filesystem::path &file, const ProgramModel &model);
+/// `part.contract`
+bool isSidecarName(const std::filesystem::path &file);
+
 /// Of `part.nc`: `O9100.contract` for each of its programs, then `part.contract` and `part.nc.contract`.  One that is
 /// there and cannot be read is in the list with the reason.
 std::vector<Sidecar> sidecarsOf(const std::filesystem::path &file, const ProgramModel &model,

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct CheckOptions {
   std::shared_ptr<const OpenTexts> open = {}; // of editors; null: none
   /// Which rules run: without those that follow the flow of programs, a file takes a fraction of the time.
   enum class Depth : std::uint8_t { All, WithoutFlow } depth = Depth::All;
+  /// Files as they are shown, on which rules run; the others of the run are only there to be called.  Absent: all.
+  std::optional<std::set<std::string>> only = std::nullopt;
   /// Called from several threads: files analysed so far, and all.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };

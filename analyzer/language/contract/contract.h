@@ -235,6 +235,13 @@ struct ContractIssue {
   std::optional<ProgramId> program = {}; // whose contract it is in
 };
 
+/// `@ALLOW rule reason` in a sidecar file: no part of the contract; who suppresses findings reads the text.
+struct SidecarAllowance {
+  ContractSourceId source;
+  Span span; // from `@` to its last sign
+  ProgramId program;
+};
+
 /// The contracts of one file.
 struct FileContracts {
   SyntaxTree tree;                 // expressions only; spans are in the text of their clause
@@ -242,6 +249,7 @@ struct FileContracts {
   Store<Clause, ClauseId> clauses;
   std::vector<Contract> contracts;   // of programs with at least one clause, in order of the programs
   std::vector<ContractIssue> issues; // by source, then by place
+  std::vector<SidecarAllowance> allowances = {};
 
   /// Null: the program has no clause.
   const Contract *of(ProgramId program) const;

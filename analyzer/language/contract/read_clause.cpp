@@ -456,10 +456,13 @@ void readClause(ContractReading &reading, const RawClause &raw) {
   const SourceFile source = reading.result.source(raw.source);
   const ClauseHead head = headOf(source.text(), raw);
   const bool inProgram = raw.source == kProgramText;
-  if (isSuppression(head.name) && inProgram)
-    return; // read by those who suppress
+  if (isSuppression(head.name) && raw.number)
+    return refuse(reading, raw, *raw.number,
+                  fmt::format("no `@AT`; the place stands behind the rule: `{} rule N30 reason`", head.name));
+  if (isSuppression(head.name) && !inProgram)
+    reading.result.allowances.push_back({raw.source, raw.span, raw.program});
   if (isSuppression(head.name))
-    return refuse(reading, raw, head.keyword, "a clause of a contract; a suppression is a comment of the program");
+    return; // read by those who suppress
   if (head.name == "@AT")
     return refuse(reading, raw, head.keyword, "a clause without its place, which is where the comment stands");
   if (raw.number && raw.span.empty())

@@ -7,6 +7,7 @@
 #include "findings/session/session.h"
 #include "rules/registry.h"
 #include "surface/cli/baseline_file.h"
+#include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/sink.h"
@@ -42,6 +43,7 @@ struct CheckArguments {
   bool statistics = false;
   bool exitZero = false;
   BaselineWish baseline;
+  ChangeWish change;
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
@@ -67,11 +69,12 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_option("--color", arguments.color, "auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
-  app.add_flag("--show-suppressed", arguments.showSuppressed, "show findings that a comment allows, too");
+  app.add_flag("--show-suppressed", arguments.showSuppressed, "show findings that are allowed, too");
   app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
   app.add_flag("--statistics", arguments.statistics, "print the number of findings of each rule instead of them");
   app.add_flag("--exit-zero", arguments.exitZero, "exit 0 even with findings");
   addBaselineOptions(app, arguments.baseline);
+  addChangedSince(app, arguments.change);
 }
 
 const KnownNames &knownNames() {
@@ -240,6 +243,16 @@ int presentNew(CheckResult result, const Baseline &baseline, const CheckArgument
   return exitCode;
 }
 
+/// Errors among the files come again when they are checked.
+Result<std::set<std::string>> affectedPrograms(const CheckOptions &options, const CheckArguments &arguments) {
+  if (auto complaint = complaintAbout(arguments.change, options))
+    return Error{std::move(*complaint)};
+  Result<Affected> found = affected(arguments.change, options, knownNames());
+  if (!found)
+    return found.error();
+  return found.take().programs;
+}
+
 int runCheck(const CheckArguments &arguments) {
   if (const auto complaint = complaintAbout(arguments)) {
     printError(*complaint);
@@ -255,6 +268,14 @@ int runCheck(const CheckArguments &arguments) {
     baseline = known.take();
   }
   CheckOptions options = toOptions(arguments);
+  if (arguments.change.isAsked()) {
+    Result<std::set<std::string>> affected = affectedPrograms(options, arguments);
+    if (!affected) {
+      printError(affected.error().message);
+      return kExitCouldNotRun;
+    }
+    options.only = affected.take();
+  }
   ProgressLine progress;
   if (!arguments.quiet)
     options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };

@@ -4,6 +4,7 @@
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/cache_place.h"
+#include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
@@ -38,6 +39,7 @@ struct ProveArguments {
   bool quiet = false;
   bool withoutCache = false;
   BaselineWish baseline;
+  ChangeWish change;
 };
 
 constexpr std::array kKinds = {
@@ -74,6 +76,8 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
   app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
   addBaselineOptions(app, arguments.baseline);
+  addChangedSince(app, arguments.change);
+  addWithCallers(app, arguments.change);
 }
 
 /// The evidence is not in the cache.
@@ -192,6 +196,28 @@ int updateBaseline(const ProofsResult &result, const Baseline &before, const Bas
   return result.errors.empty() ? kExitClean : kExitCouldNotRun;
 }
 
+/// Leaves what a change concerns; the result is what is wrong with the files among which was searched.
+Result<std::vector<PathProblem>> narrow(ProofsWish &wish, const ProveArguments &arguments) {
+  if (!arguments.change.isAsked())
+    return std::vector<PathProblem>();
+  if (auto complaint = complaintAbout(arguments.change, wish.files))
+    return Error{std::move(*complaint)};
+  Result<Affected> found = affected(arguments.change, wish.files, {allDialects(), allRules()});
+  if (!found)
+    return found.error();
+  const Affected affected = found.take();
+  wish.files.paths.assign(affected.programs.begin(), affected.programs.end());
+  return affected.errors;
+}
+
+void addErrors(ProofsResult &result, const std::vector<PathProblem> &errors) {
+  for (const PathProblem &error : errors)
+    if (std::none_of(result.errors.begin(), result.errors.end(), [&](const PathProblem &known) {
+          return known.path == error.path && known.message == error.message;
+        }))
+      result.errors.push_back(error);
+}
+
 int runProve(const ProveArguments &arguments) {
   if (const auto complaint = complaintAbout(arguments)) {
     printError(*complaint);
@@ -206,8 +232,14 @@ int runProve(const ProveArguments &arguments) {
     }
     baseline = known.take();
   }
-  const ProofsWish wish = toWish(arguments);
+  ProofsWish wish = toWish(arguments);
+  const Result<std::vector<PathProblem>> narrowed = narrow(wish, arguments);
+  if (!narrowed) {
+    printError(narrowed.error().message);
+    return kExitCouldNotRun;
+  }
   ProofsResult result = proveAll(wish, {allDialects(), allRules()});
+  addErrors(result, narrowed.value());
   complainIfNothingWasProved(result);
   if (!arguments.certificate.empty())
     if (const auto error = writeBundle(

@@ -22,6 +22,10 @@ Json wayToJson(const Finding &finding, const CheckedFile &file, const Report &re
   return way;
 }
 
+const std::string &allowedIn(const Finding &finding, const CheckedFile &file) {
+  return finding.allowedIn.empty() ? file.path : finding.allowedIn;
+}
+
 Json findingToJson(const Finding &finding, const CheckedFile &file, const Report &report) {
   Json row = {{"path", file.path}};
   row.update(placeOf(file.source, finding.diagnostic.span));
@@ -35,7 +39,7 @@ Json findingToJson(const Finding &finding, const CheckedFile &file, const Report
   for (const FixIt &fix : finding.diagnostic.fixes)
     row["fixes"].push_back(fixToJson(fix, file.source));
   if (finding.suppressed)
-    row["suppressed"] = true;
+    row.update({{"suppressed", true}, {"reason", finding.reason}, {"allowedIn", allowedIn(finding, file)}});
   return row;
 }
 

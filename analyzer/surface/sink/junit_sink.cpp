@@ -44,7 +44,8 @@ std::string suiteOf(const CheckedFile &file, const Report &report) {
 std::string writeJunit(const Report &report) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"feedhold\">\n";
   for (const CheckedFile &file : report.result.files)
-    text += suiteOf(file, report);
+    if (!file.isOnlyCalled)
+      text += suiteOf(file, report);
   for (const PathProblem &problem : report.result.errors)
     text += fmt::format(
         "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n    <testcase classname=\"{0}\" "

@@ -69,6 +69,13 @@ Json codeFlows(const Finding &finding, const CheckedFile &file, const Report &re
   return Json::array({Json{{"threadFlows", Json::array({std::move(thread)})}}});
 }
 
+Json suppressionOf(const Finding &finding) {
+  Json row = {{"kind", finding.allowedIn.empty() ? "inSource" : "external"}};
+  if (!finding.reason.empty())
+    row["justification"] = finding.reason;
+  return row;
+}
+
 using RuleIndex = std::map<std::string_view, std::size_t>;
 
 Json resultToJson(const Finding &finding, const CheckedFile &file, const Report &report, const RuleIndex &ruleIndex) {
@@ -89,7 +96,7 @@ Json resultToJson(const Finding &finding, const CheckedFile &file, const Report 
   for (const FixIt &fix : finding.diagnostic.fixes)
     row["fixes"].push_back(sarif::fixToJson(fix, file.path, file.source, report.root));
   if (finding.suppressed)
-    row["suppressions"] = Json::array({Json{{"kind", "inSource"}}});
+    row["suppressions"] = Json::array({suppressionOf(finding)});
   return row;
 }
 

@@ -72,7 +72,7 @@ std::string fixesPart(const Counts &counts) {
 std::string guessesPart(const CheckResult &result) {
   std::map<std::string_view, std::size_t> guessed;
   for (const CheckedFile &file : result.files)
-    if (file.choice == DialectChoice::Guess || file.choice == DialectChoice::Fallback)
+    if (!file.isOnlyCalled && (file.choice == DialectChoice::Guess || file.choice == DialectChoice::Fallback))
       ++guessed[file.dialect];
   std::string text;
   for (const auto &[dialect, files] : guessed)
@@ -86,7 +86,9 @@ std::string guessesPart(const CheckResult &result) {
 std::string summary(const Report &report) {
   const Counts counts = count(report);
   const CheckResult &result = report.result;
-  std::string head = fmt::format("{} in {}", findingsPart(counts), counted(result.files.size(), "file"));
+  const auto checked = std::count_if(result.files.begin(), result.files.end(),
+                                     [](const CheckedFile &file) { return !file.isOnlyCalled; });
+  std::string head = fmt::format("{} in {}", findingsPart(counts), counted(static_cast<std::size_t>(checked), "file"));
   if (counts.suppressed != 0)
     head += fmt::format(", {} allowed", counts.suppressed);
   if (!result.skipped.empty())

@@ -45,6 +45,13 @@ std::map<std::string, int> counts(const std::vector<RawFinding> &findings) {
   return result;
 }
 
+std::map<std::string, int> counts(const std::vector<SuppressedFinding> &findings) {
+  std::vector<RawFinding> raw;
+  for (const SuppressedFinding &suppressed : findings)
+    raw.push_back(suppressed.finding);
+  return counts(raw);
+}
+
 using Counts = std::map<std::string, int>;
 
 TEST(Suppression, OnTheBlockItself) {

@@ -1,0 +1,34 @@
+#include "surface/cli/change_options.h"
+
+#include "findings/session/git_changes.h"
+
+namespace feedhold {
+
+void addChangedSince(CLI::App &app, ChangeWish &wish) {
+  app.add_option("--changed-since", wish.since,
+                 "only programs that differ from where the branch left this revision, and all that call them");
+}
+
+void addWithCallers(CLI::App &app, ChangeWish &wish) {
+  CLI::Option *callers =
+      app.add_flag("--with-callers", wish.withCallers,
+                   "the paths are changed programs and contracts: also all programs of their folders that call them");
+  callers->excludes(app.get_option("--changed-since"));
+}
+
+std::optional<std::string> complaintAbout(const ChangeWish &wish, const CheckOptions &options) {
+  if (!wish.isAsked() || !options.piped)
+    return std::nullopt;
+  return "standard input has neither a history nor a folder; name files for --changed-since and --with-callers";
+}
+
+Result<Affected> affected(const ChangeWish &wish, const CheckOptions &options, const KnownNames &known) {
+  if (wish.withCallers)
+    return affectedByNamed(options.paths, options, known);
+  const Result<std::vector<std::filesystem::path>> changed = changedSince(wish.since, options.paths);
+  if (!changed)
+    return changed.error();
+  return affectedBy(changed.value(), options, known);
+}
+
+} // namespace feedhold
