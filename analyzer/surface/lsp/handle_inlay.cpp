@@ -17,7 +17,7 @@ namespace {
 constexpr int kType = 1; // InlayHintKind
 constexpr int kParameter = 2;
 /// The flow of longer programs is not followed for hints: they are asked for with every change.
-constexpr std::size_t kMostBlocksFollowed = 2000;
+constexpr std::size_t kMostBlocksFollowed = 500;
 
 class Hints {
 public:

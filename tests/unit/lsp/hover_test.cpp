@@ -1,0 +1,97 @@
+#include "feature_fixture.h"
+
+namespace feedhold::lsp {
+namespace {
+
+class LspHover : public FeatureTest {
+protected:
+  static std::string at(const View &view, std::string_view what, std::size_t in = 0) {
+    const Json answer = askAt(view, "textDocument/hover", what, in);
+    return answer.is_null() ? "" : answer["contents"]["value"].get<std::string>();
+  }
+  static void expectIn(const std::string &text, std::string_view part) {
+    EXPECT_NE(text.find(part), std::string::npos) << "`" << part << "` is missing in:\n" << text;
+  }
+};
+
+constexpr std::string_view kSlot = "%\n"
+                                   "O9100(SLOT)\n"
+                                   "(@PARAM #21 DEPTH 0.5..50. MM)\n"
+                                   "(W = STEP \xC3\x84)\n"
+                                   "#10=0(DONE)\n"
+                                   "N30WHILE[#10LT7]DO1\n"
+                                   "#10=#10+1\n"
+                                   "END1\n"
+                                   "G91G01Z-#21F#23\n"
+                                   "G00X#10\n"
+                                   "GOTO99\n"
+                                   "GOTO#10\n"
+                                   "M99\n"
+                                   "%\n";
+
+TEST_F(LspHover, AVariableHasAMeaningAndARange) {
+  const View view = openText(kSlot);
+  expectIn(at(view, "#21F"), "**#21** DEPTH (local variable, argument U)");
+  expectIn(at(view, "#21F"), "`@PARAM #21 DEPTH 0.5..50. MM`");
+  expectIn(at(view, "#23"), "**#23** STEP \xC3\x84 (");
+  expectIn(at(view, "#10LT"), "**#10** DONE");
+  expectIn(at(view, "#10+1"), "before this line: 0 to 6, whole");
+  expectIn(at(view, "#10\nGOTO99"), "before this line: 7");
+}
+
+TEST_F(LspHover, ValuesOfSeveralCallsAreToldApart) {
+  const View view = openText("O1\nG65P2A1.\nG65P2A5.\nM30\nO2\nG00X#1\nM99\n");
+  const std::string text = at(view, "#1\n");
+  expectIn(text, "1 (called in line 2)");
+  expectIn(text, "5 (called in line 3)");
+}
+
+TEST_F(LspHover, VacancyAndWhatIsNeverReached) {
+  EXPECT_EQ(at(openText("O1\n#100=#0\n#101=#100\nM30\n"), "#100\nM30").find("before this line: vacant") !=
+                std::string::npos,
+            true);
+  expectIn(at(openText("O1\nM30\n#101=#100\n"), "#100"), "no run comes to this line");
+}
+
+TEST_F(LspHover, ASystemVariableIsOfTheControl) {
+  const View view = openText("O1\n#3000=1(BAD \xC3\x84)\n#5221=0\nM30\n");
+  expectIn(at(view, "#3000"), "`_ALM` macro alarm, write only");
+  EXPECT_EQ(at(view, "#3000").find("BAD"), std::string::npos);
+  expectIn(at(view, "#5221"), "work offset of G54");
+  expectIn(at(openText("O1\n#4999=1\nM30\n"), "#4999"), "no such variable");
+}
+
+TEST_F(LspHover, ACodeDependsOnTheControl) {
+  expectIn(at(openText("O1\nG91\nG90X0\nM30\n"), "G90"), "modal group 3: distance\n\nbefore this line: G91");
+  const std::string_view text = "O1\nG12I5.F100\nM30\n";
+  expectIn(at(openText(text, "haas-ngc"), "G12"), "**G12** ");
+  EXPECT_NE(at(openText(text, "haas-ngc"), "G12"), at(openText(text, "fanuc-30i"), "G12"));
+  expectIn(at(openText("O1\nM77\nM30\n"), "M77"), "up to the builder");
+  expectIn(at(openText("O1\nG#1\nM30\n"), "G#1"), "computed");
+}
+
+TEST_F(LspHover, JumpsAndCallsSayWhereTheyLead) {
+  write("O9100.nc", kSlot);
+  const View view = openText("O1\nG65P9100U3.\nG65P#1\nG65P77\nN5GOTO5\nM30\n");
+  expectIn(at(view, "P9100"), "**O9100** SLOT\n\nin `O9100.nc`");
+  expectIn(at(view, "U3"), "O9100: DEPTH");
+  expectIn(at(view, "P#1"), "the program is computed");
+  expectIn(at(view, "P77"), "O77 is in none of the files");
+  expectIn(at(view, "GOTO5"), "goes to **N5** in line 5 of O1");
+  expectIn(at(view, "N5"), "named in line 5");
+  const View slot = open("O9100.nc");
+  expectIn(at(slot, "GOTO99"), "there is no N99");
+  expectIn(at(slot, "GOTO#10"), "the target is computed");
+  expectIn(at(slot, "N30"), "no jump names it");
+  expectIn(at(slot, "@PARAM"), "the argument in a local variable");
+  expectIn(at(slot, "END1"), "loop from line 6 to line 8");
+}
+
+TEST_F(LspHover, NothingIsNull) {
+  const View view = openText(kSlot);
+  EXPECT_TRUE(askAt(view, "textDocument/hover", "%").is_null());
+  EXPECT_TRUE(askAt(view, "textDocument/hover", "(SLOT", 2).is_null());
+}
+
+} // namespace
+} // namespace feedhold::lsp
