@@ -29,6 +29,7 @@ int runLsp(const LspArguments &arguments) {
   if (options.cache)
     options.pages = std::filesystem::absolute(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
   std::ios::sync_with_stdio(false); // a stream with a buffer reads bodies in one piece
+  std::cin.tie(nullptr);            // reading would write what waits in cout, from a thread that does not hold its lock
   return lsp::serve(std::cin, std::cout, options);
 }
 
