@@ -99,7 +99,8 @@ Result<std::unique_ptr<const LoadedPrograms>> loadPrograms(const ProgramsWish &w
   auto programs = std::make_unique<LoadedPrograms>();
   programs->dialect = item.profile->dialect;
   programs->files.push_back(read(item.shown, item.path, item.source, programs->dialect, wish.open));
-  if (!wish.piped && !programs->files.front()->model.calls.empty())
+  const bool wantsFolder = wish.folder == ProgramsWish::Folder::Always || !programs->files.front()->model.calls.empty();
+  if (!wish.piped && wantsFolder)
     for (auto &[path, source] : neighboursOf(item.path, wish, known))
       programs->files.push_back(read(path.generic_string(), path, std::move(source), programs->dialect, wish.open));
   connect(*programs);

@@ -19,6 +19,8 @@ struct ProgramsWish {
   std::optional<std::string> dialect = std::nullopt;
   ConfigWish config = {};
   std::shared_ptr<const OpenTexts> open = {}; // of editors
+  /// Whether its folder is read too when it calls nothing: to see who calls it.
+  enum class Folder : std::uint8_t { WhenItCalls, Always } folder = Folder::WhenItCalls;
 };
 
 /// One file, from its text to its model.

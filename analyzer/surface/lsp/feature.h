@@ -32,6 +32,7 @@ struct View {
   const KnownNames &known;
   PositionEncoding encoding;
   std::vector<std::filesystem::path> folders; // of the workspace
+  std::shared_ptr<const OpenTexts> open = {}; // of all editors
 
   const LoadedFile &file() const { return programs->file(FileId(0)); }
   Places places() const { return Places(file().source, encoding); }

@@ -9,6 +9,20 @@ std::string View::uriOf(FileId id) const {
   return id == kDocument || loaded.path.empty() ? uri : uriOfPath(loaded.path);
 }
 
+View withFolder(const View &view) {
+  View whole = view;
+  if (view.file().path.empty() || !view.file().model.calls.empty()) // then it is loaded with them
+    return whole;
+  const ProgramsWish wish{.path = view.file().path.generic_string(),
+                          .dialect = std::string(view.programs->dialect.id),
+                          .open = view.open,
+                          .folder = ProgramsWish::Folder::Always};
+  auto loaded = loadPrograms(wish, view.known);
+  if (loaded && loaded.value()->file(kDocument).source.text() == view.file().source.text())
+    whole.programs = loaded.take();
+  return whole;
+}
+
 std::uint32_t offsetOf(const View &view, const Json &params) { return view.places().offset(params.at("position")); }
 
 std::optional<ThingAt> thingAt(const View &view, const Json &params) {

@@ -6,6 +6,8 @@
 
 namespace feedhold::lsp {
 
+/// The same with all files of its folder: who calls a program is seen from there.
+View withFolder(const View &view);
 /// The offset of `params.position` in the document.
 std::uint32_t offsetOf(const View &view, const Json &params);
 /// What stands at `params.position`.

@@ -63,7 +63,8 @@ Json prepareCallHierarchy(const View &view, const Json &params) {
   return callee ? Json::array({itemOf(view, *callee)}) : Json();
 }
 
-Json incomingCalls(const View &view, const Json &params) {
+Json incomingCalls(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const auto program = programOf(view, params.at("item"));
   if (!program)
     return nullptr;

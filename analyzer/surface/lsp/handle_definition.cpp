@@ -44,7 +44,8 @@ Json definition(const View &view, const Json &params) {
   return found.empty() ? Json() : found;
 }
 
-Json references(const View &view, const Json &params) {
+Json references(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const Json context = params.value("context", Json::object());
   const bool withDefinition = context.value("includeDeclaration", true);
   Json found = Json::array();

@@ -120,7 +120,8 @@ private:
 
 } // namespace
 
-Json prepareRename(const View &view, const Json &params) {
+Json prepareRename(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const Renamed renamed = namedAt(view, params);
   match(
       renamed.name, [&](const LabelRef &label) { checkLabelCanChange(view, label); },
@@ -128,7 +129,8 @@ Json prepareRename(const View &view, const Json &params) {
   return {{"range", rangeOf(view, kDocument, renamed.span)}, {"placeholder", view.file().source.utf8(renamed.span)}};
 }
 
-Json rename(const View &view, const Json &params) {
+Json rename(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const std::string newName = params.at("newName").get<std::string>();
   const Renamed renamed = namedAt(view, params);
   Edits edits(view);
@@ -138,7 +140,8 @@ Json rename(const View &view, const Json &params) {
   return edits.workspaceEdit();
 }
 
-Json renumber(const View &view, const Json &params) {
+Json renumber(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const auto step = params.value("step", std::uint32_t{10});
   if (step == 0)
     throw Refused("the step is 0");

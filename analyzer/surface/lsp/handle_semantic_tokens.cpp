@@ -35,7 +35,7 @@ class Writer {
 public:
   explicit Writer(const View &view) : view_(view), file_(view.file()), places_(view.places()) {}
 
-  Json write() {
+  std::vector<std::uint32_t> write() {
     const TokenBuffer tokens = lex(file_.source, view_.programs->dialect);
     for (std::size_t i = 0; i < tokens.size(); ++i)
       i += token(tokens, i);
@@ -112,9 +112,10 @@ private:
   }
 
   std::size_t put(Span span, Kind kind, unsigned modifiers = 0) {
-    const Json begin = places_.position(span.begin);
-    const auto line = begin["line"].get<std::uint32_t>(), from = begin["character"].get<std::uint32_t>();
-    const auto to = places_.position(span.end)["character"].get<std::uint32_t>();
+    const auto [line, from] = places_.lineAndCharacter(span.begin);
+    const auto [lastLine, to] = places_.lineAndCharacter(span.end);
+    if (lastLine != line) // clients take tokens of one line
+      return 0;
     const std::uint32_t lines = line - line_;
     for (const std::uint32_t part : {lines, lines == 0 ? from - from_ : from, to - from,
                                      static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(modifiers)})
@@ -127,7 +128,7 @@ private:
   const View &view_;
   const LoadedFile &file_;
   Places places_;
-  Json data_ = Json::array();
+  std::vector<std::uint32_t> data_;
   std::uint32_t line_ = 0;
   std::uint32_t from_ = 0;
 };

@@ -29,11 +29,22 @@ std::uint32_t Places::units(std::string_view utf8) const {
 }
 
 nlohmann::json Places::position(std::uint32_t offset) const {
+  const auto [line, character] = lineAndCharacter(offset);
+  return {{"line", line}, {"character", character}};
+}
+
+Places::LineAndCharacter Places::lineAndCharacter(std::uint32_t offset) const {
+  // A file of the folder in another encoding: the client will have decoded it when it goes there.
+  if (encoding_ == PositionEncoding::Utf16 && source_.encoding() != Encoding::Ascii &&
+      source_.encoding() != Encoding::Utf8) {
+    const Position position = source_.positionUtf16(offset);
+    return {position.line - 1, position.column - 1};
+  }
   offset = std::min(offset, static_cast<std::uint32_t>(source_.text().size()));
   const std::uint32_t line = source_.lineOf(offset);
   const Span whole = source_.lineSpan(line);
   const std::uint32_t end = std::clamp(offset, whole.begin, whole.end);
-  return {{"line", line - 1}, {"character", units(source_.text(Span{whole.begin, end}))}};
+  return {line - 1, units(source_.text(Span{whole.begin, end}))};
 }
 
 nlohmann::json Places::range(Span span) const { return {{"start", position(span.begin)}, {"end", position(span.end)}}; }

@@ -18,6 +18,12 @@ class Places {
 public:
   Places(SourceFile source, PositionEncoding encoding) : source_(std::move(source)), encoding_(encoding) {}
 
+  struct LineAndCharacter {
+    std::uint32_t line;
+    std::uint32_t character;
+  };
+  /// Both from 0.
+  LineAndCharacter lineAndCharacter(std::uint32_t offset) const;
   /// `{"line": 0, "character": 0}`, both from 0.
   nlohmann::json position(std::uint32_t offset) const;
   /// `{"start": .., "end": ..}`

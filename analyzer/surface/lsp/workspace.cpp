@@ -132,7 +132,8 @@ View Workspace::viewOf(OpenDocument &document) const {
           .proofs = document.verdicts,
           .known = known_,
           .encoding = encoding,
-          .folders = folders};
+          .folders = folders,
+          .open = texts_};
 }
 
 std::string Workspace::uriOf(const fs::path &path) const {

@@ -62,6 +62,14 @@ TEST_F(LspDefinition, AVariableLeadsToItsAssignmentsInItsScope) {
   EXPECT_EQ(references(view, "#1LT3"), (Strings{"9:#1", "10:#1", "11:#1", "11:#1"}));
 }
 
+TEST_F(LspDefinition, AFileInAnotherEncodingIsCountedAsItIsDecoded) {
+  write("O9100.nc", "%\nO9100\n(M\xD6GLICHE H\xD6HE)#510=1.\nM99\n%\n"); // Latin-1
+  const View view = openText("%\nO1\nG65P9100\n#1=#510\nM30\n%\n");
+  const Json found = askAt(view, "textDocument/definition", "#510");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0]["range"]["start"], (Json{{"line", 2}, {"character", 15}}));
+}
+
 TEST_F(LspDefinition, TheEndsOfALoopLeadToEachOther) {
   const View view = openText(kTwo);
   EXPECT_EQ(from(view, "END1"), (Strings{"10:WHILE[#1LT3]DO1"}));

@@ -85,6 +85,16 @@ TEST_F(LspOutline, CallsBothWays) {
   EXPECT_TRUE(askAt(view, "textDocument/prepareCallHierarchy", "M30").is_null());
 }
 
+TEST_F(LspOutline, CallersAreFoundFromAMacroThatCallsNothing) {
+  write("main.nc", "%\nO1\nG65P9100A1.\nM30\n%\n");
+  const View view = openText("%\nO9100\nG00X#1\nM99\n%\n");
+  const Json item = askAt(view, "textDocument/prepareCallHierarchy", "O9100").at(0);
+  const Json incoming = ask(view, "callHierarchy/incomingCalls", {{"item", item}});
+  ASSERT_EQ(incoming.size(), 1U);
+  EXPECT_EQ(incoming[0]["from"]["uri"], uri("main.nc"));
+  EXPECT_EQ(shown(view, askAt(view, "textDocument/references", "#1")), (Strings{"3:#1", "main.nc:3:A1."}));
+}
+
 TEST_F(LspOutline, TokensAreCountedInUnitsOfTheClient) {
   const View view = openText("(\xF0\x9F\x98\x80)G01X#1\nGOTO10\n#3000=1(@X)\n");
   const Json data = ask(view, "textDocument/semanticTokens/full", {})["data"];

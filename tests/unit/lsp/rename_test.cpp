@@ -161,10 +161,18 @@ TEST_F(LspRename, CommonVariablesChangeInAllFiles) {
             std::string::npos);
 }
 
+TEST_F(LspRename, AMacroThatCallsNothingIsSeenWithItsCallers) {
+  write("main.nc", "%\nO1\n#510=1\n#30=4\nM98P9100\nG00X#30\nM30\n%\n");
+  const View view = openText("%\nO9100\n#30=3\nG04X#510\nM99\n%\n");
+  const auto texts = applied(rename(view, "#510", "520"));
+  EXPECT_EQ(texts.at("main.nc"), "%\nO1\n#520=1\n#30=4\nM98P9100\nG00X#30\nM30\n%\n");
+  EXPECT_NE(refused(view, "#30", "31").find("calls this program without local variables of its own"),
+            std::string::npos);
+}
+
 TEST_F(LspRename, NamedVariablesOfControlsThatHaveThem) {
   const View view = openText("o<cut> sub\n#<depth>=2\nG0 X#<Depth>\no<cut> endsub\n#<depth>=1\nM2\n", "linuxcnc");
-  EXPECT_EQ(renamed(view, "#<depth>=2", "#<low>"),
-            "o<cut> sub\n#<low>=2\nG0 X#<low>\no<cut> endsub\n#<depth>=1\nM2\n");
+  EXPECT_EQ(renamed(view, "#<depth>=2", "#<low>"), "o<cut> sub\n#<low>=2\nG0 X#<low>\no<cut> endsub\n#<depth>=1\nM2\n");
   EXPECT_NE(refused(view, "#<depth>=2", "z low").find("a name has no blanks"), std::string::npos);
   EXPECT_NE(refused(view, "#<depth>=2", "_low").find("begins with `_`"), std::string::npos);
   EXPECT_NE(refused(view, "#<depth>=2", "Depth").find("is taken"), std::string::npos);
