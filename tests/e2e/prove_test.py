@@ -57,6 +57,22 @@ class Prove(Scratch):
         [row] = [row for row in self.obligations(*arguments) if row["id"] == identity]
         return row
 
+    def test_statistics(self):
+        self.write("O1.nc", COUNTS)
+        self.write("O3.nc", UNKNOWN)
+        self.write("O9100.nc", DIVIDES)
+        rows = self.obligations()
+        result = self.prove("--statistics")
+        self.assertExit(result, 1)
+        kinds, methods = ([line.split() for line in part.splitlines()[1:]] for part in result.stdout.split("\n\n"))
+        verdicts = ("proved", "refuted", "unknown", "unreachable")
+        self.assertEqual({words[0]: tuple(map(int, words[1:5])) for words in kinds},
+                         {kind: tuple(sum(row["kind"] == kind and row["verdict"] == verdict for row in rows)
+                                      for verdict in verdicts) for kind in {row["kind"] for row in rows}})
+        methods = [words for words in methods if words and words[-1].isdigit() and words[-2].isdigit()]
+        self.assertEqual(sum(int(words[-2]) for words in methods), len(rows))
+        self.assertEqual(sum(int(words[-1]) for words in methods), sum(int(words[5]) for words in kinds))
+
     # ---- exit codes ----
 
     def test_all_proved(self):

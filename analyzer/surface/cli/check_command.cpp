@@ -5,6 +5,7 @@
 #include "findings/session/discovery.h"
 #include "findings/session/selection.h"
 #include "findings/session/session.h"
+#include "findings/session/watched.h"
 #include "rules/registry.h"
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/change_options.h"
@@ -15,7 +16,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
+#include <thread>
 
 namespace feedhold {
 
@@ -42,6 +45,7 @@ struct CheckArguments {
   bool quiet = false;
   bool statistics = false;
   bool exitZero = false;
+  bool watch = false;
   BaselineWish baseline;
   ChangeWish change;
 };
@@ -73,6 +77,7 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
   app.add_flag("--statistics", arguments.statistics, "print the number of findings of each rule instead of them");
   app.add_flag("--exit-zero", arguments.exitZero, "exit 0 even with findings");
+  app.add_flag("--watch", arguments.watch, "check again whenever a file changes, until Ctrl-C");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
 }
@@ -96,6 +101,8 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
     return "standard input cannot be repaired in place; --diff shows the repairs";
   if (arguments.baseline.isAsked() && (arguments.fix || arguments.diff))
     return "--baseline is for reports; repairs are made in all findings, so give one or the other";
+  if (arguments.watch && (isPiped || arguments.fix || arguments.diff || arguments.baseline.update))
+    return "--watch reports on files; it goes with neither standard input, --fix, --diff nor --update-baseline";
   if (arguments.unsafeFixes && !arguments.fix && !arguments.diff)
     return "--unsafe-fixes says which repairs; add --fix to make them or --diff to see them";
   return std::nullopt;
@@ -291,13 +298,47 @@ int runCheck(const CheckArguments &arguments) {
   return present(result, arguments);
 }
 
+Stamps stampsFor(const CheckArguments &arguments) {
+  std::vector<std::string> own;
+  if (!arguments.output.empty())
+    own.push_back(arguments.output);
+  return stampsOf(arguments.paths.empty() ? std::vector<std::string>{"."} : arguments.paths, own);
+}
+
+/// Waits until files are no longer as they were, and no longer changing: an editor may write in several steps.
+Stamps waitForChange(Stamps before, const CheckArguments &arguments) {
+  constexpr std::chrono::milliseconds kPause(300); // also on network drives, which do not tell of changes
+  bool isChanged = false;
+  for (;;) {
+    std::this_thread::sleep_for(kPause);
+    Stamps now = stampsFor(arguments);
+    const bool isSame = now == before;
+    if (isSame && isChanged)
+      return now;
+    isChanged = isChanged || !isSame;
+    before = std::move(now);
+  }
+}
+
+/// Never comes back but for a failing output: Ctrl-C ends the program.
+int watch(const CheckArguments &arguments) {
+  for (Stamps stamps = stampsFor(arguments);; stamps = waitForChange(std::move(stamps), arguments)) {
+    runCheck(arguments);
+    if (!outputArrived())
+      return kExitCouldNotRun;
+    printAside(fmt::format("--- watching {} file{}; Ctrl-C ends ---\n", stamps.size(), stamps.size() == 1 ? "" : "s"));
+  }
+}
+
 } // namespace
 
 Command addCheckCommand(CLI::App &parent) {
   CLI::App *app = parent.add_subcommand("check", "find mistakes in programs");
   const auto arguments = std::make_shared<CheckArguments>();
   addOptions(*app, *arguments);
-  return {app, [arguments] { return runCheck(*arguments); }};
+  return {app, [arguments] {
+            return arguments->watch && !complaintAbout(*arguments) ? watch(*arguments) : runCheck(*arguments);
+          }};
 }
 
 } // namespace feedhold

@@ -32,6 +32,8 @@ Command addRangesCommand(CLI::App &parent);
 Command addProveCommand(CLI::App &parent);
 Command addCertifyCommand(CLI::App &parent);
 Command addRecheckCommand(CLI::App &parent);
+Command addCompletionsCommand(CLI::App &parent);
+Command addManCommand(CLI::App &parent);
 Command addLspCommand(CLI::App &parent);
 
 } // namespace feedhold

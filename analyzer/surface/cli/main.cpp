@@ -12,11 +12,12 @@ int run(int argc, char **argv) {
   CLI::App app("Static analyser for CNC macro programs", "feedhold");
   app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION);
   app.require_subcommand(1);
-  const std::vector<Command> commands = {addCheckCommand(app),   addRunCommand(app),     addPlotCommand(app),
-                                         addExplainCommand(app), addRulesCommand(app),   addDialectsCommand(app),
-                                         addTokensCommand(app),  addTreeCommand(app),    addModelCommand(app),
-                                         addCfgCommand(app),     addRangesCommand(app),  addProveCommand(app),
-                                         addCertifyCommand(app), addRecheckCommand(app), addLspCommand(app)};
+  const std::vector<Command> commands = {addCheckCommand(app),       addRunCommand(app),     addPlotCommand(app),
+                                         addExplainCommand(app),     addRulesCommand(app),   addDialectsCommand(app),
+                                         addTokensCommand(app),      addTreeCommand(app),    addModelCommand(app),
+                                         addCfgCommand(app),         addRangesCommand(app),  addProveCommand(app),
+                                         addCertifyCommand(app),     addRecheckCommand(app), addLspCommand(app),
+                                         addCompletionsCommand(app), addManCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

@@ -38,6 +38,7 @@ struct ProveArguments {
   bool verbose = false;
   bool quiet = false;
   bool withoutCache = false;
+  bool statistics = false;
   BaselineWish baseline;
   ChangeWish change;
 };
@@ -75,6 +76,7 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
   app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
   app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
+  app.add_flag("--statistics", arguments.statistics, "print the number of verdicts of each kind instead of them");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
   addWithCallers(app, arguments.change);
@@ -174,7 +176,8 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .colour = useColour(colourWishFrom(arguments.color))};
   for (const PathProblem &problem : result.errors)
     printError(problem.path + ": " + problem.message);
-  print(arguments.format == "json"    ? writeProveJson(report)
+  print(arguments.statistics          ? proveStatistics(report)
+        : arguments.format == "json"  ? writeProveJson(report)
         : arguments.format == "sarif" ? writeProveSarif(report)
                                       : writeProveText(report));
   if (!arguments.quiet && arguments.format == "text")

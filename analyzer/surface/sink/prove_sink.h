@@ -29,5 +29,7 @@ std::string writeProveJson(const ProveReport &report);
 std::string writeProveSarif(const ProveReport &report);
 /// For people, behind the text: how many of what.
 std::string proveSummary(const ProveReport &report);
+/// The verdicts of each kind of obligation, and what each method has found at what cost.
+std::string proveStatistics(const ProveReport &report);
 
 } // namespace feedhold
