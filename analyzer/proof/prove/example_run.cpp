@@ -27,6 +27,16 @@ ExampleRun started(const ProgramSet &programs, Callee program, const FileContrac
   return {std::move(options), std::move(result)};
 }
 
+/// What the contract does not speak of may be anything, and would only distract.
+GivenVariables named(const Contract &contract, const GivenVariables &given) {
+  GivenVariables result;
+  for (const auto *values : {&contract.params, &contract.globals})
+    for (const EntryValue &value : *values)
+      if (const ConcreteValue *held = given.find(value.variable))
+        result.set(value.variable, *held);
+  return result;
+}
+
 /// Higher for runs that come to their end, then for those that show more movements, up to what an eye can follow.
 std::pair<bool, std::size_t> rankOf(const RunResult &run) {
   return {hasEnded(run.end), run.moves.size() <= kTold ? run.moves.size() : kTold / 2};
@@ -51,7 +61,7 @@ std::optional<ExampleRun> exampleRun(const ProgramSet &programs, Callee program,
   inputs.sampleEnds(terms.inputEnds(*contract, entry));
   std::optional<ExampleRun> best;
   for (const WitnessSearch::Sample &sample : inputs.samples())
-    if (ExampleRun each = started(programs, program, contracts, sample.given);
+    if (ExampleRun each = started(programs, program, contracts, named(*contract, sample.given));
         !best || rankOf(each.result) > rankOf(best->result))
       best = std::move(each);
   return best;

@@ -73,15 +73,21 @@ Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
   return std::optional(fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(seconds))));
 }
 
+/// One spelling for each file: `nc/` and `.` within it are `nc`.
+std::filesystem::path plainPath(const std::string &path) {
+  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
 Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
   CertificateWish wish;
   for (const std::string &path : arguments.paths) {
     if (path == "-")
       return Error{"standard input cannot be found again, so that there is nothing to certify"};
-    wish.paths.emplace_back(path);
+    wish.paths.push_back(plainPath(path));
   }
   if (wish.paths.empty())
-    wish.paths = {"."};
+    wish.paths = {plainPath(".")};
   if (!arguments.dialect.empty()) {
     if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
       return Error{*complaint};

@@ -49,15 +49,11 @@ void addPictures(Bundle &report, const Json &document, const Runs &runs) {
 Bundle makeCertificate(const CertificateInput &input) {
   const Bundle evidence = makeBundle(input.proofs, input.wish.reading, input.version, input.folder / kEvidenceFolder);
   const Runs runs = runsOf(input);
-  Json document = certificate::documentOf(input, evidence, runs);
+  const Json document = certificate::documentOf(input, evidence, runs);
   Bundle report;
   for (const auto &[name, text] : evidence)
     report.emplace(std::string(kEvidenceFolder) + name, text);
   addPictures(report, document, runs);
-  Json stored = Json::array();
-  for (const auto &[name, text] : report)
-    stored.push_back({{"file", name}, {"sha256", sha256(text)}});
-  document["stored"] = std::move(stored);
   const std::string text = certificate::textOf(document);
   const std::string page = certificate::pageOf(text, report);
   report.emplace(kCertificate, text);

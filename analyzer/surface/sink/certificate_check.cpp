@@ -28,6 +28,15 @@ Result<Json> documentOf(const Bundle &report) {
   return document;
 }
 
+/// Files are named together with their hashes, wherever that is.
+void collectHashes(const Json &value, std::string_view folder, std::map<std::string, std::string> &hashes) {
+  if (value.is_object() && value.contains("file") && value.contains("sha256"))
+    hashes.emplace(std::string(folder) + value.at("file").get<std::string>(), value.at("sha256"));
+  if (value.is_structured())
+    for (const Json &part : value)
+      collectHashes(part, folder, hashes);
+}
+
 /// The first place at which two documents are not alike, as a person finds it: `files[O1.nc].programs[O1].summary`.
 class DocumentComparison {
 public:
@@ -109,13 +118,15 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
     if (certificate::textOf(document) != text)
       lines.push_back(fmt::format("`{}` is not as it was written", kCertificate));
     std::map<std::string, std::string> hashes;
-    for (const Json &stored : document.at("stored"))
-      hashes.emplace(stored.at("file"), stored.at("sha256"));
+    collectHashes(document, "", hashes);
+    const std::string index = std::string(kEvidenceFolder) + std::string(kBundleIndex);
+    if (const auto file = report.find(index); file != report.end())
+      collectHashes(Json::parse(file->second, nullptr, false), kEvidenceFolder, hashes);
     for (const auto &[name, hash] : hashes)
       if (const auto file = report.find(name); file == report.end())
         lines.push_back(fmt::format("`{}` is missing", name));
       else if (sha256(file->second) != hash)
-        lines.push_back(fmt::format("`{}` is not the one that `{}` names by its hash", name, kCertificate));
+        lines.push_back(fmt::format("`{}` is not the one that was written: its hash is another", name));
     for (const auto &[name, content] : report)
       if (name != kCertificate && name != kCertificatePage && !hashes.contains(name))
         lines.push_back(fmt::format("`{}` does not belong to the report", name));

@@ -53,6 +53,13 @@ std::string sentenceOf(const prove::ProgramProof &proof, const VerdictCounts &co
   if (space != proof.obligations.end())
     return fmt::format("Do not run: a call is known with which the tool goes where it must not. {} of {} are broken.{}",
                        refuted, claims(counts.all()), open);
+  if (std::all_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &each) {
+        return each.verdict != Verdict::Refuted || each.kind == prove::ObligationKind::AlarmUnreachable;
+      }))
+    return fmt::format(
+        "Calls are known that raise an alarm of the program: {} of {}. Where that is meant, `@ALARM` says "
+        "so.{}",
+        refuted, claims(counts.all()), open);
   return fmt::format("Do not release: calls are known that break {} of {}.{}", refuted, claims(counts.all()), open);
 }
 
@@ -61,7 +68,9 @@ public:
   Document(const CertificateInput &input, const Bundle &evidence,
            const std::vector<std::vector<std::vector<ShownRun>>> &runs)
       : input_(input), runs_(runs) {
-    const Json index = Json::parse(evidence.at(std::string(kBundleIndex)));
+    const std::string &text = evidence.at(std::string(kBundleIndex));
+    indexSha_ = sha256(text);
+    const Json index = Json::parse(text);
     for (const Json &file : index.at("files"))
       evidence_[file.at("path")] = file.at("obligations");
   }
@@ -84,7 +93,8 @@ public:
             {"assumptions", assumptions()},
             {"sources", sourcesToJson()},
             {"files", std::move(files)},
-            {"skipped", skippedToJson()}};
+            {"skipped", skippedToJson()},
+            {"evidence", {{"file", std::string(kEvidenceFolder) + std::string(kBundleIndex)}, {"sha256", indexSha_}}}};
   }
 
 private:
@@ -191,7 +201,7 @@ private:
     for (std::string word; now >> word;) {
       const std::size_t equals = word.find('=');
       const std::string value = word.substr(equals + 1);
-      const std::string_view shown = value == "0" ? "off" : value == "1" ? "on" : value == "2" ? "unknown" : value;
+      const std::string shown = value == "0" ? "off" : value == "1" ? "on" : value == "2" ? "unknown" : value;
       rows.push_back({{"name", word.substr(0, equals)},
                       {"value", shown},
                       {"chosenBy", plainWords.contains(word) ? "dialect" : "config"}});
@@ -304,6 +314,19 @@ private:
       text += " --config " + quotedWord(relative(*reading.config));
     return text;
   }
+  /// Where its files lie; the index of the evidence names the files one by one, with their hashes.
+  static Json evidenceToJson(const Json &parts) {
+    if (parts.empty())
+      return nullptr;
+    std::size_t queries = 0;
+    for (const Json &part : parts)
+      queries += part.contains("smtlib") ? 1 : 0;
+    const Json &first = parts.front();
+    const std::string file = first.at(first.contains("smtlib") ? "smtlib" : "claim").at("file");
+    return {{"folder", std::string(kEvidenceFolder) + file.substr(0, file.rfind('/') + 1)},
+            {"certificates", parts.size() - queries},
+            {"queries", queries}};
+  }
   /// What the index of the evidence says of it, and what else there is to know.
   Json obligationToJson(const Obligation &obligation, const std::string &path, const ProvedFile &file,
                         const ProvedProgram &program) {
@@ -313,6 +336,7 @@ private:
         row = each;
     const Dialect &dialect = file.loaded->dialect;
     row.erase("program");
+    row["evidence"] = evidenceToJson(row.at("evidence"));
     row["method"] = obligation.method.empty() ? Json() : Json(obligation.method);
     row["rlimit"] = obligation.effort;
     row["margin"] = obligation.margin ? Json(*obligation.margin) : Json();
@@ -338,6 +362,7 @@ private:
   std::map<std::string, Source> sources_;
   VerdictCounts counts_;
   std::size_t pictures_ = 0;
+  std::string indexSha_;
 };
 
 } // namespace

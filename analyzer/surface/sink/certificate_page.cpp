@@ -135,9 +135,10 @@ private:
     add("<section class=\"verdict {}\">\n<p class=\"sign\" aria-hidden=\"true\">{}</p>\n<div>\n<h2>{}</h2>\n<p>{} "
         "claim{} about {} program{}:",
         verdict, signOf(verdict), words, allOf(counts), allOf(counts) == 1 ? "" : "s", count, count == 1 ? "" : "s");
+    std::string_view between = " ";
     for (const char *each : kVerdicts)
       if (counts.at(each) != 0)
-        add(" <span class=\"count\">{}</span> {}", number(counts.at(each)), each);
+        add("{}<span class=\"count\">{}</span> {}", std::exchange(between, ", "), number(counts.at(each)), each);
     add("</p>\n<p>A claim is proved for all inputs at once, under the <a href=\"#assumptions\">assumptions</a> that "
         "this "
         "report lists. What was <a href=\"#not-checked\">not checked</a> is listed, too.</p>\n</div>\n</section>\n");
@@ -157,7 +158,7 @@ private:
         add("<tr><td><a class=\"name\" href=\"#{}\">{}</a><br><small>{}</small></td><td>{}{}</td>{}{}{}{}</tr>\n",
             anchorOf(file, program), text(program.at("name")), text(file.at("path")),
             program.at("title") == "" ? std::string() : fmt::format("<b>{}</b><br>", text(program.at("title"))),
-            text(program.at("summary")), cell("proved"), cell("refuted"), cell("unknown"), cell("unreachable"));
+            prose(program.at("summary")), cell("proved"), cell("refuted"), cell("unknown"), cell("unreachable"));
       }
     add("</tbody>\n</table>\n</section>\n");
   }
@@ -179,7 +180,7 @@ private:
     add("<section class=\"program\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p class=\"meta\">{}, line {} &middot; "
         "read for {}</p>\n<p class=\"sentence {}\">{}</p>\n",
         anchorOf(file, program), text(program.at("name")), text(program.at("title")), text(file.at("path")),
-        number(program.at("line")), text(file.at("control")), verdictOf(counts), text(program.at("summary")));
+        number(program.at("line")), text(file.at("control")), verdictOf(counts), prose(program.at("summary")));
     if (!program.at("incomplete").is_null())
       add("<p class=\"warning\">Not all ways through it were followed: {}.</p>\n", prose(program.at("incomplete")));
     refutations(program);
@@ -191,24 +192,36 @@ private:
     add("</section>\n");
   }
 
+  /// One call may break many claims.
   void refutations(const Json &program) {
-    bool isFirst = true;
+    std::vector<std::vector<const Json *>> calls;
+    std::map<std::string, std::size_t> byRun;
     for (const Json &row : program.at("obligations")) {
       if (row.at("verdict") != "refuted" || row.at("witness").is_null())
         continue;
-      const Json &witness = row.at("witness");
-      if (std::exchange(isFirst, false))
-        add("<h3>Calls that break a claim</h3>\n");
-      add("<div class=\"witness\">\n<p><b>{}</b> <small>{}, line {}</small></p>\n<p class=\"call\"><code>{}</code> "
-          "{}</p>\n{}<pre>{}\n{}</pre>\n</div>\n",
-          prose(row.at("message")), text(row.at("id")), number(row.at("line")), text(witness.at("call")),
-          prose(witness.at("happened")), guard(row), text(witness.at("run")), text(witness.at("plot")));
+      const auto [at, isNew] = byRun.try_emplace(row.at("witness").at("run"), calls.size());
+      if (isNew)
+        calls.emplace_back();
+      calls[at->second].push_back(&row);
+    }
+    if (calls.empty())
+      return;
+    add("<h3>Calls that break a claim</h3>\n<p><small>The commands are for the folder of this report; "
+        "<code>plot</code> "
+        "in place of <code>run</code> draws the path.</small></p>\n");
+    for (const std::vector<const Json *> &rows : calls) {
+      add("<div class=\"witness\">\n<p class=\"call\"><code>{}</code></p>\n<ul>\n",
+          text(rows.front()->at("witness").at("call")));
+      for (const Json *row : rows)
+        add("<li>line {}: <b>{}</b> <small>{}</small><br>{}{}</li>\n", number(row->at("line")),
+            prose(row->at("message")), text(row->at("id")), prose(row->at("witness").at("happened")), guard(*row));
+      add("</ul>\n<pre>{}</pre>\n</div>\n", text(rows.front()->at("witness").at("run")));
     }
   }
   static std::string guard(const Json &row) {
     return row.at("guard").is_null()
                ? std::string()
-               : fmt::format("<p>It is proved with this clause in the contract: <code>{}</code></p>\n",
+               : fmt::format("<br><small>it is proved with <code>{}</code> in the contract</small>",
                              text(row.at("guard")));
   }
 
@@ -294,27 +307,20 @@ private:
     evidence(row.at("evidence"));
     add("</td></tr>\n");
   }
-  /// The first few by name; all of them lie in one folder.
-  void evidence(const Json &parts) {
-    constexpr std::size_t kMostLinks = 3;
-    std::size_t count = 0;
-    for (const Json &part : parts) {
-      const bool isSolved = part.contains("smtlib");
-      const std::string name =
-          std::string(kEvidenceFolder) + part.at(isSolved ? "smtlib" : "claim").at("file").get<std::string>();
-      if (count == 0)
-        add("<br><small>");
-      if (count < kMostLinks && isSolved)
-        add("<a href=\"{}\">query {}</a> ", xml(name), count + 1);
-      else if (count < kMostLinks)
-        add("<a href=\"{}\">claim</a>&nbsp;<a href=\"{}{}\">certificate {}</a> ", xml(name), kEvidenceFolder,
-            text(part.at("certificate").at("file")), count + 1);
-      ++count;
-    }
-    if (count > kMostLinks)
-      add("and {} more beside them", count - kMostLinks);
-    if (count > 0)
-      add("</small>");
+  /// A link to the first file: the others lie beside it.
+  void evidence(const Json &row) {
+    if (row.is_null())
+      return;
+    const std::string folder = row.at("folder");
+    const bool isSolved = row.at("queries") != 0;
+    const std::uint64_t count = row.at("queries").get<std::uint64_t>() + row.at("certificates").get<std::uint64_t>();
+    if (isSolved && row.at("certificates") == 0)
+      add("<br><small><a href=\"{}1.smt2\">query</a>", xml(folder));
+    else
+      add("<br><small><a href=\"{0}1.claim\">claim</a>, <a href=\"{0}1.certificate\">certificate</a>", xml(folder));
+    if (count > 1)
+      add(" and {} more there", count - 1);
+    add("</small>");
   }
 
   // ---- behind the programs ----

@@ -31,7 +31,8 @@ std::vector<ShownRun> shownRuns(const ProvedFile &file, const ProvedProgram &pro
 /// Without the file, which lies elsewhere for everybody.
 std::string optionsBehindFile(const TypedWitness &run, const ProvedFile &file);
 
-/// The whole document but for the hashes of the other files.  `runs`: by file and program.
+/// It names each file of the report but the page by its hash, those of the evidence by their index.  `runs`: by file
+/// and program.
 Json documentOf(const CertificateInput &input, const Bundle &evidence,
                 const std::vector<std::vector<std::vector<ShownRun>>> &runs);
 

@@ -73,7 +73,8 @@ td.proved { color: var(--proved); } td.refuted { color: var(--refuted); } td.unk
 .program { border-top: 2px solid var(--ink); padding-top: 24px; }
 .witness { border: 1px solid var(--line); border-left: 4px solid var(--refuted); border-radius: 6px;
   padding: 10px 14px; margin: 8px 0; }
-.witness p { margin: 0 0 4px; }
+.witness p { margin: 0 0 6px; } .witness ul { margin: 0; padding-left: 18px; }
+.witness .call code { font-weight: 600; background: none; padding: 0; }
 .warning, .caution { color: var(--unknown); font-weight: 600; }
 .clauses, .calls { list-style: none; margin: 0; padding: 0; columns: 2; column-gap: 32px; }
 .clauses li, .calls li { break-inside: avoid; padding: 2px 0; }
@@ -97,7 +98,7 @@ figcaption { font-size: 13px; color: var(--faint); border-top: 1px solid var(--l
   table { font-size: 9pt; } thead { display: table-header-group; }
   tr, figure, .witness, .verdict, #sign-off, #disclaimer { break-inside: avoid; }
   .program { break-before: page; border-top: none; padding-top: 0; margin-top: 0; }
-  figure svg.feedhold-plot { max-height: 200mm; }
+  figure svg.feedhold-plot { max-height: 150mm; }
 }
 )";
 

@@ -49,7 +49,7 @@ constexpr std::string_view kStyle = R"(<style>
 .feedhold-plot .travel { fill: none; stroke: #8250df; stroke-width: 2; }
 .feedhold-plot .tool { fill: #57606a; fill-opacity: 0.22; stroke: #1f2328; stroke-width: 1.4; }
 .feedhold-plot .gouge { fill: none; stroke: #b3161c; stroke-width: 2; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 .feedhold-plot text { fill: #e6edf3; }
 .feedhold-plot .scale { fill: #9198a1; }
 .feedhold-plot .wrong { fill: #ff7b72; }

@@ -26,6 +26,10 @@ class Comparison {
 public:
   std::vector<std::string> run(const Bundle &stored, const Bundle &now) {
     const std::string name(kBundleIndex);
+    if (!stored.contains(name)) {
+      say("`{}` is missing", name);
+      return std::move(problems_);
+    }
     try {
       const Json before = Json::parse(stored.at(name));
       const auto files = rowsBy(before.at("files"), "path");
