@@ -1,5 +1,6 @@
 // Starts `feedhold lsp` and hands it the settings; everything else is the server's work.
 import { execFile } from "node:child_process";
+import { dirname } from "node:path";
 import { promisify } from "node:util";
 
 import * as vscode from "vscode";
@@ -58,9 +59,24 @@ function clientOptions(): LanguageClientOptions {
     synchronize: { configurationSection: "feedhold" },
     middleware: {
       // The palette passes nothing: then the program in front of the user is meant.
-      executeCommand: (command, args, next) => next(command, args.length ? args : activeDocument()),
+      executeCommand: async (command, args, next) => {
+        const answer: unknown = await next(command, args.length ? args : activeDocument());
+        if (command === "feedhold.runWitness") runInTerminal(answer, args);
+        return answer;
+      },
     },
   };
+}
+
+/** A witness comes with the command line that shows its run: `feedhold run ..`. */
+function runInTerminal(answer: unknown, args: unknown[]): void {
+  const { run } = (answer ?? {}) as { run?: string };
+  const { uri } = (args[0] ?? {}) as { uri?: string };
+  if (!run || !uri) return;
+  const program = vscode.workspace.getConfiguration("feedhold").get("path", "feedhold");
+  const terminal = vscode.window.createTerminal({ name: "Feedhold", cwd: dirname(vscode.Uri.parse(uri).fsPath) });
+  terminal.show();
+  terminal.sendText(run.replace(/^feedhold(?= )/, program.includes(" ") ? `"${program}"` : program));
 }
 
 function activeDocument(): string[] {
