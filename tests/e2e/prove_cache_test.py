@@ -184,6 +184,12 @@ class Cache(Scratch):
         self.assertEqual(result.stderr, "")
         self.assertExit(self.prove(environment={"XDG_CACHE_HOME": "", "HOME": ""}), 0)
 
+    def test_folder_that_cannot_be_written(self):
+        for folder in ("/proc/feedhold", "/proc/self"):  # also for root
+            result = self.prove("--cache-dir", folder, "nc/O9100.nc")
+            self.assertExit(result, 0)
+            self.assertEqual(result.stderr, "")
+
     def test_old_entries_go(self):
         self.prove()
         [path] = self.entries()
@@ -239,6 +245,19 @@ class Cache(Scratch):
         path.unlink()
         path.mkdir()
         self.assertEqual(self.prove().stdout, good)
+
+    def test_runs_that_repair_one_damaged_entry(self):
+        good = self.prove().stdout
+        [path] = self.entries()
+        content = path.read_bytes()
+        for _ in range(5):
+            path.write_bytes(content[:len(content) // 2])
+            runs = [subprocess.Popen([FEEDHOLD, "prove", "--dialect", "fanuc-30i", "nc/O9100.nc"], cwd=self.folder,
+                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                     env=self.environment()) for _ in range(2)]
+            self.assertEqual([run.communicate()[0] for run in runs], [good, good])
+            self.assertEqual(path.read_bytes(), content)
+            self.assertEqual(self.entries(), [path])
 
     def test_runs_side_by_side(self):
         runs = [subprocess.Popen([FEEDHOLD, "prove", "--dialect", "fanuc-30i", "nc"], cwd=self.folder,
