@@ -88,6 +88,12 @@ class SidecarAllow(Scratch):
         [row] = self.complaints(f"@ALLOW {RULE} N20 REPAIRED MEANWHILE")
         self.assertEqual((row["rule"], row["path"]), ("unused-suppression", "O9100.contract"))
 
+    def test_file_that_two_programs_share(self):
+        self.write("part.nc", "O9100\nN10 #510-#6\nN20 #511=#6\nM99\n")
+        self.write("old.nc", "O9100\nN10 #510=#6\nN20 #511=#6\nM99\n")
+        rows = self.complaints(f"@ALLOW {RULE} N10 IN ONE OF THEM\n@ALLOW {RULE} N20 IN NONE")
+        self.assertEqual([(row["path"], row["line"]) for row in rows], [("O9100.contract", 2)])
+
     def test_exit_code_and_fix(self):
         self.write("part.nc", "O9100\n#510-[0]\nM30\n")
         self.assertExit(self.check("--select", RULE), 1)

@@ -48,7 +48,7 @@ public:
         report("suppression-without-reason", withoutReason(suppression), found);
       const bool itsRuleRan = findSelected(suppression.rule) != nullptr;
       if (!suppression.used && itsRuleRan)
-        report("unused-suppression", unused(suppression, suppressions), found);
+        report(kUnusedSuppressionRule, unused(suppression, suppressions), found);
       for (RawFinding &finding : found)
         if (suppression.source == kProgramText)
           into.kept.push_back(std::move(finding));

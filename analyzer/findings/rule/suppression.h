@@ -9,6 +9,9 @@
 
 namespace feedhold {
 
+/// The rule that says it of a suppression that holds back nothing.
+inline constexpr std::string_view kUnusedSuppressionRule = "unused-suppression";
+
 struct Suppression {
   ContractSourceId source = kProgramText; // the text in which it stands
   Span span;                              // the comment or the clause

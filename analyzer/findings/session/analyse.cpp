@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -136,6 +138,33 @@ Analysed analyseOne(const WorkItem &item, const FileContext &context, const Rule
   return result;
 }
 
+bool isOfUnused(const Finding &finding) { return finding.rule->name == kUnusedSuppressionRule; }
+
+/// Two programs of one number in a folder share a file: what one of them uses is not unused.
+std::vector<CheckedFile> joinSidecars(std::vector<Analysed> analysed, const std::vector<CheckedFile> &programs) {
+  std::map<std::string, std::size_t> readers;
+  for (const CheckedFile &program : programs)
+    for (const std::string &path : program.sidecars)
+      readers[path] += program.isOnlyCalled ? 0U : 1U;
+  std::map<std::pair<std::string, std::string>, std::size_t> unused; // by path and fingerprint
+  for (const Analysed &of : analysed)
+    for (const CheckedFile &file : of.sidecars)
+      for (const Finding &finding : file.findings)
+        if (isOfUnused(finding))
+          ++unused[{file.path, finding.fingerprint}];
+  std::vector<CheckedFile> joined;
+  std::set<std::string> seen;
+  for (Analysed &of : analysed)
+    for (CheckedFile &file : of.sidecars) {
+      std::erase_if(file.findings, [&](const Finding &finding) {
+        return isOfUnused(finding) && unused.at({file.path, finding.fingerprint}) < readers[file.path];
+      });
+      if (!file.findings.empty() && seen.insert(file.path).second)
+        joined.push_back(std::move(file));
+    }
+  return joined;
+}
+
 bool isOnlyCalled(const WorkItem &item, const AnalyseOptions &options) {
   return options.only != nullptr && !options.only->contains(item.shown);
 }
@@ -229,11 +258,8 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
       files.back().sidecars.push_back(contracts[i].sources[k].path());
   }
-  std::set<std::string> seen; // two programs of one number in a folder share a file
-  for (Analysed &of : analysed)
-    for (CheckedFile &file : of.sidecars)
-      if (seen.insert(file.path).second)
-        files.push_back(std::move(file));
+  std::vector<CheckedFile> sidecars = joinSidecars(std::move(analysed), files);
+  std::move(sidecars.begin(), sidecars.end(), std::back_inserter(files));
   return files;
 }
 
