@@ -26,7 +26,8 @@ class Client:
         self.received = queue.Queue()
         self.kept = []  # everything that came, in order
         self.last_id = 0
-        threading.Thread(target=self._read, daemon=True).start()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
         if not fresh:
             self.server = self.request("initialize", {
                 "processId": None, "rootUri": self.uri(""), "capabilities": capabilities or {},
@@ -108,6 +109,17 @@ class Client:
     def all_findings(self, uri, version=None):
         """With those of the flow analysis: these come second."""
         return self.diagnostics(uri, version, count=2)
+
+    def end(self):
+        """At once, whatever it does."""
+        self.process.kill()
+        self.process.wait()
+        self.reader.join()
+        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+            try:
+                stream.close()
+            except BrokenPipeError:
+                pass  # what was not sent yet
 
     def close(self):
         """The exit code after an orderly end."""

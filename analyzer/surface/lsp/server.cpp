@@ -32,6 +32,7 @@ void readAll(std::istream &in, EventQueue &queue) {
 } // namespace
 
 int serve(std::istream &in, std::ostream &out, const ServerOptions &options) {
+  in.tie(nullptr); // reading would flush `out` from another thread than those that write to it
   EventQueue queue;
   MessageWriter writer(out);
   std::jthread reader([&] { readAll(in, queue); });

@@ -78,7 +78,8 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
     // The verdicts name places of the programs that were loaded for them.
     document->programs = std::shared_ptr<const LoadedPrograms>(result, file.loaded.get());
   }
-  complainAbout(result->errors);
+  for (const PathProblem &problem : result->errors) // the findings say it, too
+    log(fmt::format("{}: {}", problem.path, problem.message));
   const bool isNews = !remarks.empty() || !document->proofs.empty();
   document->proofs = std::move(remarks);
   if (isNews)

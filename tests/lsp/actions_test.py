@@ -1,0 +1,134 @@
+"""What can be done about findings, and formatting."""
+import os
+import re
+import subprocess
+import unittest
+
+from harness import SLIP, Session, at
+from diagnostics_test import programs
+
+FEEDHOLD = os.environ["FEEDHOLD"]
+
+
+def offset(text, position):
+    lines = text.split("\n")
+    line = lines[position["line"]]
+    units = line.encode("utf-16-le")[:2 * position["character"]].decode("utf-16-le")
+    return sum(len(each) + 1 for each in lines[:position["line"]]) + len(units)
+
+
+def applied(text, edits):
+    """The text with edits of the protocol, as an editor applies them."""
+    for edit in sorted(edits, key=lambda e: offset(text, e["range"]["start"]), reverse=True):
+        text = text[:offset(text, edit["range"]["start"])] + edit["newText"] + text[offset(text, edit["range"]["end"]):]
+    return text
+
+
+class Actions(Session):
+    def ask(self, client, uri, begin, end, **context):
+        return client.request("textDocument/codeAction", {
+            "textDocument": {"uri": uri}, "context": {"diagnostics": [], **context},
+            "range": {"start": {"line": begin, "character": 0}, "end": {"line": end, "character": 0}}})
+
+    def opened(self, text, name="a.nc"):
+        client = self.client(options={"proofs": "off"})
+        uri = client.open(name, text)
+        return client, uri, client.all_findings(uri, 1)
+
+    def test_every_fix_is_offered_and_repairs(self):
+        client, uri, found = self.opened(SLIP)
+        self.assertIn("missing-equals", self.codes(found))
+        actions = self.ask(client, uri, 2, 2, only=["quickfix"])
+        fix = next(a for a in actions if a["diagnostics"][0]["code"] == "missing-equals" and "allow" not in a["title"])
+        client.change(uri, 2, {"text": applied(SLIP, fix["edit"]["changes"][uri])})
+        self.assertNotIn("missing-equals", self.codes(client.all_findings(uri, 2)))
+
+    def test_allowing(self):
+        """The comment takes the finding away, and the missing reason is asked for."""
+        client, uri, _ = self.opened(SLIP)
+        for action in self.ask(client, uri, 3, 4):
+            if action["title"] == "allow `goto-missing-label` here, with a reason":
+                text = applied(SLIP, action["edit"]["changes"][uri])
+        client.change(uri, 2, {"text": text})
+        codes = self.codes(client.all_findings(uri, 2))
+        self.assertNotIn("goto-missing-label", codes)
+        self.assertIn("suppression-without-reason", codes)
+
+    def test_fix_all_is_check_fix(self):
+        text = "%\nO1\nG17 G21 G40 G49 G80 G90 G94\n#1=1\n\n(@ALLOW unread-argument why)\nM30\n%\n"
+        client, uri, _ = self.opened(text)
+        actions = self.ask(client, uri, 0, 0, only=["source.fixAll"])
+        self.assertEqual([a["kind"] for a in actions], ["source.fixAll.feedhold"])
+        path = self.write("b.nc", text)
+        subprocess.run([FEEDHOLD, "check", "--fix", "--quiet", str(path)], stdout=subprocess.DEVNULL)
+        self.assertNotEqual(path.read_text(), text)
+        self.assertEqual(applied(text, actions[0]["edit"]["changes"][uri]), path.read_text())
+
+    def test_nothing_to_do(self):
+        client, uri, _ = self.opened("%\nO1\nM30\n%\n")
+        self.assertEqual(self.ask(client, uri, 0, 5), [])
+
+    def test_no_colours(self):
+        """Editors take `#500` for one."""
+        client, uri, _ = self.opened("%\nO1\n#500=1\nM30\n%\n")
+        self.assertTrue(client.server["capabilities"]["colorProvider"])
+        self.assertEqual(client.request("textDocument/documentColor", {"textDocument": {"uri": uri}}), [])
+
+
+class Formatting(Session):
+    OPTIONS = {"tabSize": 2, "insertSpaces": True}
+
+    def format(self, client, uri, **more):
+        method = "textDocument/rangeFormatting" if more else "textDocument/formatting"
+        return client.request(method, {"textDocument": {"uri": uri}, "options": self.OPTIONS, **more})
+
+    def test_loops_and_blanks(self):
+        text = ("%\n  O9000  (A  B)\n#1=0 \nWHILE[#1LT3]DO1\nG01   X#1\tY2.   (KEPT)\nDO2\n#1=#1+1\nEND2\n/ M00\nEND1\n"
+                "M99\n%\n")
+        wanted = ("%\nO9000  (A  B)\n#1=0\nWHILE[#1LT3]DO1\n  G01 X#1 Y2.   (KEPT)\n  DO2\n    #1=#1+1\n  END2\n/ M00\n"
+                  "END1\nM99\n%\n")
+        client = self.client()
+        uri = client.open("a.nc", text)
+        self.assertEqual(applied(text, self.format(client, uri)), wanted)
+        some = self.format(client, uri, range=at(2, 0))
+        self.assertEqual(applied(text, some), text.replace("#1=0 \n", "#1=0\n"))
+
+    def test_every_program(self):
+        """Only blanks change, formatting twice is formatting once, and the control reads the same words."""
+        client = self.client(options={"proofs": "off"})
+        formatted = 0
+        for path, text in programs():
+            if "\r" in text or "\ufeff" in text:
+                continue
+            uri = client.open(path.as_uri(), text)
+            once = applied(text, self.format(client, uri) or [])
+            self.assertEqual(once.replace(" ", "").replace("\t", ""), text.replace(" ", "").replace("\t", ""), path)
+            client.change(uri, 2, {"text": once})
+            self.assertEqual(self.format(client, uri) or [], [], path)
+            formatted += once != text
+            client.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
+        self.assertGreater(formatted, 20)
+
+    def test_the_control_reads_the_same(self):
+        """Tokens and tree without their places, by the commands that print them."""
+        client = self.client(options={"proofs": "off"})
+        compared = 0
+        for path, text in list(programs())[::7]:
+            if "\r" in text or "\ufeff" in text:
+                continue
+            uri = client.open(path.as_uri(), text)
+            once = applied(text, self.format(client, uri) or [])
+            if once != text:
+                before, after = self.write("before.nc", text), self.write("after.nc", once)
+                self.assertEqual(self.tokens(before), self.tokens(after), path)
+                compared += 1
+        self.assertGreater(compared, 3)
+
+    def tokens(self, path):
+        result = subprocess.run([FEEDHOLD, "tokens", "--dialect", "fanuc-30i", str(path)], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [re.sub(r"\s+\d+-\d+\s*", " ", line, count=1) for line in result.stdout.splitlines()]
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
