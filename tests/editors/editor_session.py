@@ -29,10 +29,27 @@ O9010(CALLED)
 M99
 %
 """
+PROMISED = """%
+O9020(DOUBLE)
+(@PARAM #1 WIDTH 1..50. MM)
+(@ENSURE #510 EQ #1*2)
+#510=#1*2
+IF[#1LT40]GOTO10
+#510=#1*3
+N10 M99
+%
+"""
 REPAIRED = CALLER.replace("g01", "G01")
 RENAMED = REPAIRED.replace("N30", "N50").replace("GOTO30", "GOTO50")
 TYPED = RENAMED.replace("GOTO99", "GOTO50")
 SEVERITIES = {"error": 1, "warning": 2, "info": 3}
+
+
+def write_programs(folder):
+    (folder / "O1000.nc").write_text(CALLER, encoding="utf-8")
+    (folder / "O9010.nc").write_text(CALLED, encoding="utf-8")
+    (folder / "O9020.nc").write_text(PROMISED, encoding="utf-8")
+    (folder / "feedhold.toml").write_text('dialect = "fanuc-30i"\n')
 
 
 class EditorSession:
@@ -45,9 +62,7 @@ class EditorSession:
         holder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(holder.cleanup)
         cls.folder = Path(holder.name)
-        (cls.folder / "O1000.nc").write_text(CALLER, encoding="utf-8")
-        (cls.folder / "O9010.nc").write_text(CALLED, encoding="utf-8")
-        (cls.folder / "feedhold.toml").write_text('dialect = "fanuc-30i"\n')
+        write_programs(cls.folder)
         cls.expected = cls.findings_of_check()
         home = {"HOME": holder.name, "XDG_CACHE_HOME": holder.name, "LC_ALL": "C.UTF-8", "FEEDHOLD": FEEDHOLD}
         told = subprocess.run(cls.command, cwd=cls.folder, env={**os.environ, **home}, stdin=subprocess.DEVNULL,
@@ -98,3 +113,11 @@ class EditorSession:
 
     def test_the_called_program_is_found_in_its_file(self):
         self.assertEqual(self.seen["definition"], ["O9010.nc", 2])
+
+    def test_a_promise_that_is_not_kept(self):
+        (refuted,) = (it for it in self.seen["refuted"] if it["severity"] == SEVERITIES["error"])
+        self.assertIn("`@ENSURE #510 EQ #1*2` is not kept", refuted["message"])
+        self.assertRegex(refuted["message"], r"G65 P9020 A[45][0-9.]+")
+
+    def test_nothing_is_said_of_a_promise_that_is_proved(self):
+        self.assertEqual(self.seen["proved"], [])

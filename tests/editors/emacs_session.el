@@ -91,6 +91,18 @@
   (let ((server (eglot-current-server)))
     (xref-find-definitions "LSP identifier at point.")
     (saw 'definition (vector (file-name-nondirectory buffer-file-name) (line-number-at-pos)))
+
+    (find-file "O9020.nc")
+    (flymake-start) ; which a screen brings about
+    (wait-for "what is refuted"
+              (lambda () (cl-some (lambda (it) (eq (flymake-diagnostic-type it) 'eglot-error)) (flymake-diagnostics))))
+    (saw 'refuted (findings))
+    (go-to "3\nN10")
+    (type "2")
+    (save-buffer)
+    (wait-for "the proof" (lambda () (null (flymake-diagnostics))))
+    (saw 'proved (findings))
+
     (eglot-shutdown server)))
 
 (condition-case problem (session)

@@ -111,6 +111,18 @@ local function session()
   end)
   seen.definition = { vim.fn.expand('%:t'), vim.fn.line('.') }
 
+  vim.cmd('edit O9020.nc')
+  wait_for('what is refuted', function()
+    return vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR })[1]
+  end)
+  seen.refuted = diagnostics()
+  vim.cmd('%s/#1\\*3/#1*2/')
+  vim.cmd('write')
+  wait_for('the proof', function()
+    return #vim.diagnostic.get(0) == 0
+  end)
+  seen.proved = diagnostics()
+
   client.stop()
   wait_for('the end of the server', function()
     return client.is_stopped()

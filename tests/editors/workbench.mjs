@@ -15,6 +15,7 @@ const entry = join(packages, "node_modules/code-server/out/node/entry.js");
 writeSettings("User", {
   "chat.disableAIFeatures": true,
   "editor.minimap.enabled": false,
+  "terminal.integrated.gpuAcceleration": "off", // rows are text then
   "workbench.secondarySideBar.defaultVisibility": "hidden",
   "workbench.startupEditor": "none",
 });
@@ -57,7 +58,8 @@ async function session() {
 
   await page.mouse.move(...(await middleOf("#101", "#100")));
   seen.hover = await page.locator(".monaco-hover:visible").first().innerText();
-  await page.keyboard.press("Escape");
+  await page.mouse.move(700, 450); // what hovers covers the lines above
+  await page.locator(".monaco-hover:visible").first().waitFor({ state: "hidden" });
 
   await page.mouse.click(...(await middleOf("g01", "g01")));
   await page.keyboard.press("Control+.");
@@ -67,6 +69,13 @@ async function session() {
   await page.keyboard.press("Control+S");
   await page.locator(".tab.dirty").waitFor({ state: "detached" });
   seen.repaired = readFileSync(join(programs, "O1000.nc"), "utf8");
+
+  await page.locator(".explorer-folders-view .monaco-list-row", { hasText: "O9020.nc" }).dblclick();
+  const lens = page.locator(".codelens-decoration a", { hasText: "refuted" });
+  seen.lens = await lens.innerText();
+  await lens.click();
+  await page.locator(".xterm-rows", { hasText: "#510" }).first().waitFor();
+  seen.terminal = await page.locator(".xterm-rows").first().innerText();
   return seen;
 }
 

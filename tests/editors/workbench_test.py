@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from editor_session import CALLED, CALLER, REPAIRED
+from editor_session import REPAIRED, write_programs
 from harness import FEEDHOLD, NODE, ORACLES, ROOT, SKIPPED
 
 PACKAGES = ROOT / "build" / "oracles" / "workbench"
@@ -26,9 +26,7 @@ class Workbench(unittest.TestCase):
         cls.addClassCleanup(holder.cleanup)
         folder = Path(holder.name)
         (folder / "programs").mkdir()
-        (folder / "programs" / "O1000.nc").write_text(CALLER, encoding="utf-8")
-        (folder / "programs" / "O9010.nc").write_text(CALLED, encoding="utf-8")
-        (folder / "programs" / "feedhold.toml").write_text('dialect = "fanuc-30i"\n')
+        write_programs(folder / "programs")
         (vsix,) = (ROOT / "build").glob("feedhold-*.vsix")
         environment = {**os.environ, "FEEDHOLD": FEEDHOLD, "HOME": holder.name}
         told = subprocess.run([NODE, ROOT / "tests/editors/workbench.mjs", PACKAGES, vsix, folder], env=environment,
@@ -62,6 +60,10 @@ class Workbench(unittest.TestCase):
 
     def test_a_repair(self):
         self.assertEqual(self.seen["repaired"], REPAIRED)
+
+    def test_the_witness_of_a_broken_promise_runs_in_a_terminal(self):
+        self.assertEqual(self.seen["lens"], "1 proved, 1 refuted: run witness")
+        self.assertRegex(self.seen["terminal"], r"feedhold run \S*O9020\.nc --arg A=[45]")
 
 
 if __name__ == "__main__":
