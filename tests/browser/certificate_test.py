@@ -112,8 +112,8 @@ class Certificate(unittest.TestCase):
         self.assertTrue(content.startswith(b"%PDF-"))
         pages = len(re.findall(rb"/Type\s*/Page\b", content))
         self.assertGreater(pages, 4, "each program begins a page")
-        for ground in (b"0.05098", b".05098"):  # 13 of 255, the dark ground
-            self.assertNotIn(ground, b"".join(self.streams(content)))
+        ink = b".1216 .1373 .1569 rg"  # 31, 35, 40 of 255: that of the light page
+        self.assertIn(ink, b"".join(self.streams(content)))
 
     @staticmethod
     def streams(content):

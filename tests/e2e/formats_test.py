@@ -29,9 +29,7 @@ class Formats(Scratch):
 
     def test_json_follows_its_schema(self):
         report = json.loads(self.output("json"))
-        schemas = list((ROOT / "docs" / "schemas").glob("*.json"))
-        self.assertTrue(schemas, "docs/schemas/ holds no schema")
-        schema = next(json.loads(path.read_text()) for path in schemas if "findings" in path.read_text())
+        schema = json.loads((ROOT / "docs" / "schemas" / "check.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         jsonschema.validate(report, schema)
         self.assertEqual(report["version"], 1)
