@@ -28,9 +28,6 @@ struct Remark {
   std::vector<RelatedPlace> related = {};
   std::vector<FixIt> fixes = {};
   std::vector<Json> commands = {}; // of the protocol: what can be done beside fixes
-  friend bool isSame(const Remark &a, const Remark &b) {
-    return a.span == b.span && a.code == b.code && a.message == b.message;
-  }
 };
 
 /// What the remarks need to know of the server.

@@ -61,9 +61,9 @@ private:
   void publishOthers(OpenDocument &document, const CheckResult &result);
   void checkContract(OpenDocument &contract);
   void complainAbout(const std::vector<PathProblem> &problems);
-  Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks) const;
-  RemarkContext remarkContext() const;
-  std::string pageOf(std::string_view rule) const;
+  Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks);
+  RemarkContext remarkContext();
+  std::string pageOf(std::string_view rule);
 
   // ---- proofs (session_proofs.cpp) ----
   void startProofs(OpenDocument &document);
@@ -99,6 +99,7 @@ private:
   bool refreshesLenses_ = false;
   bool registersWatchers_ = false;
   std::uint64_t lastAsked_ = 0;
+  std::map<const Rule *, std::string> pages_;   // URIs; empty: it could not be written
   std::set<std::string> complaints_;            // each is shown once
   std::map<std::string, std::string> progress_; // documents by the token of their proofs
   Lane flowLane_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace feedhold::lsp {
 
@@ -29,9 +30,12 @@ std::optional<std::size_t> indexOf(const CheckResult &result, const CheckOptions
 
 /// Those of `all` that are not among `some`.
 std::vector<Remark> without(std::vector<Remark> all, const std::vector<Remark> &some) {
-  std::erase_if(all, [&](const Remark &remark) {
-    return std::any_of(some.begin(), some.end(), [&](const Remark &other) { return isSame(remark, other); });
-  });
+  using Key = std::tuple<Span, std::string_view, std::string_view>;
+  const auto keyOf = [](const Remark &remark) { return Key{remark.span, remark.code, remark.message}; };
+  std::set<Key> known;
+  for (const Remark &remark : some)
+    known.insert(keyOf(remark));
+  std::erase_if(all, [&](const Remark &remark) { return known.contains(keyOf(remark)); });
   return all;
 }
 
@@ -115,7 +119,7 @@ void ClientSession::planAll() {
 
 std::optional<Clock::time_point> ClientSession::nextDue() const {
   std::optional<Clock::time_point> next;
-  for (const auto &[uri, document] : const_cast<ClientSession *>(this)->workspace_.documents())
+  for (const auto &[uri, document] : workspace_.documents())
     for (const auto &due : {document.quickDue, document.flowDue, document.proofsDue})
       if (due && (!next || *due < *next))
         next = due;
@@ -238,8 +242,7 @@ void ClientSession::complainAbout(const std::vector<PathProblem> &problems) {
       show(Severity::Error, fmt::format("{}: {}", problem.path, problem.message));
 }
 
-Json ClientSession::diagnosticsOf(const OpenDocument &document,
-                                  std::span<const std::vector<Remark> *const> remarks) const {
+Json ClientSession::diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks) {
   const RemarkContext context = remarkContext();
   const std::string &uri = document.document.uri;
   const Places places(SourceFile::fromText({}, *document.document.text), workspace_.encoding);
@@ -256,25 +259,26 @@ Json ClientSession::diagnosticsOf(const OpenDocument &document,
   return diagnostics;
 }
 
-RemarkContext ClientSession::remarkContext() const {
+RemarkContext ClientSession::remarkContext() {
   return {.encoding = workspace_.encoding,
           .uriOf = [this](const fs::path &path) { return workspace_.uriOf(path); },
           .pageOf = [this](std::string_view rule) { return pageOf(rule); }};
 }
 
 /// The page is put where the editor can open it, once.
-std::string ClientSession::pageOf(std::string_view rule) const {
+std::string ClientSession::pageOf(std::string_view rule) {
   const RegisteredRule *known = findRule(options_.known.rules, rule);
   if (!options_.pages || known == nullptr)
     return {};
+  const auto [entry, isNew] = pages_.try_emplace(known->rule);
+  if (!isNew)
+    return entry->second;
   const fs::path place = *options_.pages / fmt::format("{}.md", rule);
   std::error_code error;
-  if (fs::file_size(place, error) != known->page.size() || error) {
-    fs::create_directories(*options_.pages, error);
-    if (error || putFile(place, known->page))
-      return {};
-  }
-  return uriOfPath(place);
+  fs::create_directories(*options_.pages, error);
+  if (!error && !putFile(place, known->page))
+    entry->second = uriOfPath(place);
+  return entry->second;
 }
 
 } // namespace feedhold::lsp

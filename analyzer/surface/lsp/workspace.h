@@ -49,6 +49,7 @@ public:
   void remove(const std::string &uri);
   OpenDocument *find(const std::string &uri);
   std::map<std::string, OpenDocument> &documents() { return documents_; }
+  const std::map<std::string, OpenDocument> &documents() const { return documents_; }
 
   /// The text of the document is another one: `changes` lead to it.
   void textChanged(OpenDocument &changed, const std::vector<TextChange> &changes);
