@@ -189,6 +189,30 @@ TEST_F(LspRename, NewNumbersKeepAllJumps) {
             "O1\nN100G04X1.\nGOTO200\nN200G04X2.\nGOTO100\nM30\n");
 }
 
+TEST_F(LspRename, NewNumbersKeepAllJumpsOfProgramsFromShops) {
+  constexpr std::uintmax_t kLargest = 20000;
+  std::size_t changed = 0;
+  for (const auto &entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(FEEDHOLD_SOURCE_DIR) / "corpus")) {
+    const bool isProgram = entry.is_regular_file() && entry.path().extension() == ".nc";
+    if (!isProgram || entry.file_size() > kLargest)
+      continue;
+    std::ostringstream text;
+    text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+    write("part.nc", text.str());
+    const View view = open("part.nc");
+    refusal([&] {
+      const auto texts = applied(ask(view, "feedhold/renumber", {{"step", 10}}));
+      if (texts.empty())
+        return;
+      ++changed;
+      EXPECT_EQ(jumps(texts.at("part.nc"), view.programs->dialect), jumps(text.str(), view.programs->dialect))
+          << entry.path();
+    });
+  }
+  EXPECT_GT(changed, 10U);
+}
+
 TEST_F(LspRename, NewNumbersAreRefusedWhereAJumpWouldBeLost) {
   const auto renumber = [&](std::string_view text) {
     const View view = openText(text);
