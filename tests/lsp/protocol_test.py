@@ -1,11 +1,12 @@
 """The base protocol: framing, the order of a session, errors, cancelling."""
+import random
 import unittest
 
 from client import frame
 from harness import SLIP, Session
 
 PARSE_ERROR, INVALID_REQUEST, NOT_FOUND, INVALID_PARAMS = -32700, -32600, -32601, -32602
-NOT_INITIALIZED, CANCELLED = -32002, -32800
+NOT_INITIALIZED, CANCELLED, INTERNAL_ERROR = -32002, -32800, -32603
 HOVER = {"textDocument": {"uri": "file:///nowhere.nc"}, "position": {"line": 0, "character": 0}}
 
 
@@ -157,6 +158,49 @@ class Cancelling(Session):
         self.assertEqual(sorted(m["id"] for m in answers), requests)
         codes = {m["error"]["code"] for m in answers if "error" in m}
         self.assertEqual(codes, {CANCELLED})
+
+
+class Storm(Session):
+    METHODS = ("codeAction", "formatting", "rangeFormatting", "documentColor", "diagnostic", "hover", "definition",
+               "references", "documentSymbol", "semanticTokens/full", "completion", "signatureHelp", "inlayHint",
+               "codeLens", "foldingRange", "rename", "prepareRename", "prepareCallHierarchy", "documentHighlight")
+
+    def test_random_params(self):
+        """Whatever the parameters are, each request has one answer, a result or an error, and the server lives on."""
+        generator = random.Random(6)
+        client = self.client(options={"proofs": "off"})
+        uri = client.open("a.nc", SLIP * 3)
+        client.all_findings(uri, 1)
+        failures = []
+        for _ in range(1500):
+            params = self.params(generator, uri)
+            method = "textDocument/" + generator.choice(self.METHODS)
+            answer = client.answer(client.ask(method, params))
+            self.assertEqual("result" in answer, "error" not in answer)
+            if answer.get("error", {}).get("code") == INTERNAL_ERROR:
+                failures.append((method, params, answer["error"]))
+        self.assertEqual(failures, [])
+        self.assertEqual(client.close(), 0)
+
+    def params(self, generator, uri):
+        params = {"textDocument": {"uri": uri}, "position": self.position(generator), "newName": "N77",
+                  "range": {"start": self.position(generator), "end": self.position(generator)},
+                  "options": {"tabSize": generator.choice((0, 2, 8, 10**9)), "insertSpaces": True},
+                  "context": {"diagnostics": [], "includeDeclaration": True}}
+        if generator.random() < 0.5:
+            return params
+        holder = generator.choice((params, params["textDocument"], params["position"], params["range"],
+                                   params["options"], params["context"]))
+        key = generator.choice(sorted(holder))
+        wrong = (None, -1, 2**40, 1.5, "", "x", [], {}, [1], {"start": 1}, True)
+        if generator.random() < 0.3:
+            del holder[key]
+        else:
+            holder[key] = generator.choice(wrong)
+        return params
+
+    def position(self, generator):
+        return {"line": generator.choice((0, 1, 2, 3, 7, 17, 18, 19, 10**6)), "character": generator.choice((0, 1, 5, 9, 99))}
 
 
 if __name__ == "__main__":
