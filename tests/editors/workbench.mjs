@@ -28,7 +28,7 @@ const quiet = ["--auth", "none", "--disable-telemetry", "--disable-update-check"
 const server = spawn(process.execPath, [entry, ...quiet, "--bind-addr", `127.0.0.1:${port}`, ...places, programs]);
 await new Promise((resolve) => server.stdout.on("data", (text) => `${text}`.includes("HTTP server listening") && resolve()));
 const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
-const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+const page = await browser.newPage({ viewport: { width: 1280, height: 1200 } });
 page.setDefaultTimeout(LONGEST_WAIT);
 try {
   console.log(JSON.stringify(await session()));
@@ -44,6 +44,7 @@ async function session() {
   const payload = JSON.stringify([["gotoLineMode", "true"], ["openFile", `${file}:3:1`]]);
   await page.goto(`http://127.0.0.1:${port}/?folder=${programs}&payload=${encodeURIComponent(payload)}`);
   seen.missing = await page.locator(".notification-list-item-message").first().innerText();
+  seen.swatchesBefore = await swatches();
   await page.locator(".notification-list-item").first().hover();
   await page.locator(".notification-list-item .codicon-notifications-clear").first().click();
   writeSettings("Machine", { "feedhold.path": process.env.FEEDHOLD }); // the extension starts anew by itself
@@ -53,21 +54,21 @@ async function session() {
   await page.keyboard.press("Control+Shift+M");
   await page.locator(".markers-panel .monaco-list-row", { hasText: "loop-without-progress" }).first().waitFor();
   seen.problems = await page.locator(".markers-panel .monaco-list-row").allInnerTexts();
-  seen.links = await page.locator(".markers-panel .monaco-list-row a.code-link").evaluateAll((all) => all.map((it) => it.href));
-  seen.swatches = await page.locator(".colorpicker-color-decoration").count();
+  seen.links = await page.locator(".markers-panel a.monaco-link").evaluateAll((all) => all.map((it) => it.href));
+  seen.swatches = await swatches();
 
-  await page.mouse.move(...(await middleOf("#101", "#100")));
-  seen.hover = await page.locator(".monaco-hover:visible").first().innerText();
+  await page.mouse.move(...(await placeOf("#101", "#100")));
+  seen.hover = await page.locator(".monaco-hover:visible", { hasText: "variable" }).first().innerText();
   await page.mouse.move(700, 450); // what hovers covers the lines above
   await page.locator(".monaco-hover:visible").first().waitFor({ state: "hidden" });
 
-  await page.mouse.click(...(await middleOf("g01", "g01")));
+  await page.mouse.click(...(await placeOf("g01", "g01")));
   await page.keyboard.press("Control+.");
   await page.locator(".action-widget .monaco-list-row", { hasText: "capital" }).first().click();
   await page.locator(".view-line", { hasText: "G01" }).waitFor();
   await page.locator(".markers-panel .monaco-list-row", { hasText: "lower-case" }).first().waitFor({ state: "detached" });
   await page.keyboard.press("Control+S");
-  await page.locator(".tab.dirty").waitFor({ state: "detached" });
+  await page.waitForTimeout(500); // saving has no end that could be seen
   seen.repaired = readFileSync(join(programs, "O1000.nc"), "utf8");
 
   await page.locator(".explorer-folders-view .monaco-list-row", { hasText: "O9020.nc" }).dblclick();
@@ -79,11 +80,16 @@ async function session() {
   return seen;
 }
 
-/** Where a word of the program stands on the screen. */
-async function middleOf(line, word) {
+/** Editors take `#500` for a colour if they may. */
+function swatches() {
+  return page.locator(".colorpicker-color-decoration").count();
+}
+
+/** Where a word of the program begins on the screen. */
+async function placeOf(line, word) {
   const words = page.locator(".view-line", { hasText: line }).locator("span span").filter({ hasText: word });
-  const { x, y, width, height } = await words.first().boundingBox();
-  return [x + width / 2, y + height / 2];
+  const { x, y, height } = await words.first().boundingBox();
+  return [x + 4, y + height / 2];
 }
 
 function writeSettings(of, settings) {
