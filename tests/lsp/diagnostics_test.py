@@ -202,6 +202,22 @@ class Documents(Session):
         told = client.wait(lambda m: m.get("method") == "window/showMessage")["params"]
         self.assertIn("feedhold.toml:1:1", told["message"])
 
+    def test_folders(self):
+        """A document that is not on disk has the configuration of the first folder that is left."""
+        self.write("one/feedhold.toml", 'ignore = ["goto-missing-label"]\n')
+        self.write("two/feedhold.toml", 'ignore = ["missing-equals"]\n')
+        one, two = ({"uri": client_uri, "name": "w"} for client_uri in
+                    ((self.folder / "one").as_uri(), (self.folder / "two").as_uri()))
+        client = self.client()
+        root = {"uri": client.uri(""), "name": "w"}
+        uri = client.open("untitled:U", SLIP)
+        client.all_findings(uri)
+        for added, removed, ignored in ((one, root, "goto-missing-label"), (two, one, "missing-equals")):
+            client.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [added], "removed": [removed]}})
+            codes = self.codes(client.all_findings(uri))
+            self.assertNotIn(ignored, codes)
+            self.assertEqual(len({"goto-missing-label", "missing-equals"} & set(codes)), 1)
+
     def test_contract_beside_the_program(self):
         """Findings in a file with contracts are shown there, by its program or when it is open itself."""
         program = "%\nO9100\n#1=#21\nM99\n%\n"

@@ -2,7 +2,7 @@
 import time
 import unittest
 
-from harness import Session, at
+from harness import ROOT, Session, at
 
 REFUTED = """%
 O9100(STEPS)
@@ -92,6 +92,22 @@ class Proofs(Session):
         begun = time.monotonic()
         self.assertEqual(client.close(), 0)
         self.assertLess(time.monotonic() - begun, 20)
+
+    def test_cancelling(self):
+        """A person may stop a proof that takes long; nothing is said of it then."""
+        client = self.client(capabilities=PROGRESS)
+        path = ROOT / "corpus" / "packages" / "slope" / "O9411.nc"
+        uri = client.open(path.as_uri(), path.read_text())
+        begin = client.wait(lambda m: m.get("method") == "$/progress")["params"]
+        self.assertTrue(begin["value"]["cancellable"])
+        client.notify("window/workDoneProgress/cancel", {"token": begin["token"]})
+        asked = time.monotonic()
+        end = client.wait(lambda m: m.get("method") == "$/progress" and m["params"]["value"]["kind"] == "end")["params"]
+        self.assertEqual((end["token"], end["value"]["message"]), (begin["token"], "stopped"))
+        self.assertLess(time.monotonic() - asked, 10)
+        client.request("textDocument/documentColor", {"textDocument": {"uri": uri}})
+        self.assertFalse([d for m in client.kept if m.get("method") == "textDocument/publishDiagnostics"
+                          for d in m["params"]["diagnostics"] if is_proof(d)])
 
     def test_programs_without_a_contract_are_left_alone(self):
         client = self.client(capabilities=PROGRESS)
