@@ -63,6 +63,7 @@ async function session() {
   await page.locator(".monaco-hover:visible").first().waitFor({ state: "hidden" });
 
   await page.mouse.click(...(await placeOf("g01", "g01")));
+  await page.locator("#status\\.editor\\.selection", { hasText: "Ln 7," }).waitFor();
   await page.keyboard.press("Control+.");
   await page.locator(".action-widget .monaco-list-row", { hasText: "capital" }).first().click();
   await page.locator(".view-line", { hasText: "G01" }).waitFor();
@@ -88,8 +89,12 @@ function swatches() {
 /** Where a word of the program begins on the screen. */
 async function placeOf(line, word) {
   const words = page.locator(".view-line", { hasText: line }).locator("span span").filter({ hasText: word });
-  const { x, y, height } = await words.first().boundingBox();
-  return [x + 4, y + height / 2];
+  for (let tries = 0; tries < 100; ++tries) {
+    const box = await words.first().boundingBox(); // null while lines are drawn anew
+    if (box) return [box.x + 4, box.y + box.height / 2];
+    await page.waitForTimeout(100);
+  }
+  throw new Error(`${word} is not on the screen`);
 }
 
 function writeSettings(of, settings) {
