@@ -339,5 +339,37 @@ class Certify(Scratch):
                 self.assertExit(self.feedhold("recheck", "none"), 2)
 
 
+class QuestionsToSolvers(Scratch):
+    """Of a claim that two solvers prove and no certificate."""
+
+    def setUp(self):
+        super().setUp()
+        if not shutil.which("cvc5"):
+            self.skipTest("cvc5 is not installed")
+        self.write("O9115.nc", (ROOT / "corpus" / "packages" / "mould-entry" / "O9115.nc").read_bytes())
+        self.assertExit(self.feedhold("certify", "O9115.nc", "-o", "report", "--dialect", "fanuc-30i"), 1)
+        (self.query,) = (self.folder / "report" / "certificate").rglob("*.smt2")
+
+    def test_each_solver_is_asked(self):
+        result = self.feedhold("recheck", "report")
+        self.assertExit(result, 0)
+        self.assertIn("1 question asked again (Z3 refutes 1, cvc5 refutes 1)", result.stdout)
+
+    def test_changed_question_is_found(self):
+        text = self.query.read_text()
+        first = text.index("(assert")
+        self.query.write_text(text[:first] + "(assert true)\n" + text[first:])
+        result = self.feedhold("recheck", "report")
+        self.assertExit(result, 1)
+        self.assertIn(self.query.name, result.stdout)
+
+    def test_question_without_its_assumptions_is_refuted_by_nobody(self):
+        lines = self.query.read_text().splitlines()
+        self.query.write_text("\n".join(line for line in lines if not line.startswith("(assert")) + "\n")
+        result = self.feedhold("recheck", "report")
+        self.assertExit(result, 1)
+        self.assertIn("Z3 refutes 0, cvc5 refutes 0", result.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,8 @@
 """Macro programs in a real Emacs, with Eglot and the mode of editors/emacs."""
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -18,9 +20,10 @@ class Emacs(EditorSession, unittest.TestCase):
 
 class Mode(unittest.TestCase):
     def test_compiles_without_warnings(self):
-        told = subprocess.run(["emacs", "--batch", "-Q", "--eval", "(setq byte-compile-error-on-warn t)", "--eval",
-                               '(setq byte-compile-dest-file-function (lambda (_) "/dev/null"))', "-f",
-                               "batch-byte-compile", MODE / "feedhold-mode.el"], capture_output=True)
+        with tempfile.TemporaryDirectory() as folder:  # Emacs puts the result beside what it compiles
+            copy = shutil.copy(MODE / "feedhold-mode.el", folder)
+            told = subprocess.run(["emacs", "--batch", "-Q", "--eval", "(setq byte-compile-error-on-warn t)", "-f",
+                                   "batch-byte-compile", copy], capture_output=True)
         self.assertEqual((told.returncode, told.stderr.decode()), (0, ""))
 
 

@@ -82,6 +82,8 @@ std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   struct stat original {};
   if (::stat(target.c_str(), &original) != 0)
     return systemError("cannot be asked for its permissions");
+  if (!S_ISREG(original.st_mode)) // a device would be gone behind the rename
+    return Error{"is no regular file"};
   if (::access(target.c_str(), W_OK) != 0)
     return systemError("cannot be written");
   TemporaryFile file(target);

@@ -124,6 +124,8 @@ void addBaselineOptions(CLI::App &app, BaselineWish &wish) {
 fs::path folderOf(const BaselineWish &wish) { return fs::absolute(wish.file).lexically_normal().parent_path(); }
 
 Result<Baseline> readBaseline(const BaselineWish &wish) {
+  if (!wish.isAsked())
+    return Baseline{};
   std::error_code error;
   if (!fs::exists(wish.file, error)) {
     if (wish.update)

@@ -19,7 +19,8 @@ struct BaselineWish {
 /// `--baseline` and `--update-baseline`.
 void addBaselineOptions(CLI::App &app, BaselineWish &wish);
 
-/// Errors: not there, damaged, of a newer version.  One that is not there and is about to be written is empty.
+/// Empty where none is asked for, or where it is not there and is about to be written.  Errors: not there, damaged, of
+/// a newer version.
 Result<Baseline> readBaseline(const BaselineWish &wish);
 /// A reader sees the old bytes or the new ones.
 std::optional<Error> writeBaseline(const BaselineWish &wish, const Baseline &baseline);

@@ -3,6 +3,7 @@
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/certificate_run.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/kind_options.h"
 #include "surface/cli/terminal.h"
 
 #include <fmt/chrono.h>
@@ -30,25 +31,10 @@ struct CertifyArguments {
   bool quiet = false;
 };
 
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) prove::ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
-};
-
-std::vector<std::string> namesOfKinds() {
-  std::vector<std::string> names;
-  for (const prove::ObligationKind kind : kKinds)
-    names.emplace_back(nameOf(kind));
-  return names;
-}
-
 void addOptions(CLI::App &app, CertifyArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders (default: the current folder)");
   app.add_option("-o,--output", arguments.output, "the folder of the report; a report in it is replaced")->required();
-  app.add_option("--only", arguments.only, "prove only this kind of obligation (may be given again)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(namesOfKinds()));
+  addOnlyKinds(app, arguments.only);
   app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
   CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
   app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
@@ -96,9 +82,7 @@ Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
   wish.reading.isolated = arguments.isolated;
   if (!arguments.config.empty())
     wish.reading.config = arguments.config;
-  for (const prove::ObligationKind kind : kKinds)
-    if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
-      wish.reading.only.push_back(kind);
+  wish.reading.only = kindsFrom(arguments.only);
   const auto date = dateOf(arguments);
   if (!date)
     return date.error();

@@ -265,15 +265,12 @@ int runCheck(const CheckArguments &arguments) {
     printError(*complaint);
     return kExitCouldNotRun;
   }
-  Baseline baseline;
-  if (arguments.baseline.isAsked()) {
-    Result<Baseline> known = readBaseline(arguments.baseline);
-    if (!known) {
-      printError(known.error().message);
-      return kExitCouldNotRun;
-    }
-    baseline = known.take();
+  const Result<Baseline> known = readBaseline(arguments.baseline);
+  if (!known) {
+    printError(known.error().message);
+    return kExitCouldNotRun;
   }
+  const Baseline &baseline = known.value();
   CheckOptions options = toOptions(arguments);
   if (arguments.change.isAsked()) {
     Result<std::set<std::string>> affected = affectedPrograms(options, arguments);

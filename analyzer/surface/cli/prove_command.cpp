@@ -6,6 +6,7 @@
 #include "surface/cli/cache_place.h"
 #include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/kind_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
 
@@ -43,24 +44,9 @@ struct ProveArguments {
   ChangeWish change;
 };
 
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) prove::ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
-};
-
-std::vector<std::string> namesOfKinds() {
-  std::vector<std::string> names;
-  for (const prove::ObligationKind kind : kKinds)
-    names.emplace_back(nameOf(kind));
-  return names;
-}
-
 void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: the current folder)");
-  app.add_option("--only", arguments.only, "prove only this kind of obligation (may be given again)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(namesOfKinds()));
+  addOnlyKinds(app, arguments.only);
   app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
   CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
   app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
@@ -106,9 +92,7 @@ ProofsWish toWish(const ProveArguments &arguments) {
   wish.cache = cacheFor(arguments);
   if (!arguments.certificate.empty())
     keepEvidence(wish);
-  for (const prove::ObligationKind kind : kKinds)
-    if (std::find(arguments.only.begin(), arguments.only.end(), nameOf(kind)) != arguments.only.end())
-      wish.prove.only.push_back(kind);
+  wish.prove.only = kindsFrom(arguments.only);
   return wish;
 }
 
@@ -226,15 +210,12 @@ int runProve(const ProveArguments &arguments) {
     printError(*complaint);
     return kExitCouldNotRun;
   }
-  Baseline baseline;
-  if (arguments.baseline.isAsked()) {
-    Result<Baseline> known = readBaseline(arguments.baseline);
-    if (!known) {
-      printError(known.error().message);
-      return kExitCouldNotRun;
-    }
-    baseline = known.take();
+  const Result<Baseline> known = readBaseline(arguments.baseline);
+  if (!known) {
+    printError(known.error().message);
+    return kExitCouldNotRun;
   }
+  const Baseline &baseline = known.value();
   ProofsWish wish = toWish(arguments);
   const Result<std::vector<PathProblem>> narrowed = narrow(wish, arguments);
   if (!narrowed) {

@@ -91,7 +91,7 @@ Result<int> recheckBundle(const Bundle &stored, const RecheckArguments &argument
 
 std::string sayEvidence(const BundleCheck &check) {
   return fmt::format("{} followed by the checker, {} asked again (Z3 refutes {}, cvc5 refutes {})",
-                     counted(check.certificates, "certificate"), counted(check.solved, "query"), check.byZ3,
+                     counted(check.certificates, "certificate"), counted(check.solved, "question"), check.byZ3,
                      check.byCvc5);
 }
 

@@ -26,10 +26,9 @@ enum class Kind : std::uint8_t {
 };
 constexpr std::array kKindNames = {"comment", "keyword", "function", "operator", "variable", "parameter",
                                    "number",  "label",   "method",   "property", "namespace"};
-constexpr std::array kModifierNames = {"readonly", "defaultLibrary", "documentation"};
+constexpr std::array kModifierNames = {"readonly", "defaultLibrary"};
 constexpr unsigned kReadOnly = 1;
 constexpr unsigned kOfTheControl = 2;
-constexpr unsigned kClause = 4;
 
 class Writer {
 public:
@@ -83,9 +82,10 @@ private:
     return 0;
   }
 
+  /// The clauses of a contract are left to the grammar of the editor, which colours their words.
   std::size_t comment(Span span) {
     const std::string_view text = trimmed(file_.source.text(span).substr(1));
-    return put(span, Kind::Comment, text.starts_with('@') ? kClause : 0);
+    return text.starts_with('@') ? 0 : put(span, Kind::Comment);
   }
   std::size_t variable(const Token &hash, const Token &number) {
     const Span span = cover(hash.span(), number.span());

@@ -17,14 +17,16 @@ void Lane::submit(const std::string &document, Job job) {
   drop(document);
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back({document, std::move(job)});
+    waiting_.push_back({document, std::move(job), {}});
   }
   changed_.notify_one();
 }
 
 void Lane::drop(const std::string &document) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(waiting_, [&](const Waiting &waiting) { return waiting.document == document; });
+  for (Waiting &waiting : waiting_)
+    if (waiting.document == document)
+      waiting.stop.request_stop();
   if (running_ == document)
     stop_.request_stop();
 }
@@ -40,7 +42,7 @@ void Lane::run(const std::stop_token &end) {
       next = std::move(waiting_.front());
       waiting_.pop_front();
       running_ = next.document;
-      stop_ = std::stop_source();
+      stop_ = next.stop;
       stop = stop_.get_token();
     }
     next.job(stop);

@@ -13,7 +13,8 @@ namespace feedhold::lsp {
 
 class Lane {
 public:
-  /// Should end soon once a stop is requested; nobody wants its result then.
+  /// Should end soon once a stop is requested, which may be before it begins; nobody wants its result then.  Called in
+  /// any case, but for those that wait when the lane ends.
   using Job = std::function<void(const std::stop_token &)>;
 
   Lane();
@@ -30,6 +31,7 @@ private:
   struct Waiting {
     std::string document;
     Job job;
+    std::stop_source stop;
   };
   void run(const std::stop_token &end);
 

@@ -178,6 +178,8 @@ void ClientSession::startFlow(OpenDocument &document) {
   const std::string uri = document.document.uri;
   const auto stamp = document.stamp;
   flowLane_.submit(uri, [this, uri, stamp, options = workspace_.optionsFor(document)](const std::stop_token &stop) {
+    if (stop.stop_requested())
+      return;
     std::function<void()> task;
     try {
       auto result = std::make_shared<const CheckResult>(check(options, options_.known));

@@ -49,7 +49,8 @@ void ClientSession::startProofs(OpenDocument &document) {
     std::shared_ptr<ProofsResult> result;
     std::string failure;
     try {
-      result = std::make_shared<ProofsResult>(proveAll(wish, options_.known));
+      if (!stop.stop_requested())
+        result = std::make_shared<ProofsResult>(proveAll(wish, options_.known));
     } catch (const std::exception &error) {
       failure = error.what();
     }

@@ -1,0 +1,35 @@
+#include "surface/cli/kind_options.h"
+
+#include <algorithm>
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+constexpr std::array kKinds = {
+#define OBLIGATION(kind, name) prove::ObligationKind::kind,
+#include "proof/prove/obligation_kinds.def"
+};
+
+} // namespace
+
+void addOnlyKinds(CLI::App &app, std::vector<std::string> &names) {
+  std::vector<std::string> known;
+  for (const prove::ObligationKind kind : kKinds)
+    known.emplace_back(nameOf(kind));
+  app.add_option("--only", names, "prove only this kind of obligation (may be given again)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(known));
+}
+
+std::vector<prove::ObligationKind> kindsFrom(const std::vector<std::string> &names) {
+  std::vector<prove::ObligationKind> kinds;
+  for (const prove::ObligationKind kind : kKinds)
+    if (std::find(names.begin(), names.end(), nameOf(kind)) != names.end())
+      kinds.push_back(kind);
+  return kinds;
+}
+
+} // namespace feedhold
