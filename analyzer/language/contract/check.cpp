@@ -219,10 +219,12 @@ private:
       for (const LoopHint &each : *list)
         placed.push_back({each.clause, each.expression});
     const auto programOf = [&](const ReadRange &each) { return clause(each.clause).program; };
-    for (const ReadRange &each : std::ranges::equal_range(reading_.ranges, contract_.program, {}, programOf))
-      for (const std::optional<ExpressionId> &bound : {each.range.low, each.range.high})
+    auto each = std::lower_bound(reading_.ranges.begin(), reading_.ranges.end(), contract_.program,
+                                 [&](const ReadRange &range, ProgramId program) { return programOf(range) < program; });
+    for (; each != reading_.ranges.end() && programOf(*each) == contract_.program; ++each)
+      for (const std::optional<ExpressionId> &bound : {each->range.low, each->range.high})
         if (bound)
-          placed.push_back({each.clause, *bound});
+          placed.push_back({each->clause, *bound});
     return placed;
   }
 

@@ -310,8 +310,8 @@ void Prover::decideSingleRun(Obligation &obligation, const std::vector<Query> &q
 // ---- places where a run may stop ----
 
 void Prover::stops() {
-  const auto violated = [this](const Check &check) {
-    return [this, &check](const RunResult &run) -> std::optional<std::string> {
+  const auto violated = [](const Check &check) {
+    return [&check](const RunResult &run) -> std::optional<std::string> {
       const bool here = run.place == check.place && run.alarmSpan == check.span;
       if (!check.alarm && here && run.end == RunEnd::UserAlarm)
         return fmt::format("stops with alarm {:.15g}", run.alarmNumber);

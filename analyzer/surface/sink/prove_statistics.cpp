@@ -45,7 +45,8 @@ std::string proveStatistics(const ProveReport &report) {
       }
   std::string text = fmt::format("{:<20} {:>8} {:>8} {:>8} {:>11} {:>12}\n", "kind", "proved", "refuted", "unknown",
                                  "unreachable", "effort");
-  for (const auto &[kind, row] : kinds) {
+  for (const auto &[kind, counts] : kinds) {
+    const Row &row = counts;
     const auto of = [&](Verdict verdict) { return row.byVerdict[static_cast<std::size_t>(verdict)]; };
     text += fmt::format("{:<20} {:>8} {:>8} {:>8} {:>11} {:>12}\n", prove::nameOf(kind), of(Verdict::Proved),
                         of(Verdict::Refuted), of(Verdict::Unknown), of(Verdict::Unreachable), row.effort);

@@ -106,7 +106,7 @@ TEST_F(LspOutline, TokensAreCountedInUnitsOfTheClient) {
             types[data[i + 3].get<std::size_t>()].get<std::string>() + " " + data[i + 4].dump() + "\n";
   EXPECT_EQ(text, "0+0:4 comment 0\n0+4:3 method 0\n0+3:1 property 0\n0+1:2 parameter 0\n"
                   "1+0:4 keyword 0\n0+4:2 label 0\n"
-                  "1+0:5 variable 2\n0+6:1 number 0\n0+1:4 comment 4\n");
+                  "1+0:5 variable 2\n0+6:1 number 0\n");
 }
 
 } // namespace
