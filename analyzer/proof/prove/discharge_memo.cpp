@@ -1,6 +1,7 @@
 #include "proof/prove/discharge_memo.h"
 
 #include "base/support/memo.h"
+#include "base/support/process.h"
 
 namespace feedhold::prove {
 namespace {
@@ -47,11 +48,15 @@ private:
   std::string text_;
 };
 
+/// A solver that had to be stopped, or is missing, may answer the next time; and what rests on such a failure has to be
+/// seen as doing so (failedChildren), since it must not be kept for other runs.
 template <typename Ask> smt::Answer askOnce(Memo<smt::Answer> &memo, std::string key, const Ask &ask) {
   if (auto known = memo.find(key))
     return *known;
+  const std::uint64_t failures = failedChildren();
   smt::Answer answer = ask();
-  memo.keep(std::move(key), answer);
+  if (failedChildren() == failures)
+    memo.keep(std::move(key), answer);
   return answer;
 }
 

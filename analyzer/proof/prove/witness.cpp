@@ -135,8 +135,9 @@ void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
     for (const auto &[variable, low, high] : ends) {
       const smt::Model model = modelOf(given); // an end may depend on the inputs before
       const auto valueOf = [&](const std::optional<smt::TermId> &end) {
-        const auto value = end ? smt::evaluate(store, *end, model) : std::nullopt;
-        return value ? std::optional(std::get<smt::Number>(*value).toDouble()) : std::nullopt;
+        const auto exact = end ? smt::evaluate(store, *end, model) : std::nullopt;
+        const double value = exact ? std::get<smt::Number>(*exact).toDouble() : std::nan("");
+        return std::isfinite(value) ? std::optional(value) : std::nullopt;
       };
       const auto least = valueOf(low), most = valueOf(high);
       const auto choice = i < 2 ? static_cast<unsigned>(i) : random() % 5;

@@ -128,8 +128,7 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   if (place || (sources.same == 0 && sources.changed.empty())) {
     for (const std::string &gone : sources.gone)
       printAside(fmt::format("`{}` is not there: it is not compared\n", gone));
-    return presentReport(check, compared + ", nothing proved again", arguments,
-                         place && sources.gone.empty() ? kExitClean : kExitUnknown);
+    return presentReport(check, compared + ", nothing proved again", arguments, kExitUnknown);
   }
   for (const std::string &gone : sources.gone)
     check.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
