@@ -1,22 +1,14 @@
 #include "surface/cli/kind_options.h"
 
+#include "proof/prove/obligation_kinds.h"
+
 #include <algorithm>
-#include <array>
 
 namespace feedhold {
 
-namespace {
-
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) prove::ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
-};
-
-} // namespace
-
 void addOnlyKinds(CLI::App &app, std::vector<std::string> &names) {
   std::vector<std::string> known;
-  for (const prove::ObligationKind kind : kKinds)
+  for (const prove::ObligationKind kind : prove::kObligationKinds)
     known.emplace_back(nameOf(kind));
   app.add_option("--only", names, "prove only this kind of obligation (may be given again)")
       ->delimiter(',')
@@ -26,7 +18,7 @@ void addOnlyKinds(CLI::App &app, std::vector<std::string> &names) {
 
 std::vector<prove::ObligationKind> kindsFrom(const std::vector<std::string> &names) {
   std::vector<prove::ObligationKind> kinds;
-  for (const prove::ObligationKind kind : kKinds)
+  for (const prove::ObligationKind kind : prove::kObligationKinds)
     if (std::find(names.begin(), names.end(), nameOf(kind)) != names.end())
       kinds.push_back(kind);
   return kinds;

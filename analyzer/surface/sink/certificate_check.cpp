@@ -1,5 +1,6 @@
 // What has become of a report: whether it fits together, and whether the same programs give the same one now.
 #include "base/support/sha256.h"
+#include "proof/prove/obligation_kinds.h"
 #include "surface/sink/certificate_parts.h"
 
 #include <fmt/format.h>
@@ -12,11 +13,6 @@ namespace fs = std::filesystem;
 using certificate::Json;
 
 namespace {
-
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) prove::ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
-};
 
 Result<Json> documentOf(const Bundle &report) {
   const auto text = report.find(std::string(kCertificate));
@@ -98,7 +94,7 @@ Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path
     origin.wish.reading.isolated = reading.at("isolated");
     if (!reading.at("config").is_null())
       origin.wish.reading.config = pathOf(reading.at("config"));
-    for (const prove::ObligationKind kind : kKinds)
+    for (const prove::ObligationKind kind : prove::kObligationKinds)
       for (const Json &name : reading.at("only"))
         if (name == prove::nameOf(kind))
           origin.wish.reading.only.push_back(kind);

@@ -1,10 +1,9 @@
 // Verdicts as SARIF 2.1.0: what is refuted is an error, what is unknown a warning, what holds without any margin a
 // note; each kind of obligation is a rule.  What else is proved is left out: services show every result as something to
 // do.
+#include "proof/prove/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 #include "surface/sink/sarif_parts.h"
-
-#include <array>
 
 namespace feedhold {
 
@@ -14,11 +13,6 @@ using prove::Obligation;
 using prove::ObligationKind;
 using prove::Verdict;
 using sarif::Json;
-
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
-};
 
 std::string_view summaryOf(ObligationKind kind) {
   switch (kind) {
@@ -91,7 +85,7 @@ Json resultFor(const Obligation &obligation, const ProvedFile &file, const Prove
 
 Json driver(const ProveReport &report) {
   Json row = {{"name", "Feedhold"}, {"semanticVersion", report.version}, {"rules", Json::array()}};
-  for (const ObligationKind kind : kKinds)
+  for (const ObligationKind kind : prove::kObligationKinds)
     row["rules"].push_back({{"id", nameOf(kind)}, {"shortDescription", {{"text", summaryOf(kind)}}}});
   return row;
 }
