@@ -1,8 +1,11 @@
 """What can be done about findings, and formatting."""
+import json
 import os
 import re
 import subprocess
 import unittest
+from pathlib import Path
+from urllib.parse import unquote
 
 from harness import SLIP, Session, at
 from diagnostics_test import programs
@@ -53,6 +56,79 @@ class Actions(Session):
         codes = self.codes(client.all_findings(uri, 2))
         self.assertNotIn("goto-missing-label", codes)
         self.assertIn("suppression-without-reason", codes)
+
+    CREATES = {"workspace": {"workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]}}}
+
+    def clause_for(self, client, uri, rule):
+        return [a for a in self.ask(client, uri, 0, 9) if a["title"].startswith(f"allow `{rule}` for ")]
+
+    def write_as_told(self, client, edit):
+        """As an editor carries out an edit of the workspace."""
+        changes = edit.get("documentChanges") or [
+            {"textDocument": {"uri": uri}, "edits": edits} for uri, edits in edit["changes"].items()]
+        for change in changes:
+            path = Path(unquote((change.get("textDocument") or change)["uri"].removeprefix("file://")))
+            if change.get("kind") == "create":
+                path.touch()
+            else:
+                path.write_text(applied(path.read_text(), change["edits"]))
+            client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": path.as_uri(), "type": 2}]})
+        return path
+
+    def test_allowing_beside_the_program(self):
+        """The program keeps its bytes; the file beside it is made, and added to."""
+        text = SLIP.replace("GOTO 99", "N40 GOTO 99")
+        program = self.write("O1001.nc", text)
+        client = self.client(options={"proofs": "off"}, capabilities=self.CREATES)
+        uri = client.open("O1001.nc", text)
+        client.all_findings(uri, 1)
+        allowed = ("goto-missing-label", "missing-equals")
+        for rule in allowed:
+            action, = self.clause_for(client, uri, rule)
+            self.assertEqual([change.get("kind") for change in action["edit"].get("documentChanges", [])],
+                             ["create", None] if rule == allowed[0] else [])
+            sidecar = self.write_as_told(client, action["edit"])
+            found = client.all_findings(uri, 1)
+            while rule in self.codes(found):  # of a run that began before
+                found = client.diagnostics(uri, 1)
+        self.assertEqual(sidecar, self.folder / "O1001.contract")
+        self.assertEqual(sidecar.read_text(), "@ALLOW goto-missing-label N40 \n@ALLOW missing-equals \n")
+        self.assertEqual(program.read_text(), text)
+        result = subprocess.run([FEEDHOLD, "check", "--format", "json", str(program)], capture_output=True)
+        left = [f for f in json.loads(result.stdout)["findings"] if not f.get("suppressed")]
+        self.assertFalse({f["rule"] for f in left} & set(allowed))
+        missed = [f for f in left if f["rule"] == "suppression-without-reason"]
+        self.assertEqual([f["path"] for f in missed], [str(sidecar)] * 2)
+
+    def test_the_file_beside_is_in_the_editor_and_ends_without_a_line_end(self):
+        self.write("O1001.nc", SLIP)
+        self.write("part.contract", "")
+        self.write("O1001.contract", "")
+        client = self.client(options={"proofs": "off"})
+        client.open("O1001.contract", "@REQUIRE #21 GT 0 (µ)")
+        uri = client.open("O1001.nc", SLIP)
+        client.all_findings(uri, 1)
+        action, = self.clause_for(client, uri, "missing-equals")
+        (there, edits), = action["edit"]["changes"].items()
+        self.assertEqual(there, client.uri("O1001.contract"))
+        self.assertEqual(applied("@REQUIRE #21 GT 0 (µ)", edits), "@REQUIRE #21 GT 0 (µ)\n@ALLOW missing-equals \n")
+
+    def test_no_file_is_made_by_editors_that_cannot(self):
+        self.write("O1001.nc", SLIP)
+        client, uri, _ = self.opened(SLIP, "O1001.nc")
+        self.assertEqual(self.clause_for(client, uri, "missing-equals"), [])
+
+    def test_a_program_further_down(self):
+        """The clause stands where it means that program, and the first block of a number."""
+        text = SLIP.replace("%\n", "") + "O1002\nN10 IF[#1EQ1]GOTO 98\nN10 IF[#1EQ2]GOTO 97\nM99\n"
+        self.write("both.nc", text)
+        client = self.client(options={"proofs": "off"}, capabilities=self.CREATES)
+        uri = client.open("both.nc", text)
+        client.all_findings(uri, 1)
+        titles = sorted(a["title"] for a in self.clause_for(client, uri, "goto-missing-label"))
+        self.assertEqual([title.split(" for ")[1] for title in titles], [
+            "N10 in O1002.contract, with a reason", "the whole program in O1001.contract, with a reason",
+            "the whole program in O1002.contract, with a reason"])
 
     def test_fix_all_is_check_fix(self):
         text = "%\nO1\nG17 G21 G40 G49 G80 G90 G94\n#1=1\n\n(@ALLOW unread-argument why)\nM30\n%\n"

@@ -25,6 +25,7 @@ class Client:
                                         stderr=subprocess.PIPE, cwd=folder)
         self.received = queue.Queue()
         self.kept = []  # everything that came, in order
+        self.asked = {}  # methods of requests, by id
         self.last_id = 0
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
@@ -42,6 +43,13 @@ class Client:
             self.received.put(json.loads(stream.read(length).decode("utf-8")))
         self.received.put(None)
 
+    def drain(self):
+        """What is still on its way when the server has ended."""
+        self.process.wait(LONGEST_WAIT)
+        self.reader.join(LONGEST_WAIT)
+        while (late := self.received.get(timeout=LONGEST_WAIT)) is not None:
+            self.kept.append(late)
+
     def uri(self, name):
         return (self.folder / name).as_uri()
 
@@ -50,6 +58,8 @@ class Client:
         self.process.stdin.flush()
 
     def send(self, message):
+        if isinstance(message, dict) and "method" in message and isinstance(message.get("id"), (int, str)):
+            self.asked[message["id"]] = message["method"]
         self.raw(frame(message))
 
     def notify(self, method, params):
@@ -95,6 +105,14 @@ class Client:
     def change(self, uri, version, *changes):
         self.notify("textDocument/didChange",
                     {"textDocument": {"uri": uri, "version": version}, "contentChanges": list(changes)})
+
+    def settle(self, pause=1.5):
+        """Takes whatever comes until nothing has come for a while."""
+        try:
+            while True:
+                self.wait(lambda message: True, pause)
+        except queue.Empty:
+            pass
 
     def diagnostics(self, uri, version=None, count=1):
         """Of the `count`-th publication for this version."""

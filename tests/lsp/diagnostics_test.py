@@ -5,20 +5,9 @@ import random
 import subprocess
 import unittest
 
-from harness import ROOT, SLIP, Session, at
+from harness import ROOT, SLIP, STEPS, Session, at
 
 FEEDHOLD = os.environ["FEEDHOLD"]
-LOOP = """%
-O9100(STEPS)
-(@PARAM #21 DEPTH 0.5..50.)
-(@PARAM #22 STEP 0..5.)
-#1=0
-WHILE[#1LT#21]DO1
-#1=#1+#22
-END1
-M99
-%
-"""
 
 
 def programs():
@@ -80,7 +69,7 @@ class Edits(Session):
         for encoding in ("utf-8", "utf-16"):
             client = self.client(capabilities={"general": {"positionEncodings": [encoding]}}, options={"proofs": "off"})
             self.assertEqual(client.server["capabilities"]["positionEncoding"], encoding)
-            text, version = SLIP + LOOP, 1
+            text, version = SLIP + STEPS, 1
             uri = client.open("edited.nc", text)
             for _ in range(40):
                 for _ in range(generator.randrange(1, 6)):

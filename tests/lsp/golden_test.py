@@ -12,7 +12,6 @@ SESSIONS = Path(__file__).resolve().parent / "sessions"
 EXPECTED = ".expected.json"
 FOLDER = "file:///folder"  # in recordings, where the folder of the test is
 FULL = "lifecycle"  # the session whose expectation holds what the server can do; one place to change is enough
-LONGEST_WAIT = 60
 
 
 def replaced(json_value, old, new):
@@ -26,6 +25,10 @@ def replaced(json_value, old, new):
     return json_value
 
 
+def recordings():
+    return [path for path in sorted(SESSIONS.glob("*.json")) if not path.name.endswith(EXPECTED)]
+
+
 def shown(messages):
     """For people to read; rows of numbers and places stay on one line."""
     text = json.dumps(messages, indent=2, ensure_ascii=False, sort_keys=True)
@@ -34,9 +37,10 @@ def shown(messages):
     return text + "\n"
 
 
-class Recorded(Session):
+class Player(Session):
     def play(self, messages):
-        """What came back.  Each answer is waited for, and so are both publications for a text, so that the order is one."""
+        """The client at the end.  Each answer is waited for, and so are both publications for a text, so that the order is
+        one."""
         client = self.client(fresh=True)
         for message in replaced(messages, FOLDER, self.folder.as_uri()):
             client.send({"jsonrpc": "2.0", **message})
@@ -45,18 +49,21 @@ class Recorded(Session):
             elif message["method"] in ("textDocument/didOpen", "textDocument/didChange"):
                 document = message["params"]["textDocument"]
                 client.all_findings(document["uri"], document["version"])
-        self.assertEqual(client.process.wait(LONGEST_WAIT), 0)
-        client.reader.join(LONGEST_WAIT)
-        while (late := client.received.get(timeout=LONGEST_WAIT)) is not None:
-            client.kept.append(late)
-        return replaced(replaced(client.kept, self.folder.as_uri(), FOLDER), str(self.folder), FOLDER[len("file://"):])
+        client.drain()
+        self.assertEqual(client.process.returncode, 0)
+        return client
+
+
+class Recorded(Player):
+    def said(self, messages):
+        said = self.play(messages).kept
+        return replaced(replaced(said, self.folder.as_uri(), FOLDER), str(self.folder), FOLDER[len("file://"):])
 
     def test_sessions(self):
-        recordings = [path for path in sorted(SESSIONS.glob("*.json")) if not path.name.endswith(EXPECTED)]
-        self.assertGreaterEqual(len(recordings), 4)
-        for path in recordings:
+        self.assertGreaterEqual(len(recordings()), 4)
+        for path in recordings():
             with self.subTest(path.stem):
-                messages = self.play(json.loads(path.read_text()))
+                messages = self.said(json.loads(path.read_text()))
                 begun = messages[0]["result"]
                 begun["serverInfo"]["version"] = "VERSION"
                 if path.stem != FULL:

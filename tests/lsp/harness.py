@@ -17,6 +17,19 @@ M30
 %
 """
 
+# Its loop never ends for a step of 0, which its contract allows.
+STEPS = """%
+O9100(STEPS)
+(@PARAM #21 DEPTH 0.5..50.)
+(@PARAM #22 STEP 0..5.)
+#1=0
+WHILE[#1LT#21]DO1
+#1=#1+#22
+END1
+M99
+%
+"""
+
 
 class Session(unittest.TestCase):
     def setUp(self):
@@ -24,8 +37,8 @@ class Session(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.folder = Path(holder.name).resolve()
 
-    def client(self, **options):
-        client = Client(self.folder, **options)
+    def client(self, folder=None, **options):
+        client = Client(folder or self.folder, **options)
         self.addCleanup(client.end)
         return client
 

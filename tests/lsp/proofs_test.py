@@ -2,20 +2,9 @@
 import time
 import unittest
 
-from harness import ROOT, Session, at
+from harness import ROOT, STEPS, Session, at
 
-REFUTED = """%
-O9100(STEPS)
-(@PARAM #21 DEPTH 0.5..50.)
-(@PARAM #22 STEP 0..5.)
-#1=0
-WHILE[#1LT#21]DO1
-#1=#1+#22
-END1
-M99
-%
-"""
-GUARDED = REFUTED.replace("#1=0\n", "#1=0\nIF[#22GT0]GOTO1\n#3000=1(STEP)\nN1\n")
+GUARDED = STEPS.replace("#1=0\n", "#1=0\nIF[#22GT0]GOTO1\n#3000=1(STEP)\nN1\n")
 PROGRESS = {"window": {"workDoneProgress": True}}
 
 
@@ -35,7 +24,7 @@ class Proofs(Session):
 
     def test_refuted_with_its_witness(self):
         client = self.client(capabilities=PROGRESS)
-        uri = client.open("O9100.nc", REFUTED)
+        uri = client.open("O9100.nc", STEPS)
         found = self.proved(client, uri, 1)
         loop = next(d for d in found if d["code"] == "loop-ends")
         self.assertEqual(loop["severity"], 1)
@@ -59,14 +48,14 @@ class Proofs(Session):
         client = self.client(capabilities=PROGRESS)
         uri = client.open("O9100.nc", GUARDED)
         self.proved(client, uri, 1)
-        client.change(uri, 2, {"text": REFUTED})
+        client.change(uri, 2, {"text": STEPS})
         self.assertFalse([d for d in client.all_findings(uri, 2) if d["code"] == "loop-ends"])
         client.notify("textDocument/didSave", {"textDocument": {"uri": uri}})
         self.assertIn("loop-ends", [d["code"] for d in self.proved(client, uri, 2)])
 
     def test_on_type_and_off(self):
         client = self.client(capabilities=PROGRESS, options={"proofs": "off"})
-        uri = client.open("O9100.nc", REFUTED)
+        uri = client.open("O9100.nc", STEPS)
         client.all_findings(uri, 1)
         self.assertFalse([m for m in client.kept if m.get("method") == "$/progress"])
         client.notify("workspace/didChangeConfiguration", {"settings": {"feedhold": {"proofs": "onType"}}})
@@ -78,14 +67,14 @@ class Proofs(Session):
 
     def test_command(self):
         client = self.client(capabilities=PROGRESS, options={"proofs": "off"})
-        uri = client.open("O9100.nc", REFUTED)
+        uri = client.open("O9100.nc", STEPS)
         self.assertIsNone(client.request("workspace/executeCommand", {"command": "feedhold.prove", "arguments": [uri]}))
         self.assertTrue(self.proved(client, uri, 1))
 
     def test_edits_stop_proofs(self):
         """Whatever runs for an older text gives way, and the end of the session does not wait for it."""
         client = self.client(capabilities=PROGRESS, options={"proofs": "onType"})
-        uri = client.open("O9100.nc", REFUTED)
+        uri = client.open("O9100.nc", STEPS)
         for version in range(2, 30):
             client.change(uri, version, {"range": at(2, 0), "text": "(A)\n"})
             client.notify("textDocument/didSave", {"textDocument": {"uri": uri}})

@@ -10,10 +10,14 @@
 
 namespace feedhold {
 
-/// By absolute path in normal form; in UTF-8.
+/// By absolute path in normal form, and by the path without links where that is another one; in UTF-8.
 using OpenTexts = std::map<std::filesystem::path, std::shared_ptr<const std::string>>;
 
-/// The open text of the file, else what lies on disk.  Errors as SourceFile::open.
+/// The path without links.
+std::filesystem::path placeOf(const std::filesystem::path &path);
+
+/// The open text of the file, else what lies on disk: with `open`, as a copy of its own, since an editor's server holds
+/// it while others write the file anew.  Errors as SourceFile::open.
 Result<SourceFile> openSource(const std::filesystem::path &path, const std::shared_ptr<const OpenTexts> &open);
 
 } // namespace feedhold

@@ -4,6 +4,7 @@
 #include "base/support/text.h"
 #include "findings/session/content.h"
 #include "findings/session/discovery.h"
+#include "findings/session/file_memory.h"
 #include "findings/session/sidecars.h"
 #include "language/parse/parse.h"
 
@@ -17,13 +18,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::unique_ptr<const LoadedFile> read(std::string shown, fs::path path, SourceFile source, const Dialect &dialect,
-                                       const std::shared_ptr<const OpenTexts> &open) {
+FileMemory::Reading readAnew(const std::string &shown, const fs::path &path, const SourceFile &source,
+                             const Dialect &dialect, const std::shared_ptr<const OpenTexts> &open) {
   SyntaxTree tree = parse(source, dialect);
   ProgramModel model = resolve(source, tree, dialect);
-  FileContracts contracts = readContracts(source, tree, model, dialect, sidecarsOf(path, model, open));
-  return std::make_unique<const LoadedFile>(LoadedFile{std::move(shown), std::move(path), std::move(source),
-                                                       std::move(tree), std::move(model), std::move(contracts)});
+  std::vector<Sidecar> sidecars = sidecarsOf(path, model, open);
+  FileContracts contracts = readContracts(source, tree, model, dialect, sidecars);
+  return {std::make_shared<const LoadedFile>(
+              LoadedFile{shown, path, source, std::move(tree), std::move(model), std::move(contracts)}),
+          std::move(sidecars)};
+}
+
+std::shared_ptr<const LoadedFile> read(const std::string &shown, const fs::path &path, const SourceFile &source,
+                                       const Dialect &dialect, const ProgramsWish &wish) {
+  const auto anew = [&] { return readAnew(shown, path, source, dialect, wish.open); };
+  if (wish.memory == nullptr || path.empty())
+    return anew().file;
+  return wish.memory->reading(path, source, dialect, wish.open, anew);
 }
 
 /// The files beside `path` that are programs by their names and their looks, by name.
@@ -98,11 +109,11 @@ Result<std::unique_ptr<const LoadedPrograms>> loadPrograms(const ProgramsWish &w
 
   auto programs = std::make_unique<LoadedPrograms>();
   programs->dialect = item.profile->dialect;
-  programs->files.push_back(read(item.shown, item.path, item.source, programs->dialect, wish.open));
+  programs->files.push_back(read(item.shown, item.path, item.source, programs->dialect, wish));
   const bool wantsFolder = wish.folder == ProgramsWish::Folder::Always || !programs->files.front()->model.calls.empty();
   if (!wish.piped && wantsFolder)
-    for (auto &[path, source] : neighboursOf(item.path, wish, known))
-      programs->files.push_back(read(path.generic_string(), path, std::move(source), programs->dialect, wish.open));
+    for (const auto &[path, source] : neighboursOf(item.path, wish, known))
+      programs->files.push_back(read(path.generic_string(), path, source, programs->dialect, wish));
   connect(*programs);
   return std::unique_ptr<const LoadedPrograms>(std::move(programs));
 }

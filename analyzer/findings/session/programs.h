@@ -13,6 +13,8 @@
 
 namespace feedhold {
 
+class FileMemory;
+
 struct ProgramsWish {
   std::string path;
   std::optional<PipedText> piped = std::nullopt; // instead of `path`; such a program sees no folder
@@ -21,6 +23,7 @@ struct ProgramsWish {
   std::shared_ptr<const OpenTexts> open = {}; // of editors
   /// Whether its folder is read too when it calls nothing: to see who calls it.
   enum class Folder : std::uint8_t { WhenItCalls, Always } folder = Folder::WhenItCalls;
+  FileMemory *memory = nullptr; // null: every file is read
 };
 
 /// One file, from its text to its model.
@@ -36,7 +39,7 @@ struct LoadedFile {
 /// All files are read for the control of the first one, with its switches.
 struct LoadedPrograms {
   Dialect dialect;
-  std::vector<std::unique_ptr<const LoadedFile>> files; // by FileId: the one that was named, then its folder by name
+  std::vector<std::shared_ptr<const LoadedFile>> files; // by FileId: the one that was named, then its folder by name
   std::optional<ProgramSet> set;
 
   const LoadedFile &file(FileId id) const { return *files[id.index()]; }

@@ -53,7 +53,8 @@ std::vector<Sidecar> sidecarsOf(const fs::path &file, const ProgramModel &model,
   std::set<fs::path> seen;
   forEachName(file, model, [&](const fs::path &path, std::optional<std::uint32_t> program) {
     std::error_code ignored; // what cannot be asked for is not there
-    if (seen.insert(path).second && fs::exists(path, ignored))
+    const bool isOpen = open && open->contains(fs::absolute(path).lexically_normal());
+    if (seen.insert(path).second && (isOpen || fs::exists(path, ignored)))
       found.push_back(read(path, program, open));
   });
   return found;

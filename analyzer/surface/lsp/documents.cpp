@@ -17,6 +17,8 @@ Document openDocument(const Json &textDocument) {
   document.text = std::make_shared<const std::string>(textDocument.at("text").get<std::string>());
   const std::filesystem::path path = pathOfUri(document.uri);
   document.path = path.is_absolute() ? path.lexically_normal() : std::filesystem::path();
+  if (!document.path.empty())
+    document.place = placeOf(document.path);
   return document;
 }
 

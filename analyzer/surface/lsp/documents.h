@@ -15,8 +15,9 @@ namespace feedhold::lsp {
 using Json = nlohmann::json;
 
 struct Document {
-  std::string uri;            // as the client writes it
-  std::filesystem::path path; // absolute; empty: of no file
+  std::string uri;             // as the client writes it
+  std::filesystem::path path;  // absolute; empty: of no file
+  std::filesystem::path place; // the same without links
   std::int64_t version = 0;
   std::shared_ptr<const std::string> text; // UTF-8
 };

@@ -3,6 +3,7 @@
 
 #include "findings/session/programs.h"
 #include "proof/prove/prove.h"
+#include "surface/lsp/feature_flow.h"
 #include "surface/lsp/places.h"
 
 #include <nlohmann/json.hpp>
@@ -33,11 +34,14 @@ struct View {
   PositionEncoding encoding;
   std::vector<std::filesystem::path> folders; // of the workspace
   std::shared_ptr<const OpenTexts> open = {}; // of all editors
+  std::shared_ptr<const OpenUris> uris = std::make_shared<const OpenUris>();
+  FileMemory *memory = nullptr; // of what was loaded before
+  std::shared_ptr<Flow> flow = std::make_shared<Flow>();
 
   const LoadedFile &file() const { return programs->file(FileId(0)); }
   Places places() const { return Places(file().source, encoding); }
   Places places(FileId id) const { return Places(programs->file(id).source, encoding); }
-  /// The URI of any of its files; that of the document as the client wrote it.
+  /// The URI of any of its files; that of an open document as the client wrote it.
   std::string uriOf(FileId id) const;
 };
 

@@ -10,7 +10,7 @@ void Edits::replace(FileId file, ContractSourceId source, Span span, const std::
   if (source == kProgramText)
     return replace(file, span, text);
   const SourceFile &contract = view_.programs->file(file).contracts.source(source);
-  edits_[uriOfPath(contract.path())][span] = {{"range", Places(contract, view_.encoding).range(span)},
+  edits_[view_.uris->of(contract.path())][span] = {{"range", Places(contract, view_.encoding).range(span)},
                                               {"newText", text}};
 }
 

@@ -1,5 +1,7 @@
 #include "surface/lsp/places.h"
 
+#include "findings/session/open_texts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +18,19 @@ std::size_t lengthAt(std::string_view text, std::size_t at) {
 }
 
 constexpr std::size_t kBeyondUtf16Unit = 4; // characters of four bytes are two units
+
+std::string escaped(std::string_view path) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+  std::string text;
+  for (const char c : path)
+    text += kPlain.find(c) != std::string_view::npos ? std::string(1, c)
+                                                     : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return text;
+}
+
+std::filesystem::path normal(const std::filesystem::path &path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
 
 } // namespace
 
@@ -94,13 +109,25 @@ std::filesystem::path pathOfUri(std::string_view uri) {
   return path;
 }
 
-std::string uriOfPath(const std::filesystem::path &path) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
-  std::string uri = "file://";
-  for (const char c : std::filesystem::absolute(path).lexically_normal().generic_string())
-    uri += kPlain.find(c) != std::string_view::npos ? std::string(1, c)
-                                                    : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return uri;
+std::string uriOfPath(const std::filesystem::path &path) { return "file://" + escaped(normal(path).generic_string()); }
+
+void OpenUris::add(const std::filesystem::path &path, const std::string &uri) {
+  const std::filesystem::path written = normal(path);
+  documents_[written] = uri;
+  documents_.try_emplace(placeOf(path), uri);
+  const std::string folder = uri.substr(0, uri.rfind('/') + 1); // not one whose last `/` is escaped
+  if (normal(pathOfUri(folder)) == written.parent_path() / "")
+    folders_.try_emplace(written.parent_path(), folder);
+}
+
+std::string OpenUris::of(const std::filesystem::path &path) const {
+  const std::filesystem::path written = normal(path);
+  if (const auto open = documents_.find(written); open != documents_.end())
+    return open->second;
+  if (const auto open = documents_.find(placeOf(path)); open != documents_.end())
+    return open->second;
+  const auto folder = folders_.find(written.parent_path());
+  return folder == folders_.end() ? uriOfPath(path) : folder->second + escaped(written.filename().generic_string());
 }
 
 } // namespace feedhold::lsp

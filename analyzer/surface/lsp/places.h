@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -42,5 +43,18 @@ private:
 /// `file:///c%20d/part.nc` and back.  Of another scheme: empty.
 std::filesystem::path pathOfUri(std::string_view uri);
 std::string uriOfPath(const std::filesystem::path &path);
+
+/// How the client writes the URIs of the documents that are open: it may escape more than `uriOfPath`, or go by a link,
+/// and takes another spelling for another document.
+class OpenUris {
+public:
+  void add(const std::filesystem::path &path, const std::string &uri);
+  /// Of an open document as the client writes it; of a file beside one in the same manner.
+  std::string of(const std::filesystem::path &path) const;
+
+private:
+  std::map<std::filesystem::path, std::string> documents_; // by path as it is written, and without links
+  std::map<std::filesystem::path, std::string> folders_;   // by path as it is written; with a `/` at the end
+};
 
 } // namespace feedhold::lsp

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 namespace feedhold::lsp {
 
@@ -173,6 +175,18 @@ std::optional<Remark> moved(const Remark &remark, const TextChange &change) {
       return !there;
     });
   });
+  return result;
+}
+
+SplitRemarks split(std::vector<Remark> remarks, const std::vector<Remark> &others) {
+  using Key = std::tuple<Span, std::string_view, std::string_view>;
+  const auto keyOf = [](const Remark &remark) { return Key{remark.span, remark.code, remark.message}; };
+  std::set<Key> keys;
+  for (const Remark &other : others)
+    keys.insert(keyOf(other));
+  SplitRemarks result;
+  for (Remark &remark : remarks)
+    (keys.contains(keyOf(remark)) ? result.known : result.fresh).push_back(std::move(remark));
   return result;
 }
 

@@ -46,6 +46,13 @@ std::vector<Remark> remarksOnProofs(const ProvedFile &file, const ProofsResult &
 /// The remark after a change of its text; absent when the change touches it.
 std::optional<Remark> moved(const Remark &remark, const TextChange &change);
 
+/// By place, code and message.
+struct SplitRemarks {
+  std::vector<Remark> known; // are among the others
+  std::vector<Remark> fresh;
+};
+SplitRemarks split(std::vector<Remark> remarks, const std::vector<Remark> &others);
+
 /// As the protocol has it.
 Json diagnosticOf(const Remark &remark, const Places &places, const std::string &uri, const RemarkContext &context);
 

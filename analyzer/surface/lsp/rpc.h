@@ -34,8 +34,12 @@ inline Json errorMessage(const Json &id, ErrorCode code, std::string_view messag
 inline Json notificationMessage(std::string_view method, Json params) {
   return {{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}};
 }
+/// Null: the method takes no parameters; parameters that are null are no message of the protocol.
 inline Json requestMessage(const Json &id, std::string_view method, Json params) {
-  return {{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}};
+  Json message = {{"jsonrpc", "2.0"}, {"id", id}, {"method", method}};
+  if (!params.is_null())
+    message["params"] = std::move(params);
+  return message;
 }
 
 } // namespace feedhold::lsp

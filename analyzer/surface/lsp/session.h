@@ -2,6 +2,7 @@
 // works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.
 #pragma once
 
+#include "surface/lsp/allowances.h"
 #include "surface/lsp/lane.h"
 #include "surface/lsp/rpc.h"
 #include "surface/lsp/server.h"
@@ -55,15 +56,33 @@ private:
   void planProofs(OpenDocument &document, Reason reason);
   void planAll();
   void checkQuickly(OpenDocument &document);
-  void startFlow(OpenDocument &document);
-  void takeFlow(OpenDocument &document, const CheckResult &result);
   void publish(const OpenDocument &document);
-  void publishOthers(OpenDocument &document, const CheckResult &result);
-  void checkContract(OpenDocument &contract);
   void complainAbout(const std::vector<PathProblem> &problems);
   Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks);
+  Json findingsOf(const OpenDocument &document);
   RemarkContext remarkContext();
   std::string pageOf(std::string_view rule);
+
+  // ---- findings that follow the flow (session_flow.cpp) ----
+  struct FlowSubject {
+    std::string uri;
+    std::uint64_t stamp = 0;
+    std::string name;         // of its file in the result
+    bool isForOthers = false; // its own text is as it was when it was looked at before
+  };
+  struct FlowJob {
+    std::vector<FlowSubject> subjects;
+    FlowScope scope;
+  };
+  enum class Stage : std::uint8_t { Alone, Last };
+  void startFlow(const std::vector<OpenDocument *> &due);
+  void submit(FlowJob job);
+  void findFlow(const std::vector<FlowSubject> &subjects, const CheckOptions &options, Stage stage);
+  void findFlowNow(OpenDocument &document);
+  void takeFlow(OpenDocument &document, const CheckResult &result, const FlowSubject &subject, Stage stage);
+  void planOthers(const OpenDocument &changed);
+  void publishOthers(OpenDocument &document, const CheckResult &result, std::size_t own);
+  void publishOther(const std::string &uri);
 
   // ---- proofs (session_proofs.cpp) ----
   void startProofs(OpenDocument &document);
@@ -81,6 +100,7 @@ private:
   // ---- what can be done (session_actions.cpp) ----
   Json codeActions(const Json &params);
   void addActions(const Remark &remark, OpenDocument &document, const Places &places, Json &actions);
+  Json sidecarEdit(const SidecarClause &clause) const;
   std::optional<Edit> fixAll(OpenDocument &document);
   Json formatting(const Json &params);
   Json execute(const Json &params);
@@ -98,6 +118,7 @@ private:
   bool refreshesDiagnostics_ = false;
   bool refreshesLenses_ = false;
   bool registersWatchers_ = false;
+  bool createsFiles_ = false; // as part of an edit
   std::uint64_t lastAsked_ = 0;
   std::map<const Rule *, std::string> pages_;   // URIs; empty: it could not be written
   std::set<std::string> complaints_;            // each is shown once

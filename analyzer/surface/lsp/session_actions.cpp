@@ -55,18 +55,6 @@ bool hasSafeFix(const std::vector<Remark> &remarks) {
   });
 }
 
-/// The comment stands behind what the block says; the reason is left to the person, and missed until it is there.
-std::optional<Edit> allowance(const Remark &remark, const LoadedFile &file) {
-  if (remark.span.begin > file.source.text().size())
-    return std::nullopt;
-  const Block &block = file.tree.blocks[file.tree.blockAt(remark.span.begin)];
-  std::string_view text = file.source.text(block.span());
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
-    text.remove_suffix(1);
-  const std::uint32_t at = block.begin + static_cast<std::uint32_t>(text.size());
-  return Edit{{at, at}, fmt::format("{}(@ALLOW {} )", text.empty() ? "" : " ", remark.code)};
-}
-
 std::string styleText(const Json &options) {
   constexpr std::size_t kWidest = 16;
   if (options.value("insertSpaces", true))
@@ -111,19 +99,42 @@ void ClientSession::addActions(const Remark &remark, OpenDocument &document, con
   const auto programs = workspace_.programsOf(document);
   if (!programs || !remark.subject.empty())
     return; // a verdict is no matter of opinion
-  if (const std::optional<Edit> edit = allowance(remark, programs->file(FileId(0))))
+  const LoadedFile &file = programs->file(FileId(0));
+  if (const std::optional<Edit> edit = commentAllowing(remark, file))
     actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", remark.code)},
                        {"kind", kQuickFix},
                        {"diagnostics", diagnostics},
                        {"edit", workspaceEdit(document, {*edit}, places)}});
+  const std::optional<SidecarClause> clause = clauseAllowing(remark, file);
+  if (clause && (!clause->isNew || createsFiles_))
+    actions.push_back({{"title", fmt::format("allow `{}` for {} in {}, with a reason", remark.code, clause->place,
+                                             clause->file.filename().generic_string())},
+                       {"kind", kQuickFix},
+                       {"diagnostics", diagnostics},
+                       {"edit", sidecarEdit(*clause)}});
+}
+
+Json ClientSession::sidecarEdit(const SidecarClause &clause) const {
+  const std::string uri = workspace_.uriOf(clause.file);
+  const Json edits = textEdits({clause.edit}, Places(clause.before, workspace_.encoding));
+  if (!clause.isNew)
+    return {{"changes", {{uri, edits}}}};
+  return {{"documentChanges",
+           {{{"kind", "create"}, {"uri", uri}, {"options", {{"ignoreIfExists", true}}}},
+            {{"textDocument", {{"uri", uri}, {"version", nullptr}}}, {"edits", edits}}}}};
 }
 
 /// What `check --fix` would make of the text; absent when it is the same.
 std::optional<Edit> ClientSession::fixAll(OpenDocument &document) {
   if (!document.fixed || document.fixed->stamp != document.stamp) {
-    const FixResult result = fix(workspace_.optionsFor(document), FixWish::Safe, options_.known);
-    document.fixed =
-        FixedText{document.stamp, result.files.empty() ? *document.document.text : result.files.front().after};
+    // With its folder: what seems unused in a program alone may be of use to those that it calls.
+    const FlowScope scope = workspace_.scopeOf(document);
+    const FixResult result = fix(scope.whole ? *scope.whole : scope.alone, FixWish::Safe, options_.known);
+    const std::string name = Workspace::nameIn(document, scope.alone);
+    document.fixed = FixedText{document.stamp, *document.document.text};
+    for (const FixedFile &file : result.files)
+      if (file.path == name)
+        document.fixed->text = file.after;
   }
   const std::string &after = document.fixed->text;
   const TextChange change = difference(*document.document.text, after);

@@ -1,4 +1,5 @@
-// What happens when texts change: findings that need no flow analysis at once, all of them a moment later.
+// What happens when texts change: findings that need no flow analysis at once, all of them a moment later.  A file with
+// contracts has those that the programs beside it have on it, whether they are open or not.
 #include "surface/lsp/session.h"
 
 #include "base/source/write_file.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
 namespace feedhold::lsp {
 
@@ -17,27 +17,6 @@ namespace {
 
 constexpr auto kUntilFlow = std::chrono::milliseconds(100); // of a pause in the typing
 constexpr auto kUntilProofs = std::chrono::seconds(1);
-
-/// Where the checked program itself is: a file with its contracts may come before it by name.
-std::optional<std::size_t> indexOf(const CheckResult &result, const CheckOptions &options) {
-  const std::string &name = options.piped ? options.piped->name : options.paths.front();
-  const auto found = std::find_if(result.files.begin(), result.files.end(),
-                                  [&](const CheckedFile &file) { return file.path == name; });
-  if (found == result.files.end())
-    return std::nullopt;
-  return static_cast<std::size_t>(found - result.files.begin());
-}
-
-/// Those of `all` that are not among `some`.
-std::vector<Remark> without(std::vector<Remark> all, const std::vector<Remark> &some) {
-  using Key = std::tuple<Span, std::string_view, std::string_view>;
-  const auto keyOf = [](const Remark &remark) { return Key{remark.span, remark.code, remark.message}; };
-  std::set<Key> known;
-  for (const Remark &remark : some)
-    known.insert(keyOf(remark));
-  std::erase_if(all, [&](const Remark &remark) { return known.contains(keyOf(remark)); });
-  return all;
-}
 
 } // namespace
 
@@ -56,6 +35,7 @@ void ClientSession::change(const Json &params) {
     if (&other != &document && other.isContract() != document.isContract() &&
         other.document.path.parent_path() == document.document.path.parent_path())
       plan(other, Reason::Typed); // a program and its contract
+  planOthers(document);
 }
 
 void ClientSession::save(const Json &params) {
@@ -70,11 +50,12 @@ void ClientSession::close(const Json &params) {
   const std::string uri = document.document.uri;
   flowLane_.drop(uri);
   proofLane_.drop(uri);
-  std::set<std::string> told = document.others;
-  told.insert(uri);
+  planOthers(document);
+  const std::map<std::string, Json> others = document.others;
   workspace_.remove(uri);
-  for (const std::string &each : told)
-    notify("textDocument/publishDiagnostics", {{"uri", each}, {"diagnostics", Json::array()}});
+  publishOther(uri);
+  for (const auto &[other, diagnostics] : others)
+    publishOther(other);
 }
 
 OpenDocument &ClientSession::documentOf(const Json &params) {
@@ -89,6 +70,7 @@ void ClientSession::plan(OpenDocument &document, Reason reason) {
   const Clock::time_point now = Clock::now();
   document.quickDue = now;
   document.flowDue = reason == Reason::Typed ? now + kUntilFlow : now;
+  document.isFlowDueForOthers = false;
   flowLane_.drop(document.document.uri);
   planProofs(document, reason);
 }
@@ -134,76 +116,39 @@ void ClientSession::workOnDue() {
     due.reset();
     return true;
   };
+  std::vector<OpenDocument *> flowDue;
   for (auto &[uri, document] : workspace_.documents())
     try {
       if (isDue(document.quickDue))
-        document.isContract() ? checkContract(document) : checkQuickly(document);
-      if (isDue(document.flowDue) && !document.isContract())
-        startFlow(document);
+        checkQuickly(document);
+      if (isDue(document.flowDue))
+        flowDue.push_back(&document);
       if (isDue(document.proofsDue) && !document.isContract())
         startProofs(document);
     } catch (const std::exception &error) {
       log(fmt::format("{}: {}", uri, error.what()));
     }
+  startFlow(flowDue);
 }
 
 void ClientSession::checkQuickly(OpenDocument &document) {
   CheckOptions options = workspace_.optionsFor(document);
   options.depth = CheckOptions::Depth::WithoutFlow;
-  const CheckResult result = check(options, options_.known);
-  const auto own = indexOf(result, options);
-  document.quick = own ? remarksOn(*own, result, remarkContext()) : std::vector<Remark>();
-  if (!own)
-    document.flow.clear();
-  complainAbout(result.errors);
-  publish(document);
-  publishOthers(document, result);
-}
-
-/// By the programs that it is for, whether they are open or not.
-void ClientSession::checkContract(OpenDocument &contract) {
-  CheckOptions options = workspace_.optionsFor(contract);
-  options.piped.reset();
-  options.paths = Workspace::programsBeside(contract.document.path);
-  options.depth = CheckOptions::Depth::WithoutFlow;
-  const CheckResult result = options.paths.empty() ? CheckResult{} : check(options, options_.known);
-  contract.quick.clear();
+  const bool isThere = options.piped || !options.paths.empty();
+  const CheckResult result = isThere ? check(options, options_.known) : CheckResult{};
+  const std::string name = isThere ? Workspace::nameIn(document, options) : std::string();
+  document.quick.clear();
+  bool isKnown = false;
   for (std::size_t i = 0; i < result.files.size(); ++i)
-    if (result.files[i].path == contract.document.path)
-      contract.quick = remarksOn(i, result, remarkContext());
-  publish(contract);
-}
-
-void ClientSession::startFlow(OpenDocument &document) {
-  const std::string uri = document.document.uri;
-  const auto stamp = document.stamp;
-  flowLane_.submit(uri, [this, uri, stamp, options = workspace_.optionsFor(document)](const std::stop_token &stop) {
-    if (stop.stop_requested())
-      return;
-    std::function<void()> task;
-    try {
-      auto result = std::make_shared<const CheckResult>(check(options, options_.known));
-      task = [this, uri, stamp, result] {
-        if (OpenDocument *found = workspace_.find(uri); found != nullptr && found->stamp == stamp)
-          takeFlow(*found, *result);
-      };
-    } catch (const std::exception &error) {
-      task = [this, uri, why = std::string(error.what())] { log(fmt::format("{}: {}", uri, why)); };
+    if (result.files[i].path == name) {
+      document.quick = split(remarksOn(i, result, remarkContext()), document.denied).fresh;
+      isKnown = true;
     }
-    if (!stop.stop_requested())
-      queue_.push({.task = std::move(task)});
-  });
-}
-
-void ClientSession::takeFlow(OpenDocument &document, const CheckResult &result) {
-  const auto own = indexOf(result, workspace_.optionsFor(document));
-  std::vector<Remark> all = own ? remarksOn(*own, result, remarkContext()) : std::vector<Remark>();
-  document.flow = without(std::move(all), document.quick);
-  document.isFlowKnown = true;
-  if (pullsDiagnostics_ && refreshesDiagnostics_)
-    ask("workspace/diagnostic/refresh", nullptr);
+  if (!isKnown && !document.isContract())
+    document.flow.clear(); // it is no program any more
+  if (!document.isContract())
+    complainAbout(result.errors);
   publish(document);
-  publishOthers(document, result);
 }
 
 void ClientSession::publish(const OpenDocument &document) {
@@ -215,33 +160,15 @@ void ClientSession::publish(const OpenDocument &document) {
           {"diagnostics", diagnosticsOf(document, std::span(all).first(pullsDiagnostics_ ? 1 : all.size()))}});
 }
 
-void ClientSession::publishOthers(OpenDocument &document, const CheckResult &result) {
-  const RemarkContext context = remarkContext();
-  const auto own = indexOf(result, workspace_.optionsFor(document));
-  std::map<std::string, Json> found;
-  for (const std::string &uri : document.others)
-    found[uri] = Json::array(); // no longer
-  document.others.clear();
-  for (std::size_t i = 0; i < result.files.size(); ++i) {
-    if (i == own)
-      continue;
-    const std::string uri = context.uriOf(result.files[i].path);
-    if (workspace_.find(uri) != nullptr)
-      continue; // it speaks for itself
-    const Places places(result.files[i].source, workspace_.encoding);
-    found[uri] = Json::array();
-    for (const Remark &remark : remarksOn(i, result, context))
-      found[uri].push_back(diagnosticOf(remark, places, uri, context));
-    document.others.insert(uri);
-  }
-  for (auto &[uri, diagnostics] : found)
-    notify("textDocument/publishDiagnostics", {{"uri", uri}, {"diagnostics", std::move(diagnostics)}});
-}
-
 void ClientSession::complainAbout(const std::vector<PathProblem> &problems) {
   for (const PathProblem &problem : problems)
     if (complaints_.insert(problem.path + problem.message).second)
       show(Severity::Error, fmt::format("{}: {}", problem.path, problem.message));
+}
+
+Json ClientSession::findingsOf(const OpenDocument &document) {
+  const std::array<const std::vector<Remark> *, 2> findings = {&document.quick, &document.flow};
+  return diagnosticsOf(document, findings);
 }
 
 Json ClientSession::diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks) {

@@ -34,6 +34,9 @@ Json ClientSession::initialize(const Json &params) {
   refreshesLenses_ = isTrue(client, "/workspace/codeLens/refreshSupport");
   showsProgress_ = isTrue(client, "/window/workDoneProgress");
   registersWatchers_ = isTrue(client, "/workspace/didChangeWatchedFiles/dynamicRegistration");
+  const Json operations = at(client, "/workspace/workspaceEdit/resourceOperations");
+  createsFiles_ = isTrue(client, "/workspace/workspaceEdit/documentChanges") &&
+                  std::find(operations.begin(), operations.end(), "create") != operations.end();
   const Json folders = at(params, "/workspaceFolders");
   for (const Json &folder : folders)
     if (const auto path = folderOf(at(folder, "/uri")); !path.empty())

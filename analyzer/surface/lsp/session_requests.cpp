@@ -59,17 +59,14 @@ Json ClientSession::pullDiagnostics(const Json &params) {
   OpenDocument &document = documentOf(params);
   if (document.quickDue) {
     document.quickDue.reset();
-    document.isContract() ? checkContract(document) : checkQuickly(document);
+    checkQuickly(document);
   }
-  if (!document.isContract() && !refreshesDiagnostics_ && !document.isFlowKnown) {
-    document.flowDue.reset();
-    takeFlow(document, check(workspace_.optionsFor(document), options_.known));
-  }
-  const std::string resultId = fmt::format("{}{}", document.stamp, document.isFlowKnown ? "" : "-quick");
+  if (!refreshesDiagnostics_ && !document.isFlowKnown)
+    findFlowNow(document);
+  const std::string resultId = fmt::format("{}-{}", document.stamp, document.found);
   if (params.value("previousResultId", Json()) == resultId)
     return {{"kind", "unchanged"}, {"resultId", resultId}};
-  const std::array<const std::vector<Remark> *, 2> findings = {&document.quick, &document.flow};
-  return {{"kind", "full"}, {"resultId", resultId}, {"items", diagnosticsOf(document, findings)}};
+  return {{"kind", "full"}, {"resultId", resultId}, {"items", findingsOf(document)}};
 }
 
 Json ClientSession::colours(const Json &params) {

@@ -11,6 +11,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of a folder of the workspace: with more files, those of a document alone come first.
+constexpr std::size_t kQuickFolder = 500;
+/// With more files it is no folder of programs, and only looked at document by document.
+constexpr std::size_t kLargestFolder = 20'000;
+
 std::vector<Remark> movedAll(const std::vector<Remark> &remarks, const std::vector<TextChange> &changes) {
   std::vector<Remark> result;
   for (const Remark &remark : remarks) {
@@ -45,6 +50,7 @@ OpenDocument *Workspace::find(const std::string &uri) {
 }
 
 void Workspace::textChanged(OpenDocument &changed, const std::vector<TextChange> &changes) {
+  changed.denied = movedAll(changed.denied, changes);
   changed.flow = movedAll(changed.flow, changes);
   changed.proofs = movedAll(changed.proofs, changes);
   const fs::path folder = changed.document.path.parent_path();
@@ -52,6 +58,7 @@ void Workspace::textChanged(OpenDocument &changed, const std::vector<TextChange>
     if (&open != &changed && (folder.empty() || open.document.path.parent_path() != folder))
       continue;
     open.programs.reset();
+    open.kept->forget();
     open.verdicts.reset();
     // Its findings stay as they are when another program changes; a contract is read with it.
     if (&open == &changed || changed.isContract()) {
@@ -63,20 +70,28 @@ void Workspace::textChanged(OpenDocument &changed, const std::vector<TextChange>
 }
 
 void Workspace::surroundingsChanged() {
+  filesBelow_.clear();
   for (auto &[uri, open] : documents_) {
     open.stamp = ++lastStamp_;
     open.isFlowKnown = false;
+    open.denied.clear();
     open.programs.reset();
+    open.kept->forget();
     open.verdicts.reset();
   }
 }
 
 void Workspace::textsChanged() {
   OpenTexts texts;
+  OpenUris uris;
   for (const auto &[uri, open] : documents_)
-    if (!open.document.path.empty())
+    if (!open.document.path.empty()) {
       texts[open.document.path] = open.document.text;
+      texts.try_emplace(open.document.place, open.document.text);
+      uris.add(open.document.path, uri);
+    }
   texts_ = std::make_shared<const OpenTexts>(std::move(texts));
+  uris_ = std::make_shared<const OpenUris>(std::move(uris));
 }
 
 CheckOptions Workspace::optionsFor(const OpenDocument &document) const {
@@ -85,6 +100,10 @@ CheckOptions Workspace::optionsFor(const OpenDocument &document) const {
   options.jobs = 1; // the editor has the other processors
   std::error_code ignored;
   const fs::path &path = document.document.path;
+  if (document.isContract()) {
+    options.paths = programsBeside(path);
+    return options;
+  }
   if (!path.empty() && fs::is_regular_file(path, ignored)) {
     options.paths = {path.generic_string()};
     return options;
@@ -94,6 +113,53 @@ CheckOptions Workspace::optionsFor(const OpenDocument &document) const {
   const fs::path folder = folders.empty() || !path.empty() ? fs::path() : folders.front();
   options.piped = PipedText{(folder / name).generic_string(), *document.document.text};
   return options;
+}
+
+FlowScope Workspace::scopeOf(const OpenDocument &document) {
+  FlowScope scope{.alone = optionsFor(document)};
+  const fs::path root = rootOf(document);
+  if (root.empty() || scope.alone.paths.empty())
+    return scope;
+  const std::size_t files = filesBelow(root);
+  if (files > kLargestFolder)
+    return scope;
+  scope.isLarge = files > kQuickFolder;
+  scope.whole = scope.alone;
+  scope.whole->only.emplace(scope.alone.paths.begin(), scope.alone.paths.end());
+  scope.whole->paths.push_back(root.generic_string());
+  return scope;
+}
+
+fs::path Workspace::rootOf(const OpenDocument &document) const {
+  fs::path innermost;
+  for (const fs::path &folder : folders) {
+    const fs::path way = document.document.path.lexically_relative(folder);
+    const bool isBelow = !way.empty() && *way.begin() != "..";
+    if (isBelow && folder.native().size() > innermost.native().size())
+      innermost = folder;
+  }
+  return innermost;
+}
+
+std::string Workspace::nameIn(const OpenDocument &document, const CheckOptions &options) {
+  if (document.isContract())
+    return document.document.path.generic_string();
+  return options.piped ? options.piped->name : options.paths.front();
+}
+
+/// Counts no further than to the largest folder that is looked at as a whole.
+std::size_t Workspace::filesBelow(const fs::path &root) {
+  const auto [known, isNew] = filesBelow_.try_emplace(root, 0);
+  if (!isNew)
+    return known->second;
+  std::error_code error; // what cannot be listed is not looked at either
+  for (fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
+       !error && at != end && known->second <= kLargestFolder; at.increment(error)) {
+    if (at->path().filename().native().starts_with('.'))
+      at.disable_recursion_pending();
+    ++known->second;
+  }
+  return known->second;
 }
 
 std::vector<std::string> Workspace::programsBeside(const fs::path &contract) {
@@ -112,19 +178,20 @@ std::vector<std::string> Workspace::programsBeside(const fs::path &contract) {
   return named.empty() ? all : named;
 }
 
-std::shared_ptr<const LoadedPrograms> Workspace::programsOf(OpenDocument &document) const {
+std::shared_ptr<const LoadedPrograms> Workspace::programsOf(OpenDocument &document) {
   if (document.programs || document.isContract())
     return document.programs;
   const CheckOptions options = optionsFor(document);
   const ProgramsWish wish{.path = options.paths.empty() ? std::string() : options.paths.front(),
                           .piped = options.piped,
-                          .open = options.open};
+                          .open = options.open,
+                          .memory = &memory_};
   if (auto loaded = loadPrograms(wish, known_))
     document.programs = loaded.take();
   return document.programs;
 }
 
-View Workspace::viewOf(OpenDocument &document) const {
+View Workspace::viewOf(OpenDocument &document) {
   std::shared_ptr<const LoadedPrograms> programs = programsOf(document);
   FEEDHOLD_CHECK(programs != nullptr, "a view of what is no program");
   return {.uri = document.document.uri,
@@ -133,14 +200,10 @@ View Workspace::viewOf(OpenDocument &document) const {
           .known = known_,
           .encoding = encoding,
           .folders = folders,
-          .open = texts_};
-}
-
-std::string Workspace::uriOf(const fs::path &path) const {
-  for (const auto &[uri, open] : documents_)
-    if (open.document.path == path)
-      return uri;
-  return uriOfPath(path);
+          .open = texts_,
+          .uris = uris_,
+          .memory = &memory_,
+          .flow = document.kept};
 }
 
 } // namespace feedhold::lsp

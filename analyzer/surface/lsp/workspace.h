@@ -1,6 +1,7 @@
 // Workspace: the open documents with all that is known of them, and how they are read.
 #pragma once
 
+#include "findings/session/file_memory.h"
 #include "surface/lsp/event_queue.h"
 #include "surface/lsp/feature.h"
 #include "surface/lsp/remarks.h"
@@ -23,22 +24,35 @@ struct OpenDocument {
   Document document;
   std::uint64_t stamp = 0; // another one after each change of the text or of what it depends on
 
-  std::vector<Remark> quick;    // found without following the flow, in the text in hand
-  std::vector<Remark> flow;     // what else is found; those of an older text move with it
-  std::vector<Remark> proofs;   // likewise
-  bool isFlowKnown = false;     // `flow` is of the text in hand
-  std::set<std::string> others; // URIs of further files on which something is published for it
+  std::vector<Remark> quick;          // found without following the flow, in the text in hand
+  std::vector<Remark> denied;         // of `quick`, what is not so when the other files of the folder are known
+  std::vector<Remark> flow;           // what else is found; those of an older text move with it, as those of `denied`
+  std::vector<Remark> proofs;         // likewise
+  bool isFlowKnown = false;           // `flow` is of the text in hand
+  std::uint64_t found = 0;            // another one each time that `flow` is
+  std::map<std::string, Json> others; // diagnostics for further files, by their URIs
 
-  std::shared_ptr<const LoadedPrograms> programs; // of the text in hand; null: not read yet
+  std::shared_ptr<const LoadedPrograms> programs;        // of the text in hand; null: not read yet
+  std::shared_ptr<Flow> kept = std::make_shared<Flow>(); // of `programs`, once it has been asked for
   std::shared_ptr<const std::vector<DocumentProof>> verdicts;
   std::shared_ptr<const ProofsResult> proved; // what they come from
   std::optional<FixedText> fixed;             // made when it was asked for
 
   std::optional<Clock::time_point> quickDue;
   std::optional<Clock::time_point> flowDue;
+  bool isFlowDueForOthers = false; // it is only due since another document is another one
   std::optional<Clock::time_point> proofsDue;
 
   bool isContract() const { return document.path.extension() == kContractExtension; }
+};
+
+/// What to look at for the findings of documents, and on which files they may come out.
+struct FlowScope {
+  CheckOptions alone; // of one document
+  /// In the folder of the workspace: findings on these documents, with all its other files there to be called.
+  std::optional<CheckOptions> whole = {};
+  /// The folder takes long, so that those of the document alone come first.
+  bool isLarge = false;
 };
 
 class Workspace {
@@ -56,24 +70,34 @@ public:
   /// A file on disk is another one, or the configuration: everything is read anew.
   void surroundingsChanged();
 
-  /// How `check` and `prove` read it.
+  /// How `check` and `prove` read it.  No path in it: there is nothing to read.
   CheckOptions optionsFor(const OpenDocument &document) const;
+  /// How `check` of the folder of the workspace reads it, if it is in one.
+  FlowScope scopeOf(const OpenDocument &document);
+  /// The innermost folder of the workspace around it; empty: none.
+  std::filesystem::path rootOf(const OpenDocument &document) const;
+  /// Which file of a result it is.
+  static std::string nameIn(const OpenDocument &document, const CheckOptions &options);
   /// The programs that may be meant by a file with contracts: those of its name, else all of its folder.
   static std::vector<std::string> programsBeside(const std::filesystem::path &contract);
   /// Null: it is no program.
-  std::shared_ptr<const LoadedPrograms> programsOf(OpenDocument &document) const;
-  View viewOf(OpenDocument &document) const;
-  std::string uriOf(const std::filesystem::path &path) const;
+  std::shared_ptr<const LoadedPrograms> programsOf(OpenDocument &document);
+  View viewOf(OpenDocument &document);
+  std::string uriOf(const std::filesystem::path &path) const { return uris_->of(path); }
 
   PositionEncoding encoding = PositionEncoding::Utf16;
   std::vector<std::filesystem::path> folders;
 
 private:
   void textsChanged();
+  std::size_t filesBelow(const std::filesystem::path &root);
 
   KnownNames known_;
-  std::map<std::string, OpenDocument> documents_; // by URI
+  FileMemory memory_;
+  std::map<std::filesystem::path, std::size_t> filesBelow_; // roots, until files change
+  std::map<std::string, OpenDocument> documents_;           // by URI
   std::shared_ptr<const OpenTexts> texts_ = std::make_shared<const OpenTexts>();
+  std::shared_ptr<const OpenUris> uris_ = std::make_shared<const OpenUris>();
   std::uint64_t lastStamp_ = 0;
 };
 
