@@ -1,6 +1,6 @@
 // call-outside-contract: a literal argument that the contract of the macro does not allow, or a required one not
 // passed.
-#include "findings/rule/rule.h"
+#include "rules/contract/contract_view.h"
 
 #include "language/contract/constants.h"
 
@@ -111,14 +111,8 @@ private:
 
   void report(std::string message, Span span, ClauseId id) {
     reported_ = true;
-    const Clause &clause = contracts_.clauses[id];
     Diagnostic diagnostic{.message = std::move(message), .span = span};
-    if (clause.source == kProgramText)
-      diagnostic.labels.push_back({clause.span, "the contract", callee_.file});
-    else
-      diagnostic.notes.push_back(
-          fmt::format("the contract says `{}` ({})", clause.text, contracts_.source(clause.source).path()));
-    diagnostic.notes.push_back("the macro was proved, or tried, for the calls that its contract allows");
+    pointAtContract(id, callee_.file, context_, diagnostic);
     reporter_.report(std::move(diagnostic));
   }
 
@@ -156,9 +150,7 @@ bool passesArguments(const Call &call) {
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.model.calls[id];
   const auto callee = passesArguments(call) ? context.callGraph.callee(context.file, call) : std::nullopt;
-  if (!callee || callee->file.index() >= context.contracts.size())
-    return;
-  if (const Contract *contract = context.contracts[callee->file.index()].of(callee->program))
+  if (const Contract *contract = callee ? context.contractOf(*callee) : nullptr)
     CallCheck(call, *callee, context, reporter).run(*contract);
 }
 

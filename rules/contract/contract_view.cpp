@@ -20,4 +20,15 @@ void pointAt(ClauseId id, std::string label, const FileContext &context, Diagnos
   diagnostic.notes.push_back(fmt::format("{}: {} line {}", label, source.path(), source.lineOf(clause.span.begin)));
 }
 
+void pointAtContract(ClauseId id, FileId callee, const FileContext &context, Diagnostic &diagnostic) {
+  const FileContracts &contracts = context.contracts[callee.index()];
+  const Clause &clause = contracts.clauses[id];
+  if (clause.source == kProgramText)
+    diagnostic.labels.push_back({clause.span, "the contract", callee});
+  else
+    diagnostic.notes.push_back(
+        fmt::format("the contract says `{}` ({})", clause.text, contracts.source(clause.source).path()));
+  diagnostic.notes.push_back("the macro was proved, or tried, for the calls that its contract allows");
+}
+
 } // namespace feedhold::rules

@@ -18,4 +18,7 @@ std::string programOf(const ContractIssue &issue, const FileContext &context);
 /// Points at a clause: a label where it stands in the text of the finding, else a note that says where.
 void pointAt(ClauseId clause, std::string label, const FileContext &context, Diagnostic &diagnostic);
 
+/// Points at a clause of the contract of a program that is called, wherever it stands.
+void pointAtContract(ClauseId clause, FileId callee, const FileContext &context, Diagnostic &diagnostic);
+
 } // namespace feedhold::rules

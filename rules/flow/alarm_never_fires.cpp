@@ -52,6 +52,6 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule alarmNeverFires;
 const Rule alarmNeverFires{.info = {"alarm-never-fires", Category::Flow, Severity::Info,
                                     "Reports an alarm that the conditions before it never let come."},
-                           .hooks = {.flow = check}};
+                           .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

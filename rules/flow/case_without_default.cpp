@@ -51,7 +51,7 @@ bool isExhausted(const FlowFacts &facts, BlockId last) {
   for (NodeId node = facts.file.cfg.nodeOf(last); node < facts.end() && facts.node(node).block == last;
        node = node.next())
     if (std::holds_alternative<Test>(facts.node(node).instruction))
-      return facts.truthOf(node) != Truth::Maybe;
+      return facts.truthOf(node).value_or(Truth::True) == Truth::True;
   return true;
 }
 

@@ -43,6 +43,6 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule decidedCondition;
 const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Info,
                                      "Reports a condition that has the same outcome in all runs."},
-                            .hooks = {.flow = check}};
+                            .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

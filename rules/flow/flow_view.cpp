@@ -68,8 +68,12 @@ private:
     const auto later = [&](ExpressionId part, ReadUse useOfPart) { pending_.push_back({part, useOfPart}); };
     match(
         tree_.expressions[id].node, [](const NumberLiteral &) {}, [](const BrokenExpression &) {},
-        [&](const NumberedVariable &) { reads_.push_back({id, variableNumber(tree_, id), use, block_}); },
-        [&](const NamedVariable &) { reads_.push_back({id, std::nullopt, use, block_}); },
+        [&](const NumberedVariable &) {
+          reads_.push_back({id, variableNumber(tree_, id), use, block_});
+        },
+        [&](const NamedVariable &) {
+          reads_.push_back({id, std::nullopt, use, block_});
+        },
         [&](const IndirectVariable &variable) {
           reads_.push_back({id, std::nullopt, use, block_});
           later(variable.index, ReadUse::Other);
@@ -196,6 +200,11 @@ bool isCalledAsSubprogram(const FlowFacts &facts) {
     const CallKind kind = facts.programs.file(caller.file).model->calls[caller.call].kind;
     return kind == CallKind::Subprogram || kind == CallKind::Local || kind == CallKind::External;
   });
+}
+
+bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
+  const Contract *contract = context.contractOf({context.file, facts.program});
+  return contract && std::ranges::find(contract->globals, variable, &EntryValue::variable) != contract->globals.end();
 }
 
 bool maySet(const FlowFacts &facts, std::uint32_t variable) {
@@ -386,10 +395,15 @@ void UnsetPaths::walk() {
   };
   // Whether a node is left on all its ways: a WHILE that was not come to from inside leads into its body only.
   std::vector<bool> leftFully(reached_.size());
-  std::vector<std::pair<NodeId, bool>> open{{facts_.entry(), true}};
+  struct Step {
+    NodeId node;
+    bool fully;
+  };
+  std::vector<Step> open{{facts_.entry(), true}};
   reached_[0] = true;
   while (!open.empty()) {
-    const auto [node, fully] = open.back();
+    const NodeId node = open.back().node;
+    const bool fully = open.back().fully;
     open.pop_back();
     if (sets_[node.index() - first])
       continue;
@@ -408,7 +422,7 @@ void UnsetPaths::walk() {
         return;
       reached_[at] = true;
       leftFully[at] = leftFully[at] || nextFully;
-      open.emplace_back(next, nextFully);
+      open.push_back({next, nextFully});
     });
   }
 }

@@ -46,6 +46,9 @@ bool isMainProgram(const FlowFacts &facts);
 /// Some M98 reaches the program: it works on the local variables of its callers.
 bool isCalledAsSubprogram(const FlowFacts &facts);
 
+/// The contract of the program says what the common variable holds on entry.
+bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_t variable);
+
 /// Some assignment in the text of the program may set the variable, or some subprogram that shares its local variables
 /// may.  Where that cannot be told: true.
 bool maySet(const FlowFacts &facts, std::uint32_t variable);

@@ -50,6 +50,6 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule loopNeverEntered;
 const Rule loopNeverEntered{.info = {"loop-never-entered", Category::Flow, Severity::Warning,
                                      "Reports a `WHILE` whose condition does not hold in any run."},
-                            .hooks = {.flow = check}};
+                            .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

@@ -57,8 +57,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     done.push_back(*read.number);
     const auto node = nodeOf(facts, read.block, read.expression);
     const auto writes = node ? plainWrites(facts, *read.number) : std::nullopt;
-    if (!writes || writes->empty() || isTested(facts.file, facts.program, *read.number) ||
-        callsBefore(context, facts.program, read.block))
+    if (!writes || writes->empty() || isPromised(facts, context, *read.number) ||
+        isTested(facts.file, facts.program, *read.number) || callsBefore(context, facts.program, read.block))
       continue;
     const auto sets = [&](NodeId each) { return std::ranges::find(*writes, each) != writes->end(); };
     const bool comesAround =

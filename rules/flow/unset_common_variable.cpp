@@ -40,7 +40,7 @@ bool isMeantAsAssignment(const FileContext &context, const VariableUse &use) {
 }
 
 bool isSet(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
-  return facts.programs.isWrittenInCalled(variable) ||
+  return isPromised(facts, context, variable) || facts.programs.isWrittenInCalled(variable) ||
          std::ranges::any_of(context.model.variablesOf(facts.program), [&](const VariableUse &use) {
            return use.number == variable && (use.write || isMeantAsAssignment(context, use));
          });

@@ -88,6 +88,6 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule vacantPassesGuard;
 const Rule vacantPassesGuard{.info = {"vacant-passes-guard", Category::Flow, Severity::Warning,
                                       "Reports a check of an argument by `EQ 0` that a missing argument passes."},
-                             .hooks = {.flow = check}};
+                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

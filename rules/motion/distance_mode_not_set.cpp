@@ -34,8 +34,10 @@ public:
                           "distance",
                           "write G90 or G91 at the head of the program"};
     else
-      diagnostic.notes = {"the caller's mode decides whether this is a coordinate or a distance",
-                          "save #4003, write G90 or G91, and restore the mode at the end"};
+      diagnostic.notes = {
+          "the caller's mode decides whether this is a coordinate or a distance",
+          "save #4003, write G90 or G91, and restore the mode at the end; or say in a contract which mode the "
+          "caller has: `(@MODAL G90)`"};
     reporter.report(std::move(diagnostic),
                     isMain && !context.dialect.behaviour.endRestoresModes ? Severity::Warning : Severity::Info);
   }

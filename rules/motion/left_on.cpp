@@ -35,6 +35,14 @@ std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const Left
   return Leaving{view.findAction(from, mode.actions), exit.node, std::move(*way)};
 }
 
+/// The contract of the program says that its caller has the mode on.
+bool isOnAtEntry(const LeftOn &mode, const MotionView &view, const FlowFacts &facts) {
+  const auto group = view.modes().groupOf(mode.kind);
+  if (!group || facts.entryCodes()[*group].mayBeAtEntry())
+    return false;
+  return (facts.entryCodes()[*group].codes() & ~view.modes().maskOf(mode.kind, mode.actions)) == 0;
+}
+
 bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   const bool isRestored = exit.end == PathEnd::Ends && view.context().dialect.behaviour.endRestoresModes;
   if (exit.end == PathEnd::Alarm || isRestored || (exit.end == PathEnd::Ends && !mode.atProgramEnd))
@@ -102,6 +110,8 @@ void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, cons
 
 void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const MotionView view(facts.program, context);
+  if (isOnAtEntry(mode, view, facts))
+    return;
   const std::vector<NodeId> switching = switchingNodes(mode, view, facts);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {

@@ -82,7 +82,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   const MotionView view(facts.program, context);
   for (const Saving &saving : savings)
     for (const ExitFact &exit : facts.exits()) {
-      if (exit.end != PathEnd::Returns || isForgotten(exit.state) || exit.state.codes[saving.group].codes() == 0)
+      if (exit.end != PathEnd::Returns || isForgotten(exit.state) ||
+          leq(exit.state.codes[saving.group], facts.entryCodes()[saving.group]))
         continue;
       const auto change = changeBefore(exit, saving, view, facts);
       if (!change)

@@ -38,7 +38,7 @@ public:
 
   /// The kind's codes that may be in force; absent where the control has no such group.
   std::optional<CodeSet> inForce(const AbstractState &state, ModalKind kind) const;
-  /// One of the actions was programmed on some path, in this run, and is in force.
+  /// One of the actions was programmed on some path, in this run, or promised by the contract, and is in force.
   bool wasSet(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const;
   /// One of the actions is in force in all runs.
   bool surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const;

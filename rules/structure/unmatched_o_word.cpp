@@ -15,24 +15,18 @@ std::string_view endOf(OWordKind kind) {
   case OWordKind::If:
   case OWordKind::ElseIf:
   case OWordKind::Else:
-  case OWordKind::EndIf:
-    return "endif";
+  case OWordKind::EndIf: return "endif";
   case OWordKind::While:
-  case OWordKind::EndWhile:
-    return "endwhile";
+  case OWordKind::EndWhile: return "endwhile";
   case OWordKind::Repeat:
-  case OWordKind::EndRepeat:
-    return "endrepeat";
+  case OWordKind::EndRepeat: return "endrepeat";
   case OWordKind::Sub:
   case OWordKind::EndSub:
-  case OWordKind::Return:
-    return "endsub";
-  case OWordKind::Do:
-    return "while";
+  case OWordKind::Return: return "endsub";
+  case OWordKind::Do: return "while";
   case OWordKind::Call:
   case OWordKind::Break:
-  case OWordKind::Continue:
-    break;
+  case OWordKind::Continue: break;
   }
   return "";
 }
@@ -41,51 +35,51 @@ std::string_view headOf(OWordKind kind) {
   switch (kind) {
   case OWordKind::ElseIf:
   case OWordKind::Else:
-  case OWordKind::EndIf:
-    return "if";
-  case OWordKind::EndWhile:
-    return "while";
-  case OWordKind::EndRepeat:
-    return "repeat";
+  case OWordKind::EndIf: return "if";
+  case OWordKind::EndWhile: return "while";
+  case OWordKind::EndRepeat: return "repeat";
   case OWordKind::EndSub:
-  case OWordKind::Return:
-    return "sub";
+  case OWordKind::Return: return "sub";
   case OWordKind::Break:
-  case OWordKind::Continue:
-    return "loop";
+  case OWordKind::Continue: return "loop";
   case OWordKind::If:
   case OWordKind::While:
   case OWordKind::Do:
   case OWordKind::Repeat:
   case OWordKind::Sub:
-  case OWordKind::Call:
-    break;
+  case OWordKind::Call: break;
   }
   return "";
 }
 
 void reportLone(const OWordUse &use, const FileContext &context, const Reporter &reporter) {
   const Span span = context.tree.statements[use.statement].span;
-  reporter.report({.message = fmt::format("{} belongs to no `{}` of that label", context.quoted(span), headOf(use.kind)),
-                   .span = span,
-                   .notes = {"the interpreter stops here, or takes the next construct for this one",
-                             "compare the labels: the two ends of a construct have the same"}});
+  reporter.report(
+      {.message = fmt::format("{} belongs to no `{}` of that label", context.quoted(span), headOf(use.kind)),
+       .span = span,
+       .notes = {"the interpreter stops here, or takes the next construct for this one",
+                 "compare the labels: the two ends of a construct have the same"}});
+}
+
+/// A label that is no number stands in angle brackets.
+std::string spelled(const std::string &label) {
+  return std::ranges::all_of(label, [](char c) { return c >= '0' && c <= '9'; }) ? label : "<" + label + ">";
 }
 
 void reportOpen(const OWordUse &head, const FileContext &context, const Reporter &reporter) {
   const Span span = context.tree.statements[head.statement].span;
-  reporter.report(
-      {.message = fmt::format("{} is never closed by `o{} {}`", context.quoted(span), head.label, endOf(head.kind)),
-       .span = span,
-       .notes = {"the interpreter reads on to the end of the file for it and stops there"}});
+  reporter.report({.message = fmt::format("{} is never closed by `o{} {}`", context.quoted(span), spelled(head.label),
+                                          endOf(head.kind)),
+                   .span = span,
+                   .notes = {"the interpreter reads on to the end of the file for it and stops there"}});
 }
 
 /// A subroutine that is left by `return` works without its `endsub`.
 bool isLeftByReturn(const Construct &construct, const ProgramModel &model) {
   const std::string &label = model.oWords[construct.parts.front()].label;
-  return construct.kind == OWordKind::Sub && std::any_of(model.oWords.begin(), model.oWords.end(), [&](const auto &use) {
-    return use.kind == OWordKind::Return && use.label == label;
-  });
+  return construct.kind == OWordKind::Sub &&
+         std::any_of(model.oWords.begin(), model.oWords.end(),
+                     [&](const auto &use) { return use.kind == OWordKind::Return && use.label == label; });
 }
 
 /// Labels that have a lone end and an open head: they do not meet because a construct between them is open itself, and
@@ -118,8 +112,8 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule unmatchedOWord;
-const Rule unmatchedOWord{.info = {"unmatched-o-word", Category::Structure, Severity::Error,
-                                   "Reports o-words whose other end is missing."},
-                          .hooks = {.file = check}};
+const Rule unmatchedOWord{
+    .info = {"unmatched-o-word", Category::Structure, Severity::Error, "Reports o-words whose other end is missing."},
+    .hooks = {.file = check}};
 
 } // namespace feedhold::rules

@@ -20,7 +20,20 @@
 
 namespace feedhold {
 
-enum class Category { Syntax, Structure, Expression, Variable, Alarm, Word, Call, Comment, Suppression, Flow, Motion, Contract };
+enum class Category {
+  Syntax,
+  Structure,
+  Expression,
+  Variable,
+  Alarm,
+  Word,
+  Call,
+  Comment,
+  Suppression,
+  Flow,
+  Motion,
+  Contract
+};
 std::string_view nameOf(Category category);
 
 struct RuleInfo {
@@ -38,12 +51,16 @@ struct FileContext {
   const SyntaxTree &tree;
   const ProgramModel &model;
   const CallGraph &callGraph;
-  const ProgramSet *programs = nullptr; // when some rule asks for the flow
+  const ProgramSet *programs = nullptr;          // when some rule asks for the flow
   std::span<const FileContracts> contracts = {}; // by FileId; may be empty
   /// The text that findings are about: the program, or a file with its contracts (`source` is that file then).
   ContractSourceId contractSource = kProgramText;
 
   std::string_view text(Span span) const { return source.text(span); }
+  /// Null: the program has no clause, or contracts were not read.
+  const Contract *contractOf(ProgramRef program) const {
+    return program.file.index() < contracts.size() ? contracts[program.file.index()].of(program.program) : nullptr;
+  }
   /// "`#510`": program text for a message, blanks at the ends cut, a long one shortened.
   std::string quoted(Span span) const;
 };
@@ -98,6 +115,12 @@ public:
   virtual void report(const FlowFacts &, const FileContext &, const Reporter &) = 0;
 };
 
+/// Of which runs a rule that asks for the flow is told, where the program has a contract that speaks of its entry.
+enum class FlowRuns : std::uint8_t {
+  Allowed, // that the contract allows: for what goes wrong in some run
+  All,     // for what never happens: programs guard against calls outside of their contract
+};
+
 /// What a rule wants to be called for.  A null pointer: nothing.
 struct RuleHooks {
   void (*issue)(const SyntaxIssue &, const FileContext &, const Reporter &) = nullptr;
@@ -120,6 +143,7 @@ struct RuleHooks {
   void (*flow)(const FlowFacts &, const FileContext &, const Reporter &) = nullptr;
   /// The same for a rule that has to look on.
   std::unique_ptr<FlowRule> (*watch)(ProgramId, const FileContext &) = nullptr;
+  FlowRuns flowRuns = FlowRuns::Allowed;
   bool asksFlow() const { return flow != nullptr || watch != nullptr; }
 };
 

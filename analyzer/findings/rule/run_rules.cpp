@@ -2,10 +2,13 @@
 // for costs a few comparisons.
 #include "findings/rule/run_rules.h"
 
+#include "inference/absint/contract_entry.h"
+
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <string>
+#include <utility>
 
 namespace feedhold {
 
@@ -29,6 +32,13 @@ template <typename Hook> struct Listener {
 };
 template <typename Hook> using Listeners = std::vector<Listener<Hook>>;
 
+constexpr std::size_t kFlowRuns = 2;
+struct FlowListeners {
+  Listeners<decltype(RuleHooks::flow)> flow;
+  Listeners<decltype(RuleHooks::watch)> watch;
+  bool empty() const { return flow.empty() && watch.empty(); }
+};
+
 struct HookLists {
   std::array<Listeners<decltype(RuleHooks::issue)>, kIssueKinds> issues;
   std::array<Listeners<decltype(RuleHooks::contract)>, kContractIssueKinds> contractIssues;
@@ -42,8 +52,7 @@ struct HookLists {
   Listeners<decltype(RuleHooks::call)> call;
   Listeners<decltype(RuleHooks::variable)> variable;
   Listeners<decltype(RuleHooks::comment)> comment;
-  Listeners<decltype(RuleHooks::flow)> flow;
-  Listeners<decltype(RuleHooks::watch)> watch;
+  std::array<FlowListeners, kFlowRuns> flow; // by FlowRuns
 };
 
 std::size_t slotOf(char address) { return static_cast<std::size_t>(address & 0x7f); }
@@ -77,8 +86,9 @@ HookLists gather(std::span<const Rule *const> rules, std::span<RuleFindings> sin
     addIfAsked(lists.call, hooks.call, reporter);
     addIfAsked(lists.variable, hooks.variable, reporter);
     addIfAsked(lists.comment, hooks.comment, reporter);
-    addIfAsked(lists.flow, hooks.flow, reporter);
-    addIfAsked(lists.watch, hooks.watch, reporter);
+    FlowListeners &flow = lists.flow[static_cast<std::size_t>(hooks.flowRuns)];
+    addIfAsked(flow.flow, hooks.flow, reporter);
+    addIfAsked(flow.watch, hooks.watch, reporter);
   }
   return lists;
 }
@@ -162,24 +172,40 @@ void visitContracts(const HookLists &lists, const FileContext &context) {
       tell(lists.contractIssues[static_cast<std::size_t>(issue.kind)], context, issue);
 }
 
-/// One analysis for each program, all rules looking on.
-void visitFlow(const HookLists &lists, const FileContext &context) {
-  if (context.programs == nullptr || (lists.flow.empty() && lists.watch.empty()))
-    return;
-  for (std::size_t i = 0; i < context.model.programs.size(); ++i) {
-    const ProgramId program(i);
-    std::vector<std::unique_ptr<FlowRule>> watching;
-    std::vector<FlowWatch *> watches;
-    for (const auto &listener : lists.watch) {
-      watching.push_back(listener.hook(program, context));
-      watches.push_back(watching.back().get());
+/// One analysis of a program, with the contracts of its file or with nothing known; the rules of all lists look on.
+void visitRuns(ProgramId program, std::span<const FlowListeners *const> lists, const FileContracts *contracts,
+               const FileContext &context) {
+  std::vector<std::pair<std::unique_ptr<FlowRule>, const Reporter *>> watching;
+  std::vector<FlowWatch *> watches;
+  for (const FlowListeners *list : lists)
+    for (const auto &listener : list->watch) {
+      watching.emplace_back(listener.hook(program, context), &listener.reporter);
+      watches.push_back(watching.back().first.get());
     }
-    const FlowFacts facts = collectFacts(*context.programs, context.file, program, watches);
-    if (!facts.isComplete())
+  const FlowFacts facts = collectFacts(*context.programs, context.file, program, watches, contracts);
+  if (!facts.isComplete())
+    return;
+  for (const FlowListeners *list : lists)
+    tell(list->flow, context, facts);
+  for (const auto &[rule, reporter] : watching)
+    rule->report(facts, context, *reporter);
+}
+
+/// One analysis for each program; two where its contract speaks of its entry.
+void visitFlow(const HookLists &lists, const FileContext &context) {
+  const FlowListeners &allowed = lists.flow[static_cast<std::size_t>(FlowRuns::Allowed)];
+  const FlowListeners &all = lists.flow[static_cast<std::size_t>(FlowRuns::All)];
+  if (context.programs == nullptr || (allowed.empty() && all.empty()))
+    return;
+  for (ProgramId program(0); program.index() < context.model.programs.size(); program = program.next()) {
+    const Contract *contract = context.contractOf({context.file, program});
+    if (!contract || !speaksOfEntry(*contract)) {
+      visitRuns(program, std::array{&allowed, &all}, nullptr, context);
       continue;
-    tell(lists.flow, context, facts);
-    for (std::size_t k = 0; k < watching.size(); ++k)
-      watching[k]->report(facts, context, lists.watch[k].reporter);
+    }
+    visitRuns(program, std::array{&allowed}, &context.contracts[context.file.index()], context);
+    if (!all.empty())
+      visitRuns(program, std::array{&all}, nullptr, context);
   }
 }
 

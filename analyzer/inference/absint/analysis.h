@@ -35,7 +35,12 @@ public:
   virtual void branch(Place, Truth) {}
   virtual void ended(Place, PathEnd, const AbstractState &) {}
   virtual void called(Place, const CallRequest<AbstractReading> &) {}
+  /// A program is entered in a way that is not followed (too deep, by itself, by a computed number), and would be gone
+  /// through with nothing known: not when the visitor has no use for it.
+  virtual bool wantsUnfollowed(const Callee &) { return true; }
 };
+
+struct FileContracts;
 
 class Analysis {
 public:
@@ -44,6 +49,8 @@ public:
   Analysis(const Analysis &) = delete;
   Analysis &operator=(const Analysis &) = delete;
 
+  /// What a program that is started may find: with the contracts of its file, in the calls that its contract allows.
+  AbstractState entryState(Callee entry, const FileContracts *contracts = nullptr);
   /// Analyses a program that is started with nothing known, and walks through it.
   void walk(Callee entry, AnalysisVisitor &visitor);
   /// The same with a state of one's own; `reading` gives it symbols.

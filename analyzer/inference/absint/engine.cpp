@@ -21,7 +21,8 @@ std::vector<double> thresholdsOf(const ProgramFile &file, ProgramId program) {
   const auto first = std::partition_point(file.tree->expressions.begin(), file.tree->expressions.end(),
                                           [&](const Expression &expression) { return expression.span.begin < begin; });
   for (auto at = first; at != file.tree->expressions.end() && at->span.begin < end; ++at)
-    if (const auto *literal = std::get_if<NumberLiteral>(&at->node); literal && thresholds.size() < 4 * kMostThresholds) {
+    if (const auto *literal = std::get_if<NumberLiteral>(&at->node);
+        literal && thresholds.size() < 4 * kMostThresholds) {
       thresholds.push_back(literal->value.toDouble());
       thresholds.push_back(-literal->value.toDouble());
     }
@@ -70,9 +71,9 @@ const ProgramFacts &Engine::factsOf(Callee entry) {
         std::count_if(wto.order().begin(), wto.order().end(), [&](NodeId node) { return wto.isHead(node); });
     if (loops > kMostLoops && !gaveUp_)
       gaveUp_ = "a program has too many loops for a state to be kept for each";
-    facts = std::make_unique<ProgramFacts>(ProgramFacts{
-        entry, &file, std::move(wto), std::move(joins),
-        partitionBy(file, entry.program, modesOf(entry.file)), thresholdsOf(file, entry.program)});
+    facts = std::make_unique<ProgramFacts>(ProgramFacts{entry, &file, std::move(wto), std::move(joins),
+                                                        partitionBy(file, entry.program, modesOf(entry.file)),
+                                                        thresholdsOf(file, entry.program)});
   }
   return *facts;
 }
@@ -156,14 +157,16 @@ bool Engine::isStraight(const ProgramFacts &facts) const {
   });
 }
 
-AbstractState Engine::entryStateOf(Callee entry) {
+AbstractState Engine::entryStateOf(Callee entry, const FileContracts *contracts) {
   AbstractState state = entryState(reading_);
   const ModalTable &modes = modesOf(entry.file);
   const auto polar = modes.groupOf(ModalKind::Polar);
   reading_.keepPolar(polar);
   if (polar) // otherwise no word of the program would say where it leads
-    state.codes[*polar] = CodeSet::of(
-        static_cast<std::size_t>(std::countr_zero(modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff}))));
+    state.codes[*polar] =
+        CodeSet::of(static_cast<std::size_t>(std::countr_zero(modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff}))));
+  if (const Contract *contract = contracts ? contracts->of(entry.program) : nullptr)
+    assumeContract(reading_, programs_, entry.file, *contracts, *contract, state);
   return state;
 }
 
@@ -191,9 +194,11 @@ void Engine::walkWithNothingKnown(AnalysisVisitor &visitor) {
                                    [&](const auto &program) { return !walked.contains(program.first); });
     walked.insert(next->first);
     const Callee entry = next->second;
+    if (!visitor.wantsUnfollowed(entry))
+      continue;
     reading_.useDialect(*programs_.file(entry.file).dialect);
     reading_.observe(nullptr);
-    AbstractState anything = entryStateOf(entry);
+    AbstractState anything = entryStateOf(entry, nullptr);
     anything.transformed = Truth::Maybe;
     reading_.havoc(anything, "a program that calls itself", {});
     Summary &summary = summaryOf(entry, anything, std::nullopt);
@@ -256,7 +261,10 @@ Analysis::~Analysis() = default;
 AbstractReading &Analysis::reading() { return impl_->engine.reading(); }
 std::optional<std::string_view> Analysis::gaveUp() const { return impl_->engine.gaveUp(); }
 
-void Analysis::walk(Callee entry, AnalysisVisitor &visitor) { walk(entry, impl_->engine.entryStateOf(entry), visitor); }
+AbstractState Analysis::entryState(Callee entry, const FileContracts *contracts) {
+  return impl_->engine.entryStateOf(entry, contracts);
+}
+void Analysis::walk(Callee entry, AnalysisVisitor &visitor) { walk(entry, entryState(entry), visitor); }
 void Analysis::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
   impl_->engine.walk(entry, state, visitor);
 }

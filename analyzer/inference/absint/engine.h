@@ -2,6 +2,7 @@
 #pragma once
 
 #include "inference/absint/analysis.h"
+#include "inference/absint/contract_entry.h"
 #include "inference/absint/partitions.h"
 #include "meaning/cfg/wto.h"
 
@@ -50,8 +51,9 @@ public:
   Engine(const ProgramSet &programs, AnalysisOptions options);
 
   AbstractReading &reading() { return reading_; }
-  /// What a program that is started may find; polar coordinates are not in force.
-  AbstractState entryStateOf(Callee entry);
+  /// What a program that is started may find; polar coordinates are not in force.  `contracts`: of its file, to be
+  /// assumed; null: none.
+  AbstractState entryStateOf(Callee entry, const FileContracts *contracts);
   void walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor);
   std::optional<std::string_view> gaveUp() const { return gaveUp_; }
 

@@ -1,5 +1,7 @@
 #include "inference/absint/flow_facts.h"
 
+#include "inference/absint/reached_programs.h"
+
 #include <algorithm>
 
 namespace feedhold {
@@ -57,8 +59,22 @@ public:
   /// A program that is gone through with nothing known is none of this one's either.
   void resumed(Place place, std::span<const Place> calls) override {
     place_ = place;
-    const bool own = place.file == facts_.file.file && holds(place.node); // by M97 it calls parts of itself
-    outer_ = own ? std::nullopt : std::optional(calls.empty() ? facts_.entry() : calls.front().node);
+    const bool isCalled = !calls.empty() && isOwn(calls.front());
+    outer_ = isOwn(place) ? std::nullopt : std::optional(isCalled ? calls.front().node : facts_.entry());
+  }
+  /// Only where it may come back to this program, or to one in which a variable was read that held nothing: without
+  /// this each program of a long chain of calls would go through all those below it.
+  bool wantsUnfollowed(const Callee &callee) override {
+    ReachedPrograms reached;
+    collectReached(facts_.programs, {callee.file, callee.program}, reached);
+    for (const Callee &modal : facts_.programs.modalCallees())
+      collectReached(facts_.programs, {modal.file, modal.program}, reached);
+    return reached.orAny || reached.programs.contains({facts_.file.file, facts_.program}) ||
+           std::ranges::any_of(facts_.vacantReads_, [&](const VacantReadInCall &vacant) {
+             const ProgramFile &file = facts_.programs.file(vacant.read.file);
+             const ProgramId reader = file.model->programOf(file.cfg.nodes[vacant.read.node].block);
+             return reached.programs.contains({vacant.read.file, reader});
+           });
   }
   void left(Place place, const AbstractState &state) override {
     if (!outer_)
@@ -154,8 +170,10 @@ public:
   }
 
 private:
-  bool holds(NodeId node) const {
-    return node.index() >= facts_.first_ && node.index() - facts_.first_ < facts_.reached_.size();
+  /// By M97 a program calls parts of itself.
+  bool isOwn(Place place) const {
+    return place.file == facts_.file.file && place.node.index() >= facts_.first_ &&
+           place.node.index() - facts_.first_ < facts_.reached_.size();
   }
   void noteVacantRead(ExpressionId expression, const AbstractValue &value) {
     const ProgramFile &file = facts_.programs.file(place_.file);
@@ -181,8 +199,8 @@ private:
 };
 
 // A called program with as many computed jumps is costly, but bounded by the budget.
-FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program,
-                       std::span<FlowWatch *const> watches) {
+FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program, std::span<FlowWatch *const> watches,
+                       const FileContracts *contracts) {
   FlowFacts facts(programs, file, program);
   if (computedEdges(facts.file.cfg, *facts.file.model, program) > kMostComputedEdges) {
     facts.complete_ = false;
@@ -190,7 +208,10 @@ FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId progra
   }
   Analysis analysis(programs, {.budget = budgetFor(facts.file)});
   FactCollector collector(facts, analysis.reading(), watches);
-  analysis.walk({file, facts.entry(), program}, collector);
+  const Callee start{file, facts.entry(), program};
+  const AbstractState entry = analysis.entryState(start, contracts);
+  facts.entryCodes_ = entry.codes;
+  analysis.walk(start, entry, collector);
   collector.finish(!analysis.gaveUp().has_value());
   return facts;
 }

@@ -72,6 +72,8 @@ public:
   /// The nodes of the program: from entry() up to, not including, this one.
   NodeId end() const { return NodeId(first_ + reached_.size()); }
 
+  /// The codes in force at entry, by group.
+  const std::array<CodeSet, kModalGroups> &entryCodes() const { return entryCodes_; }
   /// Of a Test that is reached.
   std::optional<Truth> truthOf(NodeId test) const;
   /// Over all evaluations in this program; null when it is never evaluated.
@@ -85,10 +87,12 @@ public:
 
 private:
   friend class FactCollector;
-  friend FlowFacts collectFacts(const ProgramSet &, FileId, ProgramId, std::span<FlowWatch *const>);
+  friend FlowFacts collectFacts(const ProgramSet &, FileId, ProgramId, std::span<FlowWatch *const>,
+                                const FileContracts *);
 
   std::size_t first_;
   std::vector<bool> reached_;
+  std::array<CodeSet, kModalGroups> entryCodes_{};
   std::unordered_map<std::uint32_t, Truth> truths_; // by node
   std::unordered_map<std::uint32_t, AbstractValue> values_; // by expression
   std::vector<AlarmFact> alarms_;
@@ -110,8 +114,9 @@ public:
   virtual void ended(NodeId, PathEnd, const AbstractState &) {}
 };
 
-/// Analyses a program that is started with nothing known.  The watches look on.
+/// Analyses a program that is started with nothing known, or, with the contracts of its file, as its contract allows.
+/// The watches look on.
 FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program,
-                       std::span<FlowWatch *const> watches);
+                       std::span<FlowWatch *const> watches, const FileContracts *contracts = nullptr);
 
 } // namespace feedhold

@@ -1,0 +1,32 @@
+#include "inference/absint/reached_programs.h"
+
+#include <vector>
+
+namespace feedhold {
+
+namespace {
+
+bool isComputed(const SyntaxTree &tree, const Call &call) {
+  return call.callee.empty() && call.programWord && tree.words[*call.programWord].form() == WordForm::Expression;
+}
+
+} // namespace
+
+void collectReached(const ProgramSet &programs, ProgramRef from, ReachedPrograms &reached) {
+  std::vector<ProgramRef> open{from};
+  while (!open.empty()) {
+    const ProgramRef next = open.back();
+    open.pop_back();
+    if (!reached.programs.insert(next).second)
+      continue;
+    const ProgramFile &file = programs.file(next.file);
+    for (const Call &call : file.model->callsOf(next.program)) {
+      if (const auto callee = programs.callGraph().callee(next.file, call))
+        open.push_back(*callee);
+      else
+        reached.orAny = reached.orAny || isComputed(*file.tree, call);
+    }
+  }
+}
+
+} // namespace feedhold
