@@ -1,6 +1,8 @@
 #include "surface/cli/baseline_file.h"
 
 #include "base/source/write_file.h"
+#include "surface/cli/commands.h"
+#include "surface/cli/terminal.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -113,16 +115,6 @@ template <typename Entry> std::size_t lacking(const std::vector<Entry> &a, const
   return rest.size();
 }
 
-} // namespace
-
-void addBaselineOptions(CLI::App &app, BaselineWish &wish) {
-  CLI::Option *file = app.add_option("--baseline", wish.file, "report only what is not in this file");
-  app.add_flag("--update-baseline", wish.update, "write what there is now to the baseline, instead of reporting it")
-      ->needs(file);
-}
-
-fs::path folderOf(const BaselineWish &wish) { return fs::absolute(wish.file).lexically_normal().parent_path(); }
-
 Result<Baseline> readBaseline(const BaselineWish &wish) {
   if (!wish.isAsked())
     return Baseline{};
@@ -146,19 +138,59 @@ std::optional<Error> writeBaseline(const BaselineWish &wish, const Baseline &bas
                                          kVersion, toText(baseline.findings), toText(baseline.obligations)));
 }
 
+/// `wrote 3 findings to FILE (1 new, 2 gone)`
+std::string toldOfUpdate(const Baseline &before, const Baseline &after, const BaselineWish &wish) {
+  return fmt::format("wrote {} and {} to {}: {} new, {} gone\n", counted(after.findings.size(), "finding", "findings"),
+                     counted(after.obligations.size(), "verdict", "verdicts"), wish.file,
+                     lacking(after.findings, before.findings) + lacking(after.obligations, before.obligations),
+                     lacking(before.findings, after.findings) + lacking(before.obligations, after.obligations));
+}
+
+} // namespace
+
+void addBaselineOptions(CLI::App &app, BaselineWish &wish) {
+  CLI::Option *file = app.add_option("--baseline", wish.file, "report only what is not in this file");
+  app.add_flag("--update-baseline", wish.update, "write what there is now to the baseline, instead of reporting it")
+      ->needs(file);
+}
+
+fs::path folderOf(const BaselineWish &wish) { return fs::absolute(wish.file).lexically_normal().parent_path(); }
+
+std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineWish &wish) {
+  if (complaint) {
+    printError(*complaint);
+    return std::nullopt;
+  }
+  Result<Baseline> known = readBaseline(wish);
+  if (known)
+    return known.take();
+  printError(known.error().message);
+  return std::nullopt;
+}
+
+int updateBaselineFile(const Baseline &before, const Baseline &after, const BaselineWish &wish,
+                       std::span<const PathProblem> problems, UpdateTold wanted) {
+  printProblems(problems);
+  if (const auto error = writeBaseline(wish, after)) {
+    printError(wish.file + ": " + error->message);
+    return kExitCouldNotRun;
+  }
+  if (wanted == UpdateTold::Yes)
+    print(toldOfUpdate(before, after, wish));
+  return problems.empty() ? kExitClean : kExitCouldNotRun;
+}
+
+void printProblems(std::span<const PathProblem> problems) {
+  for (const PathProblem &problem : problems)
+    printError(problem.path + ": " + problem.message);
+}
+
 std::string told(const NewFindings &found, const BaselineWish &wish) {
   return told(found.hidden, found.gone, wish, "old finding is", "old findings are");
 }
 
 std::string told(const NewVerdicts &found, const BaselineWish &wish) {
   return told(found.hidden, found.gone, wish, "old verdict is", "old verdicts are");
-}
-
-std::string toldOfUpdate(const Baseline &before, const Baseline &after, const BaselineWish &wish) {
-  return fmt::format("wrote {} and {} to {}: {} new, {} gone\n", counted(after.findings.size(), "finding", "findings"),
-                     counted(after.obligations.size(), "verdict", "verdicts"), wish.file,
-                     lacking(after.findings, before.findings) + lacking(after.obligations, before.obligations),
-                     lacking(before.findings, after.findings) + lacking(before.obligations, after.obligations));
 }
 
 } // namespace feedhold

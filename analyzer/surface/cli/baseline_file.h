@@ -5,7 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace feedhold {
@@ -19,11 +22,15 @@ struct BaselineWish {
 /// `--baseline` and `--update-baseline`.
 void addBaselineOptions(CLI::App &app, BaselineWish &wish);
 
-/// Empty where none is asked for, or where it is not there and is about to be written.  Errors: not there, damaged, of
-/// a newer version.
-Result<Baseline> readBaseline(const BaselineWish &wish);
-/// A reader sees the old bytes or the new ones.
-std::optional<Error> writeBaseline(const BaselineWish &wish, const Baseline &baseline);
+/// The baseline that a run starts from: empty where none is asked for, or where it is not there and is about to be
+/// written.  Absent: `complaint`, or that the file is not there, damaged or of a newer version, has been printed.
+std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineWish &wish);
+
+enum class UpdateTold : std::uint8_t { Yes, No };
+/// Prints the problems of the run, writes the file and tells of it; returns the exit code.  A reader of the file sees
+/// the old bytes or the new ones.
+int updateBaselineFile(const Baseline &before, const Baseline &after, const BaselineWish &wish,
+                       std::span<const PathProblem> problems, UpdateTold wanted);
 
 /// The folder that its paths start from.
 std::filesystem::path folderOf(const BaselineWish &wish);
@@ -31,7 +38,8 @@ std::filesystem::path folderOf(const BaselineWish &wish);
 /// For people: `3 old findings hidden by FILE`, and what is in it and no longer in the programs.
 std::string told(const NewFindings &found, const BaselineWish &wish);
 std::string told(const NewVerdicts &found, const BaselineWish &wish);
-/// `wrote 3 findings to FILE (1 new, 2 gone)`
-std::string toldOfUpdate(const Baseline &before, const Baseline &after, const BaselineWish &wish);
+
+/// `feedhold: error: PATH: ..`, a line each.
+void printProblems(std::span<const PathProblem> problems);
 
 } // namespace feedhold

@@ -157,11 +157,6 @@ void complainIfNothingWasChecked(CheckResult &result, const CheckArguments &argu
     result.errors.push_back({mistake->path, "nothing to check: " + mistake->reason});
 }
 
-void printProblems(const CheckResult &result) {
-  for (const PathProblem &problem : result.errors)
-    printError(problem.path + ": " + problem.message);
-}
-
 /// The rules that the options leave; which of them a configuration turns off makes their old findings gone.
 BaselineScope scopeOf(const CheckArguments &arguments, const std::vector<const Rule *> &rules) {
   return {.folder = folderOf(arguments.baseline), .rules = rules};
@@ -185,7 +180,7 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
                       .showSuppressed = arguments.showSuppressed ? ShowSuppressed::Yes : ShowSuppressed::No,
                       .colour = arguments.output.empty() && useColour(colourWishFrom(arguments.color))};
   const std::string text = arguments.statistics ? statistics(report) : write(format, report);
-  printProblems(result);
+  printProblems(result.errors);
   if (arguments.output.empty()) {
     print(text);
   } else if (const auto error = writeFile(arguments.output, text)) {
@@ -205,7 +200,7 @@ int showDiffs(const FixResult &fixed, const CheckArguments &arguments) {
   for (const FixedFile &file : fixed.files)
     text += unifiedDiff(file.path, file.before, file.after);
   print(text);
-  printProblems(fixed.remaining);
+  printProblems(fixed.remaining.errors);
   if (!fixed.remaining.errors.empty())
     return kExitCouldNotRun;
   return fixed.files.empty() || arguments.exitZero ? kExitClean : kExitFindings;
@@ -230,15 +225,8 @@ int repair(const CheckOptions &options, const CheckArguments &arguments, Progres
 
 int updateBaseline(const CheckResult &result, const Baseline &before, const CheckArguments &arguments) {
   const std::vector<const Rule *> rules = rulesOf(arguments);
-  const Baseline after = updated(before, result, scopeOf(arguments, rules));
-  printProblems(result);
-  if (const auto error = writeBaseline(arguments.baseline, after)) {
-    printError(arguments.baseline.file + ": " + error->message);
-    return kExitCouldNotRun;
-  }
-  if (!arguments.quiet)
-    print(toldOfUpdate(before, after, arguments.baseline));
-  return result.errors.empty() ? kExitClean : kExitCouldNotRun;
+  return updateBaselineFile(before, updated(before, result, scopeOf(arguments, rules)), arguments.baseline,
+                            result.errors, arguments.quiet ? UpdateTold::No : UpdateTold::Yes);
 }
 
 int presentNew(CheckResult result, const Baseline &baseline, const CheckArguments &arguments) {
@@ -261,16 +249,9 @@ Result<std::set<std::string>> affectedPrograms(const CheckOptions &options, cons
 }
 
 int runCheck(const CheckArguments &arguments) {
-  if (const auto complaint = complaintAbout(arguments)) {
-    printError(*complaint);
+  const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
+  if (!baseline)
     return kExitCouldNotRun;
-  }
-  const Result<Baseline> known = readBaseline(arguments.baseline);
-  if (!known) {
-    printError(known.error().message);
-    return kExitCouldNotRun;
-  }
-  const Baseline &baseline = known.value();
   CheckOptions options = toOptions(arguments);
   if (arguments.change.isAsked()) {
     Result<std::set<std::string>> affected = affectedPrograms(options, arguments);
@@ -289,9 +270,9 @@ int runCheck(const CheckArguments &arguments) {
   progress.clear();
   complainIfNothingWasChecked(result, arguments);
   if (arguments.baseline.update)
-    return updateBaseline(result, baseline, arguments);
+    return updateBaseline(result, *baseline, arguments);
   if (arguments.baseline.isAsked())
-    return presentNew(std::move(result), baseline, arguments);
+    return presentNew(std::move(result), *baseline, arguments);
   return present(result, arguments);
 }
 

@@ -158,8 +158,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .readingOptions = readingOptions(arguments),
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
                            .colour = useColour(colourWishFrom(arguments.color))};
-  for (const PathProblem &problem : result.errors)
-    printError(problem.path + ": " + problem.message);
+  printProblems(result.errors);
   print(arguments.statistics          ? proveStatistics(report)
         : arguments.format == "json"  ? writeProveJson(report)
         : arguments.format == "sarif" ? writeProveSarif(report)
@@ -167,20 +166,6 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
   if (!arguments.quiet && arguments.format == "text")
     print(proveSummary(report));
   return report.exitCode;
-}
-
-int updateBaseline(const ProofsResult &result, const Baseline &before, const BaselineScope &scope,
-                   const ProveArguments &arguments) {
-  const Baseline after = updated(before, result, scope);
-  for (const PathProblem &problem : result.errors)
-    printError(problem.path + ": " + problem.message);
-  if (const auto error = writeBaseline(arguments.baseline, after)) {
-    printError(arguments.baseline.file + ": " + error->message);
-    return kExitCouldNotRun;
-  }
-  if (!arguments.quiet)
-    print(toldOfUpdate(before, after, arguments.baseline));
-  return result.errors.empty() ? kExitClean : kExitCouldNotRun;
 }
 
 /// Leaves what a change concerns; the result is what is wrong with the files among which was searched.
@@ -206,16 +191,9 @@ void addErrors(ProofsResult &result, const std::vector<PathProblem> &errors) {
 }
 
 int runProve(const ProveArguments &arguments) {
-  if (const auto complaint = complaintAbout(arguments)) {
-    printError(*complaint);
+  const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
+  if (!baseline)
     return kExitCouldNotRun;
-  }
-  const Result<Baseline> known = readBaseline(arguments.baseline);
-  if (!known) {
-    printError(known.error().message);
-    return kExitCouldNotRun;
-  }
-  const Baseline &baseline = known.value();
   ProofsWish wish = toWish(arguments);
   const Result<std::vector<PathProblem>> narrowed = narrow(wish, arguments);
   if (!narrowed) {
@@ -232,15 +210,17 @@ int runProve(const ProveArguments &arguments) {
   const BaselineScope scope{.folder = arguments.baseline.isAsked() ? folderOf(arguments.baseline) : fs::path(),
                             .kinds = wish.prove.only};
   if (arguments.baseline.update)
-    return updateBaseline(result, baseline, scope, arguments);
+    return updateBaselineFile(*baseline, updated(*baseline, result, scope), arguments.baseline, result.errors,
+                              arguments.quiet ? UpdateTold::No : UpdateTold::Yes);
   if (!arguments.baseline.isAsked())
     return present(result, arguments);
-  const NewVerdicts found = withoutKnown(std::move(result), baseline, scope);
+  const NewVerdicts found = withoutKnown(std::move(result), *baseline, scope);
   const int exitCode = present(found.result, arguments);
   if (!arguments.quiet)
     printAside(told(found, arguments.baseline));
   return exitCode;
 }
+
 } // namespace
 
 Command addProveCommand(CLI::App &parent) {
