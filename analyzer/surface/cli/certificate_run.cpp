@@ -93,6 +93,7 @@ CertificateRun runCertificate(const CertificateWish &wish, const fs::path &folde
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
       run.counts.add(program.proof);
+      run.standing = std::max(run.standing, standingOf(file, program));
       ++run.programs;
     }
   run.report =

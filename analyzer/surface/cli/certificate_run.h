@@ -10,6 +10,7 @@ struct CertificateRun {
   Bundle report; // empty when something could not be read
   VerdictCounts counts;
   std::size_t programs = 0;
+  Standing standing = Standing::Ready; // the worst of all programs
   std::vector<PathProblem> problems;
 };
 

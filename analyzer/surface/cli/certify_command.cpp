@@ -90,10 +90,14 @@ Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
   return wish;
 }
 
-int exitCodeOf(const VerdictCounts &counts) {
-  return counts.of(prove::Verdict::Refuted) != 0   ? kExitFindings
-         : counts.of(prove::Verdict::Unknown) != 0 ? kExitUnknown
-                                                   : kExitClean;
+int exitCodeOf(Standing standing) {
+  switch (standing) {
+  case Standing::Ready: return kExitClean;
+  case Standing::Open: return kExitUnknown;
+  case Standing::Alarms:
+  case Standing::Broken: return kExitFindings;
+  }
+  return kExitCouldNotRun;
 }
 
 Result<int> certify(const CertifyArguments &arguments) {
@@ -112,7 +116,7 @@ Result<int> certify(const CertifyArguments &arguments) {
   if (!arguments.quiet)
     print(fmt::format("{} in {} program{}: {}\n", textOf(run.counts), run.programs, run.programs == 1 ? "" : "s",
                       (std::filesystem::path(arguments.output) / kCertificatePage).generic_string()));
-  return exitCodeOf(run.counts);
+  return exitCodeOf(run.standing);
 }
 
 int certifyOrComplain(const CertifyArguments &arguments) {

@@ -20,6 +20,16 @@ struct CertificateWish {
   std::optional<std::string> date; // as it is shown; absent: no date, so that the same input gives the same bytes
 };
 
+/// Whether a program may be released by what was proved, the worst last.
+enum class Standing : std::uint8_t {
+  Ready,  // every claim holds; alarms that can be raised are those of the contract, and proved
+  Open,   // something is neither proved nor refuted
+  Alarms, // a call raises an alarm that the contract does not speak of, or of which that is not proved
+  Broken, // a call breaks a claim
+};
+std::string_view nameOf(Standing standing);
+Standing standingOf(const ProvedFile &file, const ProvedProgram &program);
+
 struct CertificateInput {
   const CertificateWish &wish;
   const ProofsResult &proofs;
@@ -47,10 +57,11 @@ Result<CertificateOrigin> certificateOrigin(const Bundle &report, const std::fil
 /// says.  A line for each difference.
 std::vector<std::string> inconsistencies(const Bundle &report);
 
-/// The files that were read for a report, against those that are there now, in `place` instead of where they were.
+/// The files that were read for a report, against those that are there now; with `place` those below that folder whose
+/// paths end alike.
 struct SourceCheck {
   std::size_t same = 0;
-  std::vector<std::string> changed; // a line for each
+  std::vector<std::string> changed; // a line for each, also where it cannot be told which file it is
   std::vector<std::string> gone;    // by name
 };
 SourceCheck checkSources(const Bundle &report, const std::filesystem::path &folder,

@@ -12,9 +12,7 @@ namespace feedhold {
 namespace fs = std::filesystem;
 using certificate::Json;
 
-namespace {
-
-Result<Json> documentOf(const Bundle &report) {
+Result<Json> certificate::readDocument(const Bundle &report) {
   const auto text = report.find(std::string(kCertificate));
   if (text == report.end())
     return Error{fmt::format("no report: it has no {}", kCertificate)};
@@ -23,6 +21,8 @@ Result<Json> documentOf(const Bundle &report) {
     return Error{fmt::format("{} cannot be read", kCertificate)};
   return document;
 }
+
+namespace {
 
 /// Files are named together with their hashes, wherever that is.
 void collectHashes(const Json &value, std::string_view folder, std::map<std::string, std::string> &hashes) {
@@ -76,7 +76,7 @@ private:
 } // namespace
 
 Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path &folder) {
-  const Result<Json> document = documentOf(report);
+  const Result<Json> document = certificate::readDocument(report);
   if (!document)
     return document.error();
   try {
@@ -137,32 +137,9 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
   return lines;
 }
 
-SourceCheck checkSources(const Bundle &report, const fs::path &folder, const std::optional<fs::path> &place) {
-  SourceCheck result;
-  const Result<Json> document = documentOf(report);
-  if (!document)
-    return result;
-  try {
-    for (const Json &source : document.value().at("sources")) {
-      const std::string path = source.at("path");
-      const fs::path file = place ? *place / fs::path(path).filename() : fs::absolute(folder) / path;
-      const Result<SourceFile> now = SourceFile::open(file.lexically_normal());
-      if (!now)
-        result.gone.push_back(path);
-      else if (sha256(now.value().text()) != source.at("sha256"))
-        result.changed.push_back(fmt::format("`{}` is not what it was when it was proved", path));
-      else
-        ++result.same;
-    }
-  } catch (const Json::exception &) {
-    result.changed.push_back(fmt::format("`{}` is not as it was written", kCertificate));
-  }
-  return result;
-}
-
 std::vector<std::string> certificateDifferences(const Bundle &stored, const Bundle &now) {
-  const Result<Json> before = documentOf(stored);
-  const Result<Json> after = documentOf(now);
+  const Result<Json> before = certificate::readDocument(stored);
+  const Result<Json> after = certificate::readDocument(now);
   if (!before || !after)
     return {fmt::format("`{}` is not as it was written", kCertificate)};
   std::vector<std::string> lines = DocumentComparison().run(before.value(), after.value());

@@ -36,33 +36,6 @@ std::string titleOf(const LoadedFile &file, ProgramId program) {
   return {};
 }
 
-/// One sentence for who releases the program.
-std::string sentenceOf(const prove::ProgramProof &proof, const VerdictCounts &counts, bool hasContract) {
-  const std::size_t refuted = counts.of(Verdict::Refuted), unknown = counts.of(Verdict::Unknown);
-  const std::string_view calls = hasContract ? "every call that its contract allows" : "every input";
-  const auto claims = [](std::size_t count) { return fmt::format("{} claim{}", count, count == 1 ? "" : "s"); };
-  if (counts.all() == 0)
-    return "Nothing is claimed of it.";
-  if (refuted == 0 && unknown == 0)
-    return fmt::format("For {}, all {} hold.", calls, claims(counts.all()));
-  const auto space = std::find_if(proof.obligations.begin(), proof.obligations.end(),
-                                  [](const Obligation &each) { return each.witness && each.witness->gouge; });
-  const std::string open = unknown == 0 ? std::string() : fmt::format(" Of {} nothing is known.", claims(unknown));
-  if (refuted == 0)
-    return fmt::format("Not released by this report: of {} of {} nothing is known.", unknown, claims(counts.all()));
-  if (space != proof.obligations.end())
-    return fmt::format("Do not run: a call is known with which the tool goes where it must not. {} of {} are broken.{}",
-                       refuted, claims(counts.all()), open);
-  if (std::all_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &each) {
-        return each.verdict != Verdict::Refuted || each.kind == prove::ObligationKind::AlarmUnreachable;
-      }))
-    return fmt::format(
-        "Calls are known that raise an alarm of the program: {} of {}. Where that is meant, `@ALARM` says "
-        "so.{}",
-        refuted, claims(counts.all()), open);
-  return fmt::format("Do not release: calls are known that break {} of {}.{}", refuted, claims(counts.all()), open);
-}
-
 class Document {
 public:
   Document(const CertificateInput &input, const Bundle &evidence,
@@ -90,6 +63,7 @@ public:
             {"date", input_.wish.date ? Json(*input_.wish.date) : Json()},
             {"reading", readingToJson()},
             {"counts", countsToJson(counts_)},
+            {"standing", nameOf(standing_)},
             {"assumptions", assumptions()},
             {"sources", sourcesToJson()},
             {"files", std::move(files)},
@@ -230,6 +204,7 @@ private:
     VerdictCounts counts;
     counts.add(program.proof);
     counts_.add(program.proof);
+    standing_ = std::max(standing_, standingOf(file, program));
     const LoadedFile &loaded = file.file();
     Json obligations = Json::array();
     for (const Obligation &obligation : program.proof.obligations)
@@ -238,7 +213,8 @@ private:
             {"title", titleOf(loaded, program.program)},
             {"line", loaded.source.lineOf(loaded.model.programs[program.program].header.begin)},
             {"counts", countsToJson(counts)},
-            {"summary", sentenceOf(program.proof, counts, loaded.contracts.of(program.program) != nullptr)},
+            {"standing", nameOf(standingOf(file, program))},
+            {"summary", sentenceOf(file, program)},
             {"clauses", clausesOf(loaded, program.program)},
             {"calls", callsOf(file, program.program)},
             {"incomplete", program.proof.incomplete ? Json(*program.proof.incomplete) : Json()},
@@ -268,15 +244,22 @@ private:
       for (const Call &call : from.model.callsOf(caller.program)) {
         const auto callee = file.loaded->set->callGraph().callee(caller.file, call);
         const std::string name = toString(call.callee);
-        rows.push_back({{"from", toString(from.model.programs[caller.program].name)},
+        rows.push_back({{"from", nameIn(from, caller.program)},
+                        {"fromPath", relative(from.path)},
                         {"line", from.source.lineOf(call.span.begin)},
-                        {"to", name.empty() ? "a program that is computed" : name},
+                        {"to", callee         ? nameIn(file.loaded->file(callee->file), callee->program)
+                               : name.empty() ? "a program that is computed"
+                                              : name},
                         {"path", callee ? Json(relative(file.loaded->file(callee->file).path)) : Json()}});
         if (callee && seen.insert(*callee).second)
           open.push_back(*callee);
       }
     }
     return rows;
+  }
+  static std::string nameIn(const LoadedFile &file, ProgramId program) {
+    const std::string name = toString(file.model.programs[program].name);
+    return name.empty() ? "a program without a number" : name;
   }
   Json unfollowedOf(const ProvedFile &file, const ProvedProgram &program) const {
     Json rows = Json::array();
@@ -314,18 +297,27 @@ private:
       text += " --config " + quotedWord(relative(*reading.config));
     return text;
   }
-  /// Where its files lie; the index of the evidence names the files one by one, with their hashes.
+  static Json alarmToJson(const std::optional<RaisedAlarm> &alarm) {
+    if (!alarm)
+      return nullptr;
+    return {{"number", alarm->number ? Json(*alarm->number) : Json()},
+            {"message", alarm->message},
+            {"saying", nameOf(alarm->saying)},
+            {"clause", alarm->clause.empty() ? Json() : Json(alarm->clause)}};
+  }
+  /// The files of its first part, and how many parts there are; the index of the evidence names the files one by one,
+  /// with their hashes.
   static Json evidenceToJson(const Json &parts) {
     if (parts.empty())
       return nullptr;
     std::size_t queries = 0;
     for (const Json &part : parts)
       queries += part.contains("smtlib") ? 1 : 0;
-    const Json &first = parts.front();
-    const std::string file = first.at(first.contains("smtlib") ? "smtlib" : "claim").at("file");
-    return {{"folder", std::string(kEvidenceFolder) + file.substr(0, file.rfind('/') + 1)},
-            {"certificates", parts.size() - queries},
-            {"queries", queries}};
+    Json first = Json::array();
+    for (const char *part : {"smtlib", "claim", "certificate"})
+      if (parts.front().contains(part))
+        first.push_back(std::string(kEvidenceFolder) + parts.front().at(part).at("file").get<std::string>());
+    return {{"first", std::move(first)}, {"certificates", parts.size() - queries}, {"queries", queries}};
   }
   /// What the index of the evidence says of it, and what else there is to know.
   Json obligationToJson(const Obligation &obligation, const std::string &path, const ProvedFile &file,
@@ -343,6 +335,7 @@ private:
     row["path"] = relative(file.loaded->file(obligation.place.file).path);
     row["line"] = file.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
     row["message"] = holds(obligation.verdict) ? Json() : Json(messageOf(obligation, dialect));
+    row["alarm"] = alarmToJson(raisedAlarm(obligation, file, program));
     row["guard"] = obligation.guard ? Json(obligation.guard->clause) : Json();
     if (!obligation.witness)
       return row;
@@ -361,6 +354,7 @@ private:
   std::map<std::string, Json> evidence_; // obligations by the path from the evidence
   std::map<std::string, Source> sources_;
   VerdictCounts counts_;
+  Standing standing_ = Standing::Ready;
   std::size_t pictures_ = 0;
   std::string indexSha_;
 };

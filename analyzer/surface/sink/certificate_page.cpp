@@ -1,86 +1,59 @@
 // The page of a certificate: one HTML file without script, without network, made of certificate.json and the pictures
 // beside it alone, so that it can be made again and compared.
 #include "base/support/sha256.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/sink/certificate_html.h"
 #include "surface/sink/certificate_style.h"
-#include "surface/sink/xml.h"
 
-#include <fmt/format.h>
-
+#include <array>
+#include <map>
 #include <set>
 
 namespace feedhold::certificate {
 
 namespace {
 
-constexpr std::size_t kLargestPicture = 400'000; // bytes of one in the page; a larger one lies beside it
+constexpr std::size_t kMostOnFirstPage = 10; // programs whose summary fits on paper with the boxes for signatures
+constexpr std::size_t kMostNamed = 12;       // programs in a line of the verdict
 
-std::string text(const Json &value) { return xml(value.get<std::string>()); }
+/// How many claims are shown as what: by the word of their look.
+using Counts = std::map<std::string_view, std::size_t>;
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kCounted = {
+    std::pair{"refuted", "refuted"},
+    {"alarm", "alarms to decide on"},
+    {"unknown", "unknown"},
+    {"alarm as said", "alarms as the contract says"},
+    {"proved", "proved"},
+    {"unreachable", "unreachable"},
+};
 
-/// Code in backticks becomes code.
-std::string prose(std::string_view words) {
-  std::string html;
-  bool isCode = false;
-  while (!words.empty()) {
-    const std::size_t tick = words.find('`');
-    html += xml(words.substr(0, tick));
-    if (tick == std::string_view::npos)
-      break;
-    html += isCode ? "</code>" : "<code>";
-    isCode = !isCode;
-    words.remove_prefix(tick + 1);
-  }
-  return html + (isCode ? "</code>" : "");
+void countInto(Counts &counts, const Json &program) {
+  for (const Json &row : program.at("obligations"))
+    ++counts[lookOfClaim(row).word];
 }
-std::string prose(const Json &value) { return prose(std::string_view(value.get_ref<const std::string &>())); }
-
-/// An anchor: plain letters and digits.
-std::string anchor(std::string_view name) {
-  std::string plain;
-  for (const char c : name)
-    plain +=
-        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-' ? c : '_';
-  return plain;
-}
-
-std::string number(const Json &value) {
-  return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
-                                 : std::to_string(value.get<std::uint64_t>());
-}
-
-std::string_view signOf(std::string_view verdict) {
-  return verdict == "proved" ? "✓" : verdict == "refuted" ? "✗" : verdict == "unknown" ? "?" : "–";
-}
-std::string badge(const std::string &verdict) {
-  return fmt::format("<span class=\"badge {0}\">{1} {0}</span>", verdict, signOf(verdict));
-}
-
-std::string_view verdictOf(const Json &counts) {
-  return counts.at("refuted") != 0 ? "refuted" : counts.at("unknown") != 0 ? "unknown" : "proved";
-}
-std::uint64_t allOf(const Json &counts) {
-  std::uint64_t sum = 0;
-  for (const Json &count : counts)
-    sum += count.get<std::uint64_t>();
-  return sum;
-}
-
-constexpr std::array kVerdicts = {"refuted", "unknown", "proved", "unreachable"};
 
 class Page {
 public:
   Page(const std::string &certificate, const Bundle &report)
-      : document_(Json::parse(certificate)), sha256_(sha256(certificate)), report_(report) {}
+      : document_(Json::parse(certificate)), sha256_(sha256(certificate)), report_(report), paths_(document_) {
+    for (const Json &file : document_.at("files"))
+      programs_ += file.at("programs").size();
+    for (const Json &source : document_.at("sources"))
+      shaOf_[source.at("path")] = source.at("sha256");
+  }
 
   std::string write() {
-    const std::size_t count = programs();
-    head(count);
-    verdict(count);
+    head();
+    verdict();
+    if (programs_ > kMostOnFirstPage)
+      signOff();
     summary();
-    signOff();
+    if (programs_ <= kMostOnFirstPage)
+      signOff();
+    html_ += callsOf(document_);
+    bool isStyled = false;
     for (const Json &file : document_.at("files"))
       for (const Json &program : file.at("programs"))
-        this->program(file, program);
+        html_ += programOf(file, program, paths_, report_, isStyled);
     notChecked();
     findings();
     assumptions();
@@ -94,23 +67,18 @@ private:
   template <typename... Arguments> void add(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
     html_ += fmt::format(format, std::forward<Arguments>(arguments)...);
   }
-  std::size_t programs() const {
-    std::size_t count = 0;
+  template <typename Visit> void eachProgram(const Visit &visit) const {
     for (const Json &file : document_.at("files"))
-      count += file.at("programs").size();
-    return count;
-  }
-  /// Of one that stands in the page once: files may hold programs of one name.
-  std::string anchorOf(const Json &file, const Json &program) const {
-    return anchor("P-" + file.at("path").get<std::string>() + "-" + program.at("name").get<std::string>());
+      for (const Json &program : file.at("programs"))
+        visit(file, program);
   }
 
-  void head(std::size_t count) {
-    std::string name = fmt::format("{} programs", count);
-    if (count == 1)
-      for (const Json &file : document_.at("files"))
-        for (const Json &program : file.at("programs"))
-          name = program.at("name");
+  // ---- what who signs has to see: on paper it is the first page ----
+
+  void head() {
+    std::string name = fmt::format("{} programs", programs_);
+    if (programs_ == 1)
+      eachProgram([&](const Json &, const Json &program) { name = program.at("name"); });
     add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" content=\"feedhold {}\">\n"
@@ -123,204 +91,103 @@ private:
         text(document_.at("feedhold")));
     for (const Json &solver : document_.at("solvers"))
       add(" &middot; {}", text(solver));
-    add("</p>\n<p class=\"meta\">certificate.json, SHA-256 <span class=\"hash\">{}</span></p>\n</header>\n", sha256_);
+    add("</p>\n<p class=\"meta\">certificate.json, SHA-256 <span class=\"hash\">{}</span></p>\n", sha256_);
+    if (!paths_.folder().empty())
+      add("<p class=\"meta\">Programs in <span class=\"path\">{}</span>, as seen from this report</p>\n",
+          xml(paths_.folder()));
+    add("</header>\n");
   }
 
-  void verdict(std::size_t count) {
-    const Json &counts = document_.at("counts");
-    const std::string_view verdict = verdictOf(counts);
-    const std::string_view words = verdict == "proved"    ? "Everything that was asked is proved"
-                                   : verdict == "refuted" ? "Not fit for release: claims are refuted"
-                                                          : "Not all is proved";
-    add("<section class=\"verdict {}\">\n<p class=\"sign\" aria-hidden=\"true\">{}</p>\n<div>\n<h2>{}</h2>\n<p>{} "
-        "claim{} about {} program{}:",
-        verdict, signOf(verdict), words, allOf(counts), allOf(counts) == 1 ? "" : "s", count, count == 1 ? "" : "s");
+  void verdict() {
+    const Look look = lookOfStanding(document_.at("standing"));
+    const Json &standing = document_.at("standing");
+    const std::string_view words = standing == "ready"    ? "Everything that was asked is proved"
+                                   : standing == "broken" ? "Not fit for release: claims are refuted"
+                                   : standing == "alarms"
+                                       ? "Decide before release: alarms can come that no contract settles"
+                                       : "Not ready for release: not everything is proved";
+    Counts counts;
+    eachProgram([&](const Json &, const Json &program) { countInto(counts, program); });
+    std::size_t all = 0;
+    for (const auto &[word, count] : counts)
+      all += count;
+    add("<section class=\"verdict {}\">\n<p class=\"sign\" aria-hidden=\"true\">{}</p>\n<div>\n<h2>{}</h2>\n<p>{} on "
+        "{}:",
+        look.style, look.sign, words, counted(all, "claim"), counted(programs_, "program"));
     std::string_view between = " ";
-    for (const char *each : kVerdicts)
-      if (counts.at(each) != 0)
-        add("{}<span class=\"count\">{}</span> {}", std::exchange(between, ", "), number(counts.at(each)), each);
-    add("</p>\n<p>A claim is proved for all inputs at once, under the <a href=\"#assumptions\">assumptions</a> that "
-        "this "
-        "report lists. What was <a href=\"#not-checked\">not checked</a> is listed, too.</p>\n</div>\n</section>\n");
+    for (const auto &[word, shown] : kCounted)
+      if (counts[word] != 0)
+        add("{}<span class=\"count\">{}</span> {}", std::exchange(between, ", "), counts[word],
+            counts[word] == 1 && shown.starts_with("alarms") ? "alarm" + std::string(shown.substr(6))
+                                                             : std::string(shown));
+    add("</p>\n");
+    if (programs_ > 1)
+      for (const char *each : {"broken", "alarms", "open", "ready"})
+        named(each);
+    if (counts["refuted"] != 0)
+      add("<p>Refuted: a call was found, and run, that breaks the claim. The program or its contract has to "
+          "change.</p>\n");
+    if (counts["alarm"] != 0)
+      add("<p>An alarm to decide on: the program raises it for a call that the contract allows. If it is meant, "
+          "<code>@ALARM</code> in the contract says so. If not, <code>@REQUIRE</code> rules the call out.</p>\n");
+    if (counts["unknown"] != 0)
+      add("<p>Unknown: no proof was found, and no call that breaks the claim.</p>\n");
+    add("<p>Proved: it holds for all inputs at once, under the <a href=\"#assumptions\">assumptions</a> in this "
+        "report. See also what was <a href=\"#not-checked\">not checked</a>.</p>\n</div>\n</section>\n");
+  }
+  /// `Refuted: O9313, O9314 and 3 more`
+  void named(std::string_view standing) {
+    std::size_t count = 0;
+    std::string names;
+    eachProgram([&](const Json &file, const Json &program) {
+      if (program.at("standing") == standing && ++count <= kMostNamed)
+        names += fmt::format("{}<a href=\"#{}\">{}</a>", count == 1 ? "" : ", ", anchorOf(file, program),
+                             text(program.at("name")));
+    });
+    if (count == 0)
+      return;
+    const Look look = lookOfStanding(Json(standing));
+    add("<p class=\"named\">{} {}: {}{}</p>\n", badge(look), counted(count, "program"), names,
+        count > kMostNamed ? fmt::format(" and {} more", count - kMostNamed) : std::string());
   }
 
   void summary() {
     add("<section id=\"summary\">\n<h2>Summary</h2>\n<table class=\"summary\">\n<thead><tr><th>Program</th>"
-        "<th>In words</th><th class=\"n\">Proved</th><th class=\"n\">Refuted</th><th class=\"n\">Unknown</th>"
-        "<th class=\"n\" title=\"no run comes to the place\">Unreach&shy;able</th></tr></thead>\n<tbody>\n");
-    for (const Json &file : document_.at("files"))
-      for (const Json &program : file.at("programs")) {
-        const Json &counts = program.at("counts");
-        const auto cell = [&](const char *verdict) {
-          return fmt::format("<td class=\"n{}{}\">{}</td>", counts.at(verdict) == 0 ? " none " : " ",
-                             counts.at(verdict) == 0 ? "" : verdict, number(counts.at(verdict)));
-        };
-        add("<tr><td><a class=\"name\" href=\"#{}\">{}</a><br><small>{}</small></td><td>{}{}</td>{}{}{}{}</tr>\n",
-            anchorOf(file, program), text(program.at("name")), text(file.at("path")),
-            program.at("title") == "" ? std::string() : fmt::format("<b>{}</b><br>", text(program.at("title"))),
-            prose(program.at("summary")), cell("proved"), cell("refuted"), cell("unknown"), cell("unreachable"));
-      }
+        "<th>In words</th><th class=\"n\">Proved</th><th class=\"n\">Refuted</th><th class=\"n\">Alarms</th>"
+        "<th class=\"n\">Unknown</th><th class=\"n\" title=\"no run comes to the place\">Unreach&shy;able</th></tr>"
+        "</thead>\n<tbody>\n");
+    eachProgram([&](const Json &file, const Json &program) {
+      Counts counts;
+      countInto(counts, program);
+      const auto cell = [](std::size_t count, std::string_view style) {
+        return fmt::format("<td class=\"n {}\">{}</td>", count == 0 ? "none" : style, count);
+      };
+      const std::size_t open = counts["alarm"], said = counts["alarm as said"];
+      add("<tr><td><a class=\"name\" href=\"#{}\">{}</a><br><small class=\"path\">{}</small></td><td>{}{}{}</td>"
+          "{}{}{}{}{}</tr>\n",
+          anchorOf(file, program), text(program.at("name")), paths_.of(file.at("path")),
+          program.at("title") == "" ? std::string() : fmt::format("<b>{}</b><br>", text(program.at("title"))),
+          prose(program.at("summary")), hashOf(file), cell(counts["proved"], "proved"),
+          cell(counts["refuted"], "refuted"), cell(open + said, open == 0 ? "proved" : "alarms"),
+          cell(counts["unknown"], "unknown"), cell(counts["unreachable"], "unreachable"));
+    });
     add("</tbody>\n</table>\n</section>\n");
+  }
+  std::string hashOf(const Json &file) const {
+    const auto sha = shaOf_.find(file.at("path"));
+    return programs_ > kMostOnFirstPage || sha == shaOf_.end()
+               ? std::string()
+               : fmt::format("<br><small class=\"hash\" title=\"SHA-256\">{}</small>", sha->second);
   }
 
   void signOff() {
-    add("<section id=\"sign-off\">\n<h2>Sign-off</h2>\n<p>Who signs has read the summary, the assumptions, what was "
-        "not "
-        "checked, and the findings.</p>\n<table class=\"sign-off\">\n<thead><tr><th></th><th>Name</th><th>Date</th>"
+    add("<section id=\"sign-off\">\n<h2>Sign-off</h2>\n<p>Who signs has read the summary, the assumptions, the "
+        "findings, "
+        "and what was not checked.</p>\n<table class=\"sign-off\">\n<thead><tr><th></th><th>Name</th><th>Date</th>"
         "<th>Signature</th></tr></thead>\n<tbody>\n");
     for (const char *role : {"Author", "Checker", "Approver"})
       add("<tr><th>{}</th><td></td><td></td><td></td></tr>\n", role);
     add("</tbody>\n</table>\n</section>\n");
-  }
-
-  // ---- a program ----
-
-  void program(const Json &file, const Json &program) {
-    const Json &counts = program.at("counts");
-    add("<section class=\"program\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p class=\"meta\">{}, line {} &middot; "
-        "read for {}</p>\n<p class=\"sentence {}\">{}</p>\n",
-        anchorOf(file, program), text(program.at("name")), text(program.at("title")), text(file.at("path")),
-        number(program.at("line")), text(file.at("control")), verdictOf(counts), prose(program.at("summary")));
-    if (!program.at("incomplete").is_null())
-      add("<p class=\"warning\">Not all ways through it were followed: {}.</p>\n", prose(program.at("incomplete")));
-    refutations(program);
-    for (const Json &run : program.at("runs"))
-      picture(run);
-    contract(file, program);
-    calls(program);
-    obligations(file, program);
-    add("</section>\n");
-  }
-
-  /// One call may break many claims.
-  void refutations(const Json &program) {
-    std::vector<std::vector<const Json *>> calls;
-    std::map<std::string, std::size_t> byRun;
-    for (const Json &row : program.at("obligations")) {
-      if (row.at("verdict") != "refuted" || row.at("witness").is_null())
-        continue;
-      const auto [at, isNew] = byRun.try_emplace(row.at("witness").at("run"), calls.size());
-      if (isNew)
-        calls.emplace_back();
-      calls[at->second].push_back(&row);
-    }
-    if (calls.empty())
-      return;
-    add("<h3>Calls that break a claim</h3>\n<p><small>The commands are for the folder of this report; "
-        "<code>plot</code> "
-        "in place of <code>run</code> draws the path.</small></p>\n");
-    for (const std::vector<const Json *> &rows : calls) {
-      add("<div class=\"witness\">\n<p class=\"call\"><code>{}</code></p>\n<ul>\n",
-          text(rows.front()->at("witness").at("call")));
-      for (const Json *row : rows)
-        add("<li>line {}: <b>{}</b> <small>{}</small><br>{}{}</li>\n", number(row->at("line")),
-            prose(row->at("message")), text(row->at("id")), prose(row->at("witness").at("happened")), guard(*row));
-      add("</ul>\n<pre>{}</pre>\n</div>\n", text(rows.front()->at("witness").at("run")));
-    }
-  }
-  static std::string guard(const Json &row) {
-    return row.at("guard").is_null()
-               ? std::string()
-               : fmt::format("<br><small>it is proved with <code>{}</code> in the contract</small>",
-                             text(row.at("guard")));
-  }
-
-  void picture(const Json &run) {
-    const std::string name = run.at("picture").at("file");
-    const auto svg = report_.find(name);
-    add("<figure>\n");
-    if (svg != report_.end() && svg->second.size() <= kLargestPicture)
-      html_ += withoutStyle(svg->second);
-    else
-      add("<p>The picture is large: <a href=\"{0}\">{0}</a></p>\n", xml(name));
-    if (run.at("witnessOf").is_null())
-      add("<figcaption>One call that is allowed: <code>{}</code>. The proof is for all of them.", text(run.at("call")));
-    else
-      add("<figcaption>The call that breaks {}: <code>{}</code>.", text(run.at("witnessOf")), text(run.at("call")));
-    for (const Json &note : run.at("notes"))
-      add(" {}.", prose(note));
-    add("</figcaption>\n</figure>\n");
-  }
-  /// One style is enough for all pictures.
-  std::string withoutStyle(const std::string &svg) {
-    const std::size_t begin = svg.find("<style>"), end = svg.find("</style>");
-    if (begin == std::string::npos || end == std::string::npos || !std::exchange(isStyled_, true))
-      return svg;
-    return svg.substr(0, begin) + svg.substr(end + 8);
-  }
-
-  void contract(const Json &file, const Json &program) {
-    add("<h3>Contract</h3>\n");
-    if (program.at("clauses").empty()) {
-      add("<p>It has no contract: what is proved holds for every input.</p>\n");
-      return;
-    }
-    add("<ul class=\"clauses\">\n");
-    for (const Json &clause : program.at("clauses"))
-      add("<li><code>{}</code> <small>{}line {}</small></li>\n", text(clause.at("text")),
-          clause.at("path") == file.at("path") ? std::string() : text(clause.at("path")) + ", ",
-          number(clause.at("line")));
-    add("</ul>\n");
-  }
-
-  void calls(const Json &program) {
-    if (program.at("calls").empty())
-      return;
-    add("<h3>Calls</h3>\n<ul class=\"calls\">\n");
-    for (const Json &call : program.at("calls"))
-      add("<li>{} line {} &rarr; <b>{}</b> <small>{}</small></li>\n", text(call.at("from")), number(call.at("line")),
-          text(call.at("to")),
-          call.at("path").is_null() ? std::string("not here: it may do anything") : text(call.at("path")));
-    add("</ul>\n");
-  }
-
-  void obligations(const Json &file, const Json &program) {
-    if (program.at("obligations").empty())
-      return;
-    add("<h3>Claims</h3>\n<table class=\"claims\">\n<thead><tr><th>Verdict</th><th class=\"n\">Line</th><th>Claim</th>"
-        "<th>How</th></tr></thead>\n<tbody>\n");
-    for (const char *verdict : kVerdicts)
-      for (const Json &row : program.at("obligations"))
-        if (row.at("verdict") == verdict)
-          obligation(file, row);
-    add("</tbody>\n</table>\n");
-  }
-  void obligation(const Json &file, const Json &row) {
-    add("<tr><td>{}</td><td class=\"n\">{}</td><td>{}<br><small class=\"id\">{}{}</small>", badge(row.at("verdict")),
-        number(row.at("line")), prose(row.at("claim")), text(row.at("id")),
-        row.at("path") == file.at("path") ? std::string() : ", " + text(row.at("path")));
-    if (!row.at("reason").is_null())
-      add("<br><small>{}</small>", prose(row.at("reason")));
-    if (!row.at("bound").is_null())
-      add("<br><small>at most <code>{}</code> passes</small>", text(row.at("bound")));
-    if (!row.at("margin").is_null())
-      add("<br><small>margin {}</small>", number(row.at("margin")));
-    if (row.at("exactOnly") == true)
-      add("<br><small class=\"caution\">{}</small>", kExactOnly);
-    if (row.at("verdict") == "unknown" && !row.at("guard").is_null())
-      add("<br><small>it is proved with <code>{}</code> in the contract</small>", text(row.at("guard")));
-    add("</td><td>");
-    if (!row.at("grade").is_null())
-      add("{}", text(row.at("grade")));
-    if (!row.at("method").is_null())
-      add("<br><small>{}, {} units</small>", text(row.at("method")), number(row.at("rlimit")));
-    evidence(row.at("evidence"));
-    add("</td></tr>\n");
-  }
-  /// A link to the first file: the others lie beside it.
-  void evidence(const Json &row) {
-    if (row.is_null())
-      return;
-    const std::string folder = row.at("folder");
-    const bool isSolved = row.at("queries") != 0;
-    const std::uint64_t count = row.at("queries").get<std::uint64_t>() + row.at("certificates").get<std::uint64_t>();
-    if (isSolved && row.at("certificates") == 0)
-      add("<br><small><a href=\"{}1.smt2\">query</a>", xml(folder));
-    else
-      add("<br><small><a href=\"{0}1.claim\">claim</a>, <a href=\"{0}1.certificate\">certificate</a>", xml(folder));
-    if (count > 1)
-      add(" and {} more there", count - 1);
-    add("</small>");
   }
 
   // ---- behind the programs ----
@@ -339,7 +206,7 @@ private:
       item("All kinds of claims but these: " + kinds);
     }
     for (const Json &skipped : document_.at("skipped"))
-      item(fmt::format("{}: {}", text(skipped.at("path")), prose(skipped.at("reason"))));
+      item(fmt::format("{}: {}", paths_.of(skipped.at("path")), prose(skipped.at("reason"))));
     for (const Json &file : document_.at("files"))
       for (const Json &program : file.at("programs"))
         notFollowed(file, program, item);
@@ -354,7 +221,7 @@ private:
     std::set<std::string> told;
     for (const Json &each : program.at("unfollowed"))
       if (const std::string line =
-              fmt::format("{}: {} line {}: taken as anything at all: {}", name, text(each.at("path")),
+              fmt::format("{}: {} line {}: taken as anything at all: {}", name, paths_.of(each.at("path")),
                           number(each.at("line")), prose(each.at("reason")));
           told.insert(line).second)
         item(line);
@@ -368,7 +235,7 @@ private:
         if (count++ == 0)
           add("<table>\n<thead><tr><th>Place</th><th>Finding</th><th>Rule</th></tr></thead>\n<tbody>\n");
         add("<tr{}><td>{}:{}</td><td>{}{}</td><td>{}<br><small>{}</small></td></tr>\n",
-            finding.at("suppressed") == true ? " class=\"suppressed\"" : "", text(file.at("path")),
+            finding.at("suppressed") == true ? " class=\"suppressed\"" : "", paths_.of(file.at("path")),
             number(finding.at("line")), prose(finding.at("message")),
             finding.at("suppressed") == true
                 ? fmt::format("<br><small>allowed by the program: {}</small>", reasonOf(finding))
@@ -444,7 +311,9 @@ private:
   Json document_;
   std::string sha256_;
   const Bundle &report_;
-  bool isStyled_ = false;
+  ShownPaths paths_;
+  std::map<std::string, std::string> shaOf_; // of what was read, by path
+  std::size_t programs_ = 0;
   std::string html_;
 };
 

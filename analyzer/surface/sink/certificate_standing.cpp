@@ -1,0 +1,181 @@
+// Whether a program may be released by what was proved.  An alarm that a call can raise is no fault by itself: where
+// the contract says for which calls it comes, and that is proved, the program does what it should.
+#include "base/support/text.h"
+#include "surface/sink/certificate_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::certificate {
+
+namespace {
+
+using prove::Obligation;
+using prove::ObligationKind;
+using prove::Verdict;
+
+constexpr std::size_t kMostAlarmsNamed = 6;
+
+/// `#3000=120`.  Nothing where the number is computed: it may be any.
+std::optional<std::uint32_t> writtenNumber(const LoadedFile &file, const Dialect &dialect, const Assign &assign) {
+  const auto *assignment = std::get_if<Assignment>(&file.tree.statements[assign.first].node);
+  const auto variable = assignment ? variableNumber(file.tree, assignment->target) : std::nullopt;
+  if (assign.count != 1 || !variable || !raisesAlarm(dialect, *variable))
+    return std::nullopt;
+  const auto value = literalValue(file.tree, assignment->value);
+  const auto number = value ? value->asInteger() : std::nullopt;
+  return number && *number >= 0 && *number <= 99'999 ? std::optional(static_cast<std::uint32_t>(*number))
+                                                     : std::nullopt;
+}
+
+/// What the operator reads: `#3000=120(NO FEATURE)`.
+std::string messageBehind(const LoadedFile &file, const Node &node, Span assignment) {
+  for (const Comment &comment : file.tree.commentsOf(node.block))
+    if (comment.span.begin >= assignment.begin) {
+      std::string text = file.source.utf8(comment.span);
+      std::erase_if(text, [](char c) { return c == '(' || c == ')'; });
+      return std::string(trimmed(text));
+    }
+  return {};
+}
+
+void addClauses(RaisedAlarm &alarm, const ProvedFile &file, const ProvedProgram &program) {
+  const Contract *contract = file.file().contracts.of(program.program);
+  if (contract == nullptr || !alarm.number)
+    return;
+  const auto isKept = [&](const std::string &clause) {
+    const auto &all = program.proof.obligations;
+    return std::any_of(all.begin(), all.end(), [&](const Obligation &each) {
+      return each.kind == ObligationKind::AlarmIff && each.claim == clause && holds(each.verdict);
+    });
+  };
+  for (const AlarmPromise &promise : contract->alarms) {
+    const std::string &clause = file.file().contracts.clauses[promise.clause].text;
+    if (promise.number != *alarm.number || alarm.saying == AlarmSaying::SaidNotProved)
+      continue;
+    alarm.clause = clause;
+    alarm.saying = isKept(clause) ? AlarmSaying::Said : AlarmSaying::SaidNotProved;
+  }
+}
+
+} // namespace
+
+std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const ProvedFile &file,
+                                       const ProvedProgram &program) {
+  if (obligation.kind != ObligationKind::AlarmUnreachable || obligation.verdict != Verdict::Refuted)
+    return std::nullopt;
+  RaisedAlarm alarm;
+  const Node &node = file.loaded->set->file(FileId(0)).cfg.nodes[obligation.place.node];
+  if (const auto *assign = std::get_if<Assign>(&node.instruction)) {
+    alarm.number = writtenNumber(file.file(), file.loaded->dialect, *assign);
+    alarm.message = messageBehind(file.file(), node, file.file().tree.statements[assign->first].span);
+  }
+  addClauses(alarm, file, program);
+  return alarm;
+}
+
+namespace {
+
+std::string claims(std::size_t count) { return fmt::format("{} claim{}", count, count == 1 ? "" : "s"); }
+
+struct Summary {
+  VerdictCounts counts;
+  std::size_t said = 0;    // alarms that come as a proved clause says
+  std::size_t notSaid = 0; // others
+  std::string alarms = {}; // these: `alarms 7, 8`
+  bool isGouge = false;
+};
+Summary summaryOf(const ProvedFile &file, const ProvedProgram &program) {
+  Summary summary;
+  summary.counts.add(program.proof);
+  for (const Obligation &obligation : program.proof.obligations) {
+    summary.isGouge = summary.isGouge || (obligation.witness && obligation.witness->gouge);
+    const auto alarm = raisedAlarm(obligation, file, program);
+    if (!alarm)
+      continue;
+    if (alarm->saying == AlarmSaying::Said)
+      ++summary.said;
+    else if (++summary.notSaid <= kMostAlarmsNamed)
+      summary.alarms += (summary.alarms.empty() ? "" : ", ") +
+                        (alarm->number ? std::to_string(*alarm->number) : std::string("of a computed number"));
+  }
+  summary.alarms = (summary.notSaid == 1 ? "alarm " : "alarms ") + summary.alarms;
+  if (summary.notSaid > kMostAlarmsNamed)
+    summary.alarms += fmt::format(" and {} more", summary.notSaid - kMostAlarmsNamed);
+  return summary;
+}
+
+} // namespace
+
+std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
+  const Summary summary = summaryOf(file, program);
+  const VerdictCounts &counts = summary.counts;
+  if (counts.all() == 0)
+    return "Nothing is claimed of it, so that nothing is proved.";
+  const std::size_t broken = counts.of(Verdict::Refuted) - summary.said - summary.notSaid;
+  const std::size_t unknown = counts.of(Verdict::Unknown);
+  std::string words;
+  if (broken != 0)
+    words = fmt::format("{} {} of {} {}.",
+                        summary.isGouge ? "Do not run: the tool can go where it must not." : "Do not release:", broken,
+                        claims(counts.all()), broken == 1 ? "fails" : "fail");
+  if (summary.notSaid != 0)
+    words += fmt::format("{}{} can come, and no proved `@ALARM` says when.",
+                         words.empty() ? "Decide first: " : " Also, ", summary.alarms);
+  if (unknown != 0)
+    words += fmt::format("{}{} could be neither proved nor refuted.", words.empty() ? "Do not release yet: " : " ",
+                         claims(unknown));
+  if (!words.empty())
+    return words;
+  const std::size_t others = counts.all() - summary.said;
+  const std::string_view calls = file.file().contracts.of(program.program) != nullptr
+                                     ? "for every call that its contract allows"
+                                     : "for every input";
+  if (others != 0)
+    words = others == 1 ? fmt::format("Its one claim holds {}.", calls)
+                        : fmt::format("All {} hold {}.", claims(others), calls);
+  if (summary.said != 0)
+    words += fmt::format("{}{} as the contract says.", words.empty() ? "" : " ",
+                         summary.said == 1 ? "Its alarm comes" : fmt::format("Its {} alarms come", summary.said));
+  return words;
+}
+
+std::string_view nameOf(AlarmSaying saying) {
+  switch (saying) {
+  case AlarmSaying::NotSaid: return "not-said";
+  case AlarmSaying::SaidNotProved: return "said-not-proved";
+  case AlarmSaying::Said: return "said";
+  }
+  return "";
+}
+
+} // namespace feedhold::certificate
+
+namespace feedhold {
+
+std::string_view nameOf(Standing standing) {
+  switch (standing) {
+  case Standing::Ready: return "ready";
+  case Standing::Open: return "open";
+  case Standing::Alarms: return "alarms";
+  case Standing::Broken: return "broken";
+  }
+  return "";
+}
+
+Standing standingOf(const ProvedFile &file, const ProvedProgram &program) {
+  Standing standing = Standing::Ready;
+  for (const prove::Obligation &obligation : program.proof.obligations) {
+    if (holds(obligation.verdict))
+      continue;
+    const auto alarm = certificate::raisedAlarm(obligation, file, program);
+    standing = std::max(standing, obligation.verdict == prove::Verdict::Unknown     ? Standing::Open
+                                  : !alarm                                          ? Standing::Broken
+                                  : alarm->saying == certificate::AlarmSaying::Said ? Standing::Ready
+                                                                                    : Standing::Alarms);
+  }
+  return standing;
+}
+
+} // namespace feedhold
