@@ -23,6 +23,11 @@ constexpr int kNotFound = 127;
 
 std::atomic<std::uint64_t> failures = 0;
 
+thread_local const std::stop_token *childrenStop = nullptr;
+bool isStopped() { return childrenStop != nullptr && childrenStop->stop_requested(); }
+/// Between two looks at it.
+constexpr std::int64_t kLook = 20; // ms
+
 Error failed(std::string why) {
   ++failures;
   return {std::move(why)};
@@ -56,8 +61,10 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     pollfd wait{from, POLLIN, 0};
-    const int ready = left <= 0 ? 0 : poll(&wait, 1, static_cast<int>(left));
-    if (ready < 0 && errno == EINTR)
+    const std::int64_t pause = childrenStop != nullptr ? std::min<std::int64_t>(left, kLook) : left;
+    const bool isOver = left <= 0 || isStopped();
+    const int ready = isOver ? 0 : poll(&wait, 1, static_cast<int>(pause));
+    if ((ready < 0 && errno == EINTR) || (ready == 0 && !isOver && pause < left))
       continue;
     if (ready <= 0) {
       kill(child, SIGKILL);
@@ -153,6 +160,9 @@ Result<ProcessOutput> runInChild(const std::function<std::string()> &function, c
   close(pipe.value().write);
   return collect(child, pipe.value().read, limits);
 }
+
+ChildrenStop::ChildrenStop(const std::stop_token &stop) : outer_(childrenStop) { childrenStop = &stop; }
+ChildrenStop::~ChildrenStop() { childrenStop = outer_; }
 
 std::uint64_t failedChildren() { return failures; }
 

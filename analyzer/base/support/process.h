@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <shared_mutex>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,18 @@ Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const 
 /// the function takes while the copy is made: the caller's gate is held for that moment.
 Result<ProcessOutput> runInChild(const std::function<std::string()> &function, const ProcessLimits &limits,
                                  std::shared_mutex &gate);
+
+/// While it lives, a child of this thread is killed soon after the stop is requested: nobody waits for its answer.
+class ChildrenStop {
+public:
+  explicit ChildrenStop(const std::stop_token &stop);
+  ~ChildrenStop();
+  ChildrenStop(const ChildrenStop &) = delete;
+  ChildrenStop &operator=(const ChildrenStop &) = delete;
+
+private:
+  const std::stop_token *outer_;
+};
 
 /// How many children of this process were stopped or could not be started so far: what came of them may be otherwise
 /// another time.

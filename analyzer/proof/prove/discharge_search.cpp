@@ -4,6 +4,7 @@
 
 #include "proof/prove/discharge_products.h"
 #include "proof/prove/discharge_tree.h"
+#include "proof/prove/stop.h"
 
 #include <algorithm>
 #include <array>
@@ -172,6 +173,7 @@ private:
       return giveUp("too many cases");
     std::array<std::size_t, std::size(kProductLevels)> roundsOfSquares{};
     for (std::size_t round = 0; round < kMostRounds; ++round) {
+      throwIfStopped();
       const smt::Simplex::Status status = rows_.check(rows_.work() + remaining());
       if (status == smt::Simplex::Status::Infeasible)
         return leaf(rows_.contradiction());
@@ -249,6 +251,7 @@ private:
 
   /// Linear arithmetic alone does not exclude it.
   bool isOpen(const Conjunction &alternative) {
+    throwIfStopped();
     const Scope scope = enter(alternative);
     const bool open = rows_.check(rows_.work() + remaining()) != smt::Simplex::Status::Infeasible;
     leave(scope);

@@ -3,6 +3,7 @@
 #include "proof/prove/entails.h"
 #include "proof/prove/loops.h"
 #include "proof/prove/path_memory.h"
+#include "proof/prove/stop.h"
 
 #include <algorithm>
 
@@ -155,6 +156,7 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
   work.add({}, std::move(start));
   while (!work.empty() && !result_.incomplete)
     for (Path &path : merged(work.takeFirst(), trial)) {
+      throwIfStopped();
       if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
         return giveUp(kTooMany);
       purpose_ = purpose; // opening a loop tries it

@@ -5,6 +5,7 @@
 #include "proof/prove/exact_run.h"
 #include "proof/prove/loop_account.h"
 #include "proof/prove/recurrence.h"
+#include "proof/prove/stop.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -406,6 +407,7 @@ std::optional<Witness> Prover::endless(const LoopInstance &loop) {
   std::stable_sort(runs.begin(), runs.end(),
                    [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
   const auto isEndless = [&](const GivenVariables &given) {
+    throwIfStopped();
     RunOptions options = witnesses_->runOptions(given);
     options.fuel = WitnessSearch::kFuel;
     return witnesses_->allowed(given) && staysIn(loop, feedhold::run(programs_, program_, options)) &&

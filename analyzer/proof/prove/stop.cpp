@@ -8,7 +8,7 @@ thread_local const std::stop_token *current = nullptr;
 
 } // namespace
 
-StopScope::StopScope(const std::stop_token &stop) : outer_(current) { current = &stop; }
+StopScope::StopScope(const std::stop_token &stop) : outer_(current), children_(stop) { current = &stop; }
 StopScope::~StopScope() { current = outer_; }
 
 void throwIfStopped() {

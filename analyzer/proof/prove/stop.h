@@ -1,6 +1,8 @@
 // Stopping a proof that nobody waits for any more: an editor's text has changed.
 #pragma once
 
+#include "base/support/process.h"
+
 #include <stop_token>
 
 namespace feedhold::prove {
@@ -18,6 +20,7 @@ public:
 
 private:
   const std::stop_token *outer_;
+  ChildrenStop children_; // solvers among them
 };
 
 /// Called wherever work that takes long begins.

@@ -1,5 +1,7 @@
 #include "proof/prove/witness.h"
 
+#include "proof/prove/stop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -155,6 +157,7 @@ void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
 void WitnessSearch::keepSample(GivenVariables given) {
   if (!allowed(given))
     return;
+  throwIfStopped();
   RunOptions options = runOptions(given);
   options.fuel = kSampleFuel;
   RunResult result = run(programs_, entry_, options);
@@ -189,6 +192,7 @@ bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, c
 
 std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
                                             std::uint64_t fuel) const {
+  throwIfStopped();
   if (!allowed(given))
     return std::nullopt;
   RunOptions options = runOptions(given);
