@@ -1,9 +1,10 @@
 #include "findings/session/ranges.h"
 
+#include "inference/absint/reached_programs.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace feedhold {
 
@@ -11,26 +12,11 @@ namespace {
 
 constexpr FileId kFirstFile{0};
 
-/// What a program calls, and what those call, itself included.
-void collectReached(const ProgramSet &programs, ProgramRef from, std::set<ProgramRef> &reached) {
-  std::vector<ProgramRef> open{from};
-  while (!open.empty()) {
-    const ProgramRef next = open.back();
-    open.pop_back();
-    if (!reached.insert(next).second)
-      continue;
-    const ProgramModel &model = *programs.file(next.file).model;
-    for (const Call &call : model.callsOf(next.program))
-      if (const auto callee = programs.callGraph().callee(next.file, call))
-        open.push_back(*callee);
-  }
-}
-
 std::vector<Callee> allStarts(const LoadedPrograms &loaded) {
   const ProgramSet &programs = *loaded.set;
   const ProgramFile &file = programs.file(kFirstFile);
   std::vector<Callee> starts;
-  std::set<ProgramRef> reached;
+  ReachedPrograms reached;
   const auto start = [&](ProgramId program) {
     starts.push_back({kFirstFile, file.cfg.entryOf(program), program});
     collectReached(programs, {kFirstFile, program}, reached);
@@ -45,7 +31,7 @@ std::vector<Callee> allStarts(const LoadedPrograms &loaded) {
     if (!isCalledHere(ProgramId(i)))
       start(ProgramId(i));
   for (std::size_t i = 0; i < file.model->programs.size(); ++i)
-    if (!reached.contains({kFirstFile, ProgramId(i)})) // they call one another
+    if (!reached.programs.contains({kFirstFile, ProgramId(i)})) // they call one another
       start(ProgramId(i));
   return starts;
 }
@@ -80,9 +66,10 @@ Result<BlockStates> rangesOf(const LoadedPrograms &programs, const RangesWish &w
     if (!block || *wish.line == 0)
       return Error{fmt::format("nothing is executed in line {} or behind it", *wish.line)};
   }
-  return collectBlockStates(*programs.set, starts, [&](FileId at, BlockId which) {
+  const auto wants = [&](FileId at, BlockId which) {
     return (at == kFirstFile || (wish.files == RangesWish::Files::All && !block)) && (!block || *block == which);
-  });
+  };
+  return collectBlockStates(*programs.set, starts, wants, &programs.file(kFirstFile).contracts);
 }
 
 } // namespace feedhold

@@ -1,5 +1,7 @@
 #include "inference/absint/block_states.h"
 
+#include "inference/absint/contract_entry.h"
+
 #include <algorithm>
 
 namespace feedhold {
@@ -29,8 +31,10 @@ public:
   StateCollector(const ProgramSet &programs, const std::function<bool(FileId, BlockId)> &wants, BlockStates &result)
       : programs_(programs), wants_(wants), result_(result) {}
 
-  void begin(Callee start, AbstractReading &reading) {
+  void begin(Callee start, const FileContracts *contracts, AbstractReading &reading) {
     start_ = start;
+    const Contract *contract = contracts ? contracts->of(start.program) : nullptr;
+    assumesContract_ = contract && speaksOfEntry(*contract);
     reading_ = &reading;
     first_ = result_.contexts.size();
   }
@@ -43,7 +47,7 @@ public:
     ContextStates &context = contextOf(place, block, calls);
     const auto known = context.blocks.find(block);
     if (known != context.blocks.end())
-      joinInto(*reading_, known->second, state);
+      join(known->second, state);
     else if (values_ < BlockStates::kMostValues)
       keep(context, block, state);
     else
@@ -61,8 +65,15 @@ private:
   static constexpr std::size_t kMostNotes = 100;
 
   void keep(ContextStates &context, BlockId block, const AbstractState &state) {
-    forEachValue(state, [this](const AbstractValue &) { ++values_; });
-    context.blocks.emplace(block, state);
+    const KeptState &kept = context.blocks.emplace(block, keeper_.keep(state)).first->second;
+    values_ += kept.valueCount();
+  }
+  void join(KeptState &known, const AbstractState &state) {
+    AbstractState joined = known.state();
+    joinInto(*reading_, joined, state);
+    values_ -= known.valueCount();
+    known = keeper_.keep(joined);
+    values_ += known.valueCount();
   }
 
   const std::vector<bool> &entriesOf(FileId file) {
@@ -81,7 +92,7 @@ private:
                      });
     if (found != result_.contexts.end())
       return *found;
-    result_.contexts.push_back({*start_, {calls.begin(), calls.end()}, place.file, program, {}});
+    result_.contexts.push_back({*start_, assumesContract_, {calls.begin(), calls.end()}, place.file, program, {}});
     return result_.contexts.back();
   }
 
@@ -89,8 +100,10 @@ private:
   const std::function<bool(FileId, BlockId)> &wants_;
   BlockStates &result_;
   std::optional<Callee> start_;
+  bool assumesContract_ = false;
   AbstractReading *reading_ = nullptr;
-  std::size_t first_ = 0;  // of the contexts of this start
+  std::size_t first_ = 0; // of the contexts of this start
+  StateKeeper keeper_;
   std::size_t values_ = 0; // kept
   Place place_{FileId(0), NodeId(0)};
   std::map<std::size_t, std::vector<bool>> entries_; // by file
@@ -99,7 +112,7 @@ private:
 } // namespace
 
 BlockStates collectBlockStates(const ProgramSet &programs, std::span<const Callee> starts,
-                               const std::function<bool(FileId, BlockId)> &wants) {
+                               const std::function<bool(FileId, BlockId)> &wants, const FileContracts *contracts) {
   BlockStates result;
   StateCollector collector(programs, wants, result);
   for (const Callee &start : starts) {
@@ -108,8 +121,8 @@ BlockStates collectBlockStates(const ProgramSet &programs, std::span<const Calle
       result.gaveUp = "too many computed jumps, each of which may lead to any sequence number";
     } else {
       Analysis analysis(programs, {.budget = budgetFor(file)});
-      collector.begin(start, analysis.reading());
-      analysis.walk(start, collector);
+      collector.begin(start, contracts, analysis.reading());
+      analysis.walk(start, analysis.entryState(start, contracts), collector);
       result.gaveUp = analysis.gaveUp();
     }
     if (result.gaveUp) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "inference/absint/analysis.h"
+#include "inference/absint/kept_state.h"
 
 #include <functional>
 #include <map>
@@ -11,11 +12,12 @@ namespace feedhold {
 
 /// The states of the blocks of one program, as one way of calls reaches it.
 struct ContextStates {
-  Callee start;             // of the run
-  std::vector<Place> calls; // that led here, outermost first
+  Callee start;                 // of the run
+  bool assumesContract = false; // of `start`
+  std::vector<Place> calls;     // that led here, outermost first
   FileId file;
   ProgramId program;
-  std::map<BlockId, AbstractState> blocks; // over all runs that come to the block; absent: none does, or not asked for
+  std::map<BlockId, KeptState> blocks; // over all runs that come to the block; absent: none does, or not asked for
 };
 
 struct NotFollowedNote {
@@ -32,8 +34,10 @@ struct BlockStates {
   static constexpr std::size_t kMostValues = 1'500'000; // of some 130 bytes each
 };
 
-/// Analyses the programs one by one, each started with nothing known.  `wants`: the blocks that are asked for.
+/// Analyses the programs of one file one by one, each started with nothing known, or, with the contracts of the file,
+/// as its contract allows.  `wants`: the blocks that are asked for.
 BlockStates collectBlockStates(const ProgramSet &programs, std::span<const Callee> starts,
-                               const std::function<bool(FileId, BlockId)> &wants);
+                               const std::function<bool(FileId, BlockId)> &wants,
+                               const FileContracts *contracts = nullptr);
 
 } // namespace feedhold

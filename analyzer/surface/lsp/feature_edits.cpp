@@ -11,7 +11,7 @@ void Edits::replace(FileId file, ContractSourceId source, Span span, const std::
     return replace(file, span, text);
   const SourceFile &contract = view_.programs->file(file).contracts.source(source);
   edits_[view_.uris->of(contract.path())][span] = {{"range", Places(contract, view_.encoding).range(span)},
-                                              {"newText", text}};
+                                                   {"newText", text}};
 }
 
 Json Edits::workspaceEdit() const {

@@ -1,8 +1,7 @@
 #include "surface/lsp/feature_here.h"
 
-#include "findings/session/ranges.h"
 #include "meaning/semantics/modal_table.h"
-#include "surface/lsp/feature_thing.h"
+#include "surface/lsp/feature_meaning.h"
 
 #include <fmt/format.h>
 
@@ -19,28 +18,68 @@ std::string wayOf(const LoadedPrograms &programs, const ContextStates &context) 
     return {};
   const Place from = context.calls.back();
   const LoadedFile &file = programs.file(from.file);
-  const std::uint32_t line = file.source.lineOf(file.tree.blocks[programs.set->node(from).block].begin);
+  const std::uint32_t line = lineOf(file, programs.set->node(from).block);
   return from.file == kDocument ? fmt::format("called in line {}", line)
                                 : fmt::format("called in {}:{}", file.path.filename().generic_string(), line);
 }
 
+/// Of the programs that are started where these ways begin.
+std::string assumedBy(const LoadedPrograms &programs, const std::vector<const ContextStates *> &contexts,
+                      ProgramId own) {
+  std::vector<std::string> others;
+  bool isOwn = false;
+  for (const ContextStates *context : contexts) {
+    const ProgramRef start{context->start.file, context->start.program};
+    const bool isFollowed = !context->calls.empty() || start == ProgramRef{context->file, context->program};
+    if (!context->assumesContract || !isFollowed)
+      continue;
+    const std::string name = nameOf(programs, start);
+    if (start == ProgramRef{kDocument, own})
+      isOwn = true;
+    else if (std::find(others.begin(), others.end(), name) == others.end())
+      others.push_back(name);
+  }
+  std::string text = isOwn ? "assuming the contract" : "";
+  for (const std::string &name : others)
+    text += (text.empty() ? "assuming the contract of " : " and that of ") + name;
+  return text;
+}
+
+/// Of a program with more blocks than are kept together: of this one alone.
+std::optional<BlockStates> statesOfOne(const View &view, BlockId block) {
+  RangesWish wish;
+  wish.line = lineOf(view.file(), block);
+  Result<BlockStates> states = rangesOf(*view.programs, wish);
+  if (!states || states.value().gaveUp)
+    return std::nullopt;
+  return states.take();
+}
+
+bool isExecuted(const View &view, BlockId block) {
+  const Cfg &cfg = view.programs->set->file(kDocument).cfg;
+  const NodeId node = cfg.nodeOf(block);
+  return node.index() < cfg.nodes.size() && cfg.nodes[node].block == block;
+}
+
 } // namespace
 
-std::optional<KnownHere> knownBefore(const View &view, std::uint32_t line) {
+std::optional<KnownHere> knownBefore(const View &view, BlockId block) {
   const LoadedPrograms &programs = *view.programs;
-  RangesWish wish;
-  wish.line = line;
-  const Result<BlockStates> states = rangesOf(programs, wish);
-  if (!states || states.value().gaveUp)
+  if (!isExecuted(view, block))
+    return std::nullopt;
+  const BlockStates *states = view.flow->statesOf(view.programs);
+  const std::optional<BlockStates> one = states && states->isCutShort ? statesOfOne(view, block) : std::nullopt;
+  if (!states || (states->isCutShort && !one))
     return std::nullopt;
   KnownHere known;
   const ModalTable modes(programs.dialect);
-  for (const ContextStates &context : states.value().contexts)
-    if (context.file == kDocument)
-      for (const auto &[block, state] : context.blocks)
-        if (view.file().source.lineOf(view.file().tree.blocks[block].begin) == line)
-          known.ways.push_back({wayOf(programs, context), factsOf(state, context, *programs.set, modes)});
-  known.isReached = !known.ways.empty();
+  std::vector<const ContextStates *> contexts;
+  for (const ContextStates &context : (one ? *one : *states).contexts)
+    if (const auto found = context.blocks.find(block); context.file == kDocument && found != context.blocks.end()) {
+      known.ways.push_back({wayOf(programs, context), factsOf(found->second.state(), context, *programs.set, modes)});
+      contexts.push_back(&context);
+    }
+  known.assumed = assumedBy(programs, contexts, view.file().model.programOf(block));
   return known;
 }
 

@@ -1,5 +1,4 @@
-// Here: what is known before a line of the document.  The flow of the program is followed for it, which takes longer
-// than any other answer.
+// Here: what is known before a block of the document, put into facts.
 #pragma once
 
 #include "surface/lsp/feature.h"
@@ -17,12 +16,12 @@ struct FactsHere {
   StateFacts facts;
 };
 struct KnownHere {
-  std::vector<FactsHere> ways;
-  bool isReached = true; // false: no run comes here
+  std::vector<FactsHere> ways; // empty: no run comes here
+  std::string assumed;         // `assuming the contract`; empty: nothing
 };
 
 /// Absent: nothing is executed there, or the program could not be followed.
-std::optional<KnownHere> knownBefore(const View &view, std::uint32_t line);
+std::optional<KnownHere> knownBefore(const View &view, BlockId block);
 
 /// One line for each different text, with the ways that lead to it where there are several.
 std::string together(const std::vector<std::pair<std::string, std::string>> &wayAndText);

@@ -6,7 +6,7 @@ namespace feedhold::lsp {
 
 std::string View::uriOf(FileId id) const {
   const LoadedFile &loaded = programs->file(id);
-  return id == kDocument || loaded.path.empty() ? uri : uriOfPath(loaded.path);
+  return id == kDocument || loaded.path.empty() ? uri : uris->of(loaded.path);
 }
 
 View withFolder(const View &view) {
@@ -16,7 +16,8 @@ View withFolder(const View &view) {
   const ProgramsWish wish{.path = view.file().path.generic_string(),
                           .dialect = std::string(view.programs->dialect.id),
                           .open = view.open,
-                          .folder = ProgramsWish::Folder::Always};
+                          .folder = ProgramsWish::Folder::Always,
+                          .memory = view.memory};
   auto loaded = loadPrograms(wish, view.known);
   if (loaded && loaded.value()->file(kDocument).source.text() == view.file().source.text())
     whole.programs = loaded.take();
@@ -38,6 +39,17 @@ Json locationOf(const View &view, FileId file, Span span) {
 Json locationOf(const View &view, const Use &use) { return locationOf(view, use.file, use.span); }
 
 Json markdown(std::string text) { return {{"kind", "markdown"}, {"value", std::move(text)}}; }
+
+std::string plain(std::string_view text) {
+  constexpr std::string_view kMarks = "\\`*_<>[]~|&";
+  std::string result;
+  for (const char c : text) {
+    if (kMarks.find(c) != std::string_view::npos)
+      result += '\\';
+    result += c;
+  }
+  return result;
+}
 
 Span spanOf(const LoadedFile &file, ProgramId program) {
   const Program &named = file.model.programs[program];

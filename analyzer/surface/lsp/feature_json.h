@@ -18,6 +18,8 @@ Json locationOf(const View &view, FileId file, Span span);
 Json locationOf(const View &view, const Use &use);
 /// `{"kind": "markdown", "value": ..}`
 Json markdown(std::string text);
+/// Words of a program or of a person, so that Markdown shows them as they are.
+std::string plain(std::string_view text);
 
 /// From its O word up to its last block that the control reads.
 Span spanOf(const LoadedFile &file, ProgramId program);

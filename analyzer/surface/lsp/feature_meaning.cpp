@@ -23,9 +23,19 @@ std::string textOf(const LoadedFile &file, const Comment &comment) {
 
 bool isClause(std::string_view comment) { return comment.starts_with('@'); }
 
+/// `T-SLOT` is one word.
+std::size_t findSign(std::string_view comment) {
+  for (std::size_t at = 0; at < comment.size(); ++at) {
+    const bool isApart = at > 0 && isBlank(comment[at - 1]) && at + 1 < comment.size() && isBlank(comment[at + 1]);
+    if (comment[at] == '=' || comment[at] == ':' || (comment[at] == '-' && isApart))
+      return at;
+  }
+  return std::string_view::npos;
+}
+
 /// `#21 = DEPTH`, `U - DEPTH`, `U(#21): DEPTH`: what stands behind the sign, when the comment is about the variable.
 std::optional<std::string> saidOf(std::string_view comment, std::uint32_t variable, std::optional<char> letter) {
-  const std::size_t sign = comment.find_first_of("=:-");
+  const std::size_t sign = findSign(comment);
   if (sign == std::string_view::npos || sign == 0)
     return std::nullopt;
   const std::string_view head = trimmed(comment.substr(0, sign));

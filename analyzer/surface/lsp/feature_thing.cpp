@@ -14,6 +14,8 @@ public:
       : file_(programs.file(kDocument)), offset_(offset), block_(file_.tree.blockAt(offset)) {}
 
   std::optional<ThingAt> find() {
+    if (file_.tree.blockCount() == 0)
+      return std::nullopt;
     headers();
     names();
     loops();

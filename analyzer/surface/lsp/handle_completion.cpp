@@ -16,21 +16,22 @@ namespace {
 
 enum ItemKind : int { kFunction = 3, kField = 5, kVariable = 6, kKeyword = 14, kReference = 18, kConstant = 21 };
 
-/// What stands before the cursor on its line, without blanks, in capitals.
-struct Before {
-  std::string text;
-  std::uint32_t digits = 0; // at the end of it
-  std::string_view head() const { return std::string_view(text).substr(0, text.size() - digits); }
-};
-
-Before beforeOf(std::string_view line) {
-  Before before;
-  for (const char c : line)
+/// From its first digit, blanks between them included.
+std::uint32_t digitsAtEnd(std::string_view text) {
+  const std::size_t before = text.find_last_not_of("0123456789 \t");
+  const std::size_t first = text.find_first_of("0123456789", before == std::string_view::npos ? 0 : before + 1);
+  return static_cast<std::uint32_t>(text.size() - std::min(first, text.size()));
+}
+std::uint32_t digitsAtBegin(std::string_view text) {
+  return static_cast<std::uint32_t>(std::min(text.find_first_not_of("0123456789"), text.size()));
+}
+/// Without blanks, in capitals.
+std::string dense(std::string_view text) {
+  std::string result;
+  for (const char c : text)
     if (!isBlank(c))
-      before.text += toUpper(c);
-  while (before.digits < before.text.size() && isDigit(before.text[before.text.size() - 1 - before.digits]))
-    ++before.digits;
-  return before;
+      result += toUpper(c);
+  return result;
 }
 
 class Completions {
@@ -38,6 +39,7 @@ public:
   Completions(const View &view, std::uint32_t offset) : view_(view), file_(view.file()), offset_(offset) {
     const Span line = file_.source.lineSpan(file_.source.lineOf(offset));
     line_ = file_.source.text(Span{line.begin, std::min(offset, line.end)});
+    behind_ = file_.source.text(Span{std::min(offset, line.end), line.end});
     program_ = file_.model.programOf(file_.tree.blockAt(line.begin));
   }
 
@@ -45,9 +47,11 @@ public:
     if (const std::size_t open = line_.rfind('(');
         open != std::string_view::npos && line_.find(')', open) == std::string_view::npos)
       return clauses(trimmed(line_.substr(open + 1)));
-    const Before before = beforeOf(line_);
-    const std::string_view head = before.head();
-    prefix_ = before.digits;
+    if (isInComment())
+      return nullptr;
+    prefix_ = digitsAtEnd(line_);
+    suffix_ = digitsAtBegin(behind_);
+    const std::string head = dense(line_.substr(0, line_.size() - prefix_));
     if (head.ends_with("GOTO") || head.ends_with("M99P") || head.ends_with("M97P"))
       return labels();
     if (head.ends_with('#'))
@@ -63,13 +67,22 @@ private:
     return std::any_of(kCalls.begin(), kCalls.end(),
                        [&](std::string_view call) { return head.find(call) != std::string_view::npos; });
   }
-  /// Replaces the last `prefix_` bytes before the cursor.
+  /// In one that goes on to the end of the line.
+  bool isInComment() const {
+    if (file_.tree.blockCount() == 0)
+      return false;
+    const auto comments = file_.tree.commentsOf(file_.tree.blockAt(offset_));
+    return std::any_of(comments.begin(), comments.end(), [&](const Comment &comment) {
+      return comment.span.begin < offset_ && offset_ <= comment.span.end && file_.source.text(comment.span)[0] == ';';
+    });
+  }
+  /// Replaces `prefix_` bytes before the cursor and `suffix_` behind it.
   void add(const std::string &label, ItemKind kind, const std::string &detail, const std::string &documentation = {}) {
-    Json item{
-        {"label", label},
-        {"kind", static_cast<int>(kind)},
-        {"sortText", fmt::format("{:05}", items_.size())},
-        {"textEdit", {{"range", rangeOf(view_, kDocument, Span{offset_ - prefix_, offset_})}, {"newText", label}}}};
+    Json item{{"label", label},
+              {"kind", static_cast<int>(kind)},
+              {"sortText", fmt::format("{:05}", items_.size())},
+              {"textEdit",
+               {{"range", rangeOf(view_, kDocument, Span{offset_ - prefix_, offset_ + suffix_})}, {"newText", label}}}};
     if (!detail.empty())
       item["detail"] = detail;
     if (!documentation.empty())
@@ -132,7 +145,7 @@ private:
         line_.empty() || isBlank(line_.back()) || isDigit(line_.back()) || line_.back() == '.' || line_.back() == ']';
     if (!at || !startsWord)
       return nullptr;
-    prefix_ = 0;
+    prefix_ = suffix_ = 0;
     for (const Parameter &parameter : parametersOf(*view_.programs, at->callee)) {
       const bool isPassed = std::any_of(at->call->arguments.begin(), at->call->arguments.end(),
                                         [&](const Argument &each) { return each.variable == parameter.variable; });
@@ -148,9 +161,11 @@ private:
   const View &view_;
   const LoadedFile &file_;
   std::uint32_t offset_;
-  std::string_view line_; // up to the cursor
+  std::string_view line_;   // up to the cursor
+  std::string_view behind_; // and from there
   ProgramId program_{0};
   std::uint32_t prefix_ = 0;
+  std::uint32_t suffix_ = 0;
   Json items_ = Json::array();
 };
 

@@ -25,7 +25,8 @@ Json otherEnds(const View &view, const std::vector<Use> &uses, Span here) {
 
 } // namespace
 
-Json definition(const View &view, const Json &params) {
+Json definition(const View &document, const Json &params) {
+  const View view = withFolder(document); // callers give arguments their first values
   const auto thing = thingAt(view, params);
   if (!thing)
     return nullptr;

@@ -37,7 +37,12 @@ private:
   /// IF .. THEN on a line of its own, up to its ENDIF.
   void branches() {
     std::vector<Span> open;
+    std::optional<ProgramId> program;
     for (const Statement &statement : file_.tree.statements) {
+      const ProgramId here = file_.model.programOf(file_.tree.blockAt(statement.span.begin));
+      if (program != here)
+        open.clear();
+      program = here;
       const auto *head = std::get_if<If>(&statement.node);
       if (head && head->action == IfAction::Lines)
         open.push_back(statement.span);

@@ -51,17 +51,17 @@ private:
   template <typename... Parts> void line(fmt::format_string<Parts...> form, Parts &&...parts) {
     text_ += (text_.empty() ? "" : "\n\n") + fmt::format(form, std::forward<Parts>(parts)...);
   }
-  std::uint32_t lineHere() const { return lineOf(file_, at_.block); }
 
   // ---- programs ----
 
   void program(ProgramRef ref) {
     const LoadedFile &in = programs_.file(ref.file);
     const std::string title = titleOf(in, ref.program);
-    line("**{}**{}", nameOf(programs_, ref), title.empty() ? "" : " " + title);
+    line("**{}**{}", nameOf(programs_, ref), title.empty() ? "" : " " + plain(title));
     if (ref.file != kDocument)
       line("in `{}`", in.path.filename().generic_string());
-    if (const auto callers = programs_.set->callGraph().callers(ref); !callers.empty())
+    const View whole = withFolder(view_); // `ref` is in the document, or the folder is there already
+    if (const auto callers = whole.programs->set->callGraph().callers(ref); !callers.empty())
       line("called in {} {} of the files that are read", callers.size(), callers.size() == 1 ? "place" : "places");
     std::string clauses;
     for (const Clause &clause : in.contracts.clauses)
@@ -71,7 +71,7 @@ private:
       line("```\n{}```", clauses);
   }
   void call(const Call &call) {
-    if (at_.span == file_.tree.words[call.code].span())
+    if (call.kind != CallKind::OWord && at_.span == file_.tree.words[call.code].span())
       code(file_.tree.words[call.code]);
     const bool goes =
         call.kind != CallKind::MacroA && call.kind != CallKind::ModalCancel && call.kind != CallKind::Local;
@@ -94,7 +94,7 @@ private:
     if (!callee)
       return;
     if (const std::string meaning = meaningOf(programs_, *callee, argument.variable); !meaning.empty())
-      line("{}: {}", nameOf(programs_, *callee), meaning);
+      line("{}: {}", nameOf(programs_, *callee), plain(meaning));
     if (const std::string clause = clauseOf(programs_, *callee, argument.variable); !clause.empty())
       line("`{}`", clause);
   }
@@ -102,16 +102,16 @@ private:
   // ---- jumps and loops ----
 
   void label(const LabelRef &label) {
-    const auto uses = usesOf(programs_, label);
+    const View whole = withFolder(view_);
     std::string lines;
-    for (const Use &use : uses)
+    for (const Use &use : usesOf(*whole.programs, label))
       if (use.role == UseRole::Reference)
-        lines += fmt::format("{}{}", lines.empty() ? "" : ", ", placeOf(use));
+        lines += fmt::format("{}{}", lines.empty() ? "" : ", ", placeOf(*whole.programs, use));
     line("**N{}** of {}", label.number, nameOf(programs_, label.program));
     line("{}", lines.empty() ? "no jump names it" : "named in " + lines);
   }
-  std::string placeOf(const Use &use) const {
-    const LoadedFile &in = programs_.file(use.file);
+  static std::string placeOf(const LoadedPrograms &programs, const Use &use) {
+    const LoadedFile &in = programs.file(use.file);
     const std::uint32_t at = in.source.lineOf(use.span.begin);
     return use.file == kDocument ? fmt::format("line {}", at)
                                  : fmt::format("{}:{}", in.path.filename().generic_string(), at);
@@ -124,7 +124,8 @@ private:
     for (const LabelRef &label : labelsOf(programs_, kDocument, jump))
       for (const Use &use : usesOf(programs_, label))
         if (use.role == UseRole::Definition)
-          lines += fmt::format("{}{} of {}", lines.empty() ? "" : ", ", placeOf(use), nameOf(programs_, label.program));
+          lines += fmt::format("{}{} of {}", lines.empty() ? "" : ", ", placeOf(programs_, use),
+                               nameOf(programs_, label.program));
     if (lines.empty())
       line("there is no N{} to go to", *number);
     else
@@ -147,10 +148,13 @@ private:
     const std::string name = programs_.set->nameOfVariable(ref->number);
     const ProgramRef program{kDocument, file_.model.programOf(use.block)};
     const std::string meaning = meaningOf(programs_, program, ref->number);
-    line("**{}**{} ({})", name, meaning.empty() ? "" : " " + meaning, kindOf(programs_, ref->number));
+    line("**{}**{} ({})", name, meaning.empty() ? "" : " " + plain(meaning), kindOf(programs_, ref->number));
     if (const std::string clause = clauseOf(programs_, program, ref->number); !clause.empty())
       line("`{}`", clause);
-    before([&](const StateFacts &facts) { return textOf(facts.variables, name, "as at start"); });
+    const bool isLocal = ref->number <= kLocalVariables;
+    before([&](const StateFacts &facts) {
+      return textOf(facts.variables, name, facts.othersAreUnknown && !isLocal ? "not known" : "as at start");
+    });
   }
   static std::string textOf(const std::vector<ValueFact> &facts, const std::string &name, std::string otherwise) {
     const auto found =
@@ -159,16 +163,16 @@ private:
   }
   /// What is known before this line, on each way of calls.
   template <typename Tell> void before(Tell tell) {
-    const auto known = knownBefore(view_, lineHere());
+    const auto known = knownBefore(view_, at_.block);
     if (!known)
       return;
-    if (!known->isReached)
+    if (known->ways.empty())
       return line("no run comes to this line");
     std::vector<std::pair<std::string, std::string>> texts;
     for (const FactsHere &way : known->ways)
       texts.emplace_back(way.way, tell(way.facts));
     if (const std::string text = together(texts); !text.empty())
-      line("before this line: {}", text);
+      line("before this line{}: {}", known->assumed.empty() ? "" : ", " + known->assumed, text);
   }
 
   // ---- words ----

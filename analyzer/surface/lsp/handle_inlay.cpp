@@ -1,5 +1,4 @@
 // What stands between the lines: names of arguments, bounds of loops, G90 and G91 where they change unseen.
-#include "findings/session/ranges.h"
 #include "meaning/semantics/modal_table.h"
 #include "surface/lsp/feature_arguments.h"
 #include "surface/lsp/feature_handlers.h"
@@ -16,8 +15,6 @@ namespace {
 
 constexpr int kType = 1; // InlayHintKind
 constexpr int kParameter = 2;
-/// The flow of longer programs is not followed for hints: they are asked for with every change.
-constexpr std::size_t kMostBlocksFollowed = 500;
 
 class Hints {
 public:
@@ -64,27 +61,40 @@ private:
   // ---- G90 and G91 ----
 
   void distances() {
-    const ModalTable modes(programs_.dialect);
-    const auto group = modes.groupOf(ModalKind::Distance);
-    if (!group || file_.tree.blockCount() > kMostBlocksFollowed || !mayChangeUnseen(*group))
+    const auto group = ModalTable(programs_.dialect).groupOf(ModalKind::Distance);
+    const BlockId first = file_.tree.blockAt(wanted_.begin), last = file_.tree.blockAt(wanted_.end);
+    if (!group || !mayChangeUnseen(*group))
       return;
-    const Result<BlockStates> states = rangesOf(programs_, {});
-    if (!states || states.value().gaveUp)
+    const BlockStates *states = view_.flow->statesOf(view_.programs);
+    if (!states)
       return;
-    std::map<BlockId, std::string> codes;
-    for (const ContextStates &context : states.value().contexts)
-      if (context.file == kDocument)
-        for (const auto &[block, state] : context.blocks)
-          note(codes[block], state.codes[*group], modes.group(*group));
-    const std::string *before = nullptr;
-    std::optional<BlockId> last;
-    for (const auto &[block, code] : codes) {
-      if (before && *before != code && !setsDistance(*last, *group))
-        add(file_.tree.blocks[block].end, code + " before this block", kType);
-      before = &code;
-      last = block;
+    std::optional<std::pair<BlockId, CodeSet>> before;
+    for (const auto &[block, codes] : codesIn(*states, *group, first, last)) {
+      const bool follows = before && isSameProgram(before->first, block);
+      if (follows && before->second != codes && !setsDistance(before->first, *group))
+        add(file_.tree.blocks[block].end, textOf(codes, *group) + " before this block", kType);
+      before = {block, codes};
     }
   }
+  /// What may be in force before the blocks of a range and the one above it, over all ways of calls.
+  std::map<BlockId, CodeSet> codesIn(const BlockStates &states, std::uint8_t group, BlockId first, BlockId last) const {
+    std::map<BlockId, CodeSet> codes;
+    for (const ContextStates &context : states.contexts) {
+      if (context.file != kDocument)
+        continue;
+      auto at = context.blocks.lower_bound(first);
+      if (at != context.blocks.begin())
+        --at;
+      for (; at != context.blocks.end() && at->first <= last; ++at) {
+        const CodeSet &here = at->second.codes()[group];
+        const auto [known, isNew] = codes.emplace(at->first, here);
+        if (!isNew)
+          known->second = join(known->second, here);
+      }
+    }
+    return codes;
+  }
+  bool isSameProgram(BlockId a, BlockId b) const { return file_.model.programOf(a) == file_.model.programOf(b); }
   /// Only a jump or a call can bring another state to a block than the one above it leaves.
   bool mayChangeUnseen(std::uint8_t group) const {
     const bool leads = !file_.model.jumps.empty() || !file_.model.loops.empty() || !file_.model.calls.empty();
@@ -100,18 +110,16 @@ private:
     const auto words = file_.tree.wordsOf(block);
     return std::any_of(words.begin(), words.end(), [&](const Word &word) { return isDistance(word, group); });
   }
-  /// Adds what is in force on one more way.
-  static void note(std::string &text, const CodeSet &set, const ModalGroup &group) {
-    const auto name = [&](std::size_t i) { return fmt::format("G{}", group.codes[i]->tenths / 10); };
-    std::vector<std::string> found;
-    for (std::size_t i = 0; i < group.codes.size(); ++i)
-      if (set.contains(i))
-        found.push_back(name(i));
-    if (set.mayBeAtEntry())
-      found.emplace_back("that of the start");
-    for (const std::string &each : found)
-      if (text.find(each) == std::string::npos)
-        text += (text.empty() ? "" : " or ") + each;
+  std::string textOf(const CodeSet &codes, std::uint8_t group) const {
+    const ModalTable modes(programs_.dialect);
+    const auto &rows = modes.group(group).codes;
+    std::string text;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (codes.contains(i))
+        text += fmt::format("{}G{}", text.empty() ? "" : " or ", rows[i]->tenths / 10);
+    if (codes.mayBeAtEntry())
+      text += text.empty() ? "that of the start" : " or that of the start";
+    return text;
   }
 
   const View &view_;

@@ -107,7 +107,8 @@ private:
 
 Json documentSymbol(const View &view, const Json &) { return jsonOf(view, Outline(view.file()).build()); }
 
-Json workspaceSymbol(const View &view, const Json &params) {
+Json workspaceSymbol(const View &document, const Json &params) {
+  const View view = withFolder(document);
   const std::string query = toUpper(params.at("query").get<std::string>());
   Json found = Json::array();
   for (std::size_t i = 0; i < view.programs->files.size(); ++i) {

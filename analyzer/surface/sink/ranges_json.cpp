@@ -51,13 +51,14 @@ private:
     for (const Place call : context.calls)
       calls.push_back(placeToJson(call));
     std::string text = "{\"start\": " + textOf(programToJson(context.start.file, context.start.program)) +
+                       ", \"assumesContract\": " + textOf(context.assumesContract) +
                        ", \"calls\": " + textOf(calls) +
                        ", \"program\": " + textOf(programToJson(context.file, context.program)) + ", \"blocks\": [";
     bool isFirst = true;
     for (const auto &[block, state] : context.blocks) {
       Json row = {{"line", file.source->lineOf(file.tree->blocks[block].begin)},
                   {"text", trimmed(file.source->utf8(file.tree->blocks[block].span()))}};
-      row.update(factsToJson(factsOf(state, context, report_.programs, modes)));
+      row.update(factsToJson(factsOf(state.state(), context, report_.programs, modes)));
       text += (isFirst ? "\n      " : ",\n      ") + textOf(row);
       isFirst = false;
     }

@@ -141,7 +141,7 @@ private:
         continue;
       }
       writeBlock(file, block, "");
-      Lines now = linesOf(factsOf(state->second, context, report_.programs, modes));
+      Lines now = linesOf(factsOf(state->second.state(), context, report_.programs, modes));
       writeFacts(report_.line ? now : changesFrom(before, now));
       before = std::move(now);
     }
@@ -166,7 +166,8 @@ private:
     const std::string name = programName(file, context.program);
     if (context.calls.empty())
       return context.program == context.start.program && context.file == context.start.file
-                 ? fmt::format("{}, whatever was before\n", name)
+                 ? fmt::format("{}, {}\n", name,
+                               context.assumesContract ? "in the calls that its contract allows" : "whatever was before")
                  : fmt::format("{}, entered in a way that is not followed\n", name);
     std::string calls;
     for (std::size_t i = context.calls.size(); i-- > 0;)

@@ -62,6 +62,11 @@ TEST_F(LspDefinition, AVariableLeadsToItsAssignmentsInItsScope) {
   EXPECT_EQ(references(view, "#1LT3"), (Strings{"9:#1", "10:#1", "11:#1", "11:#1"}));
 }
 
+TEST_F(LspDefinition, CallersGiveArgumentsTheirValues) {
+  write("main.nc", "%\nO7\nG65P9100A5.\nM30\n%\n");
+  EXPECT_EQ(from(openText("%\nO9100\nG01X#1\nM99\n%\n"), "#1"), (Strings{"main.nc:3:A5."}));
+}
+
 TEST_F(LspDefinition, AFileInAnotherEncodingIsCountedAsItIsDecoded) {
   write("O9100.nc", "%\nO9100\n(M\xD6GLICHE H\xD6HE)#510=1.\nM99\n%\n"); // Latin-1
   const View view = openText("%\nO1\nG65P9100\n#1=#510\nM30\n%\n");

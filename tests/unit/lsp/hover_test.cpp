@@ -35,8 +35,8 @@ TEST_F(LspHover, AVariableHasAMeaningAndARange) {
   expectIn(at(view, "#21F"), "`@PARAM #21 DEPTH 0.5..50. MM`");
   expectIn(at(view, "#23"), "**#23** STEP \xC3\x84 (");
   expectIn(at(view, "#10LT"), "**#10** DONE");
-  expectIn(at(view, "#10+1"), "before this line: 0 to 6, whole");
-  expectIn(at(view, "#10\nGOTO99"), "before this line: 7");
+  expectIn(at(view, "#10+1"), "before this line, assuming the contract: 0 to 6, whole");
+  expectIn(at(view, "#10\nGOTO99"), "before this line, assuming the contract: 7");
 }
 
 TEST_F(LspHover, ValuesOfSeveralCallsAreToldApart) {
@@ -51,6 +51,49 @@ TEST_F(LspHover, VacancyAndWhatIsNeverReached) {
                 std::string::npos,
             true);
   expectIn(at(openText("O1\nM30\n#101=#100\n"), "#100"), "no run comes to this line");
+}
+
+TEST_F(LspHover, ValuesAreThoseThatTheContractAllows) {
+  constexpr std::string_view kText = "O1\n(@PARAM #1 N 1..9 INT)\n(@PARAM #2 D 0..5 OPTIONAL)\n(@MODAL G91)\n"
+                                     "#10=#1\n#11=#2\nG90X0\nM98P2\nM30\nO2\n#12=#1+0\nM99\n";
+  const View view = openText(kText);
+  expectIn(at(view, "#1\n#11"), "before this line, assuming the contract: 1 to 9, whole");
+  expectIn(at(view, "#2\nG90"), "vacant or 0 to 5");
+  expectIn(at(view, "G90"), "before this line, assuming the contract: G91");
+  expectIn(at(view, "#1+0"), "before this line, assuming the contract of O1: 1 to 9, whole");
+  expectIn(at(openText("O1\n#10=#1\nM30\n"), "#1\n"), "before this line: as at start");
+}
+
+TEST_F(LspHover, AVariableThatIsForgottenIsNotAsAtTheStart) {
+  expectIn(at(openText("O1\nG65P77\n#1=#500\nM30\n"), "#500"), "before this line: not known");
+}
+
+TEST_F(LspHover, TheFlowIsThatOfTheText) {
+  View view = openText("O1\n#1=1\n#2=#1\nM30\n");
+  expectIn(at(view, "#1\nM30"), "before this line: 1");
+  View changed = openText("O1\n#1=2\n#2=#1\nM30\n");
+  changed.flow = view.flow;
+  expectIn(at(changed, "#1\nM30"), "before this line: 2");
+}
+
+TEST_F(LspHover, WordsOfCommentsAreShownAsTheyAre) {
+  const View view = openText("O1(A*B* <C>)\n(#1 = P_Q_)\n(T-SLOT)\n#20=#1\nM30\n");
+  expectIn(at(view, "O1"), "**O1** A\\*B\\* \\<C\\>");
+  expectIn(at(view, "#1\n"), "**#1** P\\_Q\\_");
+  EXPECT_EQ(at(view, "#20").find("SLOT"), std::string::npos) << "a hyphen is no sign between letter and name";
+}
+
+TEST_F(LspHover, CallersOfAMacroThatCallsNothingAreSeen) {
+  write("feedhold.toml", "[switches]\nsqc = true\n"); // M98 starts at its Q
+  write("main.nc", "%\nO7\nG65P1\nG65P1\nM98P1Q30\nM30\n%\n");
+  const View view = openText("O1\nN30G00X0\nM99\n");
+  expectIn(at(view, "O1"), "called in 3 places");
+  expectIn(at(view, "N30"), "named in main.nc:5");
+}
+
+TEST_F(LspHover, ACallWithoutAnythingBehindIt) {
+  const View view = openText("o<cut> sub\no<cut> endsub\no<cut> call", "linuxcnc");
+  expectIn(at(view, "o<cut> call"), "**o<cut>**");
 }
 
 TEST_F(LspHover, ASystemVariableIsOfTheControl) {

@@ -52,6 +52,8 @@ TEST_F(LspOutline, FoldsOfProgramsLoopsBranchesAndComments) {
   EXPECT_EQ(folds(openText("O1\nIF[#1EQ0]THEN\n#1=1\nELSE\n#1=2\nENDIF\nM30\n", "mitsubishi-m700")),
             (Strings{"1-7 region", "2-6 region"}));
   EXPECT_EQ(folds(openText("O1\n")), (Strings{}));
+  EXPECT_EQ(folds(openText("O1\nIF[#1EQ0]THEN\nM30\nO2\nENDIF\nM30\n", "mitsubishi-m700")), // one is not closed
+            (Strings{"1-3 region", "4-6 region"}));
 }
 
 TEST_F(LspOutline, ProgramsOfTheFolderAreFoundByNumberAndTitle) {
@@ -66,6 +68,11 @@ TEST_F(LspOutline, ProgramsOfTheFolderAreFoundByNumberAndTitle) {
   EXPECT_EQ(names("slo"), (Strings{"O9100 (SLOT)"}));
   EXPECT_EQ(names(""), (Strings{"O1 (PART)", "O9100 (SLOT)"}));
   EXPECT_EQ(names("zzz"), (Strings{}));
+}
+
+TEST_F(LspOutline, ProgramsOfTheFolderAreFoundFromOneThatCallsNothing) {
+  write("O9100.nc", "%\nO9100(SLOT)\nM99\n%\n");
+  EXPECT_EQ(ask(openText("%\nO1\nM30\n%\n"), "workspace/symbol", {{"query", "slot"}}).size(), 1U);
 }
 
 TEST_F(LspOutline, CallsBothWays) {

@@ -72,6 +72,39 @@ TEST_F(LspWriting, ADistanceModeThatACallLeavesIsShown) {
   EXPECT_EQ(hints(lathe), (Strings{}));
 }
 
+TEST_F(LspWriting, ADistanceModeIsNotComparedAcrossPrograms) {
+  EXPECT_EQ(hints(openText("O1\nG90\nM98P2\nG01X0\nM30\nO2\nG01X1.\nG91\nM99\nO3\nM99\n")),
+            (Strings{"4:5 G91 before this block"}));
+}
+
+TEST_F(LspWriting, DistanceModesOfALongProgram) {
+  std::string text = "O1\nG90\n";
+  for (int i = 0; i < 1200; ++i)
+    text += "N" + std::to_string(i + 1) + "G01X#1F100.\nIF[#1GT" + std::to_string(i) + "]GOTO" + std::to_string(i + 1) +
+            "\n";
+  text += "M98P2\nG01X5.\nM30\nO2\nG91\nM99\n";
+  const View view = openText(text);
+  EXPECT_EQ(hints(view), (Strings{"2404:6 G91 before this block"}));
+  const auto between = [](int first, int last) {
+    return Json{
+        {"range", {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", last}, {"character", 0}}}}}};
+  };
+  EXPECT_EQ(ask(view, "textDocument/inlayHint", between(2403, 2405)).size(), 1U); // the block above is not in it
+  EXPECT_TRUE(ask(view, "textDocument/inlayHint", between(0, 2402)).empty());
+}
+
+TEST_F(LspWriting, CompletionReplacesTheWholeNumber) {
+  const View view = openText("O1\nN10#1=0\nGOTO123\nGOTO 1 2\nM30\n");
+  const auto range = [&](std::string_view what, std::size_t in) {
+    return textAt(view.file().source.text(),
+                  askAt(view, "textDocument/completion", what, in).at(0)["textEdit"]["range"]);
+  };
+  EXPECT_EQ(range("GOTO123", 5), "123");
+  EXPECT_EQ(range("GOTO123", 4), "123");
+  EXPECT_EQ(range("1 2", 3), "1 2");
+  EXPECT_TRUE(askAt(openText("o1 sub ;#\no1 endsub\nM2\n", "linuxcnc"), "textDocument/completion", "#", 1).is_null());
+}
+
 TEST_F(LspWriting, CompletionOfProgramsArgumentsLabels) {
   write("O9100.nc", kSlot);
   const View view = openText("%\nO1\n(\xC3\x84)G65 P91 \nG65P9100U3. \nGOTO 1\nN10#1=#5\nN15M30\n(@PA\n(NOTE @P)\n%\n");
