@@ -38,11 +38,11 @@ BlockId nextContent(const FileContext &context, BlockId block) {
   return block;
 }
 
-/// The analysis knows bounds of the variable: its range has been checked before.
+/// The analysis knows bounds of the variable, not its values: its range has been checked before.
 bool isChecked(const FlowFacts &facts, BlockId last, std::uint32_t variable) {
   for (const Read &read : readsOf(facts.file, last))
     if (const AbstractValue *value = read.number == variable ? facts.valueOf(read.expression) : nullptr)
-      return value->isNumber() && value->number().interval().isFinite();
+      return value->isNumber() && value->number().interval().isFinite() && value->number().set().isMany();
   return false;
 }
 

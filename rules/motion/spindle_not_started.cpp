@@ -26,28 +26,49 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     if (!first_.node() || mayBeStartedUnseen_)
       return;
-    const Word &word = *view_.modalMotionWords(*first_.node()).front();
-    const auto starts = [&](NodeId node) {
-      return view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}) != nullptr;
-    };
-    reporter.report({.message = fmt::format("the cutting move to {} comes without `M03` or `M04` before it",
-                                            context.quoted(word.span())),
-                     .span = word.span(),
-                     .way = wayFromEntry(facts, *first_.node(), starts),
-                     .notes = {"the tool is pushed into the part while the spindle stands still",
-                               "start the spindle by S and M03 before the first cut"}},
-                    speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
+    const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
+    Diagnostic diagnostic{.message = {},
+                          .span = view_.modalMotionWords(*first_.node()).front()->span(),
+                          .notes = {"the tool is pushed into the part while the spindle stands still"}};
+    if (const auto stop = stopBefore(facts)) {
+      diagnostic.message = fmt::format("the cutting move to {} comes with the spindle stopped", move);
+      diagnostic.labels = {{view_.findAction(stop->node, {CodeAction::SpindleStop})->span(), "stopped here"}};
+      diagnostic.way = describeWay(facts, stop->way);
+      diagnostic.notes.push_back("start it again by M03 before this cut");
+    } else {
+      diagnostic.message = fmt::format("the cutting move to {} comes without `M03` or `M04` before it", move);
+      diagnostic.way = wayFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
+      diagnostic.notes.push_back("start the spindle by S and M03 before the first cut");
+    }
+    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
   }
 
 private:
   static constexpr std::size_t kStopped = 0; // in kSpindleActions
 
+  bool starts(NodeId node) const {
+    return view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}) != nullptr;
+  }
+  struct Stop {
+    NodeId node;
+    std::vector<NodeId> way; // to the move
+  };
+  /// The nearest M05 in the text with which the spindle still stands at the move.
+  std::optional<Stop> stopBefore(const FlowFacts &facts) const {
+    for (NodeId stop = *first_.node(); stop != facts.entry();) {
+      stop = NodeId(stop.index() - 1);
+      if (!facts.isReached(stop) || !view_.findAction(stop, {CodeAction::SpindleStop}))
+        continue;
+      if (auto way = findWay(facts, stop, *first_.node(), [&](NodeId node) { return starts(node); }))
+        return Stop{stop, std::move(*way)};
+    }
+    return std::nullopt;
+  }
   /// Without any word about it the machine may be a plotter or a laser, and the text a piece of a program.
   bool speaksOfSpindle(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
       const auto words = view_.wordsOf(node);
-      if (std::ranges::any_of(words, [](const Word *word) { return word->address() == 'S'; }) ||
-          view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}))
+      if (std::ranges::any_of(words, [](const Word *word) { return word->address() == 'S'; }) || starts(node))
         return true;
     }
     return false;

@@ -57,6 +57,18 @@ class BadAnalysis(Scratch):
                 blocks.append("M99")
             self.follow(*blocks, "O60", "#100=#100+1", "M99")
 
+    def test_long_chains_of_calls_grow_with_their_length(self):
+        """Each program was once followed through all those below it: 500 of them took half a minute."""
+        for extra in ((), ("G65P9999A#1",)):
+            blocks = ["O9999", "#500=#1*2", "M99"]
+            for number in range(1, 501):
+                blocks += [f"O{number}", "#1=#1+1", f"IF[#1GT{number}]GOTO10", *extra, f"M98P{number + 1}", "N10M99"]
+            self.write("program.nc", "\n".join(("%", *blocks, "O501", "M99", "%", "")))
+            start = time.monotonic()
+            subprocess.run([FEEDHOLD, "check", "--dialect", "fanuc-30i", "program.nc"], cwd=self.folder, check=False,
+                           capture_output=True, timeout=LONGEST, preexec_fn=little_memory, stdin=subprocess.DEVNULL)
+            self.assertLess(time.monotonic() - start, LONGEST)
+
     def test_modal_calls_without_end(self):
         self.follow("O1", "N10G66P2A#1", "#1=#1+1", "GOTO10", "O2", "M99")
         self.follow("O1", "N10G66P2A#1", "X#1", "GOTO10", "O2", "G1Z#1", "M99")
