@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -82,19 +85,24 @@ Lines linesOf(const StateFacts &facts) {
 
 /// The lines that are new or say something else, and what has become of those that are gone.
 Lines changesFrom(const Lines &before, const Lines &now) {
-  const auto named = [](const Lines &lines, const std::string &name) {
-    return std::any_of(lines.begin(), lines.end(), [&](const Line &line) { return line.name == name; });
-  };
-  Lines changes;
+  std::unordered_multimap<std::string_view, const Line *> linesBefore; // a program may have hundreds of variables
+  for (const Line &line : before)
+    linesBefore.emplace(line.name, &line);
+  std::unordered_set<std::string_view> namesNow;
   for (const Line &line : now)
-    if (std::find(before.begin(), before.end(), line) == before.end() &&
-        (!line.isToldTogether || named(before, line.name)))
+    namesNow.insert(line.name);
+  Lines changes;
+  for (const Line &line : now) {
+    const auto [first, last] = linesBefore.equal_range(line.name);
+    if (std::none_of(first, last, [&](const auto &entry) { return *entry.second == line; }) &&
+        (!line.isToldTogether || first != last))
       changes.push_back({line.name, line.text, line.otherwise});
-  const bool variablesAreUnknown = named(now, std::string(kOtherVariables));
+  }
+  const bool variablesAreUnknown = namesNow.contains(kOtherVariables);
   const auto ofCycle = [](const Line &line) { return line.name.starts_with("cycle"); };
   const bool cycleEnded = std::none_of(now.begin(), now.end(), ofCycle); // the mode says so
   for (const Line &line : before)
-    if (!named(now, line.name) && !line.isToldTogether && !(cycleEnded && ofCycle(line))) {
+    if (!namesNow.contains(line.name) && !line.isToldTogether && !(cycleEnded && ofCycle(line))) {
       const bool isUnknownVariable = line.name.starts_with('#') && variablesAreUnknown;
       changes.push_back({line.name, std::string(isUnknownVariable ? kNotKnown : line.otherwise), {}});
     }
@@ -167,7 +175,8 @@ private:
     if (context.calls.empty())
       return context.program == context.start.program && context.file == context.start.file
                  ? fmt::format("{}, {}\n", name,
-                               context.assumesContract ? "in the calls that its contract allows" : "whatever was before")
+                               context.assumesContract ? "in the calls that its contract allows"
+                                                       : "whatever was before")
                  : fmt::format("{}, entered in a way that is not followed\n", name);
     std::string calls;
     for (std::size_t i = context.calls.size(); i-- > 0;)
