@@ -22,13 +22,14 @@ constexpr std::array kAssumptions = {
                "The bytes that the control runs, those of all programs that it calls, and its parameters are the ones "
                "whose hashes and settings this report lists.",
                "who loads the program", kAll},
-    Assumption{"Callers keep the contract",
-               "A program with a contract is proved for the calls that its contract allows. What it does when it is "
-               "called otherwise is not said, unless @GUARDED is among the proved claims.",
-               "who calls the program", kAll},
+    Assumption{
+        "Callers keep the contract",
+        "A program with a contract is proved for the calls that its contract allows. For other calls this report "
+        "says nothing, unless @GUARDED is among the proved claims.",
+        "who calls the program", kAll},
     Assumption{"Numbers are exact",
                "Arithmetic is that of exact numbers. Words are taken as they are written, not rounded to the least "
-               "increment of the control. Claims that hold without any margin are marked where that was found.",
+               "increment of the control. A claim that rounding may break is marked, where that was found.",
                "who reviews the report", kAll},
     Assumption{"The start is what the contract says",
                "Modal codes and the place of the tool at the start are those of @MODAL and @START; what a contract "

@@ -12,8 +12,9 @@ namespace feedhold::certificate {
 
 namespace {
 
-constexpr std::size_t kMostOnFirstPage = 10; // programs whose summary fits on paper with the boxes for signatures
-constexpr std::size_t kMostNamed = 12;       // programs in a line of the verdict
+constexpr std::size_t kMostOnFirstPage = 5; // programs whose summary surely leaves room for the boxes for signatures
+constexpr std::size_t kMostHashed = 4;      // programs whose hashes stand there, too
+constexpr std::size_t kMostNamed = 12;      // programs in a line of the verdict
 
 /// How many claims are shown as what: by the word of their look.
 using Counts = std::map<std::string_view, std::size_t>;
@@ -166,7 +167,9 @@ private:
       add("<tr><td><a class=\"name\" href=\"#{}\">{}</a><br><small class=\"path\">{}</small></td><td>{}{}{}</td>"
           "{}{}{}{}{}</tr>\n",
           anchorOf(file, program), text(program.at("name")), paths_.of(file.at("path")),
-          program.at("title") == "" ? std::string() : fmt::format("<b>{}</b><br>", text(program.at("title"))),
+          program.at("title") == ""
+              ? std::string()
+              : fmt::format("<b>{}</b><span class=\"paper\">. </span><br class=\"screen\">", text(program.at("title"))),
           prose(program.at("summary")), hashOf(file), cell(counts["proved"], "proved"),
           cell(counts["refuted"], "refuted"), cell(open + said, open == 0 ? "proved" : "alarms"),
           cell(counts["unknown"], "unknown"), cell(counts["unreachable"], "unreachable"));
@@ -175,7 +178,7 @@ private:
   }
   std::string hashOf(const Json &file) const {
     const auto sha = shaOf_.find(file.at("path"));
-    return programs_ > kMostOnFirstPage || sha == shaOf_.end()
+    return programs_ > kMostHashed || sha == shaOf_.end()
                ? std::string()
                : fmt::format("<br><small class=\"hash\" title=\"SHA-256\">{}</small>", sha->second);
   }
@@ -217,12 +220,12 @@ private:
   template <typename Item> void notFollowed(const Json &file, const Json &program, const Item &item) const {
     const std::string name = fmt::format("<a href=\"#{}\">{}</a>", anchorOf(file, program), text(program.at("name")));
     if (!program.at("incomplete").is_null())
-      item(fmt::format("{}: not all ways were followed: {}", name, prose(program.at("incomplete"))));
+      item(fmt::format("{}: not every way through it was followed: {}", name, prose(program.at("incomplete"))));
     std::set<std::string> told;
     for (const Json &each : program.at("unfollowed"))
       if (const std::string line =
-              fmt::format("{}: {} line {}: taken as anything at all: {}", name, paths_.of(each.at("path")),
-                          number(each.at("line")), prose(each.at("reason")));
+              fmt::format("{}: {} line {}: not followed, so that anything may happen there: {}", name,
+                          paths_.of(each.at("path")), number(each.at("line")), prose(each.at("reason")));
           told.insert(line).second)
         item(line);
   }
@@ -261,7 +264,7 @@ private:
 
   void identity() {
     add("<section id=\"identity\">\n<h2>Identity</h2>\n<p>The bytes that were read; paths are from the folder of this "
-        "report.</p>\n<table class=\"identity\">\n<thead><tr><th>File</th><th>As</th><th class=\"n\">Bytes</th>"
+        "report.</p>\n<table class=\"identity\">\n<thead><tr><th>File</th><th>Role</th><th class=\"n\">Bytes</th>"
         "<th>SHA-256</th></tr></thead>\n<tbody>\n");
     for (const Json &source : document_.at("sources")) {
       std::string roles;
@@ -271,7 +274,7 @@ private:
           roles, number(source.at("bytes")), text(source.at("sha256")));
     }
     add("</tbody>\n</table>\n<h3>Control and switches</h3>\n<table>\n<thead><tr><th>Files</th><th>Read for</th>"
-        "<th>Chosen by</th><th>Switches that are not as the dialect has them</th></tr></thead>\n<tbody>\n");
+        "<th>Chosen by</th><th>Switches that were changed</th></tr></thead>\n<tbody>\n");
     std::map<std::string, std::vector<std::string>> bySettings;
     for (const Json &file : document_.at("files"))
       bySettings[settings(file)].push_back(text(file.at("path")));
@@ -298,13 +301,19 @@ private:
 
   void disclaimer() {
     add("<section id=\"disclaimer\">\n<h2>What this report is not</h2>\n<p>An NC program is no safety function, and "
-        "this "
-        "report is none. It replaces neither guards nor limit switches, and not the first run with the hand on the "
-        "feed hold. It says nothing about fixtures, materials, cutting conditions and wear, nor about whether the part "
-        "is the one on the drawing.</p>\n<h2>How to check it</h2>\n<p><code>feedhold recheck FOLDER</code> compares "
-        "all "
-        "hashes, proves everything again, follows every certificate and asks Z3 and cvc5 again. The evidence lies in "
-        "<code>{}</code>.</p>\n</section>\n",
+        "this report is none. It does not replace guards, limit switches, and the first run with the hand on the feed "
+        "hold. It says nothing about fixtures, materials, cutting conditions and wear. It does not say that the part "
+        "is "
+        "the one on the drawing.</p>\n<h2>How to read the tables</h2>\n<p><b>Certified</b>: a small checker without "
+        "any "
+        "solver has followed each step of the proof, in exact fractions. <b>Two-solvers</b>: two different programs, "
+        "Z3 "
+        "and cvc5, agree. <b>Margin</b>: how far the tool stays away at least. <b>Work</b>: what the proof cost, in "
+        "steps "
+        "that are the same in every run. <b>Evidence</b>: the files of the proof; on paper, the number of their folder "
+        "in <code>{0}</code>.</p>\n<h2>How to check it</h2>\n<p><code>feedhold recheck FOLDER</code> compares all "
+        "hashes, "
+        "proves everything again, follows every certificate, and asks Z3 and cvc5 again.</p>\n</section>\n",
         kEvidenceFolder);
   }
 

@@ -112,7 +112,7 @@ private:
       openAlarm(*row);
     if (said.empty())
       return;
-    add("<h3>Alarms that come as the contract says</h3>\n<ul class=\"alarms\">\n");
+    add("<h3>Alarms that come as the contract says</h3>\n<ul class=\"alarm-list\">\n");
     for (const Json *row : said)
       add("<li>{} <small>line {}</small>: <code>{}</code> is proved. It comes, for instance, for "
           "<code>{}</code>.</li>\n",
@@ -212,7 +212,7 @@ private:
     if (program_.at("obligations").empty())
       return;
     add("<h3>Claims</h3>\n<table class=\"claims\">\n<thead><tr><th>Verdict</th><th class=\"n\">Line</th><th>Claim</th>"
-        "<th>How</th><th class=\"n\" title=\"questions that were asked, in units of work\">Work</th><th>Evidence</th>"
+        "<th>How</th><th class=\"n\">Work</th><th>Evidence</th>"
         "</tr></thead>\n");
     constexpr std::array kOrder = {"refuted", "alarm", "unknown", "alarm as said", "proved", "unreachable"};
     for (const std::string_view word : kOrder) {

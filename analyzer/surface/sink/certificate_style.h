@@ -59,7 +59,7 @@ td.none { color: var(--line); }
 td.refuted, td.unknown, td.alarms { font-weight: 700; }
 td.proved { color: var(--proved); } td.refuted { color: var(--refuted); } td.unknown, td.alarms { color: var(--unknown); }
 .path { overflow-wrap: anywhere; } .named { line-height: 1.8; } .paper { display: none; }
-.summary td:first-child { width: 16%; } .summary th.n { white-space: normal; width: 7.5%; }
+.summary th:first-child { width: 16%; } .summary .hash { font-size: 10.5px; } .summary th.n { white-space: normal; width: 7.5%; }
 .badge { display: inline-block; font-size: 12px; font-weight: 600; border-radius: 999px; padding: 1px 9px;
   white-space: nowrap; }
 .badge.proved { color: var(--proved); background: var(--proved-soft); }
@@ -88,7 +88,7 @@ td.proved { color: var(--proved); } td.refuted { color: var(--refuted); } td.unk
 .clauses, .calls { list-style: none; margin: 0; padding: 0; columns: 2; column-gap: 32px; }
 .clauses li, .calls li { break-inside: avoid; padding: 2px 0; }
 .clauses code { background: none; padding: 0; }
-.alarms { margin: 0; padding-left: 18px; }
+.alarm-list { margin: 0; padding-left: 18px; }
 .call-part { margin: 20px 0 28px; }
 .call-graph { display: block; max-width: 100%; height: auto; margin-bottom: 10px; }
 .call-graph text { text-anchor: middle; font-family: inherit; }
@@ -116,18 +116,19 @@ figcaption { font-size: 13px; color: var(--faint); border-top: 1px solid var(--l
   @bottom-right { content: "page " counter(page) " of " counter(pages); font: 8pt sans-serif; color: #59636e; }
   @bottom-left { font: 8pt monospace; color: #59636e; } }
 @media print {
-  body { font-size: 9.5pt; line-height: 1.4; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+  body { font-size: 9pt; line-height: 1.4; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   a { color: inherit; }
   .screen { display: none; } .paper { display: inline; }
   small, .id, .meta { font-size: 8pt; } .hash { font-size: 7pt; }
-  section { margin-top: 6mm; }
+  section { margin-top: 5mm; }
   header { padding-bottom: 3mm; } h1 { font-size: 20pt; margin-bottom: 1mm; } h2 { font-size: 13pt; margin-bottom: 1mm; }
   h3 { font-size: 10.5pt; margin: 4mm 0 1mm; }
   h2, h3, .meta, .sentence { break-after: avoid; } p { orphans: 2; widows: 2; }
   .verdict { margin-top: 4mm; padding: 3mm 4mm; gap: 4mm; } .verdict p { margin-bottom: 0.5mm; }
-  .verdict .named { line-height: 1.5; }
-  .summary th.n { font-size: 7pt; } .summary td:first-child { width: 18%; }
+  .verdict p { font-size: 8.5pt; } .verdict .named { line-height: 1.4; }
+  .summary { table-layout: fixed; } .summary th.n { font-size: 7pt; width: 6.2%; }
+  .summary th:first-child { width: 12.5%; } .summary .hash { font-size: 6.5pt; }
   table { font-size: 8.5pt; } thead { display: table-header-group; } th { font-size: 8pt; }
   th, td { padding: 1.2mm 2mm 1.2mm 0; }
   .claims { font-size: 8pt; } .claims small { font-size: 7.5pt; }
@@ -137,12 +138,12 @@ figcaption { font-size: 13px; color: var(--faint); border-top: 1px solid var(--l
   .claims td:first-child { width: 24mm; } .claims td:nth-child(4) { width: 34mm; }
   .claims td:nth-child(6) { width: 16mm; }
   .badge { font-size: 7.5pt; padding: 0 2mm; }
-  .sign-off td { height: 10mm; }
+  .sign-off td { height: 8mm; } .summary th, .summary td { padding: 0.7mm 1.5mm 0.7mm 0; }
   .clauses { font-size: 8.5pt; } .clauses li, .calls li { padding: 0; }
   pre { font-size: 7.5pt; padding: 1.5mm 2.5mm; margin-top: 1mm; } .witness { padding: 2mm 3mm; }
   tr, figure, .witness, .verdict, #sign-off, #disclaimer, .call-graph { break-inside: avoid; }
-  .program { padding-top: 5mm; margin-top: 8mm; } #sign-off + .program, #summary + .program { break-before: page; }
-  #calls { break-before: page; }
+  .program { padding-top: 5mm; margin-top: 8mm; } #sign-off + .program { break-before: page; }
+  #sign-off + #calls { break-before: page; }
   .call-graph { max-height: 235mm; max-width: 100%; width: auto; }
   figure { padding: 2mm; margin: 3mm 0; } figure svg.feedhold-plot { max-height: 105mm; }
 }
