@@ -32,7 +32,7 @@ FileMemory::Reading readAnew(const std::string &shown, const fs::path &path, con
 std::shared_ptr<const LoadedFile> read(const std::string &shown, const fs::path &path, const SourceFile &source,
                                        const Dialect &dialect, const ProgramsWish &wish) {
   const auto anew = [&] { return readAnew(shown, path, source, dialect, wish.open); };
-  if (wish.memory == nullptr || path.empty())
+  if (wish.memory == nullptr || wish.open == nullptr || path.empty()) // the text of a mapped file changes with it
     return anew().file;
   return wish.memory->reading(path, source, dialect, wish.open, anew);
 }

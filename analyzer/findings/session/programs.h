@@ -23,7 +23,7 @@ struct ProgramsWish {
   std::shared_ptr<const OpenTexts> open = {}; // of editors
   /// Whether its folder is read too when it calls nothing: to see who calls it.
   enum class Folder : std::uint8_t { WhenItCalls, Always } folder = Folder::WhenItCalls;
-  FileMemory *memory = nullptr; // null: every file is read
+  FileMemory *memory = nullptr; // of an editor's server, which has `open`, too; null: every file is read
 };
 
 /// One file, from its text to its model.

@@ -1,6 +1,8 @@
 #include "base/support/process.h"
 
+#include <chrono>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace feedhold {
 namespace {
@@ -41,6 +43,26 @@ TEST(Process, WatchdogStopsWhatWaits) {
   Result<ProcessOutput> output = runProgram({"sleep", "100"}, "", {.processorSeconds = 5, .watchdogSeconds = 1});
   ASSERT_TRUE(output.ok());
   EXPECT_EQ(output.value().end, ProcessOutput::End::Killed);
+}
+
+TEST(Process, AStopEndsTheChildrenOfItsThread) {
+  std::stop_source source;
+  const ChildrenStop stop(source.get_token());
+  EXPECT_EQ(runProgram({"sleep", "0.1"}, "", {}).value().end, ProcessOutput::End::Exited);
+  std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    source.request_stop();
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  EXPECT_EQ(runProgram({"sleep", "60"}, "", {}).value().end, ProcessOutput::End::Killed);
+  std::shared_mutex gate;
+  const auto sleeps = [] {
+    std::this_thread::sleep_for(std::chrono::seconds(60));
+    return std::string();
+  };
+  EXPECT_EQ(runInChild(sleeps, {}, gate).value().end, ProcessOutput::End::Killed);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));
+  std::jthread([] { EXPECT_EQ(runProgram({"sleep", "0.1"}, "", {}).value().end, ProcessOutput::End::Exited); });
 }
 
 TEST(Process, ChildGivesItsText) {
