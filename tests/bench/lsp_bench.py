@@ -67,6 +67,21 @@ class Requests:
         return self.ask("inlayHint", line, range={"start": {"line": line, "character": 0},
                                                   "end": {"line": line + 60, "character": 0}})
 
+    def hints_of_the_flow(self, line):
+        """With those that come when the flow of the text has been followed, and the client is told to ask again."""
+        start = time.monotonic()
+        self.hints(line)
+        self.client.wait(lambda m: m.get("method") == "workspace/inlayHint/refresh")
+        self.hints(line)
+        return (time.monotonic() - start) * 1e3
+
+    def measure_flow(self, line, edits):
+        times = []
+        for _ in range(edits):
+            self.edit()
+            times.append(self.hints_of_the_flow(line))
+        print(f"hints with G90 and G91, from the edit: {quantiles(times)}")
+
     def measure(self, name, ask, places, edits):
         """`edits` times the first answer for a text, then at each of the places for the same text."""
         first = []
@@ -84,6 +99,7 @@ def measure_requests(client, uri, text, version, count):
     edits = max(1, count // 10)
     requests.measure("hover", lambda line: requests.at("hover", line, "#"), variables, edits)
     requests.measure("hints of 60 lines", requests.hints, range(0, len(requests.lines), every), edits)
+    requests.measure_flow(len(requests.lines) // 2, edits)
     requests.measure("completion", lambda line: requests.at("completion", line, "#"), variables, edits)
 
 
@@ -109,7 +125,8 @@ def main():
     line = text.count("\n") // 2
     times, memory = [], []
     with tempfile.TemporaryDirectory() as folder:
-        client = Client(folder, options={"proofs": "off"})
+        client = Client(folder, options={"proofs": "off"},
+                        capabilities={"workspace": {"inlayHint": {"refreshSupport": True}}})
         start = time.monotonic()
         uri = client.open("bench.nc", text)
         client.diagnostics(uri, 1)

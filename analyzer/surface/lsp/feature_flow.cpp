@@ -2,19 +2,38 @@
 
 namespace feedhold::lsp {
 
-const BlockStates *Flow::statesOf(const std::shared_ptr<const LoadedPrograms> &programs) {
-  if (programs_.lock() != programs) {
-    forget();
-    if (Result<BlockStates> states = rangesOf(*programs, {}))
-      states_ = states.take();
-    programs_ = programs;
+const BlockStates *Flow::statesOf(const Programs &programs) {
+  if (!isKnown(programs))
+    take(programs, follow(*programs));
+  return states_.get();
+}
+
+const BlockStates *Flow::statesSoon(const Programs &programs) {
+  if (isKnown(programs) || !followLater)
+    return statesOf(programs);
+  if (awaited_.lock() != programs) {
+    awaited_ = programs;
+    followLater(programs);
   }
-  return states_ && !states_->gaveUp ? &*states_ : nullptr;
+  return nullptr;
 }
 
 void Flow::forget() {
   states_.reset();
   programs_.reset();
+  awaited_.reset();
+}
+
+Flow::States Flow::follow(const LoadedPrograms &programs) {
+  Result<BlockStates> states = rangesOf(programs, {});
+  if (!states || states.value().gaveUp)
+    return nullptr;
+  return std::make_shared<const BlockStates>(states.take());
+}
+
+void Flow::take(const Programs &programs, States states) {
+  programs_ = programs;
+  states_ = std::move(states);
 }
 
 } // namespace feedhold::lsp

@@ -65,7 +65,7 @@ private:
     const BlockId first = file_.tree.blockAt(wanted_.begin), last = file_.tree.blockAt(wanted_.end);
     if (!group || !mayChangeUnseen(*group))
       return;
-    const BlockStates *states = view_.flow->statesOf(view_.programs);
+    const BlockStates *states = view_.flow->statesSoon(view_.programs);
     if (!states)
       return;
     std::optional<std::pair<BlockId, CodeSet>> before;

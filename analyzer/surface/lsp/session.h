@@ -93,6 +93,7 @@ private:
 
   // ---- requests about a document (session_requests.cpp) ----
   Json askFeature(const Feature &feature, const Json &params);
+  void followLater(const std::string &uri, const Flow::Programs &programs);
   Json askFeatureOfAll(const Feature &feature, const Json &params);
   Json pullDiagnostics(const Json &params);
   Json colours(const Json &params);
@@ -117,6 +118,7 @@ private:
   bool showsProgress_ = false;
   bool refreshesDiagnostics_ = false;
   bool refreshesLenses_ = false;
+  bool refreshesHints_ = false;
   bool registersWatchers_ = false;
   bool createsFiles_ = false; // as part of an edit
   std::uint64_t lastAsked_ = 0;

@@ -32,6 +32,7 @@ Json ClientSession::initialize(const Json &params) {
   pullsDiagnostics_ = at(client, "/textDocument/diagnostic").is_object();
   refreshesDiagnostics_ = isTrue(client, "/workspace/diagnostics/refreshSupport");
   refreshesLenses_ = isTrue(client, "/workspace/codeLens/refreshSupport");
+  refreshesHints_ = isTrue(client, "/workspace/inlayHint/refreshSupport");
   showsProgress_ = isTrue(client, "/window/workDoneProgress");
   registersWatchers_ = isTrue(client, "/workspace/didChangeWatchedFiles/dynamicRegistration");
   const Json operations = at(client, "/workspace/workspaceEdit/resourceOperations");

@@ -85,6 +85,8 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
   document->proofs = std::move(remarks);
   if (isNews)
     publish(*document);
+  if (refreshesHints_)
+    ask("workspace/inlayHint/refresh", nullptr);
   if (refreshesLenses_)
     ask("workspace/codeLens/refresh", nullptr);
 }

@@ -26,8 +26,11 @@ Json ClientSession::askFeature(const Feature &feature, const Json &params) {
   const std::optional<std::string> uri = uriIn(params);
   if (!uri)
     return askFeatureOfAll(feature, params);
-  if (OpenDocument *document = workspace_.find(*uri))
+  if (OpenDocument *document = workspace_.find(*uri)) {
+    if (refreshesHints_ && !document->kept->followLater)
+      document->kept->followLater = [this, id = *uri](const Flow::Programs &programs) { followLater(id, programs); };
     return workspace_.programsOf(*document) ? feature.answer(workspace_.viewOf(*document), params) : Json();
+  }
   OpenDocument closed; // a file beside one that is open: where a call led
   closed.document.uri = *uri;
   closed.document.path = pathOfUri(*uri);
@@ -36,6 +39,27 @@ Json ClientSession::askFeature(const Feature &feature, const Json &params) {
   if (!isThere)
     throw RequestError(ErrorCode::InvalidParams, fmt::format("the document {} is not open", *uri));
   return feature.answer(workspace_.viewOf(closed), params);
+}
+
+/// The client asks for hints again when it is done.
+void ClientSession::followLater(const std::string &uri, const Flow::Programs &programs) {
+  flowLane_.submit(uri + "#hints", [this, uri, programs](const std::stop_token &stop) {
+    if (stop.stop_requested())
+      return;
+    std::function<void()> task;
+    try {
+      task = [this, uri, programs, states = Flow::follow(*programs)] {
+        OpenDocument *found = workspace_.find(uri);
+        if (found == nullptr || found->programs != programs)
+          return;
+        found->kept->take(programs, states);
+        ask("workspace/inlayHint/refresh", nullptr);
+      };
+    } catch (const std::exception &error) {
+      task = [this, uri, why = std::string(error.what())] { log(fmt::format("{}: {}", uri, why)); };
+    }
+    queue_.push({.task = std::move(task)});
+  });
 }
 
 /// What several documents see of one folder comes once.
