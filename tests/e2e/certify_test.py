@@ -4,6 +4,7 @@ import html.parser
 import json
 import re
 import shutil
+import subprocess
 import unittest
 
 import jsonschema
@@ -247,8 +248,8 @@ class Certify(Scratch):
     def test_nothing_changed(self):
         result = self.feedhold("recheck", "report")
         self.assertExit(result, 0)
-        self.assertRegex(result.stdout, r"all as it was: 4 sources as named, [1-9][0-9]* obligations proved again; "
-                                        r"[1-9][0-9]* certificates followed")
+        self.assertRegex(result.stdout, r"all as it was: 4 sources as named, [1-9][0-9]* obligations proved again\n"
+                                        r"evidence: [1-9][0-9]* questions, [1-9][0-9]* certificates followed")
         self.assertExit(self.feedhold("recheck", "../report", cwd=self.folder / "nc"), 0)
 
     def test_report_moves_with_its_programs(self):
@@ -310,7 +311,7 @@ class Certify(Scratch):
     def test_changed_evidence_and_pictures(self):
         largest = {}
         for path in self.report.rglob("*"):
-            if path.suffix in (".claim", ".certificate", ".svg"):
+            if path.suffix in (".smt2", ".certificate", ".svg"):
                 largest[path.suffix] = max(largest.get(path.suffix, path), path, key=lambda each: each.stat().st_size)
         self.assertEqual(len(largest), 3)
         for path in [*largest.values(), self.report / "certificate" / "index.json"]:
@@ -348,12 +349,27 @@ class QuestionsToSolvers(Scratch):
             self.skipTest("cvc5 is not installed")
         self.write("O9115.nc", (ROOT / "corpus" / "packages" / "mould-entry" / "O9115.nc").read_bytes())
         self.assertExit(self.feedhold("certify", "O9115.nc", "-o", "report", "--dialect", "fanuc-30i"), 1)
-        (self.query,) = (self.folder / "report" / "certificate").rglob("*.smt2")
+        self.questions = sorted((self.folder / "report" / "certificate").rglob("*.smt2"))
+        (self.query,) = (path for path in self.questions if not path.with_suffix(".certificate").exists())
 
     def test_each_solver_is_asked(self):
         result = self.feedhold("recheck", "report")
         self.assertExit(result, 0)
-        self.assertIn("1 question asked again (Z3 refutes 1, cvc5 refutes 1)", result.stdout)
+        asked = len(self.questions)
+        self.assertGreater(asked, 1)
+        self.assertIn(f"{asked} questions, {asked - 1} certificates followed by the checker, {asked} asked again",
+                      result.stdout)
+        for solver in ("z3", "cvc5"):
+            said = re.search(solver + r" [0-9.]+ refutes (\d+)(?:, gives no answer to (\d+))?[;)]", result.stdout)
+            self.assertEqual(int(said[1]) + int(said[2] or 0), asked, "a solver contradicts a certificate")
+            self.assertGreaterEqual(int(said[1]), 0.9 * asked - 1)
+
+    def test_each_solver_is_asked_where_it_is_needed(self):
+        result = self.feedhold("recheck", "report", "--solvers", "needed", "-v")
+        self.assertExit(result, 0)
+        self.assertRegex(result.stdout, r" 1 asked again \(z3 [0-9.]+ refutes 1; cvc5 [0-9.]+ refutes 1\)")
+        name = self.query.relative_to(self.folder / "report").as_posix()
+        self.assertIn(f"{name}: Z3 refutes it, cvc5 refutes it\n", result.stdout)
 
     def test_changed_question_is_found(self):
         text = self.query.read_text()
@@ -368,7 +384,16 @@ class QuestionsToSolvers(Scratch):
         self.query.write_text("\n".join(line for line in lines if not line.startswith("(assert")) + "\n")
         result = self.feedhold("recheck", "report")
         self.assertExit(result, 1)
-        self.assertIn("Z3 refutes 0, cvc5 refutes 0", result.stdout)
+        self.assertIn(f"{self.query.name}`: neither Z3 nor cvc5 refutes it", result.stdout)
+
+    def test_questions_are_smtlib(self):
+        """What the solvers say of the files themselves, run by hand as a reader of the report would."""
+        for question in self.questions:
+            with self.subTest(question=question.name):
+                said = subprocess.run(["cvc5", "--nl-ext=full", "--nl-ext-tplanes-interleave", "--rlimit=40000",
+                                       question], capture_output=True, text=True, check=False)
+                self.assertEqual(said.stderr, "")
+                self.assertIn(said.stdout, ("unsat\n", "unknown\n"))
 
 
 if __name__ == "__main__":

@@ -52,6 +52,7 @@ struct Claim {
 /// variable that equals one branch or the other.  Refused when it grows beyond a bound.
 Result<Claim> claimOf(const smt::TermStore &store, std::span<const smt::TermId> formulas);
 
+/// As SMT-LIB 2: `unsat` says that the claim is right. `readClaim` gives the same claim back.
 std::string writeClaim(const Claim &claim);
 Result<Claim> readClaim(std::string_view text);
 

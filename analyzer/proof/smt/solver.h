@@ -6,8 +6,10 @@
 #include "proof/smt/smtlib.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace feedhold::smt {
 
@@ -34,6 +36,8 @@ std::string z3Version();
 
 /// cvc5, run as a program.  Gives no models.  NoAnswer says so where it is not installed.
 Answer askCvc5(const std::string &smtlib, std::uint64_t resources);
+/// Of many questions one after the other, without starting the program for each: the answers in their order.
+std::vector<Answer> askCvc5InTurn(std::span<const std::string> texts, std::uint64_t resources);
 /// Absent where it is not installed.
 std::optional<std::string> cvc5Version();
 

@@ -1,14 +1,17 @@
 // `feedhold recheck DIR`: whether a bundle of proofs, or the report of `certify`, still says what proving the same now
 // says, and whether its evidence holds.
 #include "dialects/registry.h"
+#include "proof/smt/solver.h"
 #include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/certificate_run.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"
+#include "surface/sink/evidence_check.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -19,8 +22,10 @@ namespace {
 struct RecheckArguments {
   std::string folder;
   std::string against;
+  std::string solvers = "all";
   unsigned jobs = 0;
   bool quiet = false;
+  bool verbose = false;
 };
 
 ProofsWish wishFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
@@ -48,20 +53,75 @@ std::string counted(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
-int present(const BundleCheck &check, std::size_t obligations, const RecheckArguments &arguments) {
-  for (const std::string &problem : check.problems)
-    print(problem + "\n");
-  if (!arguments.quiet)
-    print(fmt::format("{}: {} proved again, {} followed, {} solved again\n",
-                      check.problems.empty() ? "all as it was" : counted(check.problems.size(), "difference"),
-                      counted(obligations, "obligation"), counted(check.certificates, "certificate"),
-                      counted(check.solved, "text")));
-  return check.problems.empty() ? kExitClean : kExitFindings;
+/// What was found, and how much was looked at.
+struct Findings {
+  std::vector<std::string> problems;
+  std::vector<Question> questions;
+
+  void add(std::vector<std::string> lines) { problems.insert(problems.end(), lines.begin(), lines.end()); }
+};
+
+/// `folder`: of the evidence, with a `/`, or empty.
+Findings evidenceFindings(const Bundle &evidence, std::string_view folder, const RecheckArguments &arguments) {
+  const AskSolvers asked = arguments.solvers == "all" ? AskSolvers::Always : AskSolvers::WhereNeeded;
+  Findings findings;
+  findings.questions = checkEvidence(evidence, {asked, arguments.jobs});
+  for (const Question &question : findings.questions)
+    if (!question.holds())
+      findings.problems.push_back(fmt::format("`{}{}`: {}", folder, question.file, question.problem));
+  return findings;
 }
 
-void addVersion(BundleCheck &check, const std::string &version) {
+std::size_t countOf(const std::vector<Question> &questions, SolverSays Question::*solver, SolverSays says) {
+  return static_cast<std::size_t>(std::count_if(questions.begin(), questions.end(),
+                                                [&](const Question &question) { return question.*solver == says; }));
+}
+
+/// `z3 4.8.12 refutes 120, gives no answer to 3`
+std::string agreementOf(std::string_view name, const std::vector<Question> &questions, SolverSays Question::*solver) {
+  const std::size_t silent = countOf(questions, solver, SolverSays::NoAnswer);
+  const std::size_t contradicts = countOf(questions, solver, SolverSays::Satisfiable);
+  std::string text = fmt::format("{} refutes {}", name, countOf(questions, solver, SolverSays::Refutes));
+  if (silent > 0)
+    text += fmt::format(", gives no answer to {}", silent);
+  if (contradicts > 0)
+    text += fmt::format(", says that {} can be satisfied", contradicts);
+  return text;
+}
+
+std::string summaryOf(const std::vector<Question> &questions) {
+  const auto certified = static_cast<std::size_t>(std::count_if(
+      questions.begin(), questions.end(), [](const Question &question) { return question.hasCertificate; }));
+  const std::size_t asked = questions.size() - countOf(questions, &Question::z3, SolverSays::NotAsked);
+  return fmt::format(
+      "evidence: {}, {} followed by the checker, {} asked again ({}; {})\n", counted(questions.size(), "question"),
+      counted(certified, "certificate"), asked, agreementOf(smt::z3Version(), questions, &Question::z3),
+      agreementOf(smt::cvc5Version().value_or("cvc5, which is not installed,"), questions, &Question::cvc5));
+}
+
+void printEach(const std::vector<Question> &questions, std::string_view folder) {
+  for (const Question &question : questions)
+    print(fmt::format("{}{}: {}Z3 {}, cvc5 {}\n", folder, question.file,
+                      question.hasCertificate ? "the checker follows its certificate, " : "", nameOf(question.z3),
+                      nameOf(question.cvc5)));
+}
+
+int present(const Findings &findings, const std::string &told, std::string_view folder,
+            const RecheckArguments &arguments, int whenSame) {
+  if (arguments.verbose)
+    printEach(findings.questions, folder);
+  for (const std::string &problem : findings.problems)
+    print(problem + "\n");
+  if (!arguments.quiet)
+    print(fmt::format("{}: {}\n{}",
+                      findings.problems.empty() ? "all as it was" : counted(findings.problems.size(), "difference"),
+                      told, summaryOf(findings.questions)));
+  return findings.problems.empty() ? whenSame : kExitFindings;
+}
+
+void addVersion(Findings &findings, const std::string &version) {
   if (version != FEEDHOLD_VERSION)
-    check.problems.push_back(
+    findings.problems.push_back(
         fmt::format("it was made by feedhold {}, and this is feedhold {}", version, FEEDHOLD_VERSION));
 }
 
@@ -72,38 +132,20 @@ Result<int> recheckBundle(const Bundle &stored, const RecheckArguments &argument
   if (const auto complaint = complaintAbout(origin.value()))
     return Error{*complaint};
 
-  BundleCheck check = checkEvidence(stored);
-  addVersion(check, origin.value().version);
+  Findings findings = evidenceFindings(stored, "", arguments);
+  addVersion(findings, origin.value().version);
   const ProofsResult result = proveAll(wishFrom(origin.value(), arguments), {allDialects(), allRules()});
   for (const PathProblem &problem : result.errors)
-    check.problems.push_back(problem.path + ": " + problem.message);
-  const Bundle now = makeBundle(result, origin.value().reading, FEEDHOLD_VERSION, arguments.folder);
-  for (std::string &difference : differences(stored, now))
-    check.problems.push_back(std::move(difference));
+    findings.problems.push_back(problem.path + ": " + problem.message);
+  findings.add(differences(stored, makeBundle(result, origin.value().reading, FEEDHOLD_VERSION, arguments.folder)));
   std::size_t obligations = 0;
   for (const ProvedFile &file : result.files)
     for (const ProvedProgram &program : file.programs)
       obligations += program.proof.obligations.size();
-  return present(check, obligations, arguments);
+  return present(findings, counted(obligations, "obligation") + " proved again", "", arguments, kExitClean);
 }
 
 // ---- the report of `certify` ----
-
-std::string sayEvidence(const BundleCheck &check) {
-  return fmt::format("{} followed by the checker, {} asked again (Z3 refutes {}, cvc5 refutes {})",
-                     counted(check.certificates, "certificate"), counted(check.solved, "question"), check.byZ3,
-                     check.byCvc5);
-}
-
-int presentReport(const BundleCheck &check, const std::string &told, const RecheckArguments &arguments, int whenSame) {
-  for (const std::string &problem : check.problems)
-    print(problem + "\n");
-  if (!arguments.quiet)
-    print(fmt::format("{}: {}; {}\n",
-                      check.problems.empty() ? "all as it was" : counted(check.problems.size(), "difference"), told,
-                      sayEvidence(check)));
-  return check.problems.empty() ? whenSame : kExitFindings;
-}
 
 /// Programs that lie elsewhere are compared, and not proved again: what they call may be anywhere.
 Result<int> recheckReport(const Bundle &stored, const RecheckArguments &arguments) {
@@ -113,34 +155,29 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   if (const auto &dialect = origin.value().wish.reading.dialect)
     if (const auto complaint = complaintAboutDialect(*dialect, allDialects()))
       return Error{*complaint};
-  BundleCheck check = checkEvidence(evidenceOf(stored));
-  for (std::string &problem : check.problems)
-    problem.insert(1, kEvidenceFolder);
-  addVersion(check, origin.value().version);
-  const auto add = [&](std::vector<std::string> lines) {
-    check.problems.insert(check.problems.end(), lines.begin(), lines.end());
-  };
-  add(inconsistencies(stored));
+  Findings findings = evidenceFindings(evidenceOf(stored), kEvidenceFolder, arguments);
+  addVersion(findings, origin.value().version);
+  findings.add(inconsistencies(stored));
   const auto place = arguments.against.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.against);
   const SourceCheck sources = checkSources(stored, arguments.folder, place);
-  add(sources.changed);
+  findings.add(sources.changed);
   const std::string compared = counted(sources.same, "source") + " as named";
   if (place || (sources.same == 0 && sources.changed.empty())) {
     for (const std::string &gone : sources.gone)
       printAside(fmt::format("`{}` is not there: it is not compared\n", gone));
-    return presentReport(check, compared + ", nothing proved again", arguments, kExitUnknown);
+    return present(findings, compared + ", nothing proved again", kEvidenceFolder, arguments, kExitUnknown);
   }
   for (const std::string &gone : sources.gone)
-    check.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
+    findings.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
   const CertificateRun run = runCertificate(origin.value().wish, arguments.folder, arguments.jobs);
   for (const PathProblem &problem : run.problems)
-    check.problems.push_back(problem.path + ": " + problem.message);
+    findings.problems.push_back(problem.path + ": " + problem.message);
   if (run.problems.empty()) {
-    add(differences(evidenceOf(stored), evidenceOf(run.report)));
-    add(certificateDifferences(stored, run.report));
+    findings.add(differences(evidenceOf(stored), evidenceOf(run.report)));
+    findings.add(certificateDifferences(stored, run.report));
   }
-  return presentReport(check, fmt::format("{}, {} proved again", compared, counted(run.counts.all(), "obligation")),
-                       arguments, kExitClean);
+  return present(findings, fmt::format("{}, {} proved again", compared, counted(run.counts.all(), "obligation")),
+                 kEvidenceFolder, arguments, kExitClean);
 }
 
 Result<int> recheck(const RecheckArguments &arguments) {
@@ -171,7 +208,11 @@ Command addRecheckCommand(CLI::App &parent) {
   app->add_option("folder", arguments->folder, "what was named to `certify -o` or `prove --certificate`")->required();
   app->add_option("--against", arguments->against,
                   "of a report: compare the programs of this folder, where those that were proved are not at hand");
+  app->add_option("--solvers", arguments->solvers,
+                  "which questions Z3 and cvc5 are asked: all, or those that have no certificate (needed)")
+      ->check(CLI::IsMember({"all", "needed"}));
   app->add_option("--jobs", arguments->jobs, "number of threads (default: one per processor)");
+  app->add_flag("-v,--verbose", arguments->verbose, "print what became of each question");
   app->add_flag("-q,--quiet", arguments->quiet, "print differences only");
   return {app, [arguments] { return recheckOrComplain(*arguments); }};
 }

@@ -2,6 +2,7 @@
 
 #include "base/support/match.h"
 #include "base/support/sha256.h"
+#include "proof/prove/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>
@@ -132,7 +133,7 @@ private:
         });
   }
   Json certificateToJson(const prove::CertificateEvidence &evidence, const std::string &name) {
-    return {{"claim", keep(name + ".claim", evidence.claim)},
+    return {{"claim", keep(name + ".smt2", evidence.claim)},
             {"certificate", keep(name + ".certificate", evidence.certificate)}};
   }
   Json keep(const std::string &name, const std::string &text) {
@@ -145,11 +146,6 @@ private:
   const fs::path &folder_;
   Bundle bundle_;
   std::size_t count_ = 0;
-};
-
-constexpr std::array kKinds = {
-#define OBLIGATION(kind, name) prove::ObligationKind::kind,
-#include "proof/prove/obligation_kinds.def"
 };
 
 } // namespace
@@ -183,7 +179,7 @@ Result<BundleOrigin> originOf(const Bundle &bundle, const fs::path &folder) {
     origin.reading.isolated = reading.at("isolated");
     if (!reading.at("config").is_null())
       origin.reading.config = (folder / std::string(reading.at("config"))).lexically_normal();
-    for (const prove::ObligationKind kind : kKinds)
+    for (const prove::ObligationKind kind : prove::kObligationKinds)
       for (const Json &name : reading.at("only"))
         if (name == prove::nameOf(kind))
           origin.reading.only.push_back(kind);

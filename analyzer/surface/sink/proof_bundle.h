@@ -39,14 +39,4 @@ Result<BundleOrigin> originOf(const Bundle &bundle, const std::filesystem::path 
 /// How a bundle differs from what proving the same now gives; a line for each difference, changed sources first.
 std::vector<std::string> differences(const Bundle &stored, const Bundle &now);
 
-struct BundleCheck {
-  std::size_t certificates = 0; // that the checker verified
-  std::size_t solved = 0;       // texts that solvers were asked again
-  std::size_t byZ3 = 0;         // of them those that each refutes
-  std::size_t byCvc5 = 0;
-  std::vector<std::string> problems;
-};
-/// Follows every certificate and asks the solvers again.
-BundleCheck checkEvidence(const Bundle &bundle);
-
 } // namespace feedhold

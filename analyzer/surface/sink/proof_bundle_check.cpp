@@ -1,6 +1,4 @@
-// What has become of a bundle: compared with a new proof of the same, and followed certificate by certificate.
-#include "proof/check/certificate.h"
-#include "proof/smt/solver.h"
+// What has become of a bundle: compared with a new proof of the same.
 #include "surface/sink/proof_bundle.h"
 
 #include <fmt/format.h>
@@ -94,55 +92,8 @@ private:
   std::vector<std::string> problems_;
 };
 
-/// Absent: the certificate shows that the claim is contradictory.
-std::optional<Error> followed(const std::string &claimText, const std::string &certificateText) {
-  const Result<check::Claim> claim = check::readClaim(claimText);
-  if (!claim)
-    return claim.error();
-  const Result<check::Certificate> certificate = check::readCertificate(claim.value(), certificateText);
-  if (!certificate)
-    return certificate.error();
-  return check::verify(claim.value(), certificate.value());
-}
-
-/// Absent: both solvers refute the text.
-std::optional<Error> solved(const std::string &text, BundleCheck &check) {
-  const prove::Budget budget;
-  smt::TermStore store;
-  const Result<std::vector<smt::TermId>> formulas = smt::readSmtLib(store, text);
-  if (!formulas)
-    return formulas.error();
-  const bool z3 = smt::askZ3(text, smt::arithmeticOf(store, formulas.value()), budget.z3).isUnsat();
-  const bool cvc5 = smt::askCvc5(text, budget.cvc5).isUnsat();
-  check.byZ3 += z3 ? 1 : 0;
-  check.byCvc5 += cvc5 ? 1 : 0;
-  if (z3 && cvc5)
-    return std::nullopt;
-  return Error{z3     ? "Z3 refutes it, and cvc5 does not"
-               : cvc5 ? "cvc5 refutes it, and Z3 does not"
-                      : "neither Z3 nor cvc5 refutes it"};
-}
-
 } // namespace
 
 std::vector<std::string> differences(const Bundle &stored, const Bundle &now) { return Comparison().run(stored, now); }
-
-BundleCheck checkEvidence(const Bundle &bundle) {
-  BundleCheck result;
-  for (const auto &[name, text] : bundle) {
-    std::optional<Error> wrong;
-    if (name.ends_with(".claim")) {
-      const auto certificate = bundle.find(name.substr(0, name.rfind('.')) + ".certificate");
-      wrong = certificate == bundle.end() ? Error{"it has no certificate"} : followed(text, certificate->second);
-      ++result.certificates;
-    } else if (name.ends_with(".smt2")) {
-      wrong = solved(text, result);
-      ++result.solved;
-    }
-    if (wrong)
-      result.problems.push_back(fmt::format("`{}`: {}", name, wrong->message));
-  }
-  return result;
-}
 
 } // namespace feedhold

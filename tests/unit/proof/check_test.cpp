@@ -121,6 +121,9 @@ TEST(CheckerText, ComesBack) {
   Claim claim = productClaim();
   claim.variables[0].name = "#500 (A)";
   claim.conjunction.clauses.push_back(clause);
+  claim.conjunction.clauses.push_back(Clause{{clause.alternatives.front()}});
+  const Conjunction nested{{{{}, Relation::Zero}}, {clause, Clause{}}};
+  claim.conjunction.clauses.push_back(Clause{{Conjunction{}, nested}});
   Result<Claim> read = readClaim(writeClaim(claim));
   ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_EQ(read.value(), claim);
@@ -136,9 +139,20 @@ TEST(CheckerText, ComesBack) {
 
 TEST(CheckerText, RefusesDamage) {
   const Claim claim = productClaim();
-  EXPECT_FALSE(readClaim("(claim (real x) (real x))").ok());
-  EXPECT_FALSE(readClaim("(claim (>=0 (1 z)))").ok());
-  EXPECT_FALSE(readClaim("(claim (real x) (>=0 (1 x))").ok());
+  const auto refuses = [](const std::string &middle) {
+    return !readClaim("(set-logic QF_LRA)" + middle + "(check-sat)").ok();
+  };
+  EXPECT_FALSE(refuses("(declare-const x Real)(assert (> x 0.0))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(declare-const x Real)"));
+  EXPECT_TRUE(refuses("(declare-const x Bool)"));
+  EXPECT_TRUE(refuses("(declare-const |1| Real)(assert (> |1| 0.0))"));
+  EXPECT_TRUE(refuses("(assert (> z 0.0))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(assert (> x 1.0))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(assert (not (> x 0.0)))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(assert (> (/ x 2.0) 0.0))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(assert (> (/ 2.0 0.0) 0.0))"));
+  EXPECT_TRUE(refuses("(declare-const x Real)(assert (> x 0.0)"));
+  EXPECT_FALSE(readClaim("(declare-const x Real)(assert (> x 0.0))").ok());
   EXPECT_FALSE(readCertificate(claim, "(guess)").ok());
   EXPECT_FALSE(readCertificate(claim, "(combination (product one 0))").ok());
   EXPECT_FALSE(readCertificate(claim, "(tighten -1)").ok());
