@@ -76,6 +76,7 @@ M30
 CAPABILITIES = {
     "window": {"workDoneProgress": True},
     "workspace": {"diagnostics": {"refreshSupport": True}, "codeLens": {"refreshSupport": True},
+                  "inlayHint": {"refreshSupport": True},
                   "didChangeWatchedFiles": {"dynamicRegistration": True},
                   "workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]}},
     "textDocument": {"hover": {"contentFormat": ["markdown"]}, "publishDiagnostics": {"relatedInformation": True}}}
