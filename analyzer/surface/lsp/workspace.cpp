@@ -70,7 +70,6 @@ void Workspace::textChanged(OpenDocument &changed, const std::vector<TextChange>
 }
 
 void Workspace::surroundingsChanged() {
-  filesBelow_.clear();
   for (auto &[uri, open] : documents_) {
     open.stamp = ++lastStamp_;
     open.isFlowKnown = false;
@@ -147,18 +146,21 @@ std::string Workspace::nameIn(const OpenDocument &document, const CheckOptions &
   return options.piped ? options.piped->name : options.paths.front();
 }
 
-/// Counts no further than to the largest folder that is looked at as a whole.
+/// Counted once, and no further than to the largest folder that is looked at as a whole.  One that cannot be counted,
+/// like the root of a system, is none.
 std::size_t Workspace::filesBelow(const fs::path &root) {
   const auto [known, isNew] = filesBelow_.try_emplace(root, 0);
   if (!isNew)
     return known->second;
-  std::error_code error; // what cannot be listed is not looked at either
+  std::error_code error;
   for (fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
        !error && at != end && known->second <= kLargestFolder; at.increment(error)) {
     if (at->path().filename().native().starts_with('.'))
       at.disable_recursion_pending();
     ++known->second;
   }
+  if (error)
+    known->second = kLargestFolder + 1;
   return known->second;
 }
 

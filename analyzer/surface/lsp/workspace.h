@@ -94,7 +94,7 @@ private:
 
   KnownNames known_;
   FileMemory memory_;
-  std::map<std::filesystem::path, std::size_t> filesBelow_; // roots, until files change
+  std::map<std::filesystem::path, std::size_t> filesBelow_; // roots: only about how many matters
   std::map<std::string, OpenDocument> documents_;           // by URI
   std::shared_ptr<const OpenTexts> texts_ = std::make_shared<const OpenTexts>();
   std::shared_ptr<const OpenUris> uris_ = std::make_shared<const OpenUris>();
