@@ -58,6 +58,7 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
   const auto end = Clock::now() + std::chrono::seconds(limits.watchdogSeconds);
   ProcessOutput result{ProcessOutput::End::Exited, 0, ""};
   std::array<char, 4096> buffer{};
+  bool isCutShort = false; // also of one that has ended meanwhile: its output was not read to the end
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     pollfd wait{from, POLLIN, 0};
@@ -68,6 +69,7 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
       continue;
     if (ready <= 0) {
       kill(child, SIGKILL);
+      isCutShort = true;
       break;
     }
     const ssize_t count = read(from, buffer.data(), buffer.size());
@@ -81,7 +83,7 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status)) {
+  if (WIFEXITED(status) && !isCutShort) {
     result.exitCode = WEXITSTATUS(status);
   } else {
     ++failures;

@@ -65,6 +65,19 @@ TEST(Process, AStopEndsTheChildrenOfItsThread) {
   std::jthread([] { EXPECT_EQ(runProgram({"sleep", "0.1"}, "", {}).value().end, ProcessOutput::End::Exited); });
 }
 
+TEST(Process, WhatIsNotReadToTheEndCountsAsKilled) {
+  const std::uint64_t before = failedChildren();
+  std::stop_source source;
+  const ChildrenStop stop(source.get_token());
+  std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    source.request_stop();
+  });
+  // The shell has ended when the stop comes, and what it started holds the pipe.
+  EXPECT_EQ(runProgram({"sh", "-c", "sleep 5 & exit 0"}, "", {}).value().end, ProcessOutput::End::Killed);
+  EXPECT_EQ(failedChildren(), before + 1);
+}
+
 TEST(Process, ChildGivesItsText) {
   std::shared_mutex gate;
   Result<ProcessOutput> output = runInChild([] { return std::string("done"); }, {}, gate);
