@@ -45,6 +45,13 @@ class BadInput(Scratch):
         self.assertIn("empty", result.stdout + result.stderr)
         self.assertExit(result, 2)
 
+    def test_contract_in_the_place_of_a_program(self):
+        self.write("bad.contract", "@REQUIRE #21 GT 0\n")
+        result = self.check_beside_bad("bad.contract")
+        self.assertExit(result, 2)
+        self.assertIn("bad.contract: holds contracts, which are read with their program", result.stderr)
+        self.assertNotIn("macro compiler", result.stdout)
+
     def test_binary_file(self):
         self.write("picture.nc", bytes(range(256)) * 64)
         self.assertIn("picture.nc", self.check("picture.nc", "bad.nc").stderr)

@@ -339,6 +339,12 @@ class Certify(Scratch):
                 self.write("none/certificate.json", text)
                 self.assertExit(self.feedhold("recheck", "none"), 2)
 
+    def test_folder_that_holds_none(self):
+        self.write("none/index.html", "of some other program")
+        result = self.feedhold("recheck", "none")
+        self.assertExit(result, 2)
+        self.assertIn("there is no certificate.json and no index.json", result.stderr)
+
 
 class QuestionsToSolvers(Scratch):
     """Of a claim that two solvers prove and no certificate."""

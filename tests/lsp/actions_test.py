@@ -57,6 +57,22 @@ class Actions(Session):
         self.assertNotIn("goto-missing-label", codes)
         self.assertIn("suppression-without-reason", codes)
 
+    def test_allowing_in_front_of_a_comment_without_an_end(self):
+        """Behind it, the words of the suppression would be part of that comment, and might close it."""
+        cases = (("a.nc", "O1\nGOTO 99 (TO THE CLAMP\nM30\n", "goto-missing-label", "GOTO 99 (@ALLOW goto-missing-label )"),
+                 ("b.nc", "O1\n(TO THE CLAMP\nM30\n", "unclosed-comment", "(@ALLOW unclosed-comment )"),
+                 ("c.ngc", "#1-3 ; THE CLAMP\nM2\n", "missing-equals", "#1-3 (@ALLOW missing-equals )"))
+        for name, before, rule, begin in cases:
+            client, uri, found = self.opened(before, name)
+            self.assertIn(rule, self.codes(found))
+            action, = [a for a in self.ask(client, uri, 0, 9) if a["title"] == f"allow `{rule}` here, with a reason"]
+            text = applied(before, action["edit"]["changes"][uri])
+            self.assertIn(begin, text)
+            client.change(uri, 2, {"text": text})
+            codes = self.codes(client.all_findings(uri, 2))
+            self.assertNotIn(rule, codes)
+            self.assertEqual("unclosed-comment" in codes, name == "a.nc")
+
     CREATES = {"workspace": {"workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]}}}
 
     def clause_for(self, client, uri, rule):

@@ -63,6 +63,29 @@ class Errors(Session):
             self.assertEqual(client.error("textDocument/codeAction", params), INVALID_PARAMS, params)
         self.assertEqual(client.error("textDocument/hover", HOVER), INVALID_PARAMS)  # is not open
 
+    def test_bad_commands(self):
+        client = self.client()
+        for command, arguments, complaint in (("feedhold.brew", [], "there is no command `feedhold.brew`"),
+                                              ("feedhold.prove", [], "needs a document"),
+                                              ("feedhold.prove", None, "needs a document"),
+                                              ("feedhold.prove", [{}], "'uri' not found"),
+                                              ("feedhold.runWitness", ["untitled:a"], "untitled:a is not open")):
+            answer = client.answer(client.ask("workspace/executeCommand", {"command": command, "arguments": arguments}))
+            self.assertEqual(answer["error"]["code"], INVALID_PARAMS)
+            self.assertIn(complaint, answer["error"]["message"])
+            self.assertNotIn("json.exception", answer["error"]["message"])
+
+    def test_a_long_line(self):
+        """Its colours are found in one pass: counting each place from the head of the line would take minutes."""
+        client = self.client(options={"proofs": "off"})
+        words = 100_000
+        uri = client.open("a.nc", "O1\n(µ😀) " + "X1 " * words)
+        data = client.request("textDocument/semanticTokens/full", {"textDocument": {"uri": uri}}, 30)["data"]
+        rows = list(zip(*[iter(data)] * 5))
+        self.assertEqual([row[:3] for row in rows[:4]], [(0, 0, 2), (1, 0, 5), (0, 6, 1), (0, 1, 1)])
+        self.assertEqual({row[:3] for row in rows[4:]}, {(0, 2, 1), (0, 1, 1)})
+        self.assertEqual(len(rows), 2 + 2 * words)
+
     def test_bad_notifications_change_nothing(self):
         client = self.client()
         uri = client.open("a.nc", SLIP)

@@ -2,6 +2,7 @@
 #include "findings/session/discovery.h"
 
 #include "base/support/text.h"
+#include "findings/session/sidecars.h"
 
 #include <fmt/format.h>
 
@@ -58,6 +59,9 @@ public:
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status))
       addFolder(path);
+    else if (fs::exists(status) && isSidecarName(path))
+      result_.problems.push_back(
+          {shownPath(path), "holds contracts, which are read with their program; name that one"});
     else if (fs::exists(status))
       take(path, FoundBy::Name, configs_.forFolder(folderOf(path)));
     else

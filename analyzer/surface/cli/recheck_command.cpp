@@ -186,6 +186,9 @@ Result<int> recheck(const RecheckArguments &arguments) {
     return stored.error();
   if (stored.value().contains(std::string(kCertificate)))
     return recheckReport(stored.value(), arguments);
+  if (!stored.value().contains(std::string(kBundleIndex)))
+    return Error{
+        fmt::format("holds neither a report nor proofs: there is no {} and no {}", kCertificate, kBundleIndex)};
   if (!arguments.against.empty())
     return Error{"--against is for reports of `feedhold certify`"};
   return recheckBundle(stored.value(), arguments);

@@ -1,5 +1,6 @@
 #include "surface/lsp/allowances.h"
 
+#include "base/support/text.h"
 #include "findings/session/sidecars.h"
 
 #include <fmt/format.h>
@@ -59,18 +60,27 @@ std::optional<Home> homeOf(ProgramId program, const LoadedFile &file) {
   return names.empty() ? std::nullopt : std::optional(Home{names.front(), nullptr});
 }
 
+/// What a comment can stand behind: all of the block but its last blanks, and a comment that goes on to the end of the
+/// line.
+Span placeForComment(BlockId at, const LoadedFile &file) {
+  const Block &block = file.tree.blocks[at];
+  std::uint32_t end = block.end;
+  for (const Comment &comment : file.tree.commentsOf(at))
+    if (!comment.closed || file.source.text(comment.span).starts_with(';'))
+      end = std::min(end, comment.span.begin);
+  while (end > block.begin && isBlank(file.source.text()[end - 1]))
+    --end;
+  return {block.begin, end};
+}
+
 } // namespace
 
 std::optional<Edit> commentAllowing(const Remark &remark, const LoadedFile &file) {
   const std::optional<BlockId> at = blockOf(remark, file);
   if (!at)
     return std::nullopt;
-  const Block &block = file.tree.blocks[*at];
-  std::string_view text = file.source.text(block.span());
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
-    text.remove_suffix(1);
-  const std::uint32_t end = block.begin + static_cast<std::uint32_t>(text.size());
-  return Edit{{end, end}, fmt::format("{}(@ALLOW {} )", text.empty() ? "" : " ", remark.code)};
+  const Span place = placeForComment(*at, file);
+  return Edit{{place.end, place.end}, fmt::format("{}(@ALLOW {} )", place.empty() ? "" : " ", remark.code)};
 }
 
 std::optional<SidecarClause> clauseAllowing(const Remark &remark, const LoadedFile &file) {

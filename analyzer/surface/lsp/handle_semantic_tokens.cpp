@@ -112,8 +112,8 @@ private:
   }
 
   std::size_t put(Span span, Kind kind, unsigned modifiers = 0) {
-    const auto [line, from] = places_.lineAndCharacter(span.begin);
-    const auto [lastLine, to] = places_.lineAndCharacter(span.end);
+    const auto [line, from] = placeOf(span.begin);
+    const auto [lastLine, to] = placeOf(span.end);
     if (lastLine != line) // clients take tokens of one line
       return 0;
     const std::uint32_t lines = line - line_;
@@ -125,9 +125,18 @@ private:
     return 0;
   }
 
+  /// Of offsets that come in order.
+  Places::LineAndCharacter placeOf(std::uint32_t offset) {
+    place_ = places_.lineAndCharacter(offset, offset_, place_);
+    offset_ = offset;
+    return place_;
+  }
+
   const View &view_;
   const LoadedFile &file_;
   Places places_;
+  std::uint32_t offset_ = 0; // the last one that was asked for
+  Places::LineAndCharacter place_{0, 0};
   std::vector<std::uint32_t> data_;
   std::uint32_t line_ = 0;
   std::uint32_t from_ = 0;

@@ -48,10 +48,22 @@ nlohmann::json Places::position(std::uint32_t offset) const {
   return {{"line", line}, {"character", character}};
 }
 
+/// A file of the folder in another encoding: the client will have decoded it when it goes there.
+bool Places::isDecodedByClient() const {
+  return encoding_ == PositionEncoding::Utf16 && source_.encoding() != Encoding::Ascii &&
+         source_.encoding() != Encoding::Utf8;
+}
+
+Places::LineAndCharacter Places::lineAndCharacter(std::uint32_t offset, std::uint32_t known,
+                                                  LineAndCharacter there) const {
+  const Span line = source_.lineSpan(there.line + 1);
+  if (offset < known || offset > line.end || isDecodedByClient())
+    return lineAndCharacter(offset);
+  return {there.line, there.character + units(source_.text(Span{known, offset}))};
+}
+
 Places::LineAndCharacter Places::lineAndCharacter(std::uint32_t offset) const {
-  // A file of the folder in another encoding: the client will have decoded it when it goes there.
-  if (encoding_ == PositionEncoding::Utf16 && source_.encoding() != Encoding::Ascii &&
-      source_.encoding() != Encoding::Utf8) {
+  if (isDecodedByClient()) {
     const Position position = source_.positionUtf16(offset);
     return {position.line - 1, position.column - 1};
   }

@@ -25,6 +25,9 @@ public:
   };
   /// Both from 0.
   LineAndCharacter lineAndCharacter(std::uint32_t offset) const;
+  /// The same, where the place of an offset that does not lie behind is known: a long line is not counted from its
+  /// head.
+  LineAndCharacter lineAndCharacter(std::uint32_t offset, std::uint32_t known, LineAndCharacter there) const;
   /// `{"line": 0, "character": 0}`, both from 0.
   nlohmann::json position(std::uint32_t offset) const;
   /// `{"start": .., "end": ..}`
@@ -34,6 +37,7 @@ public:
   Span span(const nlohmann::json &range) const;
 
 private:
+  bool isDecodedByClient() const;
   std::uint32_t units(std::string_view utf8) const;
 
   SourceFile source_;

@@ -14,6 +14,14 @@ constexpr auto kLongestWait = std::chrono::milliseconds(50);
 
 bool isId(const Json &id) { return id.is_number_integer() || id.is_string(); }
 
+/// Without the number that the library puts before its message: `[json.exception.type_error.302] type must be ..`.
+std::string complaintAboutForm(const std::string &method, const Json::exception &error) {
+  const std::string_view what = error.what();
+  const std::size_t number = what.find("] ");
+  return fmt::format("what `{}` is asked with has another form: {}", method,
+                     number == std::string_view::npos ? what : what.substr(number + 2));
+}
+
 } // namespace
 
 ClientSession::ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options)
@@ -66,7 +74,7 @@ void ClientSession::receiveRequest(const Json &id, const std::string &method, co
   } catch (const Refused &refusal) {
     writer_.write(errorMessage(id, ErrorCode::RequestFailed, refusal.what()));
   } catch (const Json::exception &error) {
-    writer_.write(errorMessage(id, ErrorCode::InvalidParams, error.what()));
+    writer_.write(errorMessage(id, ErrorCode::InvalidParams, complaintAboutForm(method, error)));
   } catch (const std::exception &error) {
     log(fmt::format("{}: {}", method, error.what()));
     writer_.write(errorMessage(id, ErrorCode::InternalError, error.what()));

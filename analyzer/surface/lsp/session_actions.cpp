@@ -163,7 +163,13 @@ Json ClientSession::formatting(const Json &params) {
 
 Json ClientSession::execute(const Json &params) {
   const auto command = params.at("command").get<std::string>();
-  const Json argument = params.at("arguments").at(0);
+  const auto arguments = params.find("arguments");
+  if (command != "feedhold.prove" && command != "feedhold.runWitness")
+    throw RequestError(ErrorCode::InvalidParams, fmt::format("there is no command `{}`", command));
+  if (arguments == params.end() || !arguments->is_array() || arguments->empty())
+    throw RequestError(ErrorCode::InvalidParams,
+                       fmt::format("`{}` needs a document: its URI, or {{\"uri\": ..}}", command));
+  const Json &argument = arguments->front();
   const Json target = {{"textDocument", {{"uri", argument.is_string() ? argument : argument.at("uri")}}}};
   OpenDocument &document = documentOf(target);
   if (command == "feedhold.prove") {
@@ -171,9 +177,7 @@ Json ClientSession::execute(const Json &params) {
     startProofs(document);
     return nullptr;
   }
-  if (command == "feedhold.runWitness")
-    return runWitness(document, argument.at("obligation").get<std::string>());
-  throw RequestError(ErrorCode::InvalidParams, fmt::format("there is no command `{}`", command));
+  return runWitness(document, argument.at("obligation").get<std::string>());
 }
 
 /// The prover has run it already; a person reads what it came to, and how to see it again.
