@@ -52,7 +52,7 @@ LoopFlow described(const FlowFacts &facts, LoopFlow loop) {
 }
 
 /// A component, and the natural loop of each edge to its head where there are several: what leads to the start of the
-/// edge without passing the head.
+/// edge without passing the head.  Nothing when no edge leads back: its passes are never reached.
 std::vector<std::vector<NodeId>> partsOf(const FlowFacts &facts, NodeId head, const std::vector<NodeId> &all) {
   std::map<NodeId, std::vector<NodeId>> predecessors;
   for (const NodeId node : all)
@@ -60,8 +60,10 @@ std::vector<std::vector<NodeId>> partsOf(const FlowFacts &facts, NodeId head, co
       if (std::ranges::binary_search(all, next))
         predecessors[next].push_back(node);
     });
-  std::vector<std::vector<NodeId>> parts{all};
   const std::vector<NodeId> tails = predecessors[head];
+  if (tails.empty())
+    return {};
+  std::vector<std::vector<NodeId>> parts{all};
   for (const NodeId tail : tails) {
     std::vector<NodeId> open{tail};
     std::set<NodeId> inside{head, tail};
