@@ -287,6 +287,13 @@ class Prove(Scratch):
         self.assertIn("effort", self.prove("-v", "O1.nc").stdout)
         self.assertNotIn("in 1 program", self.prove("-q", "O1.nc").stdout)
 
+    def test_a_mapping_of_the_caller_ends_with_the_position(self):
+        for begins, ends in (("G68", "G69"), ("G51", "G50"), ("G51.1", "G50.1 X0")):
+            self.write("O7.nc", f"O7\n(@MODAL G90 G17 G21 G80 {begins})\n(@START X0 Y0)\n(@ENSURE POS[X] EQ 10)\n"
+                                f"(@ENSURE #100 EQ 10)\nG01 X10. F100.\n#100=#5001\n{ends}\nM99\n")
+            verdicts = {row["claim"]: row["verdict"] for row in self.obligations("--only", "ensures", "O7.nc")}
+            self.assertEqual(verdicts, {"@ENSURE POS[X] EQ 10": "unknown", "@ENSURE #100 EQ 10": "proved"}, begins)
+
     # ---- other formats ----
 
     def test_schema_refuses_what_is_no_verdict(self):

@@ -3,6 +3,7 @@
 #include "base/support/match.h"
 #include "inference/absint/refine.h"
 #include "meaning/semantics/evaluate.h"
+#include "meaning/semantics/mappings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ public:
   void modal(const ModalCode &given) {
     const Code *code =
         given.address == 'G' ? findGCode(*within_.dialect, given.tenths) : findMCode(*within_.dialect, given.tenths);
-    if (!code)
+    if (!code || beginsMapping(code->action)) // whose code is certain, is taken to be the program's own
       return;
     if (const auto index = modes_.indexOf(*code); index && given.address == 'G')
       state_.codes[code->group] = CodeSet::of(*index);

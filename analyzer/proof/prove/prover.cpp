@@ -1,6 +1,7 @@
 #include "proof/prove/prover.h"
 
 #include "meaning/cfg/wto.h"
+#include "meaning/semantics/mappings.h"
 #include "proof/prove/entails.h"
 #include "proof/prove/exact_run.h"
 #include "proof/prove/loop_account.h"
@@ -109,9 +110,13 @@ void Prover::explore() {
     if (off != 0)
       entry_.codes[*polar] = reading_.code(static_cast<std::uint8_t>(std::countr_zero(off)));
   }
+  startCodes_ = entry_.codes;
   if (contract()) {
     terms_ = std::make_unique<ContractTerms>(reading_, programs_, program_.file, *contracts_);
+    const auto anyCodes = entry_.codes;
     terms_->prepare(*contract(), entry_);
+    startCodes_ = entry_.codes;
+    leaveMappingsOpen(anyCodes);
     demands_ = terms_->demands(*contract(), entry_);
     space_ = std::make_unique<SpaceClaims>(store_, *terms_, *contract(), entry_);
   }
@@ -130,6 +135,16 @@ void Prover::explore() {
   witnesses_->sampleEnds(terms_->inputEnds(*contract(), entry_));
 }
 
+/// A mapping whose code is certain is taken to be the program's own; one of the caller ends with what was known of the
+/// position, so that its code is left open.
+void Prover::leaveMappingsOpen(const decltype(SymbolicState::codes) &anyCodes) {
+  for (const ModalCode &code : contract()->modal) {
+    const Code *row = code.address == 'G' ? findGCode(*file().dialect, code.tenths) : nullptr;
+    if (row && beginsMapping(row->action))
+      entry_.codes[row->group] = anyCodes[row->group];
+  }
+}
+
 /// The machine starts with the codes and at the place that the contract says.
 void Prover::start(WitnessSearch &witnesses) const {
   const auto numberOf = [&](TermId term) -> std::optional<double> {
@@ -137,7 +152,7 @@ void Prover::start(WitnessSearch &witnesses) const {
   };
   RunOptions options;
   for (std::size_t group = 0; group < kModalGroups; ++group)
-    if (const auto code = numberOf(entry_.codes[group].index))
+    if (const auto code = numberOf(startCodes_[group].index))
       options.codes.emplace_back(static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(*code));
   std::map<Axis, TermId> place;
   for (const Axis axis : kAllAxes)

@@ -27,6 +27,7 @@ private:
   std::vector<Obligation> brokenPromises(const GivenVariables &given) const;
   Violation brokenPromise(const Obligation &obligation) const;
   void explore();
+  void leaveMappingsOpen(const decltype(SymbolicState::codes) &anyCodes);
   void settleAll();
   void withdraw(std::string_view reason);
 
@@ -129,6 +130,7 @@ private:
   smt::TermStore store_;
   SymbolicReading reading_;
   SymbolicState entry_;
+  decltype(SymbolicState::codes) startCodes_; // as the contract says
   std::vector<smt::TermId> demands_;
   std::unique_ptr<ContractTerms> terms_;
   std::unique_ptr<SpaceClaims> space_;

@@ -123,6 +123,15 @@ TEST(ContractEntry, TakesModesAndTheStart) {
   EXPECT_TRUE(entry.at(Axis::Y).number().isInterval());
 }
 
+TEST(ContractEntry, AMappingOfTheCallerIsNotTakenForOneOfTheProgram) {
+  const Program program("(@MODAL G68 G51 G51.1)\n");
+  ASSERT_TRUE(program.contract().isSound);
+  const AbstractState entry = program.entry();
+  const ModalTable modes(fanuc());
+  for (const ModalKind kind : {ModalKind::Rotation, ModalKind::Scaling, ModalKind::Mirror})
+    EXPECT_EQ(entry.codes[*modes.groupOf(kind)], CodeSet::atEntry()) << nameOf(kind);
+}
+
 TEST(ContractEntry, LeavesOutWhatNoCallCanKeep) {
   const AbstractState entry = Program("(@PARAM #1 0..5)\n(@REQUIRE #1 GT 9)\n(@REQUIRE #1 GE 2)\n").entry();
   EXPECT_EQ(entry.locals[1].number().interval(), (Interval{2, 5}));
