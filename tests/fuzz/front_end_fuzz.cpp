@@ -1,9 +1,10 @@
-// Any bytes through lexer, parser, model and rules: the first byte picks the dialect, the rest is the program.
+// Any bytes through lexer, parser, model, flow and rules: the first byte picks the dialect, the rest is the program.
 #include "base/support/check.h"
 #include "dialects/registry.h"
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"
 #include "language/parse/parse.h"
+#include "meaning/cfg/program_set.h"
 #include "rules/registry.h"
 
 #include <vector>
@@ -33,7 +34,8 @@ void run(std::string text, const Dialect &dialect) {
   const std::vector<FileContracts> contracts = {readContracts(source, tree, model, dialect, sidecars)};
   FEEDHOLD_CHECK(dump(contracts.front(), model, tree).empty() == contracts.front().contracts.empty(),
                  "a contract is lost");
-  const FileContext context{FileId(0), source, dialect, tree, model, graph, nullptr, contracts};
+  const ProgramSet programs({{FileId(0), &source, &tree, &model, &dialect}}, graph);
+  const FileContext context{FileId(0), source, dialect, tree, model, graph, &programs, contracts};
   for (const RawFinding &finding :
        applySuppressions(runRules(everyRule(), context), context, allRules(), everyRule()).kept)
     FEEDHOLD_CHECK(finding.diagnostic.span.end <= source.text().size(), "a finding outside of the text");

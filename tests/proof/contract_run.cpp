@@ -132,6 +132,12 @@ bool ContractOnRun::isAllowed(const EntryValue &demand, const EntryValues &entry
       });
 }
 
+bool ContractOnRun::foresees(double alarm) const {
+  return contract_ && std::any_of(contract_->alarms.begin(), contract_->alarms.end(), [&](const AlarmPromise &promise) {
+           return static_cast<double>(promise.number) == alarm;
+         });
+}
+
 bool ContractOnRun::allows(const EntryValues &entry) const {
   if (!contract_)
     return true;

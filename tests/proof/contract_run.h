@@ -18,6 +18,8 @@ public:
   /// Values from the ranges of the contract, and where they end.
   void draw(soundness::EntryValues &entry, soundness::Random &random) const;
   bool allows(const soundness::EntryValues &entry) const;
+  /// An `@ALARM` names the number.
+  bool foresees(double alarm) const;
   /// What the run did to a promise; absent when it kept it, or came to no end at which it counts.
   std::optional<std::string> broken(const prove::Obligation &promise, const soundness::EntryValues &entry,
                                     const RunResult &run) const;

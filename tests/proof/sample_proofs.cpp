@@ -172,10 +172,11 @@ private:
     return found;
   }
 
-  static bool shows(const Obligation &obligation, const RunResult &result) {
+  bool shows(const Obligation &obligation, const RunResult &result) const {
     const bool here = result.place == obligation.place && result.alarmSpan == obligation.span;
     switch (obligation.kind) {
-    case ObligationKind::AlarmUnreachable: return here && result.end == RunEnd::UserAlarm;
+    case ObligationKind::AlarmUnreachable:
+      return here && result.end == RunEnd::UserAlarm && !contract_.foresees(result.alarmNumber);
     case ObligationKind::NoControlAlarm:
       return here && result.end == RunEnd::Alarm && result.alarm == *obligation.alarm;
     case ObligationKind::LoopEnds:
@@ -200,10 +201,13 @@ private:
     if (file().model->programOf(machine_.set.node(result.place).block) != callee_.program)
       return std::nullopt;
     const bool own = result.end == RunEnd::UserAlarm;
-    const std::string claim = own ? "this alarm is never raised" : fmt::format("no {} here", meaningOf(result.alarm));
+    if (own && contract_.foresees(result.alarmNumber))
+      return std::nullopt; // the clause that foresees it is judged by itself
+    const std::string noAlarm = fmt::format("no {} here", meaningOf(result.alarm));
     for (const Obligation &obligation : proof_.obligations)
       if (obligation.kind == (own ? ObligationKind::AlarmUnreachable : ObligationKind::NoControlAlarm) &&
-          obligation.place == result.place && obligation.span == result.alarmSpan && obligation.claim == claim) {
+          obligation.place == result.place && obligation.span == result.alarmSpan &&
+          (own || obligation.claim == noAlarm)) {
         if (!holds(obligation))
           return std::nullopt;
         return fmt::format("{} is {} ({}), and is raised at {}", obligation.id, nameOf(obligation.verdict),
@@ -211,7 +215,7 @@ private:
       }
     if (proof_.incomplete)
       return std::nullopt;
-    return fmt::format("{}: nothing is claimed of {}", claim, at(result.place));
+    return fmt::format("nothing is claimed of the stop at {}", at(result.place));
   }
 
   std::optional<std::string> repetition(const RunResult &result, const Passes &passes, std::uint64_t moments) const {

@@ -323,52 +323,6 @@ void Prover::decideSingleRun(Obligation &obligation, const std::vector<Query> &q
       obligation.verdict = Verdict::Refuted;
 }
 
-// ---- places where a run may stop ----
-
-void Prover::stops() {
-  const auto violated = [](const Check &check) {
-    return [&check](const RunResult &run) -> std::optional<std::string> {
-      const bool here = run.place == check.place && run.alarmSpan == check.span;
-      if (!check.alarm && here && run.end == RunEnd::UserAlarm)
-        return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
-      if (check.alarm && here && run.end == RunEnd::Alarm && run.alarm == *check.alarm)
-        return "the control stops here";
-      return std::nullopt;
-    };
-  };
-  for (const Check &check : found_.checks) {
-    const ObligationKind kind = check.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
-    if (!isOwn(check.place) || !wanted(kind))
-      continue;
-    std::vector<Query> queries;
-    for (const CheckInstance &instance : check.instances)
-      queries.push_back(onPath(instance.conditions, store_.logicalNot(instance.stops)));
-    Obligation &obligation =
-        add(kind, check.place, check.span,
-            check.alarm ? fmt::format("no {} here", meaningOf(*check.alarm)) : "this alarm is never raised");
-    obligation.alarm = check.alarm;
-    settle(obligation, queries, violated(check));
-  }
-}
-
-/// Alarms that no path comes to.
-void Prover::unmetAlarms() {
-  if (!wanted(ObligationKind::AlarmUnreachable))
-    return;
-  for (const VariableUse &use : file().model->variablesOf(program_.program)) {
-    const VariableRange *row = use.write && use.number ? findVariable(*file().dialect, *use.number) : nullptr;
-    if (!row || row->role != VariableRole::Alarm ||
-        std::any_of(found_.checks.begin(), found_.checks.end(), [&](const Check &check) {
-          return !check.alarm && check.place.file == program_.file && programs_.node(check.place).block == use.block;
-        }))
-      continue;
-    const Place place{program_.file, file().cfg.nodeOf(use.block)};
-    settle(add(ObligationKind::AlarmUnreachable, place, file().tree->expressions[use.expression].span,
-               "this alarm is never raised"),
-           {}, [](const RunResult &) { return std::optional<std::string>(); });
-  }
-}
-
 // ---- ends ----
 
 namespace {

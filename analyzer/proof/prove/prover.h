@@ -31,9 +31,11 @@ private:
   void settleAll();
   void withdraw(std::string_view reason);
 
-  // ---- obligations of the program's own text (prover.cpp) ----
+  // ---- places where a run may stop (prover_stops.cpp) ----
   void stops();
   void unmetAlarms();
+  smt::TermId isOneOf(const SymbolicValue &value, const std::vector<std::uint32_t> &numbers);
+  // ---- other obligations of the program's own text (prover.cpp) ----
   void loops();
   void programEnds();
   // ---- where all loops have few passes (prover_passes.cpp) ----

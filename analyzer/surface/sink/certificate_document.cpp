@@ -300,10 +300,7 @@ private:
   static Json alarmToJson(const std::optional<RaisedAlarm> &alarm) {
     if (!alarm)
       return nullptr;
-    return {{"number", alarm->number ? Json(*alarm->number) : Json()},
-            {"message", alarm->message},
-            {"saying", nameOf(alarm->saying)},
-            {"clause", alarm->clause.empty() ? Json() : Json(alarm->clause)}};
+    return {{"number", alarm->number ? Json(*alarm->number) : Json()}, {"message", alarm->message}};
   }
   /// The files of its first part, and how many parts there are; the index of the evidence names the files one by one,
   /// with their hashes.
@@ -335,7 +332,7 @@ private:
     row["path"] = relative(file.loaded->file(obligation.place.file).path);
     row["line"] = file.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
     row["message"] = holds(obligation.verdict) ? Json() : Json(messageOf(obligation, dialect));
-    row["alarm"] = alarmToJson(raisedAlarm(obligation, file, program));
+    row["alarm"] = alarmToJson(raisedAlarm(obligation, file));
     row["guard"] = obligation.guard ? Json(obligation.guard->clause) : Json();
     if (!obligation.witness)
       return row;

@@ -17,20 +17,13 @@ Result<Json> readDocument(const Bundle &report);
 /// What every certificate takes for given, numbered.
 Json assumptions();
 
-/// What a contract says of an alarm.
-enum class AlarmSaying : std::uint8_t { NotSaid, SaidNotProved, Said };
-std::string_view nameOf(AlarmSaying saying);
-
-/// An alarm of the program that some call raises.
+/// An alarm of the program that some call raises, and that its contract does not foresee.
 struct RaisedAlarm {
   std::optional<std::uint32_t> number = {}; // absent: it is computed
   std::string message = {};                 // what the operator reads
-  AlarmSaying saying = AlarmSaying::NotSaid;
-  std::string clause = {}; // that says for which calls it comes
 };
 /// Of a refuted `alarm-unreachable`.
-std::optional<RaisedAlarm> raisedAlarm(const prove::Obligation &obligation, const ProvedFile &file,
-                                       const ProvedProgram &program);
+std::optional<RaisedAlarm> raisedAlarm(const prove::Obligation &obligation, const ProvedFile &file);
 
 /// One or two sentences for who releases the program.
 std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program);

@@ -101,24 +101,15 @@ private:
   }
 
   void alarms() {
-    std::vector<const Json *> open, said;
+    std::vector<const Json *> raised;
     for (const Json &row : program_.at("obligations"))
       if (!row.at("alarm").is_null())
-        (row.at("alarm").at("saying") == "said" ? said : open).push_back(&row);
-    if (!open.empty())
+        raised.push_back(&row);
+    if (!raised.empty())
       add("<h3>Alarms to decide on</h3>\n<p>These alarms are written in the program. A call that the contract allows "
           "raises them. That may be meant, or a mistake: the contract has to say it.</p>\n");
-    for (const Json *row : open)
+    for (const Json *row : raised)
       openAlarm(*row);
-    if (said.empty())
-      return;
-    add("<h3>Alarms that come as the contract says</h3>\n<ul class=\"alarm-list\">\n");
-    for (const Json *row : said)
-      add("<li>{} <small>line {}</small>: <code>{}</code> is proved. It comes, for instance, for "
-          "<code>{}</code>.</li>\n",
-          nameOfAlarm(row->at("alarm")), number(row->at("line")), text(row->at("alarm").at("clause")),
-          text(row->at("witness").at("call")));
-    add("</ul>\n");
   }
   void openAlarm(const Json &row) {
     const Json &alarm = row.at("alarm");
@@ -127,13 +118,9 @@ private:
     if (!row.at("witness").is_null())
       add("<p>It comes, for instance, for <code>{}</code></p>\n", text(row.at("witness").at("call")));
     add("<ul>\n");
-    if (alarm.at("saying") == "said-not-proved")
-      add("<li>The contract says <code>{}</code>, but that is not proved. Read what the claims below say of it.</li>\n",
-          text(alarm.at("clause")));
-    else
-      add("<li>If it has to come: <code>@ALARM {} IFF ...</code> in the contract, with the condition for which it "
-          "comes.</li>\n",
-          alarm.at("number").is_null() ? std::string("n") : number(alarm.at("number")));
+    add("<li>If it has to come: <code>@ALARM {} IFF ...</code> in the contract, with the condition for which it "
+        "comes.</li>\n",
+        alarm.at("number").is_null() ? std::string("n") : number(alarm.at("number")));
     if (row.at("guard").is_null())
       add("<li>If no caller may do this: <code>@REQUIRE ...</code> in the contract, with what callers promise.</li>\n");
     else
@@ -257,8 +244,6 @@ private:
       html += fmt::format(" <small>margin {}</small>", number(row.at("margin")));
     if (row.at("exactOnly") == true)
       html += fmt::format("<br><small class=\"caution\">{}</small>", kExactOnly);
-    if (!row.at("alarm").is_null() && !row.at("alarm").at("clause").is_null())
-      remark(fmt::format("<code>{}</code>", text(row.at("alarm").at("clause"))));
     if (row.at("verdict") == "unknown" && !row.at("guard").is_null())
       remark(fmt::format("it would be proved with <code>{}</code> in the contract", text(row.at("guard"))));
     return html;

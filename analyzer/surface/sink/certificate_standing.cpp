@@ -1,5 +1,5 @@
-// Whether a program may be released by what was proved.  An alarm that a call can raise is no fault by itself: where
-// the contract says for which calls it comes, and that is proved, the program does what it should.
+// Whether a program may be released by what was proved.  An alarm that a call can raise is no fault by itself, but the
+// contract has to foresee it.
 #include "base/support/text.h"
 #include "surface/sink/certificate_parts.h"
 
@@ -40,29 +40,9 @@ std::string messageBehind(const LoadedFile &file, const Node &node, Span assignm
   return {};
 }
 
-void addClauses(RaisedAlarm &alarm, const ProvedFile &file, const ProvedProgram &program) {
-  const Contract *contract = file.file().contracts.of(program.program);
-  if (contract == nullptr || !alarm.number)
-    return;
-  const auto isKept = [&](const std::string &clause) {
-    const auto &all = program.proof.obligations;
-    return std::any_of(all.begin(), all.end(), [&](const Obligation &each) {
-      return each.kind == ObligationKind::AlarmIff && each.claim == clause && holds(each.verdict);
-    });
-  };
-  for (const AlarmPromise &promise : contract->alarms) {
-    const std::string &clause = file.file().contracts.clauses[promise.clause].text;
-    if (promise.number != *alarm.number || alarm.saying == AlarmSaying::SaidNotProved)
-      continue;
-    alarm.clause = clause;
-    alarm.saying = isKept(clause) ? AlarmSaying::Said : AlarmSaying::SaidNotProved;
-  }
-}
-
 } // namespace
 
-std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const ProvedFile &file,
-                                       const ProvedProgram &program) {
+std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const ProvedFile &file) {
   if (obligation.kind != ObligationKind::AlarmUnreachable || obligation.verdict != Verdict::Refuted)
     return std::nullopt;
   RaisedAlarm alarm;
@@ -71,7 +51,6 @@ std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const Prove
     alarm.number = writtenNumber(file.file(), file.loaded->dialect, *assign);
     alarm.message = messageBehind(file.file(), node, file.file().tree.statements[assign->first].span);
   }
-  addClauses(alarm, file, program);
   return alarm;
 }
 
@@ -81,8 +60,7 @@ std::string claims(std::size_t count) { return fmt::format("{} claim{}", count, 
 
 struct Summary {
   VerdictCounts counts;
-  std::size_t said = 0;    // alarms that come as a proved clause says
-  std::size_t notSaid = 0; // others
+  std::size_t raised = 0;  // alarms that no clause foresees
   std::string alarms = {}; // these: `alarms 7, 8`
   bool isGouge = false;
 };
@@ -91,18 +69,14 @@ Summary summaryOf(const ProvedFile &file, const ProvedProgram &program) {
   summary.counts.add(program.proof);
   for (const Obligation &obligation : program.proof.obligations) {
     summary.isGouge = summary.isGouge || (obligation.witness && obligation.witness->gouge);
-    const auto alarm = raisedAlarm(obligation, file, program);
-    if (!alarm)
-      continue;
-    if (alarm->saying == AlarmSaying::Said)
-      ++summary.said;
-    else if (++summary.notSaid <= kMostAlarmsNamed)
+    const auto alarm = raisedAlarm(obligation, file);
+    if (alarm && ++summary.raised <= kMostAlarmsNamed)
       summary.alarms += (summary.alarms.empty() ? "" : ", ") +
                         (alarm->number ? std::to_string(*alarm->number) : std::string("of a computed number"));
   }
-  summary.alarms = (summary.notSaid == 1 ? "alarm " : "alarms ") + summary.alarms;
-  if (summary.notSaid > kMostAlarmsNamed)
-    summary.alarms += fmt::format(" and {} more", summary.notSaid - kMostAlarmsNamed);
+  summary.alarms = (summary.raised == 1 ? "alarm " : "alarms ") + summary.alarms;
+  if (summary.raised > kMostAlarmsNamed)
+    summary.alarms += fmt::format(" and {} more", summary.raised - kMostAlarmsNamed);
   return summary;
 }
 
@@ -113,41 +87,26 @@ std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
   const VerdictCounts &counts = summary.counts;
   if (counts.all() == 0)
     return "Nothing is claimed of it, so that nothing is proved.";
-  const std::size_t broken = counts.of(Verdict::Refuted) - summary.said - summary.notSaid;
+  const std::size_t broken = counts.of(Verdict::Refuted) - summary.raised;
   const std::size_t unknown = counts.of(Verdict::Unknown);
   std::string words;
   if (broken != 0)
     words = fmt::format("{} {} of {} {}.",
                         summary.isGouge ? "Do not run: the tool can go where it must not." : "Do not release:", broken,
                         claims(counts.all()), broken == 1 ? "fails" : "fail");
-  if (summary.notSaid != 0)
-    words += fmt::format("{}{} can come, and no proved `@ALARM` says when.",
-                         words.empty() ? "Decide first: " : " Also, ", summary.alarms);
+  if (summary.raised != 0)
+    words += fmt::format("{}{} can come, and no `@ALARM` says when.", words.empty() ? "Decide first: " : " Also, ",
+                         summary.alarms);
   if (unknown != 0)
     words += fmt::format("{}{} could be neither proved nor refuted.", words.empty() ? "Do not release yet: " : " ",
                          claims(unknown));
   if (!words.empty())
     return words;
-  const std::size_t others = counts.all() - summary.said;
   const std::string_view calls = file.file().contracts.of(program.program) != nullptr
                                      ? "for every call that its contract allows"
                                      : "for every input";
-  if (others != 0)
-    words = others == 1 ? fmt::format("Its one claim holds {}.", calls)
-                        : fmt::format("All {} hold {}.", claims(others), calls);
-  if (summary.said != 0)
-    words += fmt::format("{}{} as the contract says.", words.empty() ? "" : " ",
-                         summary.said == 1 ? "Its alarm comes" : fmt::format("Its {} alarms come", summary.said));
-  return words;
-}
-
-std::string_view nameOf(AlarmSaying saying) {
-  switch (saying) {
-  case AlarmSaying::NotSaid: return "not-said";
-  case AlarmSaying::SaidNotProved: return "said-not-proved";
-  case AlarmSaying::Said: return "said";
-  }
-  return "";
+  return counts.all() == 1 ? fmt::format("Its one claim holds {}.", calls)
+                           : fmt::format("All {} hold {}.", claims(counts.all()), calls);
 }
 
 } // namespace feedhold::certificate
@@ -169,11 +128,9 @@ Standing standingOf(const ProvedFile &file, const ProvedProgram &program) {
   for (const prove::Obligation &obligation : program.proof.obligations) {
     if (holds(obligation.verdict))
       continue;
-    const auto alarm = certificate::raisedAlarm(obligation, file, program);
-    standing = std::max(standing, obligation.verdict == prove::Verdict::Unknown     ? Standing::Open
-                                  : !alarm                                          ? Standing::Broken
-                                  : alarm->saying == certificate::AlarmSaying::Said ? Standing::Ready
-                                                                                    : Standing::Alarms);
+    standing = std::max(standing, obligation.verdict == prove::Verdict::Unknown ? Standing::Open
+                                  : certificate::raisedAlarm(obligation, file)  ? Standing::Alarms
+                                                                                : Standing::Broken);
   }
   return standing;
 }
