@@ -73,6 +73,12 @@ class Actions(Session):
             self.assertNotIn(rule, codes)
             self.assertEqual("unclosed-comment" in codes, name == "a.nc")
 
+    def test_suppressions_are_not_allowed_themselves(self):
+        """One suppression more would only be one more that suppresses nothing."""
+        client, uri, found = self.opened("O1\nM30 (@ALLOW self-assignment)\n")
+        self.assertEqual(set(self.codes(found)), {"suppression-without-reason", "unused-suppression"})
+        self.assertEqual([a["title"] for a in self.ask(client, uri, 0, 9) if "allow" in a["title"]], [])
+
     CREATES = {"workspace": {"workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]}}}
 
     def clause_for(self, client, uri, rule):

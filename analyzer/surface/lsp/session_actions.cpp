@@ -97,8 +97,10 @@ void ClientSession::addActions(const Remark &remark, OpenDocument &document, con
     actions.push_back({{"title", title}, {"kind", kQuickFix}, {"diagnostics", diagnostics}, {"command", command}});
   }
   const auto programs = workspace_.programsOf(document);
-  if (!programs || !remark.subject.empty())
-    return; // a verdict is no matter of opinion
+  const RegisteredRule *rule = findRule(options_.known.rules, remark.code);
+  const bool isOfSuppression = rule && rule->rule->info.category == Category::Suppression;
+  if (!programs || !remark.subject.empty() || isOfSuppression)
+    return; // a verdict is no matter of opinion, and what is wrong with a suppression cannot be suppressed
   const LoadedFile &file = programs->file(FileId(0));
   if (const std::optional<Edit> edit = commentAllowing(remark, file))
     actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", remark.code)},
