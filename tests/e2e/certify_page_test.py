@@ -191,6 +191,15 @@ class Alarms(Page):
         self.assertEqual(self.alarm, {"number": 7, "message": "SIDE TOO SHORT"})
 
 
+class Unreadable(Page):
+    def test_text_that_cannot_be_read_is_not_fit_for_release(self):
+        self.write("O5.nc", "O5\n#1=1\n#2=[#1\nM99\n")
+        self.assertExit(self.certify("O5.nc"), 3)
+        self.assertEqual((self.document["standing"], self.document["counts"]["unknown"]), ("open", 0))
+        self.assertEqual(self.program("O5")["summary"], "Do not release yet: line 3 has text that cannot be read.")
+        self.assertNotIn("Everything that was asked is proved", self.page)
+
+
 class Against(Page):
     """Programs that lie elsewhere: files of one name are told apart by their folders."""
 

@@ -39,7 +39,7 @@ Result<std::vector<Answer>> askTogether(std::span<const std::string> texts, std:
   command.insert(command.end(), kTangentPlanes.begin(), kTangentPlanes.end());
   std::string input;
   for (const std::string &text : texts)
-    input += text + "(reset)\n";
+    input += text + "\n(reset)\n";
   const Result<ProcessOutput> output = runProgram(command, input, limitsFor(texts.size()));
   if (!output)
     return output.error();

@@ -56,6 +56,15 @@ std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const Prove
 
 namespace {
 
+/// Lines from 1.  What the control makes of such a block, nobody knows: most stop there.
+std::vector<std::size_t> unreadableLines(const LoadedFile &file, ProgramId program) {
+  std::vector<std::size_t> lines;
+  for (BlockId block(0); block.index() < file.tree.blocks.size(); block = BlockId(block.index() + 1))
+    if (file.tree.blocks[block].has(Block::kBroken) && file.model.programOf(block) == program)
+      lines.push_back(file.source.lineOf(file.tree.blocks[block].span().begin));
+  return lines;
+}
+
 std::string claims(std::size_t count) { return fmt::format("{} claim{}", count, count == 1 ? "" : "s"); }
 
 struct Summary {
@@ -100,6 +109,11 @@ std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
   if (unknown != 0)
     words += fmt::format("{}{} could be neither proved nor refuted.", words.empty() ? "Do not release yet: " : " ",
                          claims(unknown));
+  if (const std::vector<std::size_t> lines = unreadableLines(file.file(), program.program); !lines.empty())
+    words += fmt::format("{}{} that cannot be read.", words.empty() ? "Do not release yet: " : " Also, ",
+                         lines.size() == 1
+                             ? fmt::format("line {} has text", lines.front())
+                             : fmt::format("{} lines have text, the first is line {},", lines.size(), lines.front()));
   if (!words.empty())
     return words;
   const std::string_view calls = file.file().contracts.of(program.program) != nullptr
@@ -124,7 +138,8 @@ std::string_view nameOf(Standing standing) {
 }
 
 Standing standingOf(const ProvedFile &file, const ProvedProgram &program) {
-  Standing standing = Standing::Ready;
+  const bool isRead = certificate::unreadableLines(file.file(), program.program).empty();
+  Standing standing = isRead ? Standing::Ready : Standing::Open;
   for (const prove::Obligation &obligation : program.proof.obligations) {
     if (holds(obligation.verdict))
       continue;
