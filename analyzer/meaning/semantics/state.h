@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,26 +63,34 @@ inline constexpr int kLastingGeometry = 2;
 /// Mappings between programmed and work coordinates (G51.1, G51, G68, G16), in the order in which the control applies
 /// them: polar, scaling, rotation, mirror.
 template <typename Value> struct TransformState {
-  std::array<Value, kAxisCount> scale;        // 1: not scaled
+  std::array<Value, kAxisCount> scale; // 1: not scaled
   std::array<Value, kAxisCount> scaleCentre;
-  std::array<Value, kAxisCount> mirrorAt;     // vacant: not mirrored
-  Value angle;                                // degrees, counterclockwise
-  std::array<Value, 2> centre;                // of the rotation, in the plane of G68: scaled, not mirrored
+  std::array<Value, kAxisCount> mirrorAt; // vacant: not mirrored
+  Value angle;                            // degrees, counterclockwise
+  std::array<Value, 2> centre;            // of the rotation, in the plane of G68: scaled, not mirrored
   Value other; // a mode that is not followed has given movements another meaning; vacant: none since the start
   friend bool operator==(const TransformState &, const TransformState &) = default;
 };
 
 /// A macro that is called after each movement (G66) or at each block (G66.1).
 template <typename Value> struct ModalCallState {
-  std::uint32_t file; // of the block with G66
-  std::uint32_t call; // CallId in that file
-  Value repeats;      // L
+  std::uint32_t file;                            // of the block with G66
+  std::uint32_t call;                            // CallId in that file
+  Value repeats;                                 // L
   std::array<Value, kLocalVariables + 1> locals; // kept from one call to the next
   friend bool operator==(const ModalCallState &, const ModalCallState &) = default;
 };
 
-/// The addresses whose last word stays in force (#4102 to #4120).
-inline constexpr std::string_view kModalWords = "FSTDHEB";
+/// The addresses whose last word stays in force (#4102 to #4120).  No string_view: the literal of one in a header need
+/// not be the same object in all translation units, and a loop over it may then begin in one and look for the end of
+/// another.
+inline constexpr std::array kModalWords = {'F', 'S', 'T', 'D', 'H', 'E', 'B'};
+constexpr std::size_t indexOfModalWord(char letter) {
+  std::size_t index = 0;
+  while (kModalWords[index] != letter)
+    ++index;
+  return index;
+}
 
 template <typename R> struct MachineState {
   using Value = typename R::Value;
@@ -95,22 +102,22 @@ template <typename R> struct MachineState {
   /// Ranges of numbers, first and last, of which nothing is known but what `variables` has.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> forgotten;
   std::array<ModalCode, kModalGroups> codes;
-  std::array<Value, kAxisCount> position; // end point of the last block: work coordinates, units in force
+  std::array<Value, kAxisCount> position;      // end point of the last block: work coordinates, units in force
   std::array<Value, kModalWords.size()> words; // in force; vacant: none yet
-  std::array<Value, kAxisCount> shift;    // of G92
-  std::array<Value, kAxisCount> local;    // of G52
-  Value lengthOffset;                     // of G43, along Z
+  std::array<Value, kAxisCount> shift;         // of G92
+  std::array<Value, kAxisCount> local;         // of G52
+  Value lengthOffset;                          // of G43, along Z
   CycleState<Value> cycle;
   TransformState<Value> transform;
-  Truth transformed;  // a mapping beside those at the start of the run is or may be in force
-  ModalCode spindle;  // index into kSpindleActions
+  Truth transformed;                             // a mapping beside those at the start of the run is or may be in force
+  ModalCode spindle;                             // index into kSpindleActions
   std::vector<ModalCallState<Value>> modalCalls; // innermost last
   Truth modalCallsUnknown;                       // there may be others than those
   std::vector<std::pair<std::uint8_t, Truth>> enteredLoops; // by number of the DO
   std::vector<Value> counters;                              // by CounterId
 
-  Value &word(char letter) { return words[kModalWords.find(letter)]; }
-  const Value &word(char letter) const { return words[kModalWords.find(letter)]; }
+  Value &word(char letter) { return words[indexOfModalWord(letter)]; }
+  const Value &word(char letter) const { return words[indexOfModalWord(letter)]; }
   Value &at(Axis axis) { return position[indexOf(axis)]; }
   const Value &at(Axis axis) const { return position[indexOf(axis)]; }
   friend bool operator==(const MachineState &, const MachineState &) = default;
