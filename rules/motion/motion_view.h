@@ -58,7 +58,7 @@ inline bool isForgotten(const AbstractState &state) { return state.codes[0] != C
 inline bool isAsAtEntry(const AbstractState &state, char letter) {
   const AbstractValue &value = state.word(letter);
   return value.origin() &&
-         value.origin()->symbol == kWordSymbols + static_cast<std::uint32_t>(kModalWords.find(letter));
+         value.origin()->symbol == kWordSymbols + static_cast<std::uint32_t>(indexOfModalWord(letter));
 }
 
 /// Remembers the first node, in order of the text, at which something was seen.
