@@ -76,11 +76,12 @@ class EditorSession:
 
     @classmethod
     def findings_of_check(cls):
-        """What the command line says of the same file, as (line, marked text, rule, severity)."""
-        told = subprocess.run([FEEDHOLD, "check", "--format", "json", "O1000.nc"], cwd=cls.folder, capture_output=True)
+        """What the command line says of the file in its folder, as (line, marked text, rule, severity)."""
+        told = subprocess.run([FEEDHOLD, "check", "--format", "json", "."], cwd=cls.folder, capture_output=True)
         lines = CALLER.splitlines()
         return sorted((it["line"], lines[it["line"] - 1][it["column"] - 1:it["endColumn"] - 1], it["rule"],
-                       SEVERITIES[it["severity"]]) for it in json.loads(told.stdout)["findings"])
+                       SEVERITIES[it["severity"]])
+                      for it in json.loads(told.stdout)["findings"] if Path(it["path"]).name == "O1000.nc")
 
     @staticmethod
     def shown(findings):
