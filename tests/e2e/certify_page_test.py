@@ -200,6 +200,14 @@ class Unreadable(Page):
         self.assertNotIn("Everything that was asked is proved", self.page)
 
 
+class NothingClaimed(Page):
+    def test_report_without_claims_is_not_fit_for_release(self):
+        self.write("O5.nc", "O5\nM99\n")
+        self.assertExit(self.certify("O5.nc", "--only", "ensures"), 3)
+        self.assertEqual(self.document["standing"], "open")
+        self.assertNotIn("Everything that was asked is proved", self.page)
+
+
 class Against(Page):
     """Programs that lie elsewhere: files of one name are told apart by their folders."""
 

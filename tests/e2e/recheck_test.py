@@ -160,6 +160,16 @@ class Recheck(Scratch):
                 self.assertDetected(path.relative_to(self.bundle).as_posix())
             path.write_text(text)
 
+    def test_certificate_that_fails_is_not_told_as_followed(self):
+        path = self.evidence("certificate")[0]
+        questions = len(self.evidence("smt2"))
+        path.write_text("(combination)\n")
+        result = self.feedhold("recheck", "proofs", "-v")
+        self.assertExit(result, 1)
+        name = path.with_suffix(".smt2").relative_to(self.bundle).as_posix()
+        self.assertIn(f"{name}: its certificate fails, Z3 is not asked, cvc5 is not asked\n", result.stdout)
+        self.assertIn(f" {questions - 1} certificates followed by the checker", result.stdout)
+
     def test_claim_made_easier(self):
         """A claim that contradicts itself has a certificate, but it is not what the program has to keep."""
         easy = "(set-logic QF_LRA)\n(assert (>= (- 1.0) 0.0))\n(check-sat)\n"

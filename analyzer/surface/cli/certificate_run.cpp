@@ -93,9 +93,9 @@ CertificateRun runCertificate(const CertificateWish &wish, const fs::path &folde
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
       run.counts.add(program.proof);
-      run.standing = std::max(run.standing, standingOf(file, program));
       ++run.programs;
     }
+  run.standing = standingOf(proofs);
   run.report =
       makeCertificate({.wish = wish,
                        .proofs = proofs,

@@ -90,20 +90,25 @@ std::string agreementOf(std::string_view name, const std::vector<Question> &ques
 }
 
 std::string summaryOf(const std::vector<Question> &questions) {
-  const auto certified = static_cast<std::size_t>(std::count_if(
-      questions.begin(), questions.end(), [](const Question &question) { return question.hasCertificate; }));
+  const auto followed = static_cast<std::size_t>(
+      std::count_if(questions.begin(), questions.end(), [](const Question &question) { return question.isFollowed; }));
   const std::size_t asked = questions.size() - countOf(questions, &Question::z3, SolverSays::NotAsked);
   return fmt::format(
       "evidence: {}, {} followed by the checker, {} asked again ({}; {})\n", counted(questions.size(), "question"),
-      counted(certified, "certificate"), asked, agreementOf(smt::z3Version(), questions, &Question::z3),
+      counted(followed, "certificate"), asked, agreementOf(smt::z3Version(), questions, &Question::z3),
       agreementOf(smt::cvc5Version().value_or("cvc5, which is not installed,"), questions, &Question::cvc5));
+}
+
+std::string_view toldOfCertificate(const Question &question) {
+  if (!question.hasCertificate)
+    return "";
+  return question.isFollowed ? "the checker follows its certificate, " : "its certificate fails, ";
 }
 
 void printEach(const std::vector<Question> &questions, std::string_view folder) {
   for (const Question &question : questions)
-    print(fmt::format("{}{}: {}Z3 {}, cvc5 {}\n", folder, question.file,
-                      question.hasCertificate ? "the checker follows its certificate, " : "", nameOf(question.z3),
-                      nameOf(question.cvc5)));
+    print(fmt::format("{}{}: {}Z3 {}, cvc5 {}\n", folder, question.file, toldOfCertificate(question),
+                      nameOf(question.z3), nameOf(question.cvc5)));
 }
 
 int present(const Findings &findings, const std::string &told, std::string_view folder,

@@ -22,13 +22,15 @@ struct CertificateWish {
 
 /// Whether a program may be released by what was proved, the worst last.
 enum class Standing : std::uint8_t {
-  Ready,  // every claim holds; alarms that can be raised are those of the contract, and proved
-  Open,   // something is neither proved nor refuted
-  Alarms, // a call raises an alarm that the contract does not speak of, or of which that is not proved
+  Ready,  // every claim holds
+  Open,   // something is neither proved nor refuted, or cannot be read
+  Alarms, // a call raises an alarm that the contract does not foresee
   Broken, // a call breaks a claim
 };
 std::string_view nameOf(Standing standing);
 Standing standingOf(const ProvedFile &file, const ProvedProgram &program);
+/// The worst of all programs.  Where nothing at all is claimed, nothing is proved.
+Standing standingOf(const ProofsResult &proofs);
 
 struct CertificateInput {
   const CertificateWish &wish;

@@ -63,7 +63,7 @@ public:
             {"date", input_.wish.date ? Json(*input_.wish.date) : Json()},
             {"reading", readingToJson()},
             {"counts", countsToJson(counts_)},
-            {"standing", nameOf(standing_)},
+            {"standing", nameOf(standingOf(input_.proofs))},
             {"assumptions", assumptions()},
             {"sources", sourcesToJson()},
             {"files", std::move(files)},
@@ -204,7 +204,6 @@ private:
     VerdictCounts counts;
     counts.add(program.proof);
     counts_.add(program.proof);
-    standing_ = std::max(standing_, standingOf(file, program));
     const LoadedFile &loaded = file.file();
     Json obligations = Json::array();
     for (const Obligation &obligation : program.proof.obligations)
@@ -351,7 +350,6 @@ private:
   std::map<std::string, Json> evidence_; // obligations by the path from the evidence
   std::map<std::string, Source> sources_;
   VerdictCounts counts_;
-  Standing standing_ = Standing::Ready;
   std::size_t pictures_ = 0;
   std::string indexSha_;
 };

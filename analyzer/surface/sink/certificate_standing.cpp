@@ -150,4 +150,15 @@ Standing standingOf(const ProvedFile &file, const ProvedProgram &program) {
   return standing;
 }
 
+Standing standingOf(const ProofsResult &proofs) {
+  Standing worst = Standing::Ready;
+  bool isAnythingClaimed = false;
+  for (const ProvedFile &file : proofs.files)
+    for (const ProvedProgram &program : file.programs) {
+      worst = std::max(worst, standingOf(file, program));
+      isAnythingClaimed = isAnythingClaimed || !program.proof.obligations.empty();
+    }
+  return isAnythingClaimed ? worst : std::max(worst, Standing::Open);
+}
+
 } // namespace feedhold

@@ -51,6 +51,7 @@ std::optional<Error> follow(const check::Claim &claim, const std::string &text) 
 void checkCertified(Question &question, const std::string &text, const std::string &certificate) {
   const Result<check::Claim> claim = check::readClaim(text);
   const std::optional<Error> wrong = claim ? follow(claim.value(), certificate) : claim.error();
+  question.isFollowed = !wrong;
   if (wrong)
     question.problem = wrong->message;
 }
@@ -109,7 +110,7 @@ void giveOpinions(std::span<const QuestionsByText::value_type *const> asked) {
 void giveOpinions(const Bundle &bundle, std::vector<Question> &questions, unsigned jobs) {
   QuestionsByText byText;
   for (Question &question : questions)
-    if (question.hasCertificate && question.holds())
+    if (question.isFollowed)
       byText[bundle.at(question.file)].push_back(&question);
   std::vector<const QuestionsByText::value_type *> rows;
   for (const auto &row : byText)

@@ -18,6 +18,7 @@ std::string_view nameOf(SolverSays says);
 struct Question {
   std::string file;
   bool hasCertificate = false;
+  bool isFollowed = false; // the checker has followed its certificate to the end
   SolverSays z3 = SolverSays::NotAsked;
   SolverSays cvc5 = SolverSays::NotAsked;
   std::string problem = {}; // empty: none
