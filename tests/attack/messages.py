@@ -1,0 +1,94 @@
+"""Messages of `feedhold check` that say `never`, `always` or `stops`, against runs."""
+import re
+from dataclasses import dataclass
+
+import syntax
+from engine import file_of, line_of, number_of_name
+
+
+@dataclass(frozen=True)
+class Message:
+    rule: str
+    text: str
+    file: str
+    line: int
+
+
+def messages_of(answer: dict) -> list:
+    found = []
+    for file in answer["files"]:
+        for each in file["findings"]:
+            found.append(Message(each["rule"], each["message"], file["path"], each["line"]))
+    return found
+
+
+class MessageJudge:
+    """Of the programs that no other calls, from any inputs: such messages are about all calls."""
+
+    def __init__(self, project, messages, counts):
+        self.project, self.counts = project, counts
+        self.by_line = {}
+        for message in messages:
+            if any(row.rule == message.rule and re.search(row.text, message.text) for row in ROWS):
+                self.by_line.setdefault((message.file, message.line), []).append(message)
+                counts["messages that say never, always or stops"] += 1
+
+    def wrong(self, outcome):
+        """(message, why) of the first one that a run contradicts."""
+        if not self.by_line or outcome.root is None:
+            return None
+        todo = [outcome.root]
+        while todo:
+            activation = todo.pop()
+            todo += activation.children
+            if not activation.is_standard:
+                continue
+            name = file_of(self.project, activation.program.number).name
+            for block in activation.visited:
+                line = line_of(self.project, activation.program.number, block)
+                for message in self.by_line.get((name, line), ()):
+                    for row in ROWS:
+                        if row.rule == message.rule and re.search(row.text, message.text) and \
+                                row.is_wrong(activation, block, outcome):
+                            return message, row.why
+        return None
+
+
+@dataclass(frozen=True)
+class Row:
+    rule: str
+    text: str
+    is_wrong: object  # (activation, block, outcome)
+    why: str
+
+
+def has_ended(activation, block, outcome) -> bool:
+    return outcome.end in ("return", "M30", "alarm", "user-alarm")
+
+
+def went_on(activation, block, outcome) -> bool:
+    statement = activation.program.blocks[block].statement
+    is_conditional = isinstance(statement, (syntax.IfThen, syntax.IfGoto))
+    return block in activation.passed and (not is_conditional or block in activation.taken)
+
+
+def once_in(activation, block, outcome) -> bool:
+    return block in activation.taken and has_ended(activation, block, outcome)
+
+
+ROWS = (
+    Row("decided-condition", "never holds", lambda a, b, o: b in a.taken, "it held"),
+    Row("decided-condition", "always holds", lambda a, b, o: b in a.refused, "it did not hold"),
+    Row("constant-condition", "never true", lambda a, b, o: b in a.taken, "it was true"),
+    Row("constant-condition", "always true", lambda a, b, o: b in a.refused, "it was not"),
+    Row("unreachable-block", "never run", lambda a, b, o: True, "it was run"),
+    Row("alarm-never-fires", "never comes",
+        lambda a, b, o: o.end == "user-alarm" and o.activation is a and o.block == b, "it came"),
+    Row("loop-never-entered", "never entered", lambda a, b, o: b in a.taken, "it was entered"),
+    Row("endless-loop", "never ends", has_ended, "the run ended"),
+    Row("loop-without-progress", "never ends", once_in, "the run ended"),
+    Row("loop-in-wrong-direction", "never gets past", once_in, "the run ended"),
+    Row("division-by-zero", "^divides by zero", went_on, "it went on"),
+    Row("out-of-domain", "is outside of what", went_on, "it went on"),
+    Row("goto-missing-label", "has no target", went_on, "it went on"),
+)
