@@ -42,66 +42,16 @@ AbstractValue entryValue(std::uint32_t symbol, const AbstractValue &value) {
   return value.withOrigin(Origin{symbol, Rational()});
 }
 
+std::uint32_t entrySymbol(PartId id) {
+  if (id.part == Part::Position)
+    return symbolOfPosition(id.key);
+  return id.part == Part::ModalWord ? kWordSymbols + id.key : symbolOfVariable(id.key);
+}
+
 AbstractValue cellAtEntry(const Dialect &dialect, std::uint32_t variable) {
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(dialect, variable);
   const bool isNumber = range && range->kind == VariableKind::System;
   return entryValue(symbolOfVariable(variable), isNumber ? AbstractValue::anyNumber() : AbstractValue::any());
-}
-
-/// The parts of a state that are not values: joined in `a`.
-void joinFlags(AbstractState &a, const AbstractState &b) {
-  for (std::size_t group = 0; group < kModalGroups; ++group)
-    a.codes[group] = join(a.codes[group], b.codes[group]);
-  a.spindle = join(a.spindle, b.spindle);
-  a.transformed = join(a.transformed, b.transformed);
-  a.modalCallsUnknown = join(a.modalCallsUnknown, b.modalCallsUnknown);
-  for (const auto &[number, entered] : b.enteredLoops) {
-    const auto found = std::find_if(a.enteredLoops.begin(), a.enteredLoops.end(),
-                                    [n = number](const auto &loop) { return loop.first == n; });
-    if (found == a.enteredLoops.end())
-      a.enteredLoops.emplace_back(number, join(entered, Truth::True));
-    else
-      found->second = join(found->second, entered);
-  }
-  std::sort(a.enteredLoops.begin(), a.enteredLoops.end(),
-            [](const auto &x, const auto &y) { return x.first < y.first; });
-}
-
-bool sameCalls(const AbstractState &a, const AbstractState &b) {
-  return std::equal(a.modalCalls.begin(), a.modalCalls.end(), b.modalCalls.begin(), b.modalCalls.end(),
-                    [](const auto &x, const auto &y) { return x.file == y.file && x.call == y.call; });
-}
-
-bool flagsLeq(const AbstractState &a, const AbstractState &b) {
-  for (std::size_t group = 0; group < kModalGroups; ++group)
-    if (!leq(a.codes[group], b.codes[group]))
-      return false;
-  const auto within = [](Truth x, Truth y) { return join(x, y) == y; };
-  for (const auto &[number, entered] : a.enteredLoops) {
-    Truth other = Truth::True;
-    for (const auto &[loop, truth] : b.enteredLoops)
-      other = loop == number ? truth : other;
-    if (!within(entered, other))
-      return false;
-  }
-  return leq(a.spindle, b.spindle) && within(a.transformed, b.transformed) &&
-         within(a.modalCallsUnknown, b.modalCallsUnknown) && (sameCalls(a, b) || mayBeTrue(b.modalCallsUnknown)) &&
-         covers(b.forgotten, a.forgotten);
-}
-
-/// The values of a state, which is constant or not.
-template <typename State> auto valuesOf(State &state) {
-  using Value = std::conditional_t<std::is_const_v<State>, const AbstractValue, AbstractValue>;
-  std::vector<Value *> values;
-  values.reserve(160 + state.variables.entries().size());
-  forEachValue(state, [&](Value &value) { values.push_back(&value); });
-  return values;
-}
-
-bool isAligned(const AbstractState &a, const AbstractState &b) {
-  return a.counters.size() == b.counters.size() &&
-         std::equal(a.variables.entries().begin(), a.variables.entries().end(), b.variables.entries().begin(),
-                    b.variables.entries().end(), [](const auto &x, const auto &y) { return x.first == y.first; });
 }
 
 /// Values that keep their distance in both states get one new symbol (a labelled union-find, after Lesbre and Lemerre,
@@ -144,28 +94,23 @@ private:
 template <typename Combine>
 void combineInto(AbstractReading &reading, AbstractState &a, const AbstractState &unaligned, Combine &&combine) {
   std::optional<AbstractState> copy; // states are large: only one that has to change is copied
-  if (!isAligned(a, unaligned) || !sameCalls(a, unaligned)) {
+  if (!haveSameParts(a, unaligned)) {
     copy = unaligned;
-    align(reading, a, *copy);
-    if (!sameCalls(a, *copy)) {
-      a.modalCalls.clear();
-      copy->modalCalls.clear();
-      a.modalCallsUnknown = Truth::Maybe;
-    }
+    alignToJoin(reading, a, *copy);
   }
   const AbstractState &b = copy ? *copy : unaligned;
-  joinFlags(a, b);
   for (const auto &range : b.forgotten)
     forget(a.forgotten, range);
-  const std::vector<AbstractValue *> left = valuesOf(a);
-  const std::vector<const AbstractValue *> right = valuesOf(b);
   CommonOrigins origins(reading);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (*left[i] == *right[i])
-      continue;
-    const std::optional<Origin> origin = origins.of(*left[i], *right[i]);
-    *left[i] = combine(*left[i], *right[i]).withOrigin(origin);
-  }
+  forEachPart(Overloaded{[&](PartId, AbstractValue &left, const AbstractValue &right) {
+                           if (left == right)
+                             return;
+                           const std::optional<Origin> origin = origins.of(left, right);
+                           left = combine(left, right).withOrigin(origin);
+                         },
+                         [](PartId, CodeSet &left, const CodeSet &right) { left = join(left, right); },
+                         [](PartId, Truth &left, const Truth &right) { left = join(left, right); }},
+              a, b);
 }
 
 /// A symbol of the right state is one value of the left state, wherever it stands.
@@ -186,56 +131,38 @@ private:
   std::unordered_map<std::uint32_t, Origin> meaning_;
 };
 
-bool valuesLeq(const AbstractState &a, const AbstractState &b) {
-  const std::vector<const AbstractValue *> left = valuesOf(a);
-  const std::vector<const AbstractValue *> right = valuesOf(b);
+/// Of states with the same parts.
+bool partsLeq(const AbstractState &a, const AbstractState &b) {
   SymbolMeaning meaning;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (*left[i] != *right[i] && !leq(*left[i], *right[i]))
-      return false;
-    if (right[i]->origin() && (!left[i]->origin() || !meaning.agrees(*left[i]->origin(), *right[i]->origin())))
-      return false;
-  }
-  return true;
-}
-
-/// Positions are told under the mappings that are in force now, whatever they are.
-void noMapping(const AbstractReading &reading, AbstractState &state) {
-  state.transform.scale.fill(reading.number(1));
-  state.transform.scaleCentre.fill(reading.number(0));
-  state.transform.mirrorAt.fill(AbstractValue::vacant());
-  state.transform.angle = reading.number(0);
-  state.transform.centre.fill(reading.number(0));
-  state.transform.other = AbstractValue::vacant();
-  state.transformed = Truth::False;
+  return everyPart(Overloaded{[&](PartId, const AbstractValue &left, const AbstractValue &right) {
+                                return (left == right || leq(left, right)) &&
+                                       (!right.origin() ||
+                                        (left.origin() && meaning.agrees(*left.origin(), *right.origin())));
+                              },
+                              [](PartId, const CodeSet &left, const CodeSet &right) { return leq(left, right); },
+                              [](PartId, const Truth &left, const Truth &right) { return join(left, right) == right; }},
+                   a, b);
 }
 
 } // namespace
 
 AbstractState entryState(AbstractReading &reading) {
-  AbstractState state;
-  for (std::uint32_t local = 0; local <= kLocalVariables; ++local)
-    state.locals[local] = entryValue(symbolOfVariable(local), AbstractValue::any());
-  state.locals[0] = AbstractValue::vacant();
-  state.codes.fill(CodeSet::atEntry());
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-    state.position[axis] = entryValue(symbolOfPosition(axis), AbstractValue::anyNumber());
-  for (std::size_t word = 0; word < state.words.size(); ++word)
-    state.words[word] =
-        entryValue(kWordSymbols + static_cast<std::uint32_t>(word), AbstractValue::any());
-  // Distances from what was there at the start of the run, as the mappings are.
-  state.shift.fill(AbstractValue::anyNumber());
-  state.local.fill(AbstractValue::anyNumber());
-  for (auto *shifts : {&state.shift, &state.local})
-    for (AbstractValue &value : *shifts)
-      value = reading.withSymbol(value);
-  state.lengthOffset = reading.withSymbol(AbstractValue::anyNumber());
-  const AbstractValue any = AbstractValue::any();
-  state.cycle = {any, any, any, any, any};
-  noMapping(reading, state);
-  state.spindle = CodeSet::atEntry();
-  state.modalCallsUnknown = Truth::False;
-  return state;
+  const auto given = Overloaded{[](PartId id, AbstractValue &value) {
+                                  const bool isNumber = domainOf(id) == PartDomain::Number;
+                                  value = isNumber ? AbstractValue::anyNumber() : AbstractValue::any();
+                                  value = entryValue(entrySymbol(id), value);
+                                  if (domainOf(id) == PartDomain::Vacancy)
+                                    value = AbstractValue::vacant();
+                                },
+                                [](PartId, CodeSet &code) { code = CodeSet::atEntry(); },
+                                [](PartId, Truth &truth) { truth = Truth::Maybe; }};
+  const auto unknown = Overloaded{[&](PartId id, AbstractValue &value) {
+                                    setAnything(reading, id, value);
+                                    if (domainOf(id) == PartDomain::Number) // distances from it are told
+                                      value = reading.withSymbol(value);
+                                  },
+                                  [&](PartId id, auto &part) { setAnything(reading, id, part); }};
+  return entryParts<AbstractReading>(reading, given, unknown);
 }
 
 AbstractValue AbstractReading::unwritten(const State &state, std::uint32_t variable) const {
@@ -243,34 +170,16 @@ AbstractValue AbstractReading::unwritten(const State &state, std::uint32_t varia
   return isForgotten(state.forgotten, variable) ? cell.withOrigin(std::nullopt) : cell;
 }
 
-void align(const AbstractReading &reading, AbstractState &a, AbstractState &b) {
-  const auto complete = [&reading](AbstractState &to, const AbstractState &from) {
-    for (const auto &[number, value] : from.variables.entries())
-      if (!to.variables.find(number))
-        to.variables.set(number, reading.unwritten(to, number));
-  };
-  if (isAligned(a, b))
-    return;
-  complete(a, b);
-  complete(b, a);
-  const std::size_t counters = std::max(a.counters.size(), b.counters.size());
-  a.counters.resize(counters, reading.number(0));
-  b.counters.resize(counters, reading.number(0));
-}
-
 bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b) {
-  if (!flagsLeq(a, b))
+  if (!covers(b.forgotten, a.forgotten) || !(haveSameModalCalls(a, b) || mayBeTrue(b.modalCallsUnknown)))
     return false;
-  if (isAligned(a, b) && sameCalls(a, b))
-    return valuesLeq(a, b);
+  if (haveSameParts(a, b))
+    return partsLeq(a, b);
   AbstractState left = a;
   AbstractState right = b;
   align(reading, left, right);
-  if (!sameCalls(left, right)) {
-    left.modalCalls.clear();
-    right.modalCalls.clear();
-  }
-  return valuesLeq(left, right);
+  dropDifferentModalCalls(left, right);
+  return partsLeq(left, right);
 }
 
 void joinInto(AbstractReading &reading, AbstractState &state, const AbstractState &other) {
@@ -299,49 +208,9 @@ void AbstractReading::forgetVariables(State &state, std::uint32_t first, std::ui
   std::erase_if(entries, [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
 
-namespace {
-
-void anyCentres(AbstractState &state) {
-  state.transform.scaleCentre.fill(AbstractValue::anyNumber());
-  state.transform.centre.fill(AbstractValue::anyNumber());
-}
-
-void anyMapping(AbstractState &state) {
-  anyCentres(state);
-  state.transform.scale.fill(AbstractValue::anyNumber());
-  state.transform.mirrorAt.fill(AbstractValue::any());
-  state.transform.angle = AbstractValue::anyNumber();
-  state.transform.other = AbstractValue::any();
-  state.transformed = Truth::Maybe;
-}
-
-} // namespace
-
 void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);
-  forgetVariables(state, 0, 0xffffffff);
-  forEachValue(state, [](AbstractValue &value) { value = AbstractValue::any(); });
-  state.locals[0] = AbstractValue::vacant();
-  for (auto *numbers : {&state.position, &state.shift, &state.local})
-    numbers->fill(AbstractValue::anyNumber());
-  state.lengthOffset = AbstractValue::anyNumber();
-  // What is not followed is taken to leave no mapping in force, as at entry; one of the program's own may stay or end.
-  if (state.transformed == Truth::False) {
-    noMapping(*this, state);
-    anyCentres(state); // of a mapping that has ended, or of one that maps nothing
-  } else {
-    anyMapping(state);
-  }
-  for (AbstractValue &counter : state.counters)
-    counter = AbstractValue::anyNumber();
-  const CodeSet polar = polarGroup_ && state.transformed == Truth::False ? state.codes[*polarGroup_] : unknownCode();
-  state.codes.fill(unknownCode());
-  if (polarGroup_)
-    state.codes[*polarGroup_] = polar;
-  state.spindle = unknownCode();
-  state.modalCallsUnknown = Truth::Maybe;
-  for (auto &loop : state.enteredLoops)
-    loop.second = Truth::Maybe;
+  havocParts(*this, state, polarGroup_);
 }
 
 namespace {

@@ -217,21 +217,16 @@ void Engine::walkWithNothingKnown(AnalysisVisitor &visitor) {
 AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
                          AbstractState entry) {
   align(reading, summaryEntry, entry);
-  if (summaryEntry.modalCalls.size() != entry.modalCalls.size()) { // one of them knows only that there may be some
-    summaryEntry.modalCalls.clear();
-    entry.modalCalls.clear();
-  }
-  std::map<std::uint32_t, Origin> meaning; // symbol of the summary: what it is in the caller
-  std::vector<const AbstractValue *> theirs;
-  forEachValue(summaryEntry, [&](const AbstractValue &value) { theirs.push_back(&value); });
-  std::size_t at = 0;
-  forEachValue(entry, [&](const AbstractValue &mine) {
-    const AbstractValue &value = *theirs[at++];
-    if (!value.origin() || !mine.origin() || value.origin()->symbol == kZeroSymbol)
-      return;
-    if (const auto offset = subtract(mine.origin()->offset, value.origin()->offset))
-      meaning.emplace(value.origin()->symbol, Origin{mine.origin()->symbol, *offset});
-  });
+  dropDifferentModalCalls(summaryEntry, entry); // one of them knows only that there may be some
+  std::map<std::uint32_t, Origin> meaning;      // symbol of the summary: what it is in the caller
+  forEachPart(Overloaded{[&](PartId, const AbstractValue &theirs, const AbstractValue &mine) {
+                           if (!theirs.origin() || !mine.origin() || theirs.origin()->symbol == kZeroSymbol)
+                             return;
+                           if (const auto offset = subtract(mine.origin()->offset, theirs.origin()->offset))
+                             meaning.emplace(theirs.origin()->symbol, Origin{mine.origin()->symbol, *offset});
+                         },
+                         [](PartId, const auto &, const auto &) {}},
+              summaryEntry, entry);
   meaning.emplace(kZeroSymbol, Origin{kZeroSymbol, Rational()});
   forEachValue(exit, [&](AbstractValue &value) {
     if (!value.origin())

@@ -5,6 +5,7 @@
 #include "inference/absint/contract_entry.h"
 #include "inference/absint/partitions.h"
 #include "meaning/cfg/wto.h"
+#include "meaning/semantics/frames.h"
 
 #include <map>
 #include <optional>
@@ -26,13 +27,6 @@ struct ProgramFacts {
 struct Exit {
   std::optional<AbstractValue> target; // P of M99
   AbstractState state;
-};
-
-/// How many calls are open, and how many of them have locals of their own.
-struct CallDepth {
-  std::size_t calls = 0;
-  std::size_t macros = 0;
-  friend auto operator<=>(const CallDepth &, const CallDepth &) = default;
 };
 
 /// One analysis of a program in one entry state.

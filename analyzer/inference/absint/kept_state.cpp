@@ -1,7 +1,6 @@
 #include "inference/absint/kept_state.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 
 namespace feedhold {
@@ -11,49 +10,48 @@ namespace {
 /// Beyond that many differences a state becomes a base itself.
 constexpr std::size_t kMostDifferences = 32;
 
-/// All values but the variables, which may be others from one state to the next.
-template <typename State, typename Visit> void forEachCell(State &state, Visit &&visit) {
-  const auto &entries = state.variables.entries();
-  const void *begin = entries.data();
-  const void *end = entries.data() + entries.size();
-  const std::less<const void *> isBefore;
-  forEachValue(state, [&](auto &value) {
-    if (isBefore(&value, begin) || !isBefore(&value, end))
-      visit(value);
-  });
-}
-
-bool haveSameCells(const AbstractState &a, const AbstractState &b) {
-  return a.counters.size() == b.counters.size() &&
-         std::equal(a.modalCalls.begin(), a.modalCalls.end(), b.modalCalls.begin(), b.modalCalls.end(),
-                    [](const auto &x, const auto &y) { return x.file == y.file && x.call == y.call; });
+/// All parts but the variables, which may be others from one state to the next.
+template <typename Visit, typename... States> void forEachCell(Visit &&visit, States &...states) {
+  forEachPart<Part::Variable>(visit, states...);
 }
 
 } // namespace
 
 KeptState::Rest KeptState::restOf(const AbstractState &state) {
-  return {state.forgotten, state.codes, state.transformed, state.spindle, state.modalCallsUnknown, state.enteredLoops};
+  Rest rest{state.forgotten, {}, {}};
+  forEachCell(Overloaded{[](PartId, const AbstractValue &) {},
+                         [&](PartId id, const CodeSet &code) { rest.codes.emplace_back(id, code); },
+                         [&](PartId, const Truth &truth) { rest.truths.push_back(truth); }},
+              state);
+  return rest;
+}
+
+CodeSet KeptState::code(std::uint8_t group) const {
+  for (const auto &[id, code] : rest_->codes)
+    if (id == PartId{Part::Code, group})
+      return code;
+  FEEDHOLD_UNREACHABLE("a state has a code of each group");
 }
 
 AbstractState KeptState::state() const {
   AbstractState state = *base_;
   auto cell = cells_.begin();
   std::uint32_t index = 0;
-  forEachCell(state, [&](AbstractValue &value) {
-    if (cell != cells_.end() && cell->index == index)
-      value = (cell++)->value;
-    ++index;
-  });
+  auto code = rest_->codes.begin();
+  auto truth = rest_->truths.begin();
+  forEachCell(Overloaded{[&](PartId, AbstractValue &value) {
+                           if (cell != cells_.end() && cell->index == index)
+                             value = (cell++)->value;
+                           ++index;
+                         },
+                         [&](PartId, CodeSet &mine) { mine = (code++)->second; },
+                         [&](PartId, Truth &mine) { mine = *truth++; }},
+              state);
   for (const std::uint32_t variable : erased_)
     state.variables.erase(variable);
   for (const auto &[variable, value] : variables_)
     state.variables.set(variable, value);
   state.forgotten = rest_->forgotten;
-  state.codes = rest_->codes;
-  state.transformed = rest_->transformed;
-  state.spindle = rest_->spindle;
-  state.modalCallsUnknown = rest_->modalCallsUnknown;
-  state.enteredLoops = rest_->enteredLoops;
   return state;
 }
 
@@ -74,18 +72,18 @@ KeptState StateKeeper::keep(const AbstractState &state) {
 
 /// From the base; absent when there is too much of it.
 std::optional<KeptState> StateKeeper::differing(const AbstractState &state) const {
-  if (!haveSameCells(*base_, state))
+  if (!haveSameLists(*base_, state))
     return std::nullopt;
-  std::vector<const AbstractValue *> old;
-  forEachCell(*base_, [&](const AbstractValue &value) { old.push_back(&value); });
   KeptState kept;
   kept.base_ = base_;
   std::uint32_t index = 0;
-  forEachCell(state, [&](const AbstractValue &value) {
-    if (*old[index] != value && kept.cells_.size() <= kMostDifferences)
-      kept.cells_.push_back({index, value});
-    ++index;
-  });
+  forEachCell(Overloaded{[&](PartId, const AbstractValue &old, const AbstractValue &value) {
+                           if (old != value && kept.cells_.size() <= kMostDifferences)
+                             kept.cells_.push_back({index, value});
+                           ++index;
+                         },
+                         [](PartId, const auto &, const auto &) {}},
+              *base_, state);
   auto before = base_->variables.entries().begin();
   const auto end = base_->variables.entries().end();
   for (const auto &entry : state.variables.entries()) {

@@ -14,7 +14,7 @@ namespace feedhold {
 class KeptState {
 public:
   AbstractState state() const;
-  const decltype(AbstractState::codes) &codes() const { return rest_->codes; }
+  CodeSet code(std::uint8_t group) const;
   /// That are kept for this state alone.
   std::size_t valueCount() const { return cells_.size() + variables_.size() + ownValues_; }
 
@@ -22,17 +22,14 @@ private:
   friend class StateKeeper;
 
   struct Cell {
-    std::uint32_t index; // among all values but the variables, in the order of forEachValue
+    std::uint32_t index; // among all values but the variables, in the order of forEachPart
     AbstractValue value;
   };
-  /// What is no value; nearly always that of the base.
+  /// What is no value, in the order of forEachPart; nearly always that of the base.
   struct Rest {
     decltype(AbstractState::forgotten) forgotten;
-    decltype(AbstractState::codes) codes;
-    Truth transformed;
-    CodeSet spindle;
-    Truth modalCallsUnknown;
-    decltype(AbstractState::enteredLoops) enteredLoops;
+    std::vector<std::pair<PartId, CodeSet>> codes;
+    std::vector<Truth> truths;
     friend bool operator==(const Rest &, const Rest &) = default;
   };
   static Rest restOf(const AbstractState &state);

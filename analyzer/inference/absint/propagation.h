@@ -54,10 +54,13 @@ private:
   std::optional<AbstractState> enterUnfollowed(NodeId node, const CallRequest<AbstractReading> &request,
                                                AbstractState state);
   void nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state);
-  std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
-  std::optional<AbstractState> once(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
+  std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request,
+                                        const AbstractState &before);
+  std::optional<AbstractState> calledAgain(NodeId node, Frame<AbstractReading> &frame, AbstractState left,
+                                           std::optional<double> times);
+  std::optional<AbstractState> once(NodeId node, const Frame<AbstractReading> &frame, AbstractState state);
   void addTo(std::optional<AbstractState> &all, AbstractState state);
-  void walkInto(NodeId node, const CallRequest<AbstractReading> &request, Summary &summary);
+  void walkInto(NodeId node, const Frame<AbstractReading> &frame, Summary &summary);
   void searchAlarms(NodeId node, const AbstractValue &number);
   void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
   void startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state);

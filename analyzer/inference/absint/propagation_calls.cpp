@@ -7,26 +7,6 @@ namespace {
 
 constexpr double kMostUnrolled = 4;
 
-using Entries = std::vector<VariableMap<AbstractValue>::Entry>;
-
-bool isOwnName(const ProgramSet &programs, std::uint32_t variable) {
-  return variable >= kFirstNamedVariable && !programs.isGlobalName(variable);
-}
-
-/// The named variables of the present level, which no called program sees, with a level of its own or by M98.
-Entries ownNames(const ProgramSet &programs, const AbstractState &state) {
-  Entries names;
-  for (const auto &entry : state.variables.entries())
-    if (isOwnName(programs, entry.first))
-      names.push_back(entry);
-  return names;
-}
-void putOwnNames(const ProgramSet &programs, AbstractState &state, const Entries &names) {
-  std::erase_if(state.variables.entries(), [&](const auto &entry) { return isOwnName(programs, entry.first); });
-  for (const auto &[variable, value] : names)
-    state.variables.set(variable, value);
-}
-
 } // namespace
 
 bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &state) {
@@ -53,19 +33,10 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
   return true;
 }
 
-/// A call of what is not known may do anything to what the called program sees.
 void Propagation::unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
                               std::string_view reason) {
-  const auto locals = state.locals;
-  const auto names = ownNames(engine_.programs_, state);
-  const auto loops = state.enteredLoops;
-  const auto counters = state.counters;
-  reading_.havoc(state, reason, contextAt(node, state).place());
-  if (request.freshLocals)
-    state.locals = locals;
-  putOwnNames(engine_.programs_, state, names);
-  state.enteredLoops = loops;
-  state.counters = counters;
+  AbstractContext context = contextAt(node, state);
+  havocCall(context, request, reason);
 }
 
 std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractReading> &request,
@@ -83,6 +54,9 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
     unknownCall(node, request, state, "a program that is not among these files");
     return state;
   }
+  const auto times = repeatsOf(reading_, request);
+  if (times && callsNothing(*times))
+    return state;
   nestingAlarms(node, request, state);
   const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
   if (!tooDeep && !engine_.isOpen(*request.callee))
@@ -112,106 +86,94 @@ std::optional<AbstractState> Propagation::enterUnfollowed(NodeId node, const Cal
 /// holds at any depth: so the alarm is never certain.
 void Propagation::nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state) {
   const Limits &limits = facts_.file->dialect->limits;
-  const CallDepth &depth = engine_.depth_;
-  const bool unknown = !engine_.depthKnown_ || engine_.isOpen(*request.callee);
   const Span place = contextAt(node, state).place();
-  if (request.freshLocals && (unknown || depth.macros >= limits.macroCallDepth))
-    reading_.alarm(Truth::Maybe, {AlarmKind::MacroNesting, place});
-  if (unknown || depth.calls >= limits.totalCallDepth ||
-      (!request.freshLocals && depth.calls - depth.macros >= limits.subprogramDepth))
+  if (!engine_.depthKnown_ || engine_.isOpen(*request.callee)) {
+    if (request.freshLocals)
+      reading_.alarm(Truth::Maybe, {AlarmKind::MacroNesting, place});
     reading_.alarm(Truth::Maybe, {AlarmKind::SubprogramNesting, place});
+  } else if (const auto alarm = nestingAlarm(limits, engine_.depth_, request.freshLocals)) {
+    reading_.alarm(Truth::Maybe, {*alarm, place});
+  }
 }
 
+/// What comes back to the block behind the call.
 std::optional<AbstractState> Propagation::repeated(NodeId node, const CallRequest<AbstractReading> &request,
-                                                   AbstractState state) {
-  const std::optional<double> times = reading_.constantOf(request.repeats);
-  if (times && *times < 0.5)
-    return state;
-  auto after = once(node, request, state);
-  if (!after && !times)
-    return state; // none at all may be asked for
-  if (!after || times == 1.0)
+                                                   const AbstractState &before) {
+  const auto times = repeatsOf(reading_, request);
+  AbstractState inside = before;
+  const CallSite site{placeOf(node), modal_, summary_.modalLimit};
+  auto frame = enterCall(engine_.programs_, inside, request, site, times.value_or(1), reading_, NobodyAsks{});
+  auto after = once(node, frame, std::move(inside));
+  if (after && times != 1.0)
+    after = calledAgain(node, frame, std::move(*after), times);
+  if (after)
+    leaveCall(engine_.programs_, *after, frame);
+  if (times)
     return after;
-  // Whether the second pass starts with the arguments or with what the first has left differs by control: with either.
-  const auto next = [&](const AbstractState &from) {
-    CallRequest<AbstractReading> again = request;
-    for (AbstractValue &local : again.locals)
-      local = AbstractValue::any();
-    AbstractState begins = from;
-    if (modal_ && *modal_ < begins.modalCalls.size())
-      begins.modalCalls[*modal_].locals = again.locals;
-    return once(node, again, std::move(begins));
+  addTo(after, before); // none at all may be asked for
+  return after;
+}
+
+/// From what the first repetition has left: what the last one leaves.
+std::optional<AbstractState> Propagation::calledAgain(NodeId node, Frame<AbstractReading> &frame, AbstractState left,
+                                                      std::optional<double> times) {
+  const auto next = [&](AbstractState begins) {
+    repeatCall(engine_.programs_, begins, frame, reading_, NobodyAsks{});
+    return once(node, frame, std::move(begins));
   };
   if (times && *times <= kMostUnrolled) {
-    for (double pass = 2; pass < *times + 0.5 && after; ++pass)
-      after = next(*after);
+    std::optional<AbstractState> after = std::move(left);
+    while (after && isCalledAgain(frame))
+      after = next(std::move(*after));
     return after;
   }
-  AbstractState all = std::move(*after);
-  for (int pass = 0; !engine_.gaveUp_; ++pass) {
-    const auto more = next(all);
-    if (!more || leq(reading_, *more, all))
+  for (int repetition = 0; !engine_.gaveUp_; ++repetition) {
+    const auto more = next(left);
+    if (!more || leq(reading_, *more, left))
       break;
-    if (pass < 2)
-      joinInto(reading_, all, *more);
+    if (repetition < 2)
+      joinInto(reading_, left, *more);
     else
-      widenInto(reading_, all, *more, facts_.thresholds);
+      widenInto(reading_, left, *more, facts_.thresholds);
   }
-  if (!times)
-    joinInto(reading_, all, state);
-  return all;
+  return left;
 }
 
-std::optional<AbstractState> Propagation::once(NodeId node, const CallRequest<AbstractReading> &request,
-                                               AbstractState state) {
-  const auto callerLocals = state.locals;
-  const auto callerNames = ownNames(engine_.programs_, state);
-  const auto callerLoops = state.enteredLoops;
-  const auto callerCounters = state.counters;
-  if (request.freshLocals)
-    state.locals = request.locals;
-  for (const auto &name : callerNames)
-    state.variables.set(name.first, AbstractValue::vacant());
-  state.enteredLoops.clear();
-  state.counters.clear();
+/// The state in which the program has returned, before it is left.  Returns to a sequence number leave it here.
+std::optional<AbstractState> Propagation::once(NodeId node, const Frame<AbstractReading> &frame, AbstractState state) {
   StepObserver *observer = reading_.observer();
   reading_.observe(nullptr);
-  Summary &summary = engine_.summaryOf(*request.callee, state, modal_ ? modal_ : summary_.modalLimit);
+  Summary &summary = engine_.summaryOf(frame.callee, state, frame.modalLimit);
   reading_.observe(observer);
   if (pass_ == Pass::Walk)
-    walkInto(node, request, summary);
+    walkInto(node, frame, summary);
   reading_.useDialect(*facts_.file->dialect);
   reading_.start();
   std::optional<AbstractState> behind;
   for (const Exit &exit : summary.exits) {
     AbstractState left = translated(reading_, exit.state, summary.entry, state);
-    if (modal_ && *modal_ < left.modalCalls.size()) // what the macro leaves in its variables is there at the next call
-      left.modalCalls[*modal_].locals = left.locals;
-    if (request.freshLocals)
-      left.locals = callerLocals;
-    putOwnNames(engine_.programs_, left, callerNames);
-    left.enteredLoops = callerLoops;
-    left.counters = callerCounters;
-    if (exit.target)
-      returnTo(node, *exit.target, left);
-    else
+    if (!exit.target) {
       addTo(behind, std::move(left));
+      continue;
+    }
+    leaveCall(engine_.programs_, left, frame);
+    returnTo(node, *exit.target, left);
   }
   return behind;
 }
 
-void Propagation::walkInto(NodeId node, const CallRequest<AbstractReading> &request, Summary &summary) {
+void Propagation::walkInto(NodeId node, const Frame<AbstractReading> &frame, Summary &summary) {
   const CallDepth before = engine_.depth_;
-  CallDepth inside{before.calls + 1, before.macros + (request.freshLocals ? 1U : 0U)};
+  CallDepth inside = before.inside(frame.ownLocals);
   if (!engine_.depthKnown_)
     inside = {facts_.file->dialect->limits.totalCallDepth, 0};
   if (!summary.walkedAt.insert(inside).second)
     return;
   engine_.depth_ = inside;
   engine_.calls_.push_back(placeOf(node));
-  engine_.open_.push_back(*request.callee);
-  reading_.useDialect(*engine_.programs_.file(request.callee->file).dialect);
-  Propagation(engine_, engine_.factsOf(*request.callee), summary, Pass::Walk).run();
+  engine_.open_.push_back(frame.callee);
+  reading_.useDialect(*engine_.programs_.file(frame.callee.file).dialect);
+  Propagation(engine_, engine_.factsOf(frame.callee), summary, Pass::Walk).run();
   engine_.open_.pop_back();
   engine_.calls_.pop_back();
   engine_.depth_ = before;
@@ -249,8 +211,7 @@ void Propagation::returnTo(NodeId node, const AbstractValue &target, const Abstr
 }
 
 bool Propagation::modalCalls(NodeId node, AbstractState &state) {
-  const std::size_t usable = std::min(summary_.modalLimit.value_or(~std::size_t{0}), state.modalCalls.size());
-  if (usable == 0 && state.modalCallsUnknown == Truth::False)
+  if (mayCallModally(reading_, state, summary_.modalLimit) == Truth::False)
     return true;
   AbstractContext context = contextAt(node, state);
   const Truth moves = movesAxis(context, words_);
@@ -263,7 +224,7 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
     unknown.possible = engine_.programs_.modalCallees();
     state = *enter(node, unknown, std::move(state)); // what is not known comes back
   } else {
-    const std::size_t last = usable - 1;
+    const std::size_t last = *modalCallOf(state, summary_.modalLimit);
     const CallRequest<AbstractReading> request = prepareModalCall(context, state.modalCalls[last]);
     const auto outer = std::exchange(modal_, last);
     auto after = enter(node, request, state);

@@ -83,9 +83,11 @@ void ProgramSet::findWritten(const ProgramFile &file) {
 void ProgramSet::findModalCallees(const ProgramFile &from) {
   for (std::size_t i = 0; i < from.model->calls.size(); ++i) {
     const CallKind kind = from.model->calls[CallId(i)].kind;
-    if (kind == CallKind::Modal || kind == CallKind::ModalEach)
-      if (const auto found = callee(from.file, CallId(i)))
-        modalCallees_.push_back(*found);
+    if (kind != CallKind::Modal && kind != CallKind::ModalEach)
+      continue;
+    hasModalCalls_ = true;
+    if (const auto found = callee(from.file, CallId(i)))
+      modalCallees_.push_back(*found);
   }
 }
 
@@ -180,6 +182,10 @@ std::string ProgramSet::nameOfVariable(std::uint32_t variable) const {
 bool ProgramSet::isGlobalName(std::uint32_t variable) const {
   return variable >= kFirstNamedVariable && variable - kFirstNamedVariable < names_.size() &&
          names_[variable - kFirstNamedVariable].starts_with('_');
+}
+
+bool ProgramSet::isLocalName(std::uint32_t variable) const {
+  return variable >= kFirstNamedVariable && variable - kFirstNamedVariable < names_.size() && !isGlobalName(variable);
 }
 
 } // namespace feedhold

@@ -58,6 +58,8 @@ public:
   bool isWrittenInCalled(std::uint32_t variable) const;
   /// What the modal calls of all programs call.
   const std::vector<Callee> &modalCallees() const { return modalCallees_; }
+  /// Some program begins a modal call.
+  bool hasModalCalls() const { return hasModalCalls_; }
   /// Where the `M99 P` of all programs may return to.
   const ReturnTargets &returns() const { return returns_; }
 
@@ -71,6 +73,8 @@ public:
   std::string nameOfVariable(std::uint32_t variable) const;
   /// A named variable that every program sees (`#<_depth>`).
   bool isGlobalName(std::uint32_t variable) const;
+  /// A named variable that each level of calls has for itself (`#<depth>`).
+  bool isLocalName(std::uint32_t variable) const;
 
 private:
   void findNames(const ProgramFile &file);
@@ -83,6 +87,7 @@ private:
   CallGraph callGraph_;
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_;
+  bool hasModalCalls_ = false;
   std::vector<std::uint32_t> written_; // sorted
   std::vector<std::string> names_;                                  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted

@@ -1,5 +1,7 @@
 #include "meaning/machine/concrete_reading.h"
 
+#include "meaning/semantics/parts.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -185,30 +187,23 @@ void ConcreteReading::move(const Move<Value> &move) {
 
 MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
                                          const std::array<double, kAxisCount> &start) {
-  MachineState<ConcreteReading> state;
+  const auto asAfterPowerOn = Overloaded{[&](PartId id, ConcreteValue &value) {
+                                           setNeutral(reading, id, value);
+                                           if (id.part == Part::Position)
+                                             value = ConcreteValue::of(start[id.key]);
+                                         },
+                                         [&](PartId id, std::uint8_t &code) {
+                                           code = id.part == Part::Spindle
+                                                      ? std::uint8_t{0}
+                                                      : modes.powerOn(id.key).value_or(ConcreteReading::kNoCode);
+                                         },
+                                         [&](PartId id, bool &truth) { setNeutral(reading, id, truth); }};
+  auto state = entryParts<ConcreteReading>(reading, asAfterPowerOn, asAfterPowerOn);
   for (const auto &[variable, value] : reading.allGiven())
     if (reading.isLocal(variable))
       state.locals[variable] = value;
     else
       state.variables.set(variable, value);
-  for (std::size_t group = 0; group < kModalGroups; ++group)
-    state.codes[group] = modes.powerOn(group).value_or(ConcreteReading::kNoCode);
-  const ConcreteValue zero = ConcreteValue::of(0);
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-    state.position[axis] = ConcreteValue::of(start[axis]);
-  state.words.fill({});
-  state.shift.fill(zero);
-  state.local.fill(zero);
-  state.lengthOffset = zero;
-  state.cycle = {};
-  state.transform.scale.fill(ConcreteValue::of(1));
-  state.transform.scaleCentre.fill(zero);
-  state.transform.mirrorAt.fill({});
-  state.transform.angle = zero;
-  state.transform.centre.fill(zero);
-  state.transformed = false;
-  state.spindle = 0;
-  state.modalCallsUnknown = false;
   return state;
 }
 

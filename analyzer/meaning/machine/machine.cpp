@@ -1,6 +1,6 @@
 #include "meaning/machine/machine.h"
 
-#include "meaning/machine/frames.h"
+#include "meaning/machine/repeat_watch.h"
 #include "meaning/semantics/tool_point.h"
 
 #include <algorithm>
@@ -236,61 +236,30 @@ private:
     return std::any_of(jumps.begin(), jumps.end(), [](const Jump &jump) { return jump.kind == JumpKind::CallAt; });
   }
 
-  /// After a movement: the innermost modal call that applies here, if any.
+  /// After a movement: whether the run goes on in a modal call.
   bool enterModal() {
-    const std::size_t usable = std::min(frames_.back().modalLimit.value_or(~std::size_t{0}), state_.modalCalls.size());
-    if (usable == 0)
+    const auto modal = modalCallOf(state_, frames_.back().modalLimit);
+    if (!modal)
       return false;
     auto ctx = context();
-    const CallRequest<ConcreteReading> request = prepareModalCall(ctx, state_.modalCalls[usable - 1]);
-    return !reading_.stopped() && enter(request, usable - 1);
+    const CallRequest<ConcreteReading> request = prepareModalCall(ctx, state_.modalCalls[*modal]);
+    return !reading_.stopped() && enter(request, modal);
   }
 
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
   bool enter(const CallRequest<ConcreteReading> &request, std::optional<std::size_t> modal) {
-    if (!request.callee || request.repeats.number < 0.5) {
+    if (!request.callee || callsNothing(request.repeats.number)) {
       reading_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
       return false;
     }
-    if (const auto alarm = nestingAlarm(request.freshLocals)) {
+    if (const auto alarm = nestingAlarm(dialect().limits, depthOf(frames_), request.freshLocals)) {
       reading_.alarm(true, {*alarm, blockSpan()});
       return false;
     }
-    Frame frame{.callee = *request.callee,
-                .call = at_,
-                .repeatsLeft = request.repeats.number,
-                .ownLocals = request.freshLocals,
-                .modal = modal,
-                .modalLimit = modal ? modal : frames_.back().modalLimit};
-    frame.callerLoops = std::exchange(state_.enteredLoops, {});
-    frame.callerNames = takeOwnNames();
-    if (request.freshLocals)
-      frame.callerLocals = std::exchange(state_.locals, request.locals);
-    frames_.push_back(std::move(frame));
+    const CallSite site{at_, modal, frames_.back().modalLimit};
+    frames_.push_back(enterCall(programs_, state_, request, site, request.repeats.number, reading_, NobodyAsks{}));
     at_ = {request.callee->file, request.callee->entry};
     return true;
-  }
-  std::optional<AlarmKind> nestingAlarm(bool macro) const {
-    const Limits &limits = dialect().limits;
-    const auto open = frames_.size() - 1;
-    const auto macros = static_cast<std::size_t>(
-        std::count_if(frames_.begin(), frames_.end(), [](const Frame &frame) { return frame.ownLocals; }));
-    if (macro && macros >= limits.macroCallDepth)
-      return AlarmKind::MacroNesting;
-    if (open >= limits.totalCallDepth || (!macro && open - macros >= limits.subprogramDepth))
-      return AlarmKind::SubprogramNesting;
-    return std::nullopt;
-  }
-  /// The named variables of the present level, which a called program does not see.
-  std::vector<VariableMap<ConcreteValue>::Entry> takeOwnNames() {
-    auto &entries = state_.variables.entries();
-    const auto isShared = [&](const auto &entry) {
-      return entry.first < kFirstNamedVariable || programs_.isGlobalName(entry.first);
-    };
-    const auto own = std::stable_partition(entries.begin(), entries.end(), isShared);
-    std::vector<VariableMap<ConcreteValue>::Entry> names(own, entries.end());
-    entries.erase(own, entries.end());
-    return names;
   }
 
   std::optional<NodeId> follow(const ReturnFromProgram &from) {
@@ -298,16 +267,13 @@ private:
     const auto target = returnTarget(ctx, from);
     if (reading_.stopped())
       return std::nullopt;
-    Frame &frame = frames_.back();
+    ConcreteFrame &frame = frames_.back();
     if (frames_.size() == 1) {
       if (target)
         return search(target->number, node().block);
       end(RunEnd::Returned);
-    } else if (!target && frame.repeatsLeft >= 1.5) {
-      frame.repeatsLeft -= 1;
-      state_.enteredLoops.clear();
-      if (!frame.ownLocals) // each pass of an M98 begins without names
-        takeOwnNames();
+    } else if (!target && isCalledAgain(frame)) {
+      repeatCall(programs_, state_, frame, reading_, NobodyAsks{});
       at_ = {frame.callee.file, frame.callee.entry};
     } else {
       leave(target);
@@ -315,16 +281,9 @@ private:
     return std::nullopt;
   }
   void leave(const std::optional<ConcreteValue> &target) {
-    const Frame frame = std::move(frames_.back());
+    const ConcreteFrame frame = std::move(frames_.back());
     frames_.pop_back();
-    if (frame.modal && *frame.modal < state_.modalCalls.size())
-      state_.modalCalls[*frame.modal].locals = state_.locals;
-    state_.enteredLoops = frame.callerLoops;
-    if (frame.ownLocals)
-      state_.locals = frame.callerLocals;
-    takeOwnNames(); // those of the program that ends
-    for (const auto &[variable, value] : frame.callerNames)
-      state_.variables.set(variable, value);
+    leaveCall(programs_, state_, frame);
     const Node &caller = programs_.node(frame.call);
     at_ = frame.call;
     const std::optional<NodeId> label = target ? search(target->number, caller.block) : std::nullopt;
@@ -342,14 +301,14 @@ private:
   State state_;
   State entry_; // as it was at the start
   Place at_;
-  std::vector<Frame> frames_;
+  std::vector<ConcreteFrame> frames_;
   ExecutedWords<ConcreteReading> words_;
   RepeatWatch watch_;
   /// A state that came back, and what the run meets on its way round to it.
   struct Circle {
     Place at;
     State state;
-    std::vector<Frame> frames;
+    std::vector<ConcreteFrame> frames;
     std::uint64_t steps;
     std::size_t moves;
     std::set<Place> places;

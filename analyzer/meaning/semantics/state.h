@@ -123,6 +123,15 @@ template <typename R> struct MachineState {
   friend bool operator==(const MachineState &, const MachineState &) = default;
 };
 
+/// Whether the DO of a loop has been executed; `ifAbsent`: what is put into the list for a loop that is not in it.
+template <typename R>
+typename R::Truth &enteredLoop(MachineState<R> &state, std::uint8_t number, typename R::Truth ifAbsent) {
+  auto &loops = state.enteredLoops;
+  const auto at = std::lower_bound(loops.begin(), loops.end(), number,
+                                   [](const auto &loop, std::uint8_t key) { return loop.first < key; });
+  return at != loops.end() && at->first == number ? at->second : loops.insert(at, {number, ifAbsent})->second;
+}
+
 /// The states of the spindle: MachineState::spindle is an index of these.
 inline constexpr std::array kSpindleActions = {CodeAction::SpindleStop, CodeAction::SpindleClockwise,
                                                CodeAction::SpindleCounterclockwise};

@@ -85,14 +85,6 @@ void setNamed(StepContext<R> &context, std::string_view name, const typename R::
     context.state.variables.set(*number, value);
 }
 
-template <ValueAlgebra R>
-typename R::Truth &enteredLoop(MachineState<R> &state, std::uint8_t number, typename R::Truth initial) {
-  for (auto &[loop, entered] : state.enteredLoops)
-    if (loop == number)
-      return entered;
-  return state.enteredLoops.emplace_back(number, initial).second;
-}
-
 template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
   readWords(context, choice, words);
   applyModes(context, words);
@@ -124,11 +116,11 @@ template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &
   if (const auto *assign = std::get_if<Assign>(&instruction))
     return detail::assign(context, *assign);
   if (const auto *enter = std::get_if<EnterLoop>(&instruction))
-    detail::enteredLoop(context.state, enter->number, reading.truth(true)) = reading.truth(true);
+    enteredLoop(context.state, enter->number, reading.truth(true)) = reading.truth(true);
   else if (const auto *into = std::get_if<JumpIntoLoop>(&instruction))
-    detail::enteredLoop(context.state, into->number, reading.truth(false)) = reading.truth(false);
+    enteredLoop(context.state, into->number, reading.truth(false)) = reading.truth(false);
   else if (const auto *require = std::get_if<RequireLoop>(&instruction))
-    reading.alarm(reading.negation(detail::enteredLoop(context.state, require->number, reading.truth(true))),
+    reading.alarm(reading.negation(enteredLoop(context.state, require->number, reading.truth(true))),
                   {AlarmKind::MissingDo, context.place()});
   else if (const auto *start = std::get_if<StartCount>(&instruction))
     detail::startCount(context, *start);

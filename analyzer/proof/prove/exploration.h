@@ -55,6 +55,15 @@ struct LoopInstance {
   std::vector<Value> values = {};
   bool isRecorded = false;   // false: met only in a trial
   bool callsUnknown = false; // a pass may stay in a program that is not followed
+
+  /// What the variable stands for was there before the loop was met, or at the start of the run: no pass changes it.
+  bool isFixed(const SymbolicReading &reading, smt::TermId variable) const {
+    return variable.index() < mark || reading.isFromEntry(variable);
+  }
+  /// No pass changes the value of the term.
+  bool isConstant(const SymbolicReading &reading, const smt::TermStore &store, smt::TermId term) const;
+  /// The term speaks of nothing but the state before a pass: of what is fixed, and of what the passes change.
+  bool isOfState(const SymbolicReading &reading, const smt::TermStore &store, smt::TermId term) const;
 };
 
 enum class ExitKind : std::uint8_t { Returns, Ends };
@@ -68,12 +77,13 @@ struct PathExit {
   smt::TermId moved;
 };
 
-/// One way to a call: the state in which the called program begins.
+/// One path to the entry of a called program: to each repetition, and to each call that a modal call makes.
 struct CallInstance {
-  Place place; // of the block that calls
-  Callee callee;
+  Place own;     // the block of the started program that calls it, or that called whoever does
+  Callee callee; // which begins in `state`
   std::vector<smt::TermId> conditions;
   SymbolicState state;
+  smt::TermId modalCall; // a modal call is in force that the movements of the program make
 };
 
 /// One way to a movement.
@@ -110,7 +120,7 @@ struct Exploration {
   std::vector<Check> checks;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
-  std::vector<CallInstance> calls; // of ExploreOptions::keepCall
+  std::vector<CallInstance> calls; // for which the started program has to answer
   std::vector<MoveInstance> moves; // of ExploreOptions::moves
   LoopTreatment treatment = LoopTreatment::AnyPass;
   std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
@@ -146,7 +156,7 @@ struct ExploreOptions {
   bool mayEnclose = false;
   LoopHints invariants = {};                         // tried with those that are guessed
   LoopHints measures = {};                           // kept for LoopInstance::measures
-  std::function<bool(const Callee &)> keepCall = {}; // whose calls are kept; empty: none
+  std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
   KeepMoves moves = KeepMoves::No;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;

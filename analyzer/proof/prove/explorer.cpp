@@ -56,6 +56,20 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
   return true;
 }
 
+// ---- LoopInstance ----
+
+bool LoopInstance::isConstant(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+  const auto terms = smt::variablesOf(store, term);
+  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) { return isFixed(reading, variable); });
+}
+
+bool LoopInstance::isOfState(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+  const auto terms = smt::variablesOf(store, term);
+  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) {
+    return isFixed(reading, variable) || (!transitions.empty() && transitions.front().next.contains(variable));
+  });
+}
+
 // ---- Explorer ----
 
 Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options,

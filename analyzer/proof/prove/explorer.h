@@ -55,10 +55,11 @@ private:
   // ---- calls ----
   std::vector<Path> enter(Path path, const CallRequest<SymbolicReading> &request, std::optional<std::size_t> modal);
   std::vector<Path> modalCall(Path path, Condition moves);
-  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request, std::string_view reason);
+  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request,
+                                std::optional<std::size_t> modal, std::string_view reason);
   bool mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const;
-  std::optional<AlarmKind> nestingAlarm(const Path &path, bool macro) const;
-  std::vector<VariableMap<SymbolicValue>::Entry> takeOwnNames(SymbolicState &state) const;
+  void recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame, const SymbolicState &state);
+  void recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request, std::optional<std::size_t> modal);
   std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
 
   /// Keeps what the step may have stopped at; false when it always stops.

@@ -1,6 +1,5 @@
 // Calls: the programs that a block calls, or that a modal call calls after a movement.
 #include "proof/prove/explorer.h"
-#include "proof/prove/path_memory.h"
 
 #include <algorithm>
 #include <set>
@@ -24,7 +23,7 @@ std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
   switch (request.action) {
   case CallAction::SetModal:
   case CallAction::EndModal: return {to(std::move(path), next)};
-  case CallAction::Operation: return unknownCall(std::move(path), request, "an operation of Macro A");
+  case CallAction::Operation: return unknownCall(std::move(path), request, std::nullopt, "an operation of Macro A");
   case CallAction::Enter: break;
   }
   return enter(std::move(path), request, std::nullopt);
@@ -33,10 +32,9 @@ std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
 /// After a movement: the innermost modal call that applies here, if any.
 std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
   const NodeId next = nodeOf(path).next;
-  const std::size_t usable =
-      std::min(path.frames.back().modalLimit.value_or(~std::size_t{0}), path.state.modalCalls.size());
+  const auto modal = modalCallOf(path.state, path.frames.back().modalLimit);
   const bool unknown = path.state.modalCallsUnknown.term != store_.no();
-  if (usable == 0 && !unknown)
+  if (!modal && !unknown)
     return {to(std::move(path), next)};
   std::vector<Path> paths;
   if (isPossible(path, store_.logicalNot(moves.term))) {
@@ -52,10 +50,10 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
     CallRequest<SymbolicReading> request;
     request.freshLocals = true;
     request.repeats = reading_.number(1);
-    called = unknownCall(std::move(path), request, "a modal call that is not known");
+    called = unknownCall(std::move(path), request, std::nullopt, "a modal call that is not known");
   } else {
-    const auto request = prepareModalCall(context, path.state.modalCalls[usable - 1]);
-    called = enter(std::move(path), request, usable - 1);
+    const auto request = prepareModalCall(context, path.state.modalCalls[*modal]);
+    called = enter(std::move(path), request, modal);
   }
   std::move(called.begin(), called.end(), std::back_inserter(paths));
   return paths;
@@ -63,7 +61,7 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
 
 /// Of what is not known, or not followed: it may do anything to what the called program sees, and comes back.
 std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicReading> &request,
-                                        std::string_view reason) {
+                                        std::optional<std::size_t> modal, std::string_view reason) {
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
     giveUp("a call that is not followed may lead back to the program");
   if (purpose_ == Purpose::Record) {
@@ -71,15 +69,9 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicRea
     for (const OpenLoop &loop : path.loops)
       call.loops.push_back(loop.instance);
   }
-  const auto locals = path.state.locals;
-  const auto loops = path.state.enteredLoops;
-  const auto counters = path.state.counters;
+  recordUnfollowedEntries(path, request, modal);
   auto context = contextOf(path);
-  reading_.havoc(path.state, reason, context.place());
-  if (request.freshLocals)
-    path.state.locals = locals;
-  path.state.enteredLoops = loops;
-  path.state.counters = counters;
+  havocCall(context, request, reason);
   // It may stop with an alarm of its own, and it may come back to any number that some M99 P names.
   const NodeId next = nodeOf(path).next;
   const ReturnTargets &returns = programs_.returns();
@@ -117,27 +109,52 @@ bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Calle
   return false;
 }
 
-std::optional<AlarmKind> Explorer::nestingAlarm(const Path &path, bool macro) const {
-  const Limits &limits = programs_.file(path.at.file).dialect->limits;
-  const auto open = path.frames.size() - 1;
-  const auto macros = static_cast<std::size_t>(std::count_if(
-      path.frames.begin(), path.frames.end(), [](const SymbolicFrame &frame) { return frame.ownLocals; }));
-  if (macro && macros >= limits.macroCallDepth)
-    return AlarmKind::MacroNesting;
-  if (open >= limits.totalCallDepth || (!macro && open - macros >= limits.subprogramDepth))
-    return AlarmKind::SubprogramNesting;
-  return std::nullopt;
+/// A call in the text of another program is an obligation of that program's own proof.  A modal call that a movement of
+/// another program makes is not: that proof assumes that none is in force.
+void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame,
+                           const SymbolicState &state) {
+  if (purpose_ != Purpose::Record || !options_.demands || (callerDepth > 1 && !frame.modal))
+    return;
+  const TermId modalCall =
+      programs_.hasModalCalls() ? mayCallModally(reading_, state, frame.modalLimit).term : store_.no();
+  if (modalCall != store_.no() || options_.demands(frame.callee))
+    result_.calls.push_back({ownPlace(path), frame.callee, path.conditions, state, modalCall});
 }
 
-std::vector<VariableMap<SymbolicValue>::Entry> Explorer::takeOwnNames(SymbolicState &state) const {
-  auto &entries = state.variables.entries();
-  const auto isShared = [&](const auto &entry) {
-    return entry.first < kFirstNamedVariable || isPathMemory(entry.first) || programs_.isGlobalName(entry.first);
+/// Whatever program the call enters, however often, and whatever modal calls are made in it: each entry is asked about
+/// as if it were followed.
+void Explorer::recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request,
+                                       std::optional<std::size_t> modal) {
+  if (purpose_ != Purpose::Record || !options_.demands)
+    return;
+  const auto limit = path.frames.back().modalLimit;
+  const auto record = [&](const SymbolicFrame &frame, const SymbolicState &state) {
+    recordEntry(path, path.frames.size(), frame, state);
   };
-  const auto own = std::stable_partition(entries.begin(), entries.end(), isShared);
-  std::vector<VariableMap<SymbolicValue>::Entry> names(own, entries.end());
-  entries.erase(own, entries.end());
-  return names;
+  std::vector<Callee> callees = request.possible;
+  if (request.callee)
+    callees.push_back(*request.callee);
+  for (const Callee &callee : callees) {
+    request.callee = callee;
+    SymbolicState state = path.state;
+    SymbolicFrame frame = enterCall(programs_, state, request, {path.at, modal, limit}, 1, reading_, record);
+    if (repeatsOf(reading_, request) == 1.0)
+      continue;
+    havocParts(reading_, state, std::nullopt); // by the repetitions before
+    repeatCall(programs_, state, frame, reading_, record);
+  }
+  const auto innermost = modalCallOf(path.state, modal ? modal : limit);
+  if (!innermost)
+    return;
+  SymbolicState inside = path.state;
+  havocParts(reading_, inside, std::nullopt);
+  for (std::size_t i = 0; i <= *innermost; ++i) {
+    auto context = contextOf(path);
+    const auto modalRequest = prepareModalCall(context, inside.modalCalls[i]);
+    SymbolicState state = inside;
+    if (modalRequest.callee)
+      enterCall(programs_, state, modalRequest, {path.at, i, limit}, 1, reading_, record);
+  }
 }
 
 std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> &request,
@@ -145,31 +162,24 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> 
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
     stopsWhen(path, reading_.unknownTruth(), AlarmKind::ProgramNotFound);
-    return unknownCall(std::move(path), request, "a program that is not among these files");
+    return unknownCall(std::move(path), request, modal, "a program that is not among these files");
   }
-  const auto repeats = reading_.constantOf(request.repeats);
-  if (repeats && *repeats < 0.5)
+  const auto repeats = repeatsOf(reading_, request);
+  if (repeats && callsNothing(*repeats))
     return {to(std::move(path), next)};
   if (!repeats || *repeats > kMostRepeats)
-    return unknownCall(std::move(path), request, "a call that is repeated a number of times that is not known");
-  if (const auto alarm = nestingAlarm(path, request.freshLocals)) {
+    return unknownCall(std::move(path), request, modal, "a call that is repeated a number of times that is not known");
+  const Limits &limits = fileOf(path).dialect->limits;
+  if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
     stopsWhen(path, reading_.truth(true), *alarm);
     takeChecks(path);
     return {};
   }
-  SymbolicFrame frame{.callee = *request.callee,
-                      .call = path.at,
-                      .repeatsLeft = *repeats,
-                      .ownLocals = request.freshLocals,
-                      .modal = modal,
-                      .modalLimit = modal ? modal : path.frames.back().modalLimit};
-  frame.callerLoops = std::exchange(path.state.enteredLoops, {});
-  frame.callerCounters = std::exchange(path.state.counters, {});
-  if (request.freshLocals)
-    frame.callerLocals = std::exchange(path.state.locals, request.locals);
-  frame.callerNames = takeOwnNames(path.state);
-  if (purpose_ == Purpose::Record && options_.keepCall && options_.keepCall(*request.callee))
-    result_.calls.push_back({path.at, *request.callee, path.conditions, path.state});
+  const CallSite site{path.at, modal, path.frames.back().modalLimit};
+  SymbolicFrame frame = enterCall(programs_, path.state, request, site, *repeats, reading_,
+                                  [&](const SymbolicFrame &entered, const SymbolicState &state) {
+                                    recordEntry(path, path.frames.size(), entered, state);
+                                  });
   path.frames.push_back(std::move(frame));
   path.at = {request.callee->file, request.callee->entry};
   return {std::move(path)};
@@ -189,14 +199,10 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
     exit(path, ExitKind::Returns);
     return {};
   }
-  if (!target && frame.repeatsLeft >= 1.5) {
-    frame.repeatsLeft -= 1;
-    path.state.enteredLoops.clear();
-    path.state.counters.clear();
-    takeOwnNames(path.state);
-    if (frame.ownLocals) // whether the next pass starts with the arguments or with what this one has left differs
-      for (std::size_t local = 1; local <= kLocalVariables; ++local)
-        path.state.locals[local] = reading_.anything();
+  if (!target && isCalledAgain(frame)) {
+    repeatCall(programs_, path.state, frame, reading_, [&](const SymbolicFrame &entered, const SymbolicState &state) {
+      recordEntry(path, path.frames.size() - 1, entered, state);
+    });
     path.at = {frame.callee.file, frame.callee.entry};
     return {std::move(path)};
   }
@@ -206,15 +212,7 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
 std::vector<Path> Explorer::leave(Path path, const std::optional<SymbolicValue> &target) {
   const SymbolicFrame frame = std::move(path.frames.back());
   path.frames.pop_back();
-  if (frame.modal && *frame.modal < path.state.modalCalls.size())
-    path.state.modalCalls[*frame.modal].locals = path.state.locals;
-  path.state.enteredLoops = frame.callerLoops;
-  path.state.counters = frame.callerCounters;
-  if (frame.ownLocals)
-    path.state.locals = frame.callerLocals;
-  takeOwnNames(path.state); // those of the program that ends
-  for (const auto &[variable, value] : frame.callerNames)
-    path.state.variables.set(variable, value);
+  leaveCall(programs_, path.state, frame);
   path.at = frame.call;
   const Node &caller = nodeOf(path);
   if (target)

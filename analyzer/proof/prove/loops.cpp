@@ -19,17 +19,25 @@ namespace {
 constexpr int kMostRounds = 12;
 constexpr int kErrorOfSums = 1'000'000'000; // its reciprocal: more than doubles are off after a million additions
 
-std::vector<TermId> partsOf(SymbolicState &state, TermId moved) {
-  std::vector<TermId> parts;
-  forEachPart(state, [&](TermId &part) { parts.push_back(part); });
-  parts.push_back(moved);
-  return parts;
+/// The terms of the state, then whether an axis has moved.
+std::vector<TermId> termsOf(const SymbolicState &state, TermId moved) {
+  std::vector<TermId> terms;
+  forEachTerm(state, [&](TermId term) { terms.push_back(term); });
+  terms.push_back(moved);
+  return terms;
 }
 
-/// How many parts are values: a vacancy and a number each, in turn.
-std::size_t valueParts(const SymbolicState &state, std::size_t parts) {
-  constexpr std::size_t kFlags = kModalGroups + 3; // spindle, mapping, modal calls
-  return parts - kFlags - state.enteredLoops.size() - 1;
+/// Where among the terms of the state the vacancies stand; the number of each follows it.
+std::vector<std::size_t> vacanciesIn(const SymbolicState &state) {
+  std::vector<std::size_t> vacancies;
+  std::size_t at = 0;
+  forEachPart(Overloaded{[&](PartId, const SymbolicValue &) {
+                           vacancies.push_back(at);
+                           at += 2;
+                         },
+                         [&](PartId, const auto &) { ++at; }},
+              state);
+  return vacancies;
 }
 
 std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const SymbolicState &generic) {
@@ -44,11 +52,31 @@ std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const Sy
 
 } // namespace
 
+// ---- LoopShape ----
+
+smt::Substitution LoopShape::closedParts() const {
+  smt::Substitution closed;
+  for (const LoopPart &part : parts)
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, part.generic);
+  return closed;
+}
+
+bool LoopShape::isKeptBy(smt::TermStore &store, const LoopPart &part, TermId left,
+                         const smt::Substitution &closed) const {
+  switch (part.kind) {
+  case PartKind::Kept: return left == part.arrival;
+  case PartKind::Free: return store.sort(part.symbol) != Sort::Int || store.sort(left) == Sort::Int;
+  case PartKind::Closed: return store.subtract(left, part.generic) == part.step;
+  case PartKind::Derived: return left == smt::substitute(store, part.step, closed);
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind of part");
+}
+
 struct LoopOpener::Work {
   Path arrival;
   std::size_t instance;
   TermId passes;
-  std::size_t mark; // the terms below were there before the loop
   LoopShape shape = {};
   TermId moved{0};
   std::vector<TermId> facts = {};
@@ -79,7 +107,7 @@ void LoopOpener::build(Work &work) {
       part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step));
   work.shape.state = work.arrival.state;
   auto part = work.parts().begin();
-  forEachPart(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
+  forEachTerm(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
   work.moved = part->generic;
 }
 
@@ -173,18 +201,18 @@ bool LoopOpener::tryPasses(Work &work) {
 bool LoopOpener::relayout(Work &work, bool &grew) {
   grew = false;
   SymbolicState &arrival = work.arrival.state;
-  const auto size = [&] { return partsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
+  const auto size = [&] { return termsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
   const std::size_t before = size();
   for (Path &pass : work.found)
-    if (!align(explorer_.reading_, arrival, pass.state)) {
+    if (!alignAll(explorer_.reading_, arrival, pass.state)) {
       explorer_.giveUp("a modal call begins or ends in a loop");
       return false;
     }
   grew = size() != before;
   work.left.clear();
   for (Path &pass : work.found) {
-    align(explorer_.reading_, arrival, pass.state); // what a later pass has made
-    work.left.push_back(partsOf(pass.state, pass.moved));
+    alignAll(explorer_.reading_, arrival, pass.state); // what a later pass has made
+    work.left.push_back(termsOf(pass.state, pass.moved));
   }
   return true;
 }
@@ -196,7 +224,7 @@ bool LoopOpener::findChanged(Work &work) {
   work.parts().clear();
   for (int round = 0; round < kMostRounds; ++round) {
     if (work.parts().empty())
-      for (const TermId part : partsOf(work.arrival.state, work.arrival.moved))
+      for (const TermId part : termsOf(work.arrival.state, work.arrival.moved))
         work.parts().push_back({PartKind::Kept, part, part, part, part});
     bool grew = false;
     if (!tryPasses(work) || !relayout(work, grew))
@@ -227,11 +255,8 @@ bool LoopOpener::findChanged(Work &work) {
   return false;
 }
 
-bool LoopOpener::isOutside(const Work &work, TermId term) const {
-  const auto variables = smt::variablesOf(explorer_.store_, term);
-  return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
-    return variable.index() < work.mark || explorer_.reading_.isFromEntry(variable);
-  });
+bool LoopOpener::isConstant(const Work &work, TermId term) const {
+  return explorer_.result_.loops[work.instance].isConstant(explorer_.reading_, explorer_.store_, term);
 }
 
 void LoopOpener::classify(Work &work) {
@@ -251,7 +276,7 @@ void LoopOpener::classify(Work &work) {
     if (part.kind != PartKind::Free || store.sort(part.symbol) == Sort::Bool)
       continue;
     const auto step = sameInAll([&](const auto &left) { return store.subtract(left[i], part.symbol); });
-    if (step && isOutside(work, *step)) {
+    if (step && isConstant(work, *step)) {
       part.kind = PartKind::Closed;
       part.step = *step;
       closed.emplace(part.symbol, part.symbol);
@@ -266,7 +291,7 @@ void LoopOpener::classify(Work &work) {
       continue;
     const auto variables = smt::variablesOf(store, *value);
     if (std::all_of(variables.begin(), variables.end(),
-                    [&](TermId variable) { return closed.contains(variable) || isOutside(work, variable); })) {
+                    [&](TermId variable) { return closed.contains(variable) || isConstant(work, variable); })) {
       part.kind = PartKind::Derived;
       part.step = *value;
     }
@@ -276,23 +301,13 @@ void LoopOpener::classify(Work &work) {
 /// What a pass leaves is what was thought; other parts become free.
 bool LoopOpener::verify(Work &work) {
   smt::TermStore &store = explorer_.store_;
-  smt::Substitution closed;
-  for (const LoopPart &part : work.parts())
-    if (part.kind == PartKind::Closed)
-      closed.emplace(part.symbol, part.generic);
+  const smt::Substitution closed = work.shape.closedParts();
   bool holds = true;
   for (std::size_t pass = 0; pass < work.left.size(); ++pass)
     for (std::size_t i = 0; i < work.parts().size(); ++i) {
       LoopPart &part = work.parts()[i];
       const TermId left = work.left[pass][i];
-      bool asThought = true;
-      switch (part.kind) {
-      case PartKind::Kept: asThought = left == part.arrival; break;
-      case PartKind::Free: break;
-      case PartKind::Closed: asThought = store.subtract(left, part.generic) == part.step; break;
-      case PartKind::Derived: asThought = left == smt::substitute(store, part.step, closed); break;
-      }
-      if (asThought)
+      if (work.shape.isKeptBy(store, part, left, closed))
         continue;
       if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
         part.symbol = explorer_.reading_.fresh(
@@ -311,17 +326,16 @@ bool LoopOpener::findKinds(Work &work) {
     for (LoopPart &part : work.parts())
       if (part.kind == PartKind::Derived)
         for (const TermId variable : smt::variablesOf(store, part.step))
-          if (!isOutside(work, variable) &&
+          if (!isConstant(work, variable) &&
               std::none_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &other) {
                 return other.kind == PartKind::Closed && other.symbol == variable;
               }))
             part.kind = PartKind::Free;
     work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
-    const std::size_t values = valueParts(work.arrival.state, work.parts().size());
     addErrors(work);
     build(work);
     addTravels(work);
-    for (std::size_t i = 0; i + 1 < values; i += 2) // vacant counts as 0
+    for (const std::size_t i : vacanciesIn(work.arrival.state)) // vacant counts as 0
       if (work.parts()[i].kind == PartKind::Free || work.parts()[i + 1].kind == PartKind::Free)
         work.facts.push_back(
             store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
@@ -349,7 +363,7 @@ void LoopOpener::addLastPass(Work &work) {
     for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
       const auto variables = smt::variablesOf(store, pass.conditions[i]);
       if (std::all_of(variables.begin(), variables.end(),
-                      [&](TermId variable) { return earlier.contains(variable) || isOutside(work, variable); }))
+                      [&](TermId variable) { return earlier.contains(variable) || isConstant(work, variable); }))
         held.push_back(smt::substitute(store, pass.conditions[i], earlier));
     }
     cases.push_back(store.logicalAnd(held));
@@ -413,7 +427,7 @@ void LoopOpener::addInvariants(Work &work) {
     };
     return std::none_of(variables.begin(), variables.end(), changes) ||
            !std::all_of(variables.begin(), variables.end(),
-                        [&](TermId variable) { return changes(variable) || isOutside(work, variable); }) ||
+                        [&](TermId variable) { return changes(variable) || isConstant(work, variable); }) ||
            !holdsAtArrival(work, candidate);
   });
   for (int round = 0; round < kMostRounds && !left.empty(); ++round) {
@@ -442,8 +456,7 @@ bool LoopOpener::open(Path &path) {
     calls.push_back(path.frames[i].call);
   const auto purpose = explorer_.purpose_;
   const std::size_t mark = store.size();
-  Work work{
-      .arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int), .mark = mark};
+  Work work{.arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int)};
   explorer_.result_.loops.push_back(
       {.head = path.at, .calls = calls, .passes = work.passes, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
@@ -483,32 +496,21 @@ bool LoopOpener::record(std::size_t instance, const Path &path) {
   SymbolicState before = shape.state;
   SymbolicState after = path.state;
   const std::size_t ranges = before.forgotten.size();
-  if (!align(explorer_.reading_, before, after) || before.forgotten.size() != ranges)
+  if (!alignAll(explorer_.reading_, before, after) || before.forgotten.size() != ranges)
     return false;
-  const std::vector<TermId> left = partsOf(after, path.moved);
+  const std::vector<TermId> left = termsOf(after, path.moved);
   if (left.size() != shape.parts.size())
     return false;
   Transition transition{path.conditions, {{loop.passes, store.add(loop.passes, store.number(Number(1)))}}};
   for (const Travel &travel : shape.travels)
     transition.next.emplace(travel.distance, store.add(travel.distance, travel.step));
-  smt::Substitution closed;
-  for (const LoopPart &part : shape.parts)
-    if (part.kind == PartKind::Closed)
-      closed.emplace(part.symbol, part.generic);
+  const smt::Substitution closed = shape.closedParts();
   for (std::size_t i = 0; i < left.size(); ++i) {
     const LoopPart &part = shape.parts[i];
-    bool asThought = true;
-    switch (part.kind) {
-    case PartKind::Kept: asThought = left[i] == part.arrival; break;
-    case PartKind::Free:
-      asThought = store.sort(part.symbol) != Sort::Int || store.sort(left[i]) == Sort::Int;
-      transition.next.emplace(part.symbol, left[i]);
-      break;
-    case PartKind::Closed: asThought = store.subtract(left[i], part.generic) == part.step; break;
-    case PartKind::Derived: asThought = left[i] == smt::substitute(store, part.step, closed); break;
-    }
-    if (!asThought)
+    if (!shape.isKeptBy(store, part, left[i], closed))
       return false;
+    if (part.kind == PartKind::Free)
+      transition.next.emplace(part.symbol, left[i]);
   }
   loop.transitions.push_back(std::move(transition));
   return true;

@@ -39,6 +39,11 @@ struct LoopShape {
   SymbolicState state;         // before any pass
   std::vector<LoopPart> parts; // of `state`, then whether an axis has moved
   std::vector<Travel> travels;
+
+  /// From the symbols of closed parts to what those are before the pass.
+  smt::Substitution closedParts() const;
+  /// A pass that leaves this in a part leaves it as the kind of the part says; `closed`: closedParts().
+  bool isKeptBy(smt::TermStore &store, const LoopPart &part, smt::TermId left, const smt::Substitution &closed) const;
 };
 
 class LoopOpener {
@@ -72,7 +77,7 @@ private:
   smt::Substitution atPass(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;
   bool relayout(Work &work, bool &grew);
-  bool isOutside(const Work &work, smt::TermId term) const;
+  bool isConstant(const Work &work, smt::TermId term) const;
   smt::TermId lastPass(const Work &work, smt::TermId term) const;
 
   Explorer &explorer_;

@@ -33,9 +33,7 @@ TermId selectorOf(SymbolicReading &reading, const std::vector<TermId> &onlyFirst
 
 bool canMerge(const Path &a, const Path &b) {
   return a.at == b.at && a.frames == b.frames && a.loops == b.loops && !a.atOpenedHead && !b.atOpenedHead &&
-         std::equal(a.state.modalCalls.begin(), a.state.modalCalls.end(), b.state.modalCalls.begin(),
-                    b.state.modalCalls.end(),
-                    [](const auto &x, const auto &y) { return x.file == y.file && x.call == y.call; });
+         haveSameModalCalls(a.state, b.state);
 }
 
 void mergeInto(SymbolicReading &reading, Path &path, Path other) {

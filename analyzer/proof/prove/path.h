@@ -2,6 +2,7 @@
 // is.
 #pragma once
 
+#include "meaning/semantics/frames.h"
 #include "proof/prove/symbolic_reading.h"
 
 #include <memory>
@@ -10,21 +11,7 @@
 
 namespace feedhold::prove {
 
-/// A program that has been entered and not left.
-struct SymbolicFrame {
-  Callee callee;
-  Place call;             // the node that called; of the first frame, where the run began
-  double repeatsLeft = 1; // of L, this pass included
-  bool ownLocals = false;
-  std::array<SymbolicValue, kLocalVariables + 1> callerLocals = {}; // of ownLocals, as the next one
-  std::vector<VariableMap<SymbolicValue>::Entry> callerNames = {};
-  std::vector<std::pair<std::uint8_t, Condition>> callerLoops = {};
-  std::vector<SymbolicValue> callerCounters = {};
-  std::optional<std::size_t> modal = {}; // the modal call that this is: its index in MachineState::modalCalls
-  std::optional<std::size_t> modalLimit = {};
-
-  friend bool operator==(const SymbolicFrame &, const SymbolicFrame &) = default;
-};
+using SymbolicFrame = Frame<SymbolicReading>;
 
 /// A loop in which the path is: any of its passes.
 struct OpenLoop {

@@ -175,10 +175,7 @@ LoopHints Prover::hintsOf(const std::vector<LoopHint> &hints, const HintTerm &te
 ExploreOptions Prover::exploreOptions() const {
   ExploreOptions options = isSingleRun_ ? exactOptions() : ExploreOptions();
   options.assumptions = demands_;
-  options.keepCall = [this](const Callee &callee) {
-    const std::size_t file = callee.file.index();
-    return file < options_.contractsOf.size() && options_.contractsOf[file]->of(callee.program) != nullptr;
-  };
+  options.demands = [this](const Callee &callee) { return contractsOf(callee) != nullptr; };
   if (!contract())
     return options;
   options.moves = contract()->clearance         ? KeepMoves::WithColumn

@@ -48,6 +48,9 @@ private:
   // ---- promises of the contract (prover_contract.cpp) ----
   void promises();
   void callsMeetContracts();
+  void callsWithoutModalCalls();
+  const FileContracts *contractsOf(const Callee &callee) const;
+  std::string programName(const Callee &callee) const;
   void satisfiable();
   void ensures();
   void modalPreserved(ClauseId clause);

@@ -174,22 +174,22 @@ void Prover::assigns() {
     settle(obligation, queries, brokenPromise(obligation));
 }
 
-/// Of each call of a program with a contract: that it satisfies it.
+/// Of each entry of a program with a contract: that it satisfies it.
 void Prover::callsMeetContracts() {
   if (!wanted(ObligationKind::CallMeetsContract))
     return;
-  std::map<std::pair<Place, std::uint32_t>, std::vector<Query>> queries; // by call and callee
+  std::map<std::pair<Place, std::uint32_t>, std::vector<Query>> queries; // by block and callee
   std::map<std::pair<Place, std::uint32_t>, std::string> names;
   for (const CallInstance &call : found_.calls) {
-    if (!isOwn(call.place))
+    const FileContracts *contracts = contractsOf(call.callee);
+    if (!contracts)
       continue;
-    const FileContracts &contracts = *options_.contractsOf[call.callee.file.index()];
-    ContractTerms terms(reading_, programs_, call.callee.file, contracts);
-    const Contract &contract = *contracts.of(call.callee.program);
+    ContractTerms terms(reading_, programs_, call.callee.file, *contracts);
+    const Contract &contract = *contracts->of(call.callee.program);
     const TermId met = contract.isSound ? store_.logicalAnd(terms.demandsOfCall(contract, call.state)) : store_.no();
-    const auto key = std::pair(call.place, static_cast<std::uint32_t>(call.callee.entry.index()));
+    const auto key = std::pair(call.own, static_cast<std::uint32_t>(call.callee.entry.index()));
     queries[key].push_back(onPath(call.conditions, met));
-    names[key] = toString(programs_.file(call.callee.file).model->programs[call.callee.program].name);
+    names[key] = programName(call.callee);
   }
   for (const auto &[key, parts] : queries) {
     const Place place = key.first;
@@ -198,6 +198,38 @@ void Prover::callsMeetContracts() {
             fmt::format("this call satisfies the contract of {}", names[key]));
     settle(obligation, parts, brokenPromise(obligation));
   }
+  callsWithoutModalCalls();
+}
+
+/// What is proved of a program by itself holds where its movements make no modal call: whoever calls it answers for
+/// that.
+void Prover::callsWithoutModalCalls() {
+  std::map<std::pair<Place, std::string>, std::vector<Query>> queries; // by block and callee
+  for (const CallInstance &call : found_.calls)
+    if (call.modalCall != store_.no())
+      queries[{call.own, programName(call.callee)}].push_back(
+          onPath(call.conditions, store_.logicalNot(call.modalCall)));
+  for (const auto &[key, parts] : queries) {
+    const auto &[place, callee] = key;
+    Obligation &obligation =
+        add(ObligationKind::CallMeetsContract, place, file().tree->blocks[programs_.node(place).block].span(),
+            fmt::format("no modal call is in force when {} is called", callee));
+    settle(obligation, parts, kNothingToReplay);
+    if (obligation.verdict == Verdict::Unknown)
+      obligation.reason =
+          fmt::format("the movements of {} call a macro here: its own proofs do not cover that", callee);
+  }
+}
+
+/// Null: calls of the program need not satisfy anything.
+const FileContracts *Prover::contractsOf(const Callee &callee) const {
+  const std::size_t index = callee.file.index();
+  const FileContracts *contracts = index < options_.contractsOf.size() ? options_.contractsOf[index] : nullptr;
+  return contracts && contracts->of(callee.program) ? contracts : nullptr;
+}
+
+std::string Prover::programName(const Callee &callee) const {
+  return toString(programs_.file(callee.file).model->programs[callee.program].name);
 }
 
 /// IF: a call for which the condition holds ends with this alarm and no other way.  IFF: no other call raises it.

@@ -5,6 +5,7 @@
 // are taken as they are written, not rounded to the least increment of the control (docs/soundness.md).
 #pragma once
 
+#include "meaning/semantics/parts.h"
 #include "meaning/semantics/step.h"
 #include "proof/smt/term.h"
 
@@ -166,7 +167,6 @@ private:
   smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);
   enum class Use : std::uint8_t { Read, Write };
   void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
-  void anyMapping(State &state);
 
   smt::TermStore &store_;
   const Dialect *dialect_;
@@ -189,48 +189,25 @@ private:
 /// What the control gives to a program that is started: each part of the state a variable of its own.
 SymbolicState symbolicEntry(SymbolicReading &reading);
 
-/// Gives both states the same parts.  False when they hold different modal calls.
-bool align(SymbolicReading &reading, SymbolicState &a, SymbolicState &b);
-
-/// Calls visit(smt::TermId &) for each part of the state, in a fixed order; aligned states have the same parts.
-template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit);
-
-// ---- template ----
-
-template <typename State, typename Visit> void forEachPart(State &state, Visit &&visit) {
-  const auto all = [&visit](auto &values) {
-    for (auto &value : values) {
-      visit(value.vacant);
-      visit(value.number);
-    }
-  };
-  const auto one = [&visit](auto &value) {
-    visit(value.vacant);
-    visit(value.number);
-  };
-  all(state.locals);
-  for (auto &entry : state.variables.entries())
-    one(entry.second);
-  for (auto *values : {&state.position, &state.shift, &state.local})
-    all(*values);
-  all(state.words);
-  one(state.lengthOffset);
-  for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck,
-                      &state.cycle.dwell, &state.transform.angle, &state.transform.other})
-    one(*level);
-  for (auto *values : {&state.transform.scale, &state.transform.scaleCentre, &state.transform.mirrorAt})
-    all(*values);
-  all(state.transform.centre);
-  for (auto &call : state.modalCalls)
-    all(call.locals);
-  all(state.counters);
-  for (auto &code : state.codes)
-    visit(code.index);
-  visit(state.spindle.index);
-  visit(state.transformed.term);
-  visit(state.modalCallsUnknown.term);
-  for (auto &loop : state.enteredLoops)
-    visit(loop.second.term);
+/// Calls visit(smt::TermId &) for each term of the state, in the order of forEachPart.
+template <typename State, typename Visit> void forEachTerm(State &state, Visit &&visit) {
+  forEachPart(Overloaded{[&visit](PartId, auto &code) requires requires { code.index;
 }
+{ visit(code.index); }
+, [&visit](PartId, auto &truth) requires requires { truth.term; }
+{ visit(truth.term); }
+, [&visit](PartId, auto &value) requires requires { value.vacant; }
+{
+  visit(value.vacant);
+  visit(value.number);
+}
+} // namespace feedhold::prove
+,
+              state);
+}
+
+/// Gives both states the same parts, and the same variables of which nothing is known.  False when they hold different
+/// modal calls.
+bool alignAll(SymbolicReading &reading, SymbolicState &a, SymbolicState &b);
 
 } // namespace feedhold::prove

@@ -11,16 +11,6 @@ using smt::TermId;
 
 namespace {
 
-void noMapping(SymbolicReading &reading, SymbolicState &state) {
-  state.transform.scale.fill(reading.number(1));
-  state.transform.scaleCentre.fill(reading.number(0));
-  state.transform.mirrorAt.fill(reading.vacant());
-  state.transform.angle = reading.number(0);
-  state.transform.centre.fill(reading.number(0));
-  state.transform.other = reading.vacant();
-  state.transformed = reading.truth(false);
-}
-
 template <typename Values, typename Make> void fillWith(Values &values, Make &&make) {
   for (auto &value : values)
     value = make();
@@ -31,63 +21,43 @@ bool isForgotten(const SymbolicState &state, std::uint32_t variable) {
                      [&](const auto &range) { return range.first <= variable && variable <= range.second; });
 }
 
-bool sameCalls(const SymbolicState &a, const SymbolicState &b) {
-  return std::equal(a.modalCalls.begin(), a.modalCalls.end(), b.modalCalls.begin(), b.modalCalls.end(),
-                    [](const auto &x, const auto &y) { return x.file == y.file && x.call == y.call; });
-}
-
-/// A loop that is not listed counts as entered.
-void completeLoops(const SymbolicReading &reading, SymbolicState &to, const SymbolicState &from) {
-  for (const auto &[number, entered] : from.enteredLoops)
-    if (std::none_of(to.enteredLoops.begin(), to.enteredLoops.end(),
-                     [n = number](const auto &loop) { return loop.first == n; }))
-      to.enteredLoops.emplace_back(number, reading.truth(true));
-  std::sort(to.enteredLoops.begin(), to.enteredLoops.end(),
-            [](const auto &x, const auto &y) { return x.first < y.first; });
+void shareForgotten(SymbolicState &to, const SymbolicState &from) {
+  for (const auto &range : from.forgotten)
+    if (std::find(to.forgotten.begin(), to.forgotten.end(), range) == to.forgotten.end())
+      to.forgotten.push_back(range);
 }
 
 } // namespace
 
 SymbolicState symbolicEntry(SymbolicReading &reading) {
   using Vacancy = SymbolicReading::MayBeVacant;
-  SymbolicState state;
-  for (std::uint32_t local = 0; local <= kLocalVariables; ++local)
-    state.locals[local] = local == 0 ? reading.vacant() : reading.atEntry(local);
-  for (std::size_t group = 0; group < kModalGroups; ++group)
-    state.codes[group] = {reading.store().variable(fmt::format("code of group {}", group), Sort::Int)};
-  for (const Axis axis : kAllAxes)
-    state.at(axis) = reading.named(fmt::format("{} at the start", letterOf(axis)), Vacancy::No);
-  for (std::size_t i = 0; i < kModalWords.size(); ++i)
-    state.words[i] = reading.named(fmt::format("{} in force", kModalWords[i]), Vacancy::Yes);
-  for (auto *numbers : {&state.shift, &state.local})
-    fillWith(*numbers, [&] { return reading.anyNumber(); });
-  state.lengthOffset = reading.anyNumber();
-  for (auto *level :
-       {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck, &state.cycle.dwell})
-    *level = reading.anything();
-  noMapping(reading, state);
-  state.spindle = {reading.store().variable("spindle", Sort::Int)};
-  state.modalCallsUnknown = reading.truth(false);
-  return state;
+  const auto nameOf = [](PartId id) {
+    return id.part == Part::Position ? fmt::format("{} at the start", kAxisLetters[id.key])
+                                     : fmt::format("{} in force", kModalWords[id.key]);
+  };
+  const auto value = [&](PartId id, SymbolicValue &input) {
+    const bool isNumber = domainOf(id) == PartDomain::Number;
+    if (domainOf(id) == PartDomain::Vacancy)
+      input = reading.vacant();
+    else if (id.part == Part::LocalVariable)
+      input = reading.atEntry(id.key);
+    else
+      input = reading.named(nameOf(id), isNumber ? Vacancy::No : Vacancy::Yes);
+  };
+  const auto code = [&](PartId id, SymbolicCode &input) {
+    const std::string name = id.part == Part::Spindle ? "spindle" : fmt::format("code of group {}", id.key);
+    input = {reading.store().variable(name, Sort::Int)};
+  };
+  const auto truth = [&](PartId, Condition &input) { input = reading.unknownTruth(); };
+  return entryParts<SymbolicReading>(reading, Overloaded{value, code, truth},
+                                     [&](PartId id, auto &part) { setAnything(reading, id, part); });
 }
 
-bool align(SymbolicReading &reading, SymbolicState &a, SymbolicState &b) {
-  const auto complete = [&](SymbolicState &to, const SymbolicState &from) {
-    for (const auto &[number, value] : from.variables.entries())
-      if (!to.variables.find(number))
-        to.variables.set(number, reading.unwritten(to, number));
-    completeLoops(reading, to, from);
-  };
-  complete(a, b);
-  complete(b, a);
-  const std::size_t counters = std::max(a.counters.size(), b.counters.size());
-  a.counters.resize(counters, reading.number(0));
-  b.counters.resize(counters, reading.number(0));
-  for (auto [to, from] : {std::pair{&a, &b}, std::pair{&b, &a}})
-    for (const auto &range : from->forgotten)
-      if (std::find(to->forgotten.begin(), to->forgotten.end(), range) == to->forgotten.end())
-        to->forgotten.push_back(range);
-  return sameCalls(a, b);
+bool alignAll(SymbolicReading &reading, SymbolicState &a, SymbolicState &b) {
+  const bool haveSameCalls = align(reading, a, b);
+  shareForgotten(a, b);
+  shareForgotten(b, a);
+  return haveSameCalls;
 }
 
 SymbolicValue SymbolicReading::unwritten(const State &state, std::uint32_t variable) {
@@ -116,18 +86,14 @@ void SymbolicReading::join(State &state, Truth truth, const State &second) {
     state = std::move(other);
     return;
   }
-  if (!align(*this, state, other)) {
-    state.modalCalls.clear();
-    other.modalCalls.clear();
-    state.modalCallsUnknown = other.modalCallsUnknown = unknownTruth();
-  }
-  std::vector<TermId> parts;
-  forEachPart(other, [&](TermId &part) { parts.push_back(part); });
-  auto part = parts.begin();
-  forEachPart(state, [&](TermId &mine) {
-    mine = store_.ite(truth.term, *part, mine);
-    ++part;
-  });
+  alignToJoin(*this, state, other);
+  shareForgotten(state, other);
+  forEachPart(Overloaded{[&](PartId, Value &mine, Value &theirs) { mine = select(truth, theirs, mine); },
+                         [&](PartId, ModalCode &mine, ModalCode &theirs) { mine = selectCode(truth, theirs, mine); },
+                         [&](PartId, Truth &mine, Truth &theirs) {
+                           mine.term = store_.ite(truth.term, theirs.term, mine.term);
+                         }},
+              state, other);
 }
 
 // ---- variables whose number is not one constant ----
@@ -181,43 +147,10 @@ void SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &
 
 // ---- what is not followed ----
 
-void SymbolicReading::anyMapping(State &state) {
-  for (auto *numbers : {&state.transform.scale, &state.transform.scaleCentre})
-    fillWith(*numbers, [&] { return anyNumber(); });
-  fillWith(state.transform.mirrorAt, [&] { return anything(); });
-  fillWith(state.transform.centre, [&] { return anyNumber(); });
-  state.transform.angle = anyNumber();
-  state.transform.other = anything();
-  state.transformed = unknownTruth();
-}
-
 void SymbolicReading::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);
   Move<Value> anywhere{.kind = MoveKind::Unfollowed, .start = state.position};
-  forgetVariables(state, 0, 0xffffffff);
-  for (auto *values : {&state.locals})
-    fillWith(*values, [&] { return anything(); });
-  state.locals[0] = vacant();
-  fillWith(state.words, [&] { return anything(); });
-  for (auto *numbers : {&state.position, &state.shift, &state.local})
-    fillWith(*numbers, [&] { return anyNumber(); });
-  state.lengthOffset = anyNumber();
-  const bool mapped = state.transformed.term != store_.no();
-  if (mapped)
-    anyMapping(state);
-  fillWith(state.counters, [&] { return anyNumber(); });
-  for (std::size_t group = 0; group < kModalGroups; ++group)
-    if (mapped || group != polarGroup_)
-      state.codes[group] = unknownCode();
-  state.spindle = unknownCode();
-  state.modalCallsUnknown = unknownTruth();
-  for (auto &loop : state.enteredLoops)
-    loop.second = unknownTruth();
-  for (auto *level :
-       {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial, &state.cycle.peck, &state.cycle.dwell})
-    *level = anything();
-  for (auto &call : state.modalCalls)
-    fillWith(call.locals, [&] { return anything(); });
+  havocParts(*this, state, polarGroup_);
   anywhere.end = state.position;
   move(anywhere);
 }

@@ -86,7 +86,7 @@ private:
       if (at != context.blocks.begin())
         --at;
       for (; at != context.blocks.end() && at->first <= last; ++at) {
-        const CodeSet &here = at->second.codes()[group];
+        const CodeSet here = at->second.code(group);
         const auto [known, isNew] = codes.emplace(at->first, here);
         if (!isNew)
           known->second = join(known->second, here);

@@ -1,9 +1,9 @@
-#include "meaning/machine/frames.h"
+#include "meaning/machine/repeat_watch.h"
 
 namespace feedhold {
 
-bool RepeatWatch::comesBack(Place place, const MachineState<ConcreteReading> &state, const std::vector<Frame> &frames,
-                            Outside outside) {
+bool RepeatWatch::comesBack(Place place, const MachineState<ConcreteReading> &state,
+                            const std::vector<ConcreteFrame> &frames, Outside outside) {
   if (outside == Outside::Read)
     kept_.reset();
   if (kept_ && kept_->place == place && kept_->frames == frames && kept_->state == state)

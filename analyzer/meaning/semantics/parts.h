@@ -1,0 +1,394 @@
+// Parts: the one traversal of a machine state, and what each part of it is.
+//
+// Whatever is done to a whole state (a traversal, an order, a join, an entry state, "anything may have happened", a
+// copy in little room) goes through forEachPart, for every interpretation.  membersOf names the members of each struct
+// by structured bindings: a member that is added to a struct and not to its list does not compile, and neither does a
+// part without a row in traitsOf.
+#pragma once
+
+#include "base/support/match.h"
+#include "meaning/semantics/state.h"
+
+#include <optional>
+#include <tuple>
+#include <type_traits>
+
+namespace feedhold {
+
+/// The parts of a state, in order.  An array, a list or a map has one part for each of its elements.
+enum class Part : std::uint8_t {
+  LocalVariable,
+  Variable,
+  Code,
+  Position,
+  ModalWord,
+  CoordinateShift, // G92
+  LocalShift,      // G52
+  LengthOffset,
+  CycleBottom,
+  CycleRetract,
+  CycleInitial,
+  CyclePeck,
+  CycleDwell,
+  Scale,
+  ScaleCentre,
+  MirrorAt,
+  RotationAngle,
+  RotationCentre,
+  OtherMapping,
+  Transformed,
+  Spindle,
+  ModalCallRepeats,
+  ModalCallLocal,
+  OtherModalCalls,
+  EnteredLoop,
+  Counter,
+};
+
+/// A part, and which of its elements: the index in an array, the number of a variable or of a loop; else 0.
+struct PartId {
+  Part part;
+  std::uint32_t key = 0;
+  friend bool operator==(const PartId &, const PartId &) = default;
+};
+
+/// What a part can hold, whatever happens.
+enum class PartDomain : std::uint8_t {
+  Vacancy, // #0: it is never assigned
+  Number,  // never vacant
+  Value,   // vacant or a number
+  Code,    // of a modal group
+  Truth,
+};
+/// What the start of a program finds in a part.
+enum class PartEntry : std::uint8_t {
+  Given,   // whatever the caller or the operator left: an input of the program
+  Unknown, // the same, and the program cannot ask for it
+  Neutral, // told relative to what was there: nothing of the program's own yet
+};
+/// What stands in a part when something that is not modelled may have happened.
+enum class PartHavoc : std::uint8_t {
+  Anything,
+  Mapping, // anything where a mapping is or may be in force; else neutral: one is taken not to be left behind
+};
+/// What a part holds when nothing has set it, and what the element stands for that a list does not have.
+enum class PartNeutral : std::uint8_t { Vacant, Zero, One, No, Yes, PowerOn };
+
+struct PartTraits {
+  PartDomain domain;
+  PartEntry entry;
+  PartHavoc havoc;
+  PartNeutral neutral;
+};
+
+constexpr PartTraits traitsOf(Part part) {
+  switch (part) {
+  case Part::LocalVariable:
+  case Part::Variable:
+  case Part::ModalWord: return {PartDomain::Value, PartEntry::Given, PartHavoc::Anything, PartNeutral::Vacant};
+  case Part::Code:
+  case Part::Spindle: return {PartDomain::Code, PartEntry::Given, PartHavoc::Anything, PartNeutral::PowerOn};
+  case Part::Position: return {PartDomain::Number, PartEntry::Given, PartHavoc::Anything, PartNeutral::Zero};
+  case Part::CoordinateShift:
+  case Part::LocalShift:
+  case Part::LengthOffset: return {PartDomain::Number, PartEntry::Unknown, PartHavoc::Anything, PartNeutral::Zero};
+  case Part::CycleBottom:
+  case Part::CycleRetract:
+  case Part::CycleInitial:
+  case Part::CyclePeck:
+  case Part::CycleDwell: return {PartDomain::Value, PartEntry::Unknown, PartHavoc::Anything, PartNeutral::Vacant};
+  case Part::Scale: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::One};
+  case Part::RotationAngle: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Zero};
+  case Part::ScaleCentre: // a centre outlasts its mapping
+  case Part::RotationCentre: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
+  case Part::MirrorAt:
+  case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
+  case Part::Transformed: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::No};
+  case Part::ModalCallRepeats: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::One};
+  case Part::ModalCallLocal: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Vacant};
+  case Part::OtherModalCalls: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
+  case Part::EnteredLoop: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Yes};
+  case Part::Counter: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every part");
+}
+
+constexpr PartDomain domainOf(PartId id) {
+  const bool isZeroth = (id.part == Part::LocalVariable || id.part == Part::ModalCallLocal) && id.key == 0;
+  return isZeroth ? PartDomain::Vacancy : traitsOf(id.part).domain;
+}
+
+/// Calls holds(PartId, part, part...) for each part of one state, or of several that have the same parts, in a fixed
+/// order and until it says no.  `skipped` are passed over: the states need not have the same ones.
+template <Part... skipped, typename Holds, typename... States> bool everyPart(Holds &&holds, States &...states);
+template <Part... skipped, typename Visit, typename... States> void forEachPart(Visit &&visit, States &...states);
+/// The parts that are values, of one state: visit(value).
+template <typename State, typename Visit> void forEachValue(State &state, Visit &&visit);
+
+/// The same modal calls, whatever they pass.
+template <typename R> bool haveSameModalCalls(const MachineState<R> &a, const MachineState<R> &b);
+/// The same lists and maps, whatever they hold; variables apart.
+template <typename R> bool haveSameLists(const MachineState<R> &a, const MachineState<R> &b);
+template <typename R> bool haveSameParts(const MachineState<R> &a, const MachineState<R> &b);
+
+/// Gives both states the same parts.  False when they hold different modal calls: then those are as they were.
+template <typename Reading, typename R> bool align(Reading &reading, MachineState<R> &a, MachineState<R> &b);
+/// The same; of different modal calls nothing is known but that there may be some.
+template <typename R> void alignToJoin(R &reading, MachineState<R> &a, MachineState<R> &b);
+/// Of different modal calls none is looked at.
+template <typename R> void dropDifferentModalCalls(MachineState<R> &a, MachineState<R> &b);
+
+template <typename R> void setNeutral(R &reading, PartId id, typename R::Value &value);
+template <typename R> void setNeutral(R &reading, PartId id, typename R::Truth &truth);
+/// Anything that the part can hold.
+template <typename R> void setAnything(R &reading, PartId id, typename R::Value &value);
+template <typename R> void setAnything(R &reading, PartId id, typename R::ModalCode &code);
+template <typename R> void setAnything(R &reading, PartId id, typename R::Truth &truth);
+
+/// The state in which a program starts: given(PartId, part &) sets what is PartEntry::Given, unknown(PartId, part &)
+/// what is PartEntry::Unknown.
+template <typename R, typename Reading, typename Given, typename Unknown>
+MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown);
+
+/// Anything may have happened.  `keptGroup`: polar coordinates are a mapping, too, that only a code tells of.
+template <typename R> void havocParts(R &reading, MachineState<R> &state, std::optional<std::uint8_t> keptGroup);
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <typename T, template <typename> class Of> inline constexpr bool kIsA = false;
+template <typename X, template <typename> class Of> inline constexpr bool kIsA<Of<X>, Of> = true;
+template <typename T> inline constexpr bool kIsArray = false;
+template <typename X, std::size_t size> inline constexpr bool kIsArray<std::array<X, size>> = true;
+template <typename T> inline constexpr bool kIsNumberedList = false; // of pairs: number, part
+template <typename X> inline constexpr bool kIsNumberedList<std::vector<std::pair<std::uint8_t, X>>> = true;
+
+/// A member of a struct: the part that it is.
+template <Part part, typename Member> struct PartMember { Member &member; };
+template <Part part, typename Member> PartMember<part, Member> is(Member &member) { return {member}; }
+/// A struct that has parts, or a list of such.
+template <typename Member> struct NestedMember { Member &member; };
+template <typename Member> NestedMember<Member> nested(Member &member) { return {member}; }
+/// Tells which parts there are, and is none itself: haveSameParts, align and whoever joins look after it.
+struct ShapeMember {};
+template <typename Member> ShapeMember shape(Member &) { return {}; }
+
+template <typename Struct> auto membersOf(Struct &whole) {
+  using S = std::remove_const_t<Struct>;
+  if constexpr (kIsA<S, MachineState>) {
+    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, cycle, transform,
+           transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
+    return std::tuple(
+        is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(forgotten), is<Part::Code>(codes),
+        is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
+        is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), nested(cycle), nested(transform),
+        is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
+        is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters));
+  } else if constexpr (kIsA<S, CycleState>) {
+    auto &[bottom, retract, initial, peck, dwell] = whole;
+    return std::tuple(is<Part::CycleBottom>(bottom), is<Part::CycleRetract>(retract), is<Part::CycleInitial>(initial),
+                      is<Part::CyclePeck>(peck), is<Part::CycleDwell>(dwell));
+  } else if constexpr (kIsA<S, TransformState>) {
+    auto &[scale, scaleCentre, mirrorAt, angle, centre, other] = whole;
+    return std::tuple(is<Part::Scale>(scale), is<Part::ScaleCentre>(scaleCentre), is<Part::MirrorAt>(mirrorAt),
+                      is<Part::RotationAngle>(angle), is<Part::RotationCentre>(centre), is<Part::OtherMapping>(other));
+  } else {
+    static_assert(kIsA<S, ModalCallState>, "a struct of the state without a list of its members");
+    auto &[file, call, repeats, locals] = whole;
+    return std::tuple(shape(file), shape(call), is<Part::ModalCallRepeats>(repeats), is<Part::ModalCallLocal>(locals));
+  }
+}
+
+template <Part... skipped, typename Holds, typename... Structs> bool everyPartOf(Holds &holds, Structs &...structs);
+
+template <Part... skipped, typename Holds, typename... Same> bool everyPartOfMember(Holds &, ShapeMember, Same...) {
+  return true;
+}
+
+template <Part... skipped, typename Holds, typename First, typename... Others>
+bool everyPartOfMember(Holds &holds, NestedMember<First> first, NestedMember<Others>... others) {
+  if constexpr (requires { first.member.begin(); }) {
+    for (std::size_t i = 0; i < first.member.size(); ++i)
+      if (!everyPartOf<skipped...>(holds, first.member[i], others.member[i]...))
+        return false;
+    return true;
+  } else {
+    return everyPartOf<skipped...>(holds, first.member, others.member...);
+  }
+}
+
+template <Part... skipped, typename Holds, Part part, typename First, typename... Others>
+bool everyPartOfMember(Holds &holds, PartMember<part, First> first, PartMember<part, Others>... others) {
+  using Member = std::remove_const_t<First>;
+  if constexpr (((part == skipped) || ...)) {
+    return true;
+  } else if constexpr (kIsA<Member, VariableMap>) {
+    for (std::size_t i = 0; i < first.member.entries().size(); ++i)
+      if (!holds(PartId{part, first.member.entries()[i].first}, first.member.entries()[i].second,
+                 others.member.entries()[i].second...))
+        return false;
+    return true;
+  } else if constexpr (kIsNumberedList<Member>) {
+    for (std::size_t i = 0; i < first.member.size(); ++i)
+      if (!holds(PartId{part, first.member[i].first}, first.member[i].second, others.member[i].second...))
+        return false;
+    return true;
+  } else if constexpr (kIsArray<Member> || requires { first.member.begin(); }) {
+    for (std::uint32_t i = 0; i < first.member.size(); ++i)
+      if (!holds(PartId{part, i}, first.member[i], others.member[i]...))
+        return false;
+    return true;
+  } else {
+    return holds(PartId{part}, first.member, others.member...);
+  }
+}
+
+template <Part... skipped, typename Holds, typename... Structs> bool everyPartOf(Holds &holds, Structs &...structs) {
+  using Members = std::tuple_element_t<0, std::tuple<decltype(membersOf(structs))...>>;
+  const auto walk = [&holds]<std::size_t... index>(std::index_sequence<index...>, auto &&...members) {
+    const auto one = [&]<std::size_t at>(std::integral_constant<std::size_t, at>) {
+      return everyPartOfMember<skipped...>(holds, std::get<at>(members)...);
+    };
+    return (one(std::integral_constant<std::size_t, index>{}) && ...);
+  };
+  return walk(std::make_index_sequence<std::tuple_size_v<Members>>{}, membersOf(structs)...);
+}
+
+template <typename List> bool haveSameNumbers(const List &a, const List &b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto &x, const auto &y) { return x.first == y.first; });
+}
+
+/// A loop that is not listed has been entered, a counter that is not there counts nothing.
+template <typename Reading, typename R>
+void completeLists(Reading &reading, MachineState<R> &to, const MachineState<R> &from) {
+  for (const auto &[number, value] : from.variables.entries())
+    if (!to.variables.find(number))
+      to.variables.set(number, reading.unwritten(to, number));
+  for (const auto &[number, entered] : from.enteredLoops) {
+    typename R::Truth neutral;
+    setNeutral(reading, {Part::EnteredLoop, number}, neutral);
+    enteredLoop(to, number, neutral);
+  }
+  while (to.counters.size() < from.counters.size())
+    setNeutral(reading, {Part::Counter}, to.counters.emplace_back());
+}
+
+} // namespace detail
+
+template <Part... skipped, typename Holds, typename... States> bool everyPart(Holds &&holds, States &...states) {
+  return detail::everyPartOf<skipped...>(holds, states...);
+}
+
+template <Part... skipped, typename Visit, typename... States> void forEachPart(Visit &&visit, States &...states) {
+  const auto visits = [&visit](PartId id, auto &...parts) {
+    visit(id, parts...);
+    return true;
+  };
+  detail::everyPartOf<skipped...>(visits, states...);
+}
+
+template <typename State, typename Visit> void forEachValue(State &state, Visit &&visit) {
+  forEachPart(
+      [&visit](PartId, auto &part) {
+        if constexpr (std::is_same_v<std::remove_const_t<std::remove_reference_t<decltype(part)>>,
+                                     typename State::Value>)
+          visit(part);
+      },
+      state);
+}
+
+template <typename R> bool haveSameModalCalls(const MachineState<R> &a, const MachineState<R> &b) {
+  return std::equal(a.modalCalls.begin(), a.modalCalls.end(), b.modalCalls.begin(), b.modalCalls.end(),
+                    [](const auto &x, const auto &y) { return x.file == y.file && x.call == y.call; });
+}
+
+template <typename R> bool haveSameLists(const MachineState<R> &a, const MachineState<R> &b) {
+  return a.counters.size() == b.counters.size() && detail::haveSameNumbers(a.enteredLoops, b.enteredLoops) &&
+         haveSameModalCalls(a, b);
+}
+
+template <typename R> bool haveSameParts(const MachineState<R> &a, const MachineState<R> &b) {
+  return haveSameLists(a, b) && detail::haveSameNumbers(a.variables.entries(), b.variables.entries());
+}
+
+template <typename Reading, typename R> bool align(Reading &reading, MachineState<R> &a, MachineState<R> &b) {
+  if (haveSameParts(a, b))
+    return true;
+  detail::completeLists(reading, a, b);
+  detail::completeLists(reading, b, a);
+  return haveSameModalCalls(a, b);
+}
+
+template <typename R> void alignToJoin(R &reading, MachineState<R> &a, MachineState<R> &b) {
+  if (align(reading, a, b))
+    return;
+  dropDifferentModalCalls(a, b);
+  setAnything(reading, {Part::OtherModalCalls}, a.modalCallsUnknown);
+  b.modalCallsUnknown = a.modalCallsUnknown;
+}
+
+template <typename R> void dropDifferentModalCalls(MachineState<R> &a, MachineState<R> &b) {
+  if (haveSameModalCalls(a, b))
+    return;
+  a.modalCalls.clear();
+  b.modalCalls.clear();
+}
+
+template <typename R> void setNeutral(R &reading, PartId id, typename R::Value &value) {
+  const PartNeutral neutral = traitsOf(id.part).neutral;
+  value = neutral == PartNeutral::Vacant ? reading.vacant() : reading.number(neutral == PartNeutral::One ? 1 : 0);
+}
+template <typename R> void setNeutral(R &reading, PartId id, typename R::Truth &truth) {
+  truth = reading.truth(traitsOf(id.part).neutral == PartNeutral::Yes);
+}
+
+template <typename R> void setAnything(R &reading, PartId id, typename R::Value &value) {
+  switch (domainOf(id)) {
+  case PartDomain::Vacancy: value = reading.vacant(); break;
+  case PartDomain::Number: value = reading.anyNumber(); break;
+  case PartDomain::Value: value = reading.anything(); break;
+  case PartDomain::Code:
+  case PartDomain::Truth: FEEDHOLD_UNREACHABLE("a part that is no value");
+  }
+}
+template <typename R> void setAnything(R &reading, PartId, typename R::ModalCode &code) {
+  code = reading.unknownCode();
+}
+template <typename R> void setAnything(R &reading, PartId, typename R::Truth &truth) { truth = reading.unknownTruth(); }
+
+template <typename R, typename Reading, typename Given, typename Unknown>
+MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown) {
+  MachineState<R> state;
+  forEachPart(
+      [&](PartId id, auto &part) {
+        switch (traitsOf(id.part).entry) {
+        case PartEntry::Given: return given(id, part);
+        case PartEntry::Unknown: return unknown(id, part);
+        case PartEntry::Neutral:
+          if constexpr (requires { setNeutral(reading, id, part); })
+            return setNeutral(reading, id, part);
+          FEEDHOLD_UNREACHABLE("a code is given");
+        }
+      },
+      state);
+  return state;
+}
+
+template <typename R> void havocParts(R &reading, MachineState<R> &state, std::optional<std::uint8_t> keptGroup) {
+  const bool isMapped = reading.mayBe(state.transformed);
+  reading.forgetVariables(state, 0, 0xffffffff);
+  forEachPart(
+      [&](PartId id, auto &part) {
+        if (!isMapped && id == PartId{Part::Code, keptGroup.value_or(kModalGroups)})
+          return;
+        if constexpr (requires { setNeutral(reading, id, part); })
+          if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping)
+            return setNeutral(reading, id, part);
+        setAnything(reading, id, part);
+      },
+      state);
+}
+
+} // namespace feedhold
