@@ -107,17 +107,9 @@ bool LastingFacts::holds(Trial &trial, std::span<const TermId> conditions, const
 
 // ---- candidates ----
 
-bool LastingFacts::isOutside(TermId variable) const {
-  return variable.index() < loop_.mark || reading_.isFromEntry(variable);
-}
-
 /// Of its variables and of what no pass changes; and not of the latter alone.
 bool LastingFacts::isOfTheLoop(TermId term) const {
-  const smt::Substitution &next = loop_.transitions.front().next;
-  const auto variables = smt::variablesOf(store_, term);
-  return std::any_of(variables.begin(), variables.end(), [&](TermId each) { return next.contains(each); }) &&
-         std::all_of(variables.begin(), variables.end(),
-                     [&](TermId each) { return next.contains(each) || isOutside(each); });
+  return loop_.isOfState(reading_, store_, term) && !loop_.isConstant(reading_, store_, term);
 }
 
 std::vector<TermId> LastingFacts::numbers() const {
@@ -156,8 +148,7 @@ std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) c
       addComparison(part, passes, all);
     for (const TermId number : numbers()) {
       const TermId next = loop_.transitions[pass].next.at(number);
-      const auto variables = smt::variablesOf(store_, next);
-      if (!std::all_of(variables.begin(), variables.end(), [&](TermId each) { return isOutside(each); }))
+      if (!loop_.isConstant(reading_, store_, next))
         continue;
       all.insert(store_.lessOrEqual(number, next));
       all.insert(store_.lessOrEqual(next, number));

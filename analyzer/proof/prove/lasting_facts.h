@@ -44,7 +44,6 @@ private:
   std::set<smt::TermId> candidates(std::span<const std::size_t> passes) const;
   void addComparison(smt::TermId condition, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
   void addIntervals(const Start &start, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
-  bool isOutside(smt::TermId variable) const;
   bool isOfTheLoop(smt::TermId term) const;
 
   const SymbolicReading &reading_;

@@ -33,7 +33,7 @@ public:
     if (end.measures.size() > 1)
       return {inTurn(end), ""};
     const Measure &measure = end.measures.front();
-    const bool isSteady = isConstantInLoop(measure.decrease) &&
+    const bool isSteady = isConstant(measure.decrease) &&
                           std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
                             return store_.subtract(measure.measure, smt::substitute(store_, measure.measure,
                                                                                     pass.next)) == measure.decrease;
@@ -120,7 +120,7 @@ private:
       isReached = true;
     }
     const auto stepText = shown(step);
-    const auto limitText = isConstantInLoop(limit) ? shown(limit) : std::nullopt;
+    const auto limitText = isConstant(limit) ? shown(limit) : std::nullopt;
     if (!stepText || !limitText)
       return "";
     const bool falls = ratio.sign() > 0;
@@ -132,7 +132,7 @@ private:
   std::optional<Number> ratioOf(TermId value, TermId measure) {
     const smt::LinearSum whole = store_.linear(value);
     for (const auto &[term, factor] : store_.linear(measure).terms) {
-      if (isConstantInLoop(term))
+      if (isConstant(term))
         continue;
       for (const auto &[other, times] : whole.terms)
         if (other == term)
@@ -180,12 +180,7 @@ private:
     return shopText(store_, term, names);
   }
 
-  bool isConstantInLoop(TermId term) const {
-    const auto variables = smt::variablesOf(store_, term);
-    return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
-      return variable.index() < loop_.mark || reading_.isFromEntry(variable);
-    });
-  }
+  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
 
   SymbolicReading &reading_;
   smt::TermStore &store_;

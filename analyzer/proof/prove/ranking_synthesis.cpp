@@ -180,7 +180,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
   for (const Case &way : cases_)
     for (const Row &row : way.rows)
       for (const auto &[atom, factor] : row.factors)
-        if (isOfTheLoop(atom) && atoms.size() < kMostAtoms)
+        if (isSteady(atom) && atoms.size() < kMostAtoms)
           atoms.insert(atom);
   atoms_.assign(atoms.begin(), atoms.end());
 }
@@ -192,7 +192,7 @@ void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
     const TermKind kind = store_[term].kind;
     const bool isOpaque = kind == TermKind::Ite || kind == TermKind::Apply || kind == TermKind::Divide ||
                           (kind == TermKind::Multiply && !store_.isNumber(store_[term].arguments[0]));
-    if (!isOpaque || !isOfTheLoop(term))
+    if (!isOpaque || !isSteady(term))
       continue;
     const TermId name = store_.variable("constant " + std::to_string(term.index()), store_.sort(term));
     names.emplace(term, name);
@@ -202,14 +202,12 @@ void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
     formula = smt::substitute(store_, formula, names);
 }
 
-/// No pass changes it, or it is a variable of the loop.
-bool RankingSynthesis::isOfTheLoop(Atom atom) const {
+/// No pass changes it.
+bool RankingSynthesis::isSteady(Atom atom) const {
   TermId term = atom;
   for (auto known = applications_.rbegin(); known != applications_.rend(); ++known)
     term = smt::substitute(store_, term, {{known->first, known->second}});
-  const auto variables = smt::variablesOf(store_, term);
-  return std::all_of(variables.begin(), variables.end(),
-                     [&](TermId variable) { return variable.index() < loop_.mark || reading_.isFromEntry(variable); });
+  return loop_.isConstant(reading_, store_, term);
 }
 
 // ---- cases ----
@@ -316,7 +314,7 @@ void RankingSynthesis::addProducts(Case &way) {
     for (std::size_t i = 0; i < factors.size() && isKnown; ++i) {
       const auto known = way.next.find(factors[i]);
       isConstant = isConstant && known == way.next.end();
-      isKnown = known != way.next.end() || isOfTheLoop(factors[i]);
+      isKnown = known != way.next.end() || isSteady(factors[i]);
       next = times(next, known != way.next.end() ? known->second : Row{{{factors[i], Number(1)}}, Number(), false});
     }
     if (!isKnown || isConstant)

@@ -59,7 +59,7 @@ private:
   Row expanded(smt::TermId term) const;
   std::optional<Row> rowOf(smt::TermId literal) const;
   bool isPossible(const Case &way);
-  bool isOfTheLoop(Atom atom) const;
+  bool isSteady(Atom atom) const;
   smt::TermId measure(const Program &program, std::size_t component);
   void makePlain(Program &program, std::size_t components);
 

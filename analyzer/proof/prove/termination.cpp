@@ -178,7 +178,7 @@ private:
     for (const TermId measure : candidates_)
       for (const std::size_t pass : passes) {
         const TermId rise = store_.negate(fallOf(measure, pass));
-        if (!isConstantInLoop(rise) && seen.size() < kMostSinking)
+        if (!isConstant(rise) && seen.size() < kMostSinking)
           seen.insert(rise);
       }
     return {seen.begin(), seen.end()};
@@ -239,7 +239,7 @@ private:
   bool falls(TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
     if (!mayLower(fall))
       return false;
-    if (isConstantInLoop(fall))
+    if (isConstant(fall))
       return holds(pass, store_.less(zero(), fall), evidence);
     for (const int parts : {1, 10, 1000, 1'000'000}) {
       if (holds(pass, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
@@ -251,12 +251,7 @@ private:
   }
   bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
 
-  bool isConstantInLoop(TermId term) const {
-    const auto variables = smt::variablesOf(store_, term);
-    return std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
-      return variable.index() < loop_.mark || reading_.isFromEntry(variable);
-    });
-  }
+  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
   bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
@@ -294,7 +289,7 @@ private:
     std::set<TermId> seen;
     std::vector<TermId> all;
     const auto offer = [&](TermId measure) {
-      if (all.size() < kMostMeasures && !isConstantInLoop(measure) && seen.insert(measure).second)
+      if (all.size() < kMostMeasures && !isConstant(measure) && seen.insert(measure).second)
         all.push_back(measure);
     };
     for (const TermId hint : loop_.measures)
@@ -356,7 +351,7 @@ private:
     if (store_.sort(sides[0]) == smt::Sort::Bool)
       return std::nullopt;
     const TermId distance = store_.subtract(sides[1], sides[0]);
-    return isConstantInLoop(distance) ? std::nullopt : std::optional(distance);
+    return isConstant(distance) ? std::nullopt : std::optional(distance);
   }
   template <typename Offer> void offerSides(TermId condition, Offer &&offer) {
     const TermKind kind = store_[condition].kind;
@@ -408,7 +403,7 @@ private:
       goals.push_back(smt::substitute(store_, phase, next));
     for (const TermId condition : loop_.transitions[second].conditions) {
       for (const TermId variable : smt::variablesOf(store_, condition))
-        if (variable.index() >= loop_.mark && !reading_.isFromEntry(variable) && !next.contains(variable))
+        if (!loop_.isFixed(reading_, variable) && !next.contains(variable))
           next.emplace(variable, store_.variable("again " + store_[variable].name, store_.sort(variable)));
       goals.push_back(smt::substitute(store_, condition, next));
     }
@@ -445,11 +440,8 @@ std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::Te
   for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
     const Transition &pass = loop.transitions[i];
     const bool holdsAgain = std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](TermId condition) {
-      const auto variables = smt::variablesOf(store, condition);
-      const bool isOfTheLoop = std::all_of(variables.begin(), variables.end(), [&](TermId variable) {
-        return variable.index() < loop.mark || reading.isFromEntry(variable) || pass.next.contains(variable);
-      });
-      return isOfTheLoop && entails(reading.facts(), pass.conditions, smt::substitute(store, condition, pass.next));
+      return loop.isOfState(reading, store, condition) &&
+             entails(reading.facts(), pass.conditions, smt::substitute(store, condition, pass.next));
     });
     if (holdsAgain)
       return i;
