@@ -9,13 +9,13 @@ namespace feedhold {
 
 namespace {
 
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+constexpr std::string_view kReplacementText = "\xEF\xBF\xBD";
 
 bool isLead(std::uint8_t byte) { return (byte >= 0x81 && byte <= 0x9F) || (byte >= 0xE0 && byte <= 0xFC); }
 bool isTrail(std::uint8_t byte) { return byte >= 0x40 && byte <= 0xFC && byte != 0x7F; }
 bool isKatakana(std::uint8_t byte) { return byte >= 0xA1 && byte <= 0xDF; }
 
-std::uint8_t byteAt(std::string_view text, std::size_t at) {
+std::uint8_t unitAt(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
 }
 
@@ -23,13 +23,13 @@ std::uint8_t byteAt(std::string_view text, std::size_t at) {
 /// kanji, and are unused in Latin-1.  From A1 up, Latin-1 has its accented letters and signs: one alone beside ASCII
 /// (`45\xB0`, `L\xE4nge`) is a vote for those, several in a row are a vote for katakana or kanji.
 int japaneseVote(std::string_view text, std::size_t at) {
-  const std::uint8_t byte = byteAt(text, at);
-  const std::uint8_t next = byteAt(text, at + 1);
+  const std::uint8_t byte = unitAt(text, at);
+  const std::uint8_t next = unitAt(text, at + 1);
   if (byte < 0x80)
     return 0;
   if (byte <= 0x9F)
     return 1;
-  const bool afterHigh = at > 0 && byteAt(text, at - 1) >= 0x80;
+  const bool afterHigh = at > 0 && unitAt(text, at - 1) >= 0x80;
   return next >= 0x80 || (afterHigh && isKatakana(byte)) ? 1 : -1;
 }
 
@@ -52,7 +52,7 @@ public:
     std::size_t outLeft = output.size();
     if (!known() || ::iconv(handle_, &in, &inLeft, &out, &outLeft) == static_cast<std::size_t>(-1)) {
       reset();
-      return std::string(kReplacement);
+      return std::string(kReplacementText);
     }
     return std::string(output.data(), out);
   }
@@ -71,7 +71,7 @@ private:
 bool isPlausibleShiftJis(std::string_view text) {
   std::int64_t votes = 0;
   for (std::size_t at = 0; at < text.size(); at += shiftJisLength(text, at)) {
-    const std::uint8_t byte = byteAt(text, at);
+    const std::uint8_t byte = unitAt(text, at);
     if (byte >= 0x80 && !isKatakana(byte) && shiftJisLength(text, at) == 1)
       return false;
     votes += japaneseVote(text, at);
@@ -80,7 +80,7 @@ bool isPlausibleShiftJis(std::string_view text) {
 }
 
 std::size_t shiftJisLength(std::string_view text, std::size_t at) {
-  return isLead(byteAt(text, at)) && isTrail(byteAt(text, at + 1)) ? 2 : 1;
+  return isLead(unitAt(text, at)) && isTrail(unitAt(text, at + 1)) ? 2 : 1;
 }
 
 std::string utf8FromShiftJis(std::string_view bytes) {
@@ -88,7 +88,7 @@ std::string utf8FromShiftJis(std::string_view bytes) {
   std::string result;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::string_view character = bytes.substr(at, shiftJisLength(bytes, at));
-    if (byteAt(character, 0) < 0x80)
+    if (unitAt(character, 0) < 0x80)
       result += character;
     else
       result += converter.convert(character);

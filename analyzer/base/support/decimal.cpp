@@ -9,7 +9,7 @@ namespace feedhold {
 
 namespace {
 
-__extension__ using Wide = unsigned __int128;
+__extension__ using Word128 = unsigned __int128;
 
 /// The absolute value; right for INT64_MIN too, whose negation does not fit an int64.
 std::uint64_t magnitude(std::int64_t value) {
@@ -19,8 +19,8 @@ std::uint64_t magnitude(std::int64_t value) {
 /// 10^19 is the largest power that fits 64 bits, and 2^63 * 10^19 still fits 128.
 constexpr int kLargestPower = 19;
 
-Wide timesPowerOfTen(std::uint64_t value, int power) {
-  Wide product = value;
+Word128 timesPowerOfTen(std::uint64_t value, int power) {
+  Word128 product = value;
   for (int i = 0; i < power; ++i)
     product *= 10;
   return product;
@@ -33,7 +33,7 @@ std::strong_ordering compareMagnitudes(std::uint64_t left, int leftScale, std::u
     return right == 0 ? std::strong_ordering::equal : std::strong_ordering::less;
   if (power > kLargestPower) // left * 10^20 is above every 64-bit number
     return std::strong_ordering::greater;
-  return timesPowerOfTen(left, power) <=> Wide{right};
+  return timesPowerOfTen(left, power) <=> Word128{right};
 }
 
 int signOf(std::int64_t value) { return (value > 0) - (value < 0); }

@@ -9,7 +9,7 @@ namespace feedhold {
 namespace {
 
 /// A person waits for the answer: more than `check` spends on a program, and still only seconds.
-std::uint64_t budgetFor(const ProgramFile &file) { return 2'000'000 + 10 * file.cfg.nodes.size(); }
+std::uint64_t stateBudget(const ProgramFile &file) { return 2'000'000 + 10 * file.cfg.nodes.size(); }
 
 /// The nodes at which a run comes into a block from another one: the first, and that of a WHILE to which its END leads.
 std::vector<bool> blockEntries(const ProgramFile &file) {
@@ -120,7 +120,7 @@ BlockStates collectBlockStates(const ProgramSet &programs, std::span<const Calle
     if (computedEdges(file.cfg, *file.model, start.program) > kMostComputedEdges) {
       result.gaveUp = "too many computed jumps, each of which may lead to any sequence number";
     } else {
-      Analysis analysis(programs, {.budget = budgetFor(file)});
+      Analysis analysis(programs, {.budget = stateBudget(file)});
       collector.begin(start, contracts, analysis.reading());
       analysis.walk(start, analysis.entryState(start, contracts), collector);
       result.gaveUp = analysis.gaveUp();

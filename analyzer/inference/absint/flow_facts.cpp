@@ -24,7 +24,7 @@ std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
 }
 
 /// So much work that a program in use never needs it, so little that a hostile one ends soon.
-std::uint64_t budgetFor(const ProgramFile &file) { return 300'000 + 5 * file.cfg.nodes.size(); }
+std::uint64_t factBudget(const ProgramFile &file) { return 300'000 + 5 * file.cfg.nodes.size(); }
 
 } // namespace
 
@@ -206,7 +206,7 @@ FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId progra
     facts.complete_ = false;
     return facts;
   }
-  Analysis analysis(programs, {.budget = budgetFor(facts.file)});
+  Analysis analysis(programs, {.budget = factBudget(facts.file)});
   FactCollector collector(facts, analysis.reading(), watches);
   const Callee start{file, facts.entry(), program};
   const AbstractState entry = analysis.entryState(start, contracts);

@@ -11,12 +11,6 @@ namespace feedhold {
 
 namespace {
 
-struct ProgramRefHash {
-  std::size_t operator()(const ProgramRef &ref) const {
-    return (std::size_t{ref.file.index()} << 32) ^ ref.program.index();
-  }
-};
-
 /// `O9010`, `9010` as a file name without extension names program 9010.
 std::optional<std::uint32_t> numberFromStem(std::string_view stem) {
   if (!stem.empty() && toUpper(stem.front()) == 'O')
@@ -54,6 +48,12 @@ bool opensLevel(CallKind kind) { return kind != CallKind::Subprogram; }
 } // namespace
 
 struct CallGraph::Impl {
+  struct ProgramRefHash {
+    std::size_t operator()(const ProgramRef &ref) const {
+      return (std::size_t{ref.file.index()} << 32) ^ ref.program.index();
+    }
+  };
+
   struct Edge {
     ProgramRef callee;
     CallKind kind;
@@ -198,7 +198,7 @@ std::optional<CallGraph::Depth> CallGraph::depthFrom(ProgramRef program) const {
 std::vector<ProgramRef> CallGraph::cycleThrough(ProgramRef program) const {
   if (!impl_)
     return {};
-  std::unordered_map<ProgramRef, ProgramRef, ProgramRefHash> reachedFrom;
+  std::unordered_map<ProgramRef, ProgramRef, Impl::ProgramRefHash> reachedFrom;
   std::vector<ProgramRef> queue = {program};
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const auto edges = impl_->callees.find(queue[i]);

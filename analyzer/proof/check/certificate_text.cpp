@@ -52,9 +52,9 @@ std::string write(const Claim &claim, const Certificate &certificate, std::size_
   return text + ")";
 }
 
-class Reader {
+class CertificateReader {
 public:
-  explicit Reader(const Claim &claim) : names_(claim.variables) {}
+  explicit CertificateReader(const Claim &claim) : names_(claim.variables) {}
 
   Certificate certificate(const SExpression &item) const {
     if (item.isCall("combination"))
@@ -146,7 +146,7 @@ Result<Certificate> readCertificate(const Claim &claim, std::string_view text) {
   if (items.value().size() != 1)
     return Error{"the text is no certificate"};
   try {
-    return Reader(claim).certificate(items.value()[0]);
+    return CertificateReader(claim).certificate(items.value()[0]);
   } catch (const Malformed &malformed) {
     return Error{malformed.reason};
   }

@@ -124,7 +124,7 @@ private:
 
 // ---- reading ----
 
-class Reader {
+class ClaimReader {
 public:
   Claim claim(std::span<const SExpression> items) {
     if (items.size() < 2 || !items.front().isCall("set-logic") || !items.back().isCall("check-sat"))
@@ -227,7 +227,7 @@ Result<Claim> readClaim(std::string_view text) {
   if (!items)
     return items.error();
   try {
-    return Reader().claim(items.value());
+    return ClaimReader().claim(items.value());
   } catch (const Malformed &malformed) {
     return Error{malformed.reason};
   }

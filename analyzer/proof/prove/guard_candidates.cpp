@@ -15,7 +15,7 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostAtoms = 160;
+constexpr std::size_t kMostCandidateAtoms = 160;
 constexpr std::size_t kMostInputs = 6; // of which each is compared with each other and with all constants
 constexpr std::size_t kMostProjected = 48;
 
@@ -41,8 +41,8 @@ public:
     signs();
     relations(constants);
     std::stable_sort(atoms_.begin(), atoms_.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
-    if (atoms_.size() > kMostAtoms)
-      atoms_.erase(atoms_.begin() + kMostAtoms, atoms_.end());
+    if (atoms_.size() > kMostCandidateAtoms)
+      atoms_.erase(atoms_.begin() + kMostCandidateAtoms, atoms_.end());
     return std::move(atoms_);
   }
 

@@ -6,7 +6,7 @@ namespace feedhold::prove {
 
 namespace {
 
-constexpr std::size_t kMostAtoms = 4;
+constexpr std::size_t kMostGuardAtoms = 4;
 /// Fewer runs than these say nothing about what a condition leaves.
 constexpr std::size_t kFewRuns = 4;
 
@@ -78,7 +78,7 @@ std::optional<Conjunction> GuardSearch::pair() const {
 /// Atom by atom, the one that excludes most of what is left.
 std::optional<Conjunction> GuardSearch::cover() const {
   Conjunction chosen;
-  while (chosen.size() < kMostAtoms) {
+  while (chosen.size() < kMostGuardAtoms) {
     std::size_t best = atoms_.size();
     std::size_t fewest = samples_.size() + 1;
     for (std::size_t i = 0; i < atoms_.size(); ++i) {

@@ -19,7 +19,7 @@ using smt::TermKind;
 namespace {
 
 constexpr std::size_t kMostCases = 10; // of a pass
-constexpr std::size_t kMostAtoms = 40;
+constexpr std::size_t kMostRankingAtoms = 40;
 constexpr std::size_t kMostFactors = 3;
 constexpr std::uint64_t kMostSimplex = 150'000;
 
@@ -180,7 +180,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
   for (const Case &way : cases_)
     for (const Row &row : way.rows)
       for (const auto &[atom, factor] : row.factors)
-        if (isSteady(atom) && atoms.size() < kMostAtoms)
+        if (isSteady(atom) && atoms.size() < kMostRankingAtoms)
           atoms.insert(atom);
   atoms_.assign(atoms.begin(), atoms.end());
 }

@@ -6,7 +6,7 @@
 namespace feedhold::smt {
 namespace {
 
-constexpr std::size_t kDeepest = 1000;
+constexpr std::size_t kDeepestText = 1000;
 
 bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
@@ -23,7 +23,7 @@ Result<std::vector<SExpression>> readSExpressions(std::string_view text) {
     } else if (c == ';') {
       at = std::min(text.find('\n', at), text.size());
     } else if (c == '(') {
-      if (open.size() > kDeepest)
+      if (open.size() > kDeepestText)
         return Error{"lists nest too deep"};
       open.emplace_back();
       ++at;

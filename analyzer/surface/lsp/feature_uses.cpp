@@ -14,7 +14,7 @@ std::vector<Use> inOrder(std::vector<Use> uses) {
   return uses;
 }
 
-Span spanOf(const LoadedFile &file, const Call &call) {
+Span calleeSpanOf(const LoadedFile &file, const Call &call) {
   return call.programWord ? file.tree.words[*call.programWord].span() : call.span;
 }
 
@@ -105,7 +105,7 @@ std::vector<Use> usesOf(const LoadedPrograms &programs, ProgramRef program) {
     uses.push_back({program.file, named.header, UseRole::Definition});
   for (const CallGraph::Caller &caller : programs.set->callGraph().callers(program)) {
     const LoadedFile &file = programs.file(caller.file);
-    uses.push_back({caller.file, spanOf(file, file.model.calls[caller.call]), UseRole::Reference});
+    uses.push_back({caller.file, calleeSpanOf(file, file.model.calls[caller.call]), UseRole::Reference});
   }
   return inOrder(std::move(uses));
 }

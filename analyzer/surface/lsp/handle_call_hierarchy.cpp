@@ -10,14 +10,14 @@ namespace feedhold::lsp {
 
 namespace {
 
-constexpr int kFunction = 12; // SymbolKind
+constexpr int kFunctionSymbol = 12; // SymbolKind
 
 Json itemOf(const View &view, ProgramRef program) {
   const LoadedFile &file = view.programs->file(program.file);
   const std::string title = titleOf(file, program.program);
   const std::string folder = file.path.filename().generic_string();
   return {{"name", nameOf(*view.programs, program)},
-          {"kind", kFunction},
+          {"kind", kFunctionSymbol},
           {"detail", title.empty() ? folder : title + ", " + folder},
           {"uri", view.uriOf(program.file)},
           {"range", rangeOf(view, program.file, spanOf(file, program.program))},

@@ -12,6 +12,12 @@ Json placeOf(const SourceFile &source, Span span) {
           {"endColumn", region.end.column}};
 }
 
+std::string compactText(const Json &value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string documentText(const Json &document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json fixToJson(const FixIt &fix, const SourceFile &source) {
   Json edits = Json::array();
   for (const Edit &edit : fix.edits) {

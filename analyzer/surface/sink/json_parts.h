@@ -12,6 +12,10 @@ using Json = nlohmann::ordered_json;
 
 /// `line`, `column`, `endLine`, `endColumn`
 Json placeOf(const SourceFile &source, Span span);
+/// The whole on one line, and over several lines with a line end behind it.  Bytes that are not UTF-8 become U+FFFD.
+std::string compactText(const Json &value);
+std::string documentText(const Json &document);
+
 Json fixToJson(const FixIt &fix, const SourceFile &source);
 
 } // namespace feedhold::json

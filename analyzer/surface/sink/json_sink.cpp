@@ -55,7 +55,7 @@ std::string writeJson(const Report &report) {
   for (const PathProblem &problem : report.result.errors)
     document["errors"].push_back({{"path", problem.path}, {"message", problem.message}});
   // A path or a replacement may hold bytes that are no UTF-8; they become U+FFFD.
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json::documentText(document);
 }
 
 } // namespace feedhold

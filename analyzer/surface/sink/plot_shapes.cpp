@@ -11,12 +11,9 @@ namespace feedhold {
 
 namespace {
 
-using geometry::Box;
 using geometry::Condition;
-using geometry::Cylinder;
 using geometry::Interval;
 using geometry::Prism;
-using geometry::Sphere;
 
 /// Sides without a bound end this far outside of the view.
 constexpr double kBeyond = 8;
@@ -25,10 +22,10 @@ class ShapeDrawing {
 public:
   ShapeDrawing(const PlotView &view, std::string_view attributes) : view_(view), attributes_(attributes) {}
 
-  std::string draw(const Box<double> &box) const {
+  std::string draw(const geometry::Box<double> &box) const {
     return rectangle(box.sides[indexOf(view_.across)], box.sides[indexOf(view_.up)]);
   }
-  std::string draw(const Cylinder<double> &cylinder) const {
+  std::string draw(const geometry::Cylinder<double> &cylinder) const {
     const std::size_t along = indexOf(cylinder.axis);
     const auto centreOf = [&](Axis axis) { // of an axis across
       const bool isFirst = along == 0 ? axis == Axis::Y : indexOf(axis) == 0;
@@ -43,7 +40,7 @@ public:
     };
     return rectangle(side(view_.across), side(view_.up));
   }
-  std::string draw(const Sphere<double> &sphere) const {
+  std::string draw(const geometry::Sphere<double> &sphere) const {
     return circle(sphere.centre[indexOf(view_.across)], sphere.centre[indexOf(view_.up)], sphere.radius);
   }
   std::string draw(const Prism<double> &prism) const {
@@ -119,17 +116,17 @@ void include(std::array<PlotRange, 3> &ranges, const geometry::PlainShape &shape
   };
   match(
       shape,
-      [&](const Box<double> &box) {
+      [&](const geometry::Box<double> &box) {
         for (std::size_t axis = 0; axis < 3; ++axis)
           include(ranges[axis], box.sides[axis]);
       },
-      [&](const Cylinder<double> &cylinder) {
+      [&](const geometry::Cylinder<double> &cylinder) {
         const std::size_t along = indexOf(cylinder.axis);
         include(ranges[along], cylinder.along);
         round(along == 0 ? 1 : 0, cylinder.centre[0], cylinder.radius);
         round(along == 2 ? 1 : 2, cylinder.centre[1], cylinder.radius);
       },
-      [&](const Sphere<double> &sphere) {
+      [&](const geometry::Sphere<double> &sphere) {
         for (std::size_t axis = 0; axis < 3; ++axis)
           round(axis, sphere.centre[axis], sphere.radius);
       },

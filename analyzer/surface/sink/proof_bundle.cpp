@@ -1,4 +1,5 @@
 #include "surface/sink/proof_bundle.h"
+#include "surface/sink/json_parts.h"
 
 #include "base/support/match.h"
 #include "base/support/sha256.h"
@@ -14,7 +15,7 @@ namespace feedhold {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using json::Json;
 using prove::Obligation;
 namespace fs = std::filesystem;
 
@@ -44,7 +45,7 @@ public:
     for (const auto &[path, file] : files)
       rows.push_back(fileToJson(path, *file));
     const Json index = {{"version", 1}, {"feedhold", version_}, {"reading", readingToJson()}, {"files", rows}};
-    bundle_.emplace(kBundleIndex, index.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    bundle_.emplace(kBundleIndex, json::documentText(index));
     return std::move(bundle_);
   }
 

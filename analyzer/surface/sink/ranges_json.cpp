@@ -1,6 +1,7 @@
 // Ranges for programs; their shape is docs/schemas/ranges.schema.json.  A block a line.
 #include "base/support/text.h"
 #include "inference/absint/describe.h"
+#include "surface/sink/json_parts.h"
 #include "surface/sink/ranges_facts.h"
 #include "surface/sink/ranges_sink.h"
 
@@ -12,9 +13,7 @@ namespace feedhold {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string textOf(const Json &value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+using json::Json;
 
 class RangesJson {
 public:
@@ -24,7 +23,7 @@ public:
     const BlockStates &states = report_.states;
     std::string text = "{\n  \"version\": 1";
     text += ",\n  \"line\": " + (report_.line ? std::to_string(*report_.line) : "null");
-    text += ",\n  \"gaveUp\": " + textOf(states.gaveUp ? Json(*states.gaveUp) : Json());
+    text += ",\n  \"gaveUp\": " + json::compactText(states.gaveUp ? Json(*states.gaveUp) : Json());
     text += ",\n  \"complete\": " + std::string(states.isCutShort || states.gaveUp ? "false" : "true");
     text += ",\n  \"contexts\": [";
     bool isFirst = true;
@@ -40,7 +39,7 @@ public:
       row.update(placeToJson(note.place));
       notes.push_back(std::move(row));
     }
-    return text + ",\n  \"notFollowed\": " + textOf(notes) + "\n}\n";
+    return text + ",\n  \"notFollowed\": " + json::compactText(notes) + "\n}\n";
   }
 
 private:
@@ -50,16 +49,17 @@ private:
     Json calls = Json::array();
     for (const Place call : context.calls)
       calls.push_back(placeToJson(call));
-    std::string text = "{\"start\": " + textOf(programToJson(context.start.file, context.start.program)) +
-                       ", \"assumesContract\": " + textOf(context.assumesContract) +
-                       ", \"calls\": " + textOf(calls) +
-                       ", \"program\": " + textOf(programToJson(context.file, context.program)) + ", \"blocks\": [";
+    std::string text = "{\"start\": " + json::compactText(programToJson(context.start.file, context.start.program)) +
+                       ", \"assumesContract\": " + json::compactText(context.assumesContract) +
+                       ", \"calls\": " + json::compactText(calls) +
+                       ", \"program\": " + json::compactText(programToJson(context.file, context.program)) +
+                       ", \"blocks\": [";
     bool isFirst = true;
     for (const auto &[block, state] : context.blocks) {
       Json row = {{"line", file.source->lineOf(file.tree->blocks[block].begin)},
                   {"text", trimmed(file.source->utf8(file.tree->blocks[block].span()))}};
       row.update(factsToJson(factsOf(state.state(), context, report_.programs, modes)));
-      text += (isFirst ? "\n      " : ",\n      ") + textOf(row);
+      text += (isFirst ? "\n      " : ",\n      ") + json::compactText(row);
       isFirst = false;
     }
     return text + "\n    ]}";

@@ -1,4 +1,5 @@
 // A run for programs; its shape is docs/schemas/run.schema.json.  A movement a line: there may be a million.
+#include "surface/sink/json_parts.h"
 #include "surface/sink/run_shown.h"
 
 #include <nlohmann/json.hpp>
@@ -7,9 +8,7 @@ namespace feedhold {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string textOf(const Json &value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+using json::Json;
 
 Json placeOf(const RunReport &report, Place place) {
   const ProgramFile &file = report.programs.file(place.file);
@@ -78,7 +77,7 @@ Json moveToJson(const RunReport &report, const RecordedMove &recorded, const std
 template <typename Items, typename ToJson> std::string listOf(const Items &items, ToJson toJson) {
   std::string text;
   for (const auto &item : items)
-    text += (text.empty() ? "\n    " : ",\n    ") + textOf(toJson(item));
+    text += (text.empty() ? "\n    " : ",\n    ") + json::compactText(toJson(item));
   return "[" + text + (text.empty() ? "]" : "\n  ]");
 }
 
@@ -93,13 +92,13 @@ std::string writeRunJson(const RunReport &report) {
   };
   const Json start = {{"file", report.shown[report.start.file.index()]},
                       {"program", programAt(report, report.start.file, report.start.program)}};
-  member("start", textOf(start));
-  member("end", textOf(nameOf(result.end)));
-  member("place", textOf(placeOf(report, result.place)));
-  member("alarm", textOf(alarmOf(report)));
+  member("start", json::compactText(start));
+  member("end", json::compactText(nameOf(result.end)));
+  member("place", json::compactText(placeOf(report, result.place)));
+  member("alarm", json::compactText(alarmOf(report)));
   member("calls", listOf(result.calls, [&](const OpenCall &call) { return placeOf(report, call.place); }));
   member("steps", std::to_string(result.steps));
-  member("variables", textOf(variablesToJson(report)));
+  member("variables", json::compactText(variablesToJson(report)));
   member("notes", listOf(result.notes, [&](const RunNote &note) {
            Json row = {{"reason", note.reason}};
            row.update(placeOf(report, note.place));

@@ -79,7 +79,7 @@ std::string document(Json driver, Json results, const Invocation &invocation, co
   run["invocations"] = Json::array({toJson(invocation, root)});
   run["results"] = std::move(results);
   const Json whole = {{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}};
-  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json::documentText(whole);
 }
 
 } // namespace feedhold::sarif

@@ -4,7 +4,7 @@
 namespace feedhold::lsp {
 namespace {
 
-constexpr std::string_view kTwo = "%\n"
+constexpr std::string_view kTwoOutlines = "%\n"
                                   "(ONE)\n"
                                   "(TWO)\n"
                                   "O1(\xF0\x9F\x98\x80 PART)\n"
@@ -37,7 +37,7 @@ protected:
 };
 
 TEST_F(LspOutline, ProgramsHoldTheirNumbersAndLoops) {
-  const View view = openText(kTwo);
+  const View view = openText(kTwoOutlines);
   const Json symbols = ask(view, "textDocument/documentSymbol", {});
   EXPECT_EQ(outline(symbols), "O1\n  N10\n  WHILE[#1LT3]DO1\n    N20\nO2\n");
   EXPECT_EQ(symbols[0]["detail"], "\xF0\x9F\x98\x80 PART");
@@ -48,7 +48,7 @@ TEST_F(LspOutline, ProgramsHoldTheirNumbersAndLoops) {
 }
 
 TEST_F(LspOutline, FoldsOfProgramsLoopsBranchesAndComments) {
-  EXPECT_EQ(folds(openText(kTwo)), (Strings{"4-10 region", "11-13 region", "6-8 region", "2-3 comment"}));
+  EXPECT_EQ(folds(openText(kTwoOutlines)), (Strings{"4-10 region", "11-13 region", "6-8 region", "2-3 comment"}));
   EXPECT_EQ(folds(openText("O1\nIF[#1EQ0]THEN\n#1=1\nELSE\n#1=2\nENDIF\nM30\n", "mitsubishi-m700")),
             (Strings{"1-7 region", "2-6 region"}));
   EXPECT_EQ(folds(openText("O1\n")), (Strings{}));

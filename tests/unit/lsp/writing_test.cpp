@@ -4,7 +4,7 @@
 namespace feedhold::lsp {
 namespace {
 
-constexpr std::string_view kSlot = "%\n"
+constexpr std::string_view kWritingSlot = "%\n"
                                    "O9100(SLOT)\n"
                                    "(@PARAM #21 DEPTH 0.5..50. MM)\n"
                                    "(@PARAM #22 STEP 0.1..#21 MM)\n"
@@ -51,13 +51,13 @@ protected:
 };
 
 TEST_F(LspWriting, ArgumentsHaveNames) {
-  write("O9100.nc", kSlot);
+  write("O9100.nc", kWritingSlot);
   const View view = openText("%\nO1\n(\xF0\x9F\x98\x80)G65P9100U3.V1.\nG65P#1U3.\nM30\n%\n");
   EXPECT_EQ(hints(view), (Strings{"3:12 DEPTH:", "3:15 STEP:"}));
 }
 
 TEST_F(LspWriting, ALoopThatIsProvedToEndHasABound) {
-  const View view = openText(kSlot);
+  const View view = openText(kWritingSlot);
   EXPECT_EQ(hints(view), (Strings{}));
   const Strings found = hints(proved(view));
   ASSERT_EQ(found.size(), 1U);
@@ -65,7 +65,7 @@ TEST_F(LspWriting, ALoopThatIsProvedToEndHasABound) {
 }
 
 TEST_F(LspWriting, ADistanceModeThatACallLeavesIsShown) {
-  write("O9100.nc", kSlot);
+  write("O9100.nc", kWritingSlot);
   const View view = openText("%\nO1\nG90\nG65P9100U3.V1.\nG01X5.\nG90\nG01X6.\nM30\n%\n");
   EXPECT_EQ(hints(view), (Strings{"4:8 DEPTH:", "4:11 STEP:", "5:6 G91 before this block"}));
   const View lathe = openText("%\nO1\nM98P2\nM30\nO2\nM99\n%\n");
@@ -106,7 +106,7 @@ TEST_F(LspWriting, CompletionReplacesTheWholeNumber) {
 }
 
 TEST_F(LspWriting, CompletionOfProgramsArgumentsLabels) {
-  write("O9100.nc", kSlot);
+  write("O9100.nc", kWritingSlot);
   const View view = openText("%\nO1\n(\xC3\x84)G65 P91 \nG65P9100U3. \nGOTO 1\nN10#1=#5\nN15M30\n(@PA\n(NOTE @P)\n%\n");
   const Json programs = askAt(view, "textDocument/completion", "P91", 3);
   ASSERT_EQ(programs.size(), 1U);
@@ -131,7 +131,7 @@ TEST_F(LspWriting, VariablesOfTheControlDependOnTheControl) {
 }
 
 TEST_F(LspWriting, SignatureOfTheCalledMacro) {
-  write("O9100.nc", kSlot);
+  write("O9100.nc", kWritingSlot);
   const View view = openText("%\nO1\n(\xF0\x9F\x98\x80)G65 P9100 U3. \nG65 P77 U1.\nM30\n%\n");
   const Json help = askAt(view, "textDocument/signatureHelp", "U3. ", 4);
   EXPECT_EQ(help["signatures"][0]["label"], "G65 P9100 U<DEPTH> V<STEP>");
@@ -143,7 +143,7 @@ TEST_F(LspWriting, SignatureOfTheCalledMacro) {
 }
 
 TEST_F(LspWriting, ALensSaysWhatIsProved) {
-  const View fresh = openText(kSlot);
+  const View fresh = openText(kWritingSlot);
   const Json unproved = ask(fresh, "textDocument/codeLens", {});
   ASSERT_EQ(unproved.size(), 1U);
   EXPECT_EQ(unproved[0]["command"]["title"], "prove");
