@@ -111,7 +111,6 @@ void ClientSession::takeFlow(OpenDocument &document, const CheckResult &result, 
   const std::vector<Remark> quick = std::move(document.quick);
   document.quick = split(quick, all).known;
   document.flow = split(std::move(all), quick).fresh;
-  ++document.found;
   if (own && !document.isContract())
     publishOthers(document, result, *own);
   if (subject.isForOthers && before == findingsOf(document))

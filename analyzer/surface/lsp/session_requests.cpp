@@ -1,4 +1,5 @@
 // Requests about documents: findings on demand, and the features.
+#include "base/support/sha256.h"
 #include "surface/lsp/session.h"
 
 #include <fmt/format.h>
@@ -87,10 +88,12 @@ Json ClientSession::pullDiagnostics(const Json &params) {
   }
   if (!refreshesDiagnostics_ && !document.isFlowKnown)
     findFlowNow(document);
-  const std::string resultId = fmt::format("{}-{}", document.stamp, document.found);
+  // Of what is found, not of how often it was looked for: the background may find the same once more.
+  Json items = findingsOf(document);
+  const std::string resultId = sha256(items.dump(-1, ' ', false, Json::error_handler_t::replace));
   if (params.value("previousResultId", Json()) == resultId)
     return {{"kind", "unchanged"}, {"resultId", resultId}};
-  return {{"kind", "full"}, {"resultId", resultId}, {"items", findingsOf(document)}};
+  return {{"kind", "full"}, {"resultId", resultId}, {"items", std::move(items)}};
 }
 
 Json ClientSession::colours(const Json &params) {

@@ -29,7 +29,6 @@ struct OpenDocument {
   std::vector<Remark> flow;           // what else is found; those of an older text move with it, as those of `denied`
   std::vector<Remark> proofs;         // likewise
   bool isFlowKnown = false;           // `flow` is of the text in hand
-  std::uint64_t found = 0;            // another one each time that `flow` is
   std::map<std::string, Json> others; // diagnostics for further files, by their URIs
 
   std::shared_ptr<const LoadedPrograms> programs;        // of the text in hand; null: not read yet
