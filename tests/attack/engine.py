@@ -4,13 +4,9 @@ import os
 import re
 import subprocess
 from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
 from typing import Optional
 
-import controls
-import syntax
-from machine import Inputs
 
 
 @dataclass(frozen=True)
@@ -23,6 +19,7 @@ class Claim:
     witness: Optional[dict]
     id: str
     reason: str = ""
+    column: int = 0
 
     @property
     def holds(self) -> bool:
@@ -73,13 +70,18 @@ class Engine:
                 found.claims.setdefault(number_of_name(program["name"]), [])
             for each in file["obligations"]:
                 claim = Claim(each["kind"], number_of_name(each["program"]), each["line"], each["claim"],
-                              each["verdict"], each["witness"], each["id"], each["reason"] or "")
+                              each["verdict"], each["witness"], each["id"], each["reason"] or "", each["column"])
                 found.claims.setdefault(claim.program, []).append(claim)
         return proofs
 
-    def check(self, folder: Path, dialect: str) -> dict:
+    def messages(self, folder: Path, dialect: str) -> dict:
+        """By the folder of each file, what `check` says: rule, message, name of the file, line."""
         done = self.call("check", "--isolated", "--format", "json", "--dialect", dialect, str(folder))
-        return json.loads(done.stdout)
+        found: dict[str, list] = {}
+        for each in json.loads(done.stdout)["findings"]:
+            path = Path(each["path"])
+            found.setdefault(str(path.parent), []).append((each["rule"], each["message"], path.name, each["line"]))
+        return found
 
     def ranges(self, file: Path, program: int, dialect: str) -> dict:
         done = self.call("ranges", "--isolated", "--calls", "--format", "json", "--dialect", dialect, "--program",
@@ -89,6 +91,12 @@ class Engine:
     def run(self, arguments: list) -> dict:
         done = self.call("run", "--isolated", "--format", "json", *arguments)
         return json.loads(done.stdout)
+
+    def try_run(self, arguments: list):
+        """None when the words are not accepted."""
+        done = subprocess.run([self.path, "run", *arguments], capture_output=True, text=True, timeout=self.timeout,
+                              env=self.environment)
+        return json.loads(done.stdout) if done.returncode in (0, 1) and done.stdout else None
 
 
 class EngineFailed(Exception):
@@ -105,80 +113,12 @@ def number_of_name(name: str) -> int:
     return int(digits) if digits else 0
 
 
-def write_project(project: syntax.Project, folder: Path):
-    folder.mkdir(parents=True, exist_ok=True)
-    for file in project.files:
-        (folder / file.name).write_text(file.text())
-
-
-def file_of(project: syntax.Project, program: int) -> syntax.SourceFile:
-    return next(file for file in project.files for each in file.programs if each.number == program)
-
-
-def line_of(project: syntax.Project, program: int, block: int) -> int:
-    line = 1
-    for each in file_of(project, program).programs:
-        if each.number == program:
-            return line + each.first_block_line + block
-        line += len(each.lines())
-    raise ValueError(program)
-
-
-def run_arguments(project: syntax.Project, folder: Path, program: int, inputs: Inputs) -> list:
-    arguments = [str(folder / file_of(project, program).name), "--program", f"O{program}", "--dialect", project.dialect]
-    for number, value in sorted(inputs.locals.items()):
-        letter = controls.LOCAL_TO_LETTER.get(number)
-        if value is not None and letter:
-            arguments += ["--arg", f"{letter}={written(value)}"]
-        elif value is not None:
-            arguments += ["--var", f"{number}={written(value)}"]
-    for number, value in sorted(inputs.cells.items()):
-        if value is not None:
-            arguments += ["--var", f"{number}={written(value)}"]
-    if inputs.place:
-        arguments += ["--start", *(f"{axis}{written(value)}" for axis, value in inputs.place.items())]
-    if inputs.skip:
-        arguments.append("--block-skip")
-    return arguments
-
-
-def written(value: Fraction) -> str:
-    if value.denominator == 1:
-        return str(int(value))
-    try:
-        return syntax.decimal(value)
-    except ValueError:
-        return repr(float(value))
-
-
-ARGUMENT = re.compile(r"([A-Z])(-?[0-9.]+)")
-
-
-def witness_inputs(witness: dict) -> Optional[Inputs]:
-    """From the call and the command that shows it."""
-    inputs = Inputs(skip="--block-skip" in witness["run"])
-    words = witness["run"].split()
-    for option, word in zip(words, words[1:]):
-        if option == "--arg":
-            letter, value = word.split("=")
-            inputs.locals[controls.LETTER_TO_LOCAL[letter]] = Fraction(value)
-        elif option == "--var":
-            name, value = word.strip('"').split("=")
-            if not name.isdigit():
-                return None
-            cells = inputs.locals if controls.is_local(int(name)) else inputs.cells
-            number = int(name)
-            if controls.is_bit_of_outputs(number):
-                return None
-            cells[number if controls.is_local(number) else cell_of(number)] = Fraction(value)
-    if "--start" in words:
-        for word in words[words.index("--start") + 1:]:
-            match = ARGUMENT.fullmatch(word)
-            if not match:
-                break
-            inputs.place[match[1]] = Fraction(match[2])
-    return inputs
-
-
-def cell_of(number: int) -> int:
-    return number if controls.is_common(number) else controls.canonical(number)
+def rows_twice(proofs: Proofs):
+    """Rows that are told more than once."""
+    for claims in proofs.claims.values():
+        seen = set()
+        for claim in claims:
+            row = claim.kind, claim.line, claim.column, claim.text
+            if row in seen or claim.id in seen:
+                yield claim
+            seen |= {row, claim.id}

@@ -2,13 +2,13 @@
 import random
 from fractions import Fraction
 
-import contracts
-import controls
-import syntax
-from machine import Inputs, Machine
-from choices import Choices
-from random_programs import ALIASES, expressions_of
-from values import Arithmetic, ControlAlarm, Evaluator, NotModelled
+from . import contracts
+from . import controls
+from . import syntax
+from .machine import Inputs, Machine
+from .choices import Choices
+from .random_programs import ALIASES, expressions_of
+from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled
 
 EIGHTH = Fraction(1, 8)
 

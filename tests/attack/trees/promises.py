@@ -2,13 +2,13 @@
 import random
 from fractions import Fraction
 
-import contracts
-import controls
-import syntax
-from choices import Choices
-from inputs import InputMaker
-from machine import Machine
-from syntax import AtEntry, Binary, Number, Position, Relation, Variable
+from . import contracts
+from . import controls
+from . import syntax
+from .choices import Choices
+from .inputs import InputMaker
+from .machine import Machine
+from .syntax import AtEntry, Binary, Number, Position, Relation, Variable
 
 RUNS = 8
 

@@ -2,13 +2,15 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-import contracts
-import controls
-import syntax
-from choices import Choices
-from engine import Claim, Proofs, line_of
-from machine import Inputs, Machine, Outcome
-from values import Arithmetic, ControlAlarm, Evaluator, NotModelled, number_of
+from . import contracts
+from . import controls
+from . import syntax
+from .choices import Choices
+from engine import Claim, Proofs
+
+from .files import line_of
+from .machine import Inputs, Machine, Outcome
+from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled, number_of
 
 # What the claims of a stop are called by the engine, for each kind of stop.
 ALARM_WORDS = {

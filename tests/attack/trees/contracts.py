@@ -3,9 +3,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Optional, Union
 
-import controls
-import syntax
-from syntax import Expression, decimal
+from . import controls
+from . import syntax
+from .syntax import Expression, decimal
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,14 @@
 import random
 from fractions import Fraction
 
-import controls
-import syntax
-from choices import Choices
-from inputs import InputMaker
-from machine import Machine
-from random_programs import COMMONS, LOCALS, expressions_of
-from syntax import Alarm, Block, IfThen, Number, Relation, Variable
-from values import ControlAlarm, NotModelled
+from . import controls
+from . import syntax
+from .choices import Choices
+from .inputs import InputMaker
+from .machine import Machine
+from .random_programs import COMMONS, LOCALS, expressions_of
+from .syntax import Alarm, Block, IfThen, Number, Relation, Variable
+from .values import ControlAlarm, NotModelled
 
 RUNS = 6
 FIRST_ALARM = 20

@@ -2,8 +2,8 @@
 import re
 from dataclasses import dataclass
 
-import syntax
-from engine import file_of, line_of, number_of_name
+from . import syntax
+from .files import file_of, line_of
 
 
 @dataclass(frozen=True)
@@ -14,21 +14,13 @@ class Message:
     line: int
 
 
-def messages_of(answer: dict) -> list:
-    found = []
-    for file in answer["files"]:
-        for each in file["findings"]:
-            found.append(Message(each["rule"], each["message"], file["path"], each["line"]))
-    return found
-
-
 class MessageJudge:
     """Of the programs that no other calls, from any inputs: such messages are about all calls."""
 
     def __init__(self, project, messages, counts):
         self.project, self.counts = project, counts
         self.by_line = {}
-        for message in messages:
+        for message in (Message(*each) for each in messages):
             if any(row.rule == message.rule and re.search(row.text, message.text) for row in ROWS):
                 self.by_line.setdefault((message.file, message.line), []).append(message)
                 counts["messages that say never, always or stops"] += 1

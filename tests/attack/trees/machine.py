@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Optional
 
-import contracts
-import controls
-import syntax
-from motion import Tool
-from values import Arithmetic, ControlAlarm, Evaluator, NotModelled, nearest, number_of
+from . import contracts
+from . import controls
+from . import syntax
+from .motion import Tool
+from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled, nearest, number_of
 
 
 class UserAlarm(Exception):
@@ -340,9 +340,15 @@ class Machine:
             return number_of(self.cells.get(cell))
         if 4001 <= number <= 4022 or number in (4109,) or 5001 <= number <= 5003:
             return self.tool.system_value(number, len(self.modal_calls))
-        if 34 <= number <= 99 or 200 <= number <= 499:
-            raise ControlAlarm("variable")
+        self.named(number)
         raise NotModelled(f"#{number}")
+
+    def named(self, number: int):
+        """Some Mitsubishi controls have #400 to #499, and options add others."""
+        if 200 <= number <= 499 and self.control.dialect == "mitsubishi-m700":
+            raise NotModelled("a variable by option")
+        if 34 <= number <= 99 or 200 <= number <= 499 or number < 0:
+            raise ControlAlarm("variable")
 
     def outputs(self, number: int):
         whole = int(number_of(self.cells.get(controls.ALL_OUTPUTS)))
@@ -358,8 +364,7 @@ class Machine:
         if controls.is_local(number):
             self.frames[-1].locals[number] = value
             return
-        if 34 <= number <= 99 or 200 <= number <= 499 or number < 0:
-            raise ControlAlarm("variable")
+        self.named(number)
         if number == 3000:
             if value is None or not 0 <= value <= self.control.last_alarm_number or value.denominator != 1:
                 raise NotModelled("number of an alarm")
@@ -430,6 +435,9 @@ class Machine:
         if number is not None and len(self.frames) == 1 and self.choices.choose("m99-p-of-a-main-program", (True, False)):
             self.go_to(frame, number)
             return None
+        if number is not None and len(self.frames) > 1 and \
+                all(block.label != number for block in self.frames[-2].activation.program.blocks):
+            raise ControlAlarm("label")
         return Target(number)
 
     def program_of(self, expression):

@@ -1,14 +1,14 @@
 """What was found, as files: the program, the claim, the call, and how to see it."""
 from pathlib import Path
 
-import engine as engines
+from . import files
 
 
 def write_report(folder: Path, seed: int, number: int, project, contradiction):
     name = "".join(c if c.isalnum() else "-" for c in contradiction.kind)
     place = folder / f"{name}-{seed}"
-    engines.write_project(project, place)
-    command = engines.run_arguments(project, place, contradiction.program, contradiction.inputs)
+    files.write_project(project, place)
+    command = files.run_arguments(project, place, contradiction.program, contradiction.inputs)
     lines = [contradiction.kind, "", contradiction.what, ""]
     lines += ["Inputs: " + "; ".join(f"#{n}={v}" for n, v in sorted({**contradiction.inputs.locals,
                                                                   **contradiction.inputs.cells}.items())

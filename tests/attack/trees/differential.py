@@ -2,12 +2,12 @@
 import random
 from fractions import Fraction
 
-import contracts
-import controls
-from choices import Choices
-from engine import file_of, line_of, run_arguments
-from machine import Machine
-from witnesses import all_choices
+from . import contracts
+from . import controls
+from .choices import Choices
+from .files import file_of, line_of, run_arguments
+from .machine import Machine
+from .witnesses import all_choices
 
 ENDS = {"return": "M99", "M30": "M30", "alarm": "alarm", "user-alarm": "alarm", "endless": "endless", "fuel": "fuel"}
 WORD = Fraction(11, 10000)  # what `run` may round of a word

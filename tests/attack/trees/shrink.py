@@ -1,8 +1,8 @@
 """A smaller project that still shows what was found: blocks, clauses, programs, and parts of blocks go one by one."""
 import copy
 
-import contracts
-import syntax
+from . import contracts
+from . import syntax
 
 
 def smaller(project: syntax.Project):

@@ -2,8 +2,8 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-import controls
-from values import NotModelled
+from . import controls
+from .values import NotModelled
 
 AXES = controls.AXES
 

@@ -6,8 +6,8 @@ what a double cannot hold exactly is marked `rounds`, so that machines that comp
 import math
 from fractions import Fraction
 
-import syntax
-from controls import is_common
+from . import syntax
+from .controls import is_common
 
 HALF = Fraction(1, 2)
 

@@ -2,12 +2,15 @@
 import random
 from dataclasses import replace
 
-import controls
-import syntax
-from choices import Choices
-from engine import Claim, Proofs, witness_inputs
-from inputs import is_allowed
-from judge import Contradiction, Judge
+from . import contracts
+from . import controls
+from . import syntax
+from .choices import Choices
+from engine import Claim, Proofs
+
+from .files import line_of, witness_inputs
+from .inputs import is_allowed
+from .judge import Contradiction, Judge
 
 SWITCHES = {
     "negative-half": ("away", "up"),
@@ -54,6 +57,8 @@ def idle_witness(project: syntax.Project, claim: Claim, counts):
         asked.update(outcome.choices)
         if outcome.end == "not-modelled" or outcome.inexact or any(c.claim is not None for c in judge.found):
             return None
+        if stops_there(project, claim, outcome):
+            return None
         if claim.kind in ("loop-ends", "program-ends") and outcome.end in ("endless", "fuel"):
             return None
     return Contradiction(f"{claim.id} is refuted ({claim.text}), and its run breaks nothing: {claim.witness['run']}; it "
@@ -61,9 +66,15 @@ def idle_witness(project: syntax.Project, claim: Claim, counts):
                          f"refuted: {claim.kind}", claim.program, inputs, {}, claim, outcome.rounds)
 
 
+def stops_there(project, claim, outcome) -> bool:
+    """Also in a call of the program by itself, whatever its contract says of that call."""
+    return claim.kind in ("alarm-unreachable", "no-control-alarm") and outcome.end in ("alarm", "user-alarm") and \
+        outcome.activation.program.number == claim.program and \
+        line_of(project, claim.program, outcome.block) == claim.line
+
+
 def with_modes(program, inputs):
     """What the contract says of the start, where the command leaves it to the contract."""
-    import contracts
     for clause in program.clauses:
         if isinstance(clause, contracts.Modal):
             inputs.modes.update({controls.GROUP_OF[code]: code for code in clause.codes})

@@ -1,11 +1,12 @@
 """Random programs of the macro language; every feature has a name and can be left out."""
+import math
 import random
 from dataclasses import dataclass
 from fractions import Fraction
 
-import contracts
-import syntax
-from syntax import (Alarm, Assign, Binary, Block, Call, End, Function, Goto, IfGoto, IfThen, Minus, Nothing, Number,
+from . import contracts
+from . import syntax
+from .syntax import (Alarm, Assign, Binary, Block, Call, End, Function, Goto, IfGoto, IfThen, Minus, Nothing, Number,
                     Program, Project, Relation, Return, SourceFile, Variable, While, Words)
 
 FEATURES = ("calls", "repeats", "modal-calls", "modal-in-callee", "indirect", "system", "skip", "jumps", "jumps-into-loops",
@@ -331,11 +332,11 @@ class ContractMaker:
 
     @staticmethod
     def locals_of(program):
-        return {e.index for e in expressions_of(program) if isinstance(e, Variable) and e.index in (1, 2, 3, 4, 7)}
+        return {n for n in read_in(program) if n in (1, 2, 3, 4, 7)}
 
     @staticmethod
     def commons_of(program):
-        return {e.index for e in expressions_of(program) if isinstance(e, Variable) and e.index in COMMONS}
+        return {n for n in read_in(program) if n in COMMONS}
 
     def range_of(self, variable: int, is_global: bool, program) -> contracts.Range:
         optional = not is_global and self.rng.random() < 0.12
@@ -344,8 +345,11 @@ class ContractMaker:
                                    optional=optional, is_global=is_global)
         low = self.rng.choice((0, 0, 1, 1, -2, Fraction(1, 2)))
         high = low + self.rng.choice((1, 2, 2, 4, Fraction(3, 2)))
+        whole = self.rng.random() < 0.3
+        if whole:
+            low, high = math.floor(low), math.floor(high)
         return contracts.Range(variable, number(low), number(high) if self.rng.random() < 0.9 else None,
-                               whole=self.rng.random() < 0.3, optional=optional, is_global=is_global)
+                               whole=whole, optional=optional, is_global=is_global)
 
     def guard(self, program: Program):
         """Guards for the clauses, most of the time all that are needed."""
@@ -381,6 +385,16 @@ def expressions_of(program: Program):
     for block in program.blocks:
         for root in roots_of(block.statement):
             yield from syntax.parts(root)
+
+
+def read_in(program: Program):
+    """Numbers of variables that are read: a contract on others is refused."""
+    for block in program.blocks:
+        inner = block.statement.statement if isinstance(block.statement, IfThen) else block.statement
+        target = inner.target if isinstance(inner, Assign) else None
+        for root in roots_of(block.statement):
+            yield from (e.index for e in syntax.parts(root) if isinstance(e, Variable) and isinstance(e.index, int)
+                        and e is not target)
 
 
 def roots_of(statement):

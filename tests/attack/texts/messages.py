@@ -1,0 +1,47 @@
+"""Messages of `check` with never, always or stops, against one run of a program that no other calls."""
+from .claims import Wrong
+
+HELD, FAILED, RUN, PAST, OVER = "held", "failed", "run", "past", "over"
+SAYINGS = (("decided-condition", "never holds", HELD), ("decided-condition", "always holds", FAILED),
+           ("constant-condition", "never true", HELD), ("constant-condition", "always true", FAILED),
+           ("unreachable-block", "never run", RUN), ("loop-never-entered", "never entered", HELD),
+           ("endless-loop", "never ends", OVER), ("loop-without-progress", "never ends", OVER),
+           ("loop-in-wrong-direction", "never gets past", OVER), ("alarm-never-fires", "never comes", "alarm"),
+           ("division-by-zero", "divides by zero", PAST), ("out-of-domain", "is outside of what", PAST),
+           ("goto-missing-label", "has no target", PAST))
+ALL_CALLS = ("decided-condition", "alarm-never-fires", "loop-never-entered")
+
+
+def wrong_message(run, messages, counts) -> list:
+    """`messages`: (rule, text, file, line)."""
+    if not messages or not run.visits:
+        return []
+    visits = run.visits
+    for rule, text, file, line in messages:
+        saying = next((s for s in SAYINGS if s[0] == rule and s[1] in text), None)
+        if saying is None:
+            continue
+        counts["messages judged"] += 1
+        for visit in visits:
+            if visit.text.file == file and not visit.modal_at_entry and shows(run, visit, line, saying[2]):
+                return [Wrong(f"message {rule}", f"line {line}: {text}; but a run shows otherwise")]
+    return []
+
+
+def shows(run, visit, line, how) -> bool:
+    first, last = visit.text.first, visit.text.first + len(visit.text.lines)
+    if not first <= line < last:
+        return False
+    if how == HELD:
+        return line in visit.held
+    if how == FAILED:
+        return line in visit.failed
+    if how == RUN:
+        return line in visit.lines
+    text = visit.text.lines[line - first]
+    if how == PAST:
+        return line in visit.done and ("IF[" not in text or line in visit.held)
+    if how == "alarm":
+        return run.end == "alarm" and run.where is visit and run.line == line
+    return line in visit.lines and run.end in ("return", "end", "stop", "alarm") and \
+        ("WHILE[" not in text or line in visit.held)

@@ -1,0 +1,120 @@
+"""What runs begin with: on and beside the ends of ranges, numbers of the text, vacant ones."""
+import re
+from fractions import Fraction as F
+
+from . import contract
+from .machine import Start, cell_of, is_common
+from .path import GROUPS, XYZ, AT_POWER_ON
+from .reckon import Stop, Unsaid
+from .switches import Switches
+
+
+class Starts:
+    def __init__(self, files: dict, text, rng):
+        self.rng, self.text = rng, text
+        everything = "\n".join(files.values())
+        self.numbers = sorted({F(n) for n in re.findall(r"(?<![#\d.OPN])\d+\.?\d*|\.\d+", everything)
+                               if not n.endswith(".")} | {F(0), F(1), F(-1)})
+        self.numbers = [n for n in self.numbers if n < 1000] or [F(0)]
+        named = {int(n) for n in re.findall(r"#(\d+)", everything)}
+        own = {int(n) for n in re.findall(r"#(\d+)", "\n".join(text.lines))}
+        self.locals = sorted(n for n in own if 0 < n < 34)
+        self.cells = sorted({n for n in named if is_common(n)} | {100, 101, 500} |
+                            {cell_of(n, "")[0] for n in named if n > 999} - {None, 1132})
+
+    def value(self):
+        rng, roll = self.rng, self.rng.random()
+        if roll < 0.15:
+            return None
+        near = rng.choice(self.numbers)
+        if roll < 0.6:
+            return near
+        return near + rng.choice((F(1, 8), -F(1, 8), 1, -1)) if roll < 0.85 else F(rng.randint(-40, 80), 8)
+
+    def any(self) -> Start:
+        rng = self.rng
+        start = Start(skip=rng.random() < 0.3)
+        start.locals = {n: v for n in self.locals if (v := self.value()) is not None}
+        start.cells = {n: v for n in self.cells if (v := self.value()) is not None}
+        if rng.random() < 0.6:
+            start.place = {axis: rng.choice((F(0), rng.choice(self.numbers))) for axis in XYZ}
+        for _, clause in self.text.clauses():
+            self.keep(clause, start)
+        return start
+
+    def keep(self, clause, start):
+        head, words = clause.split()[0], clause.split()
+        if head == "@MODAL":
+            start.modes.update({GROUPS[c]: c for c in words[1:] if c in GROUPS})
+        elif head == "@START":
+            start.place.update({w[0]: F(w[1:].rstrip(".") or 0) for w in words[1:]})
+        elif head in ("@PARAM", "@GLOBAL"):
+            into, number = (start.locals, int(words[1][1:])) if int(words[1][1:]) < 34 else (start.cells, int(words[1][1:]))
+            value = self.inside(clause, start)
+            into.pop(number, None)
+            if value is not None:
+                into[number] = value
+
+    def inside(self, clause, start):
+        state = StateOf(start)
+        try:
+            low, high, whole, optional, values = contract.range_ends(clause, contract.reckoner_at(state, Switches()))
+        except (Stop, Unsaid):
+            return None
+        rng = self.rng
+        if optional and rng.random() < 0.3:
+            return None
+        if values:
+            return rng.choice(values)
+        low = (high if high is not None else F(0)) - 20 if low is None else low
+        high = low + 20 if high is None else high
+        grid = 1 if whole else rng.choice((1, 2, 8))
+        inside = [F(n, grid) for n in range(int(low * grid) - 1, int(high * grid) + 2) if low <= F(n, grid) <= high] or [low]
+        return rng.choice((inside[0], inside[-1], rng.choice(inside), rng.choice(inside)))
+
+    def outside(self) -> Start:
+        """With one clause that may be broken."""
+        start = self.any()
+        clauses = [c for _, c in self.text.clauses() if c.split()[0] in ("@PARAM", "@GLOBAL", "@MODAL", "@START")]
+        if not clauses:
+            return start
+        words = self.rng.choice(clauses).split()
+        if words[0] == "@MODAL":
+            code = self.rng.choice(words[1:])
+            start.modes[GROUPS[code]] = self.rng.choice([c for c, g in GROUPS.items() if g == GROUPS[code] and c != code])
+        elif words[0] == "@START":
+            start.place[words[1][0]] = self.value() or F(3)
+        else:
+            number = int(words[1][1:])
+            into = start.locals if number < 34 else start.cells
+            into.pop(number, None)
+            value = self.value()
+            if value is not None:
+                into[number] = value
+        return start
+
+
+class StateOf:
+    """As much of a state as clauses at entry ask for."""
+
+    def __init__(self, start: Start):
+        self.locals, self.cells = start.locals, start.cells
+        self.modes = {**AT_POWER_ON, **start.modes}
+        self.place = [F(start.place.get(axis, 0)) for axis in XYZ]
+
+
+def as_words(start: Start) -> list:
+    """For `feedhold run`."""
+    words = []
+    for number, value in sorted({**start.locals, **start.cells}.items()):
+        words += ["--var", f"{number}={float(value):.12g}"]
+    if start.place:
+        words += ["--start", *(f"{axis}{float(value):.12g}" for axis, value in start.place.items())]
+    return words + (["--block-skip"] if start.skip else [])
+
+
+def runs_alike(start: Start, text) -> bool:
+    """The command begins with the codes of the contract and of power-on."""
+    said = {GROUPS[c]: c for _, clause in text.clauses() if clause.startswith("@MODAL") for c in clause.split()[1:]
+            if c in GROUPS}
+    return all(said.get(group, AT_POWER_ON.get(group)) == code for group, code in start.modes.items())
