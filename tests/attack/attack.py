@@ -16,9 +16,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 sys.setrecursionlimit(5000)
 
+from both import interpreters_differ  # noqa: E402
 from engine import Engine  # noqa: E402
 from tally import Tally  # noqa: E402
 from texts.attack import TextAttack  # noqa: E402
+from texts.oword_attack import OwordAttack  # noqa: E402
 from texts.write_macro import MacroWriter  # noqa: E402
 from texts.write_space import SpaceWriter  # noqa: E402
 from trees.attack import TreeAttack  # noqa: E402
@@ -31,10 +33,12 @@ def attacks_of(options, engine, tally):
     fanuc = ["fanuc-30i", "fanuc-0i", "mitsubishi-m700"]
     chosen = options.dialect
     return {
-        "trees": TreeAttack(engine, tally, [f for f in FEATURES if f not in options.without], chosen or fanuc),
+        "trees": TreeAttack(engine, tally, [f for f in FEATURES if f not in options.without], chosen or fanuc,
+                            interpreters_differ),
         "texts": TextAttack("texts", engine, tally, partial(MacroWriter, without=options.without),
                             chosen or fanuc + ["haas-ngc"]),
         "space": TextAttack("space", engine, tally, SpaceWriter, chosen or ["fanuc-30i"]),
+        "owords": OwordAttack(engine, tally),
     }
 
 
@@ -56,10 +60,11 @@ def main() -> int:
     attacks = [attack for name, attack in attacks.items() if not options.only or name in options.only]
     begin, seed = time.monotonic(), options.first
     while time.monotonic() - begin < options.seconds if options.seconds else seed < options.first + options.programs:
+        seeds = range(seed, seed + BATCH if options.seconds else min(seed + BATCH, options.first + options.programs))
         for attack in attacks:
             with tempfile.TemporaryDirectory(prefix="feedhold-attack-") as work:
                 try:
-                    attack.batch(range(seed, seed + BATCH), Path(work))
+                    attack.batch(seeds, Path(work))
                 except Exception:  # one batch is lost, and it is a failure
                     tally.counts["batches that broke off"] += 1
                     print(f"batch {seed}:", file=sys.stderr)

@@ -51,10 +51,10 @@ def unlike(a: Summary, b: Summary):
             continue
         if (mine is None) != (theirs is None) or mine is not None and abs(float(mine) - float(theirs)) > 1e-9 * (1 + abs(float(mine))):
             return f"#{number} is {show(mine)} in one and {show(theirs)} in the other"
-    a.moves, b.moves = levels(a.moves), levels(b.moves)
-    if len(a.moves) != len(b.moves):
-        return f"one moves {len(a.moves)} times, the other {len(b.moves)} times"
-    for mine, theirs in zip(a.moves, b.moves):
+    one, other = levels(a.moves), levels(b.moves)
+    if len(one) != len(other):
+        return f"one moves {len(one)} times, the other {len(other)} times"
+    for mine, theirs in zip(one, other):
         if any(abs(p - q) > CLOSE for p, q in zip(mine, theirs)):
             return f"a movement ends at {mine} in one and at {theirs} in the other"
     return None

@@ -103,8 +103,8 @@ class Tool:
 
     def variable(self, number, modal_calls):
         if 5001 <= number <= 5003:
-            if not self.mapping.is_none:
-                raise Unsaid("place under a mapping")
+            if not self.mapping.is_none or self.shift() != self.origin:
+                raise Unsaid("place under a mapping or behind another zero point")
             return self.work_place()[number - 5001]
         if number == 4109:
             if self.words["F"] is None:

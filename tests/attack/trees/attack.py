@@ -27,8 +27,9 @@ COMPARISONS = 3
 
 
 class TreeAttack:
-    def __init__(self, engine, tally, features, dialects):
-        self.engine, self.tally, self.features, self.dialects = engine, tally, features, dialects
+    def __init__(self, engine, tally, features, dialects, differ):
+        """`differ` compares with the other interpreter."""
+        self.engine, self.tally, self.features, self.dialects, self.differ = engine, tally, features, dialects, differ
 
     def project(self, seed: int):
         rng = random.Random(f"program {seed}")
@@ -69,6 +70,10 @@ class TreeAttack:
         for _ in range(COMPARISONS):
             program = rng.choice(project.programs())
             inputs = InputMaker(project, program, rng).any()
+            why = self.differ(project, program, inputs, self.tally.counts)
+            if why:
+                self.report(seed, project, Contradiction(why, "the interpreters differ", program.number, inputs, {}))
+                break
             if not is_comparable(program, inputs):
                 continue
             found = difference(project, folder, program, inputs, self.engine, self.tally.counts)
@@ -125,8 +130,11 @@ class TreeAttack:
         with tempfile.TemporaryDirectory(prefix="feedhold-attack-") as work:
             place = Path(work) / "p"
             write_project(project, place)
+            program = next((p for p in project.programs() if p.number == known.program), None)
+            if known.kind == "the interpreters differ":
+                why = program and self.differ(project, program, known.inputs, collections.Counter())
+                return replace(known, what=why) if why else None
             if known.kind == "the machines differ":
-                program = next((p for p in project.programs() if p.number == known.program), None)
                 found = program and difference(project, place, program, known.inputs, self.engine, collections.Counter())
                 return found and replace(known, what=found[0])
             try:
