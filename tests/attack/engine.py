@@ -42,7 +42,7 @@ class Proofs:
 
 
 class Engine:
-    def __init__(self, path: str, timeout: float = 300):
+    def __init__(self, path: str, timeout: float = 1500):
         self.path = path
         self.timeout = timeout
         self.environment = {**os.environ, "XDG_CACHE_HOME": "/nonexistent"}

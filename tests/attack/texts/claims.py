@@ -158,7 +158,7 @@ class Judgement:
         except (Stop, Unsaid):
             return
         comes = number == int(words[1])
-        if comes and not meant or words[2] == "IFF" and meant and not comes:
+        if meant and not comes or words[2] == "IFF" and comes and not meant:
             self.add("alarm-iff", f"{claim.id} is {claim.verdict} ({claim.text}), and the alarm "
                      f"{'comes' if comes else 'does not come'}", claim)
 

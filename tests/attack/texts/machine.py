@@ -488,7 +488,6 @@ class Run:
         self.frames.pop()
         outer = self.frames[-1]
         if label is not None and not outer.visit.text.has(label):
-            self.frames.append(frame)
             raise Stop("no label")
         frame.visit.left, frame.visit.exit = "return", exit_
         outer.visit.done.add(outer.visit.text.line(outer.at))

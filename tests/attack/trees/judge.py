@@ -64,6 +64,9 @@ class Judge:
 
     def judge(self, activation):
         """Of an activation whose contract is kept; those within it first."""
+        if activation.breach is not None:
+            self.guarded(activation)
+            return
         for child in activation.children:
             if child.breach is None:
                 if child.is_standard:
@@ -72,9 +75,6 @@ class Judge:
                     self.excused_or_judged(activation, child)
             else:
                 self.broken_call(activation, child)
-        if activation.breach is not None:
-            self.guarded(activation)
-            return
         self.unreachable(activation)
         self.assigned(activation)
         if activation.ended == "return" or activation.ended == "end" and activation.parent is None:
@@ -230,7 +230,7 @@ class Judge:
         condition = self.holds_at(clause.condition, activation, activation.entry_cells, activation.entry_locals,
                                   activation.entry_tool)
         raised = alarm == clause.number
-        if raised and not condition or clause.both_ways and condition and not raised:
+        if condition and not raised or clause.both_ways and raised and not condition:
             self.add("alarm-iff", f"{claims[0].id} is {claims[0].verdict} ({claims[0].text}), and the alarm "
                      f"{'comes' if raised else 'does not come'}", claims[0])
 

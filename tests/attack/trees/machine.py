@@ -181,9 +181,14 @@ class Machine:
                 raise ControlAlarm("end of record")
             target = self.execute(frame, blocks[frame.at])
             if target is not None:
-                if len(self.frames) > 1 or not frame.activation.ended:
+                if self.is_there(target) and (len(self.frames) > 1 or not frame.activation.ended):
                     self.note_return(frame, "return")
                 return target
+
+    def is_there(self, target) -> bool:
+        """Where M99 P names a number that the caller does not have, the control stops."""
+        return target.number is None or len(self.frames) == 1 or \
+            any(block.label == target.number for block in self.frames[-2].activation.program.blocks)
 
     def note_return(self, frame, how):
         activation = frame.activation
@@ -208,7 +213,8 @@ class Machine:
         self.since_look.add((frame.activation, frame.at))
         here, activation = frame.at, frame.activation
         target = self.effect(frame, block.statement)
-        activation.passed.add(here)
+        if target is None or self.is_there(target):
+            activation.passed.add(here)
         return target
 
     def holds(self, frame: Frame, condition) -> bool:
@@ -435,9 +441,6 @@ class Machine:
         if number is not None and len(self.frames) == 1 and self.choices.choose("m99-p-of-a-main-program", (True, False)):
             self.go_to(frame, number)
             return None
-        if number is not None and len(self.frames) > 1 and \
-                all(block.label != number for block in self.frames[-2].activation.program.blocks):
-            raise ControlAlarm("label")
         return Target(number)
 
     def program_of(self, expression):

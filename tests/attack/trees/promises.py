@@ -23,6 +23,7 @@ def add_promises(project: syntax.Project, rng: random.Random, counts):
         for _ in range(rng.choice((1, 1, 2))):
             clauses.append(promise(program, outcomes, returned, rng))
         program.clauses += [c for c in clauses if c is not None and c not in program.clauses]
+        program.clauses = list(dict.fromkeys(program.clauses))
 
 
 def run_of(project, program, rng):
