@@ -65,6 +65,7 @@ inline Dialect makeFanuc(MachineKind machine) {
   dialect.operators = kOperators;
   dialect.argumentVariables = kArgumentVariables;
   dialect.behaviour.scalesByIncrements = true;
+  dialect.switches.pointArcStops = Switch::Off; // an arc of 0 degrees
   return dialect;
 }
 

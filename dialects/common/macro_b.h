@@ -37,7 +37,7 @@ inline constexpr std::array kBasicFunctions = {
     Function{FunctionKind::Fix},
     Function{FunctionKind::Fup},
     Function{FunctionKind::Ln, FunctionForm::OneArgument, FunctionDomain::Positive},
-    Function{FunctionKind::Exp},
+    Function{FunctionKind::Exp, FunctionForm::OneArgument, FunctionDomain::Exponent},
     Function{FunctionKind::Bin, FunctionForm::OneArgument, FunctionDomain::Bcd},
     Function{FunctionKind::Bcd, FunctionForm::OneArgument, FunctionDomain::NotNegative},
 };

@@ -129,6 +129,7 @@ Behaviour behaviour() {
   behaviour.positionByData = true;
   behaviour.endRestoresModes = true;
   behaviour.machineMoveByMode = true;
+  behaviour.machineIncrement = MachineIncrement::Alarm;
   behaviour.repeatsByK = false;
   behaviour.equalTolerance = 1e-4;
   return behaviour;
@@ -155,6 +156,11 @@ const Dialect &linuxcnc() {
     dialect.switches.nat = Switch::On; // ATAN gives -180 to 180 degrees
     dialect.switches.ad2 = Switch::On; // "Multiple X words on one line"
     dialect.switches.m3b = Switch::On; // four M codes of different groups
+    dialect.switches.fxy = Switch::On; // G18 drills along Y
+    dialect.switches.pointArcStops = Switch::On;
+    dialect.switches.bareCycleStops = Switch::On;
+    dialect.switches.motionEndsCycle = Switch::Off; // cycles are motion codes: two of them are an error
+    dialect.switches.setEndsLocal = Switch::Off;    // G52 and G92 are one offset
     dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
     dialect.hints = kHints;
     return dialect;

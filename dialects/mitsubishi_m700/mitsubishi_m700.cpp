@@ -68,6 +68,10 @@ Dialect make(MachineKind machine) {
   dialect.grammar.blockIf = true;
   dialect.grammar.thenMayBeWords = true;
   dialect.grammar.wordMayBeUnbracketed = true;
+  dialect.behaviour.machineMoveByMode = true;
+  dialect.behaviour.machineIncrement = MachineIncrement::Distance;
+  dialect.behaviour.absoluteBehindMappings = true;
+  dialect.switches.centreStays = Switch::On;
   dialect.switches.mca = Switch::On; // the number is shown as it is
   return dialect;
 }

@@ -18,7 +18,8 @@ bool isPole(const Decimal &degrees) {
 /// What is wrong with the argument; empty when nothing is.
 std::string_view complaint(FunctionDomain domain, const Decimal &value) {
   switch (domain) {
-  case FunctionDomain::Any: return {};
+  case FunctionDomain::Any:
+  case FunctionDomain::Exponent: return {};
   case FunctionDomain::NotNegative: return value.isNegative() ? "takes no number below 0" : "";
   case FunctionDomain::Bcd: return value.isNegative() ? "takes no number below 0" : "";
   case FunctionDomain::Positive: return value <= Decimal() ? "takes numbers above 0 only" : "";

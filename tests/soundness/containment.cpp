@@ -30,6 +30,7 @@ public:
     axes("local shift", state_.local, abstract_.local);
     axes("scale", state_.transform.scale, abstract_.transform.scale);
     axes("scale centre", state_.transform.scaleCentre, abstract_.transform.scaleCentre);
+    axes("pending", state_.transform.pending, abstract_.transform.pending);
     axes("mirror", state_.transform.mirrorAt, abstract_.transform.mirrorAt);
     value("angle", state_.transform.angle, abstract_.transform.angle);
     value("length offset", state_.lengthOffset, abstract_.lengthOffset);
@@ -138,6 +139,8 @@ private:
       fail(fmt::format("{}: code {} is not in the set {:#x}", name, concrete, abstract.codes()));
   }
   void flags() {
+    truth("length changed", state_.lengthChanged, abstract_.lengthChanged);
+    truth("axis turned", state_.axisTurned, abstract_.axisTurned);
     truth("transformed", state_.transformed, abstract_.transformed);
     for (const auto &[number, entered] : state_.enteredLoops) {
       Truth known = Truth::True;

@@ -8,7 +8,10 @@ const Dialect &controlOf(const Sample &sample) { return *findDialect(allDialects
 
 Dialect machineOf(const Sample &sample, Random &random) {
   Dialect dialect = controlOf(sample);
-  for (Switch *unknown : {&dialect.switches.dpi, &dialect.switches.nat})
+  Switches &switches = dialect.switches;
+  for (Switch *unknown : {&switches.dpi, &switches.nat, &switches.g67, &switches.f16, &switches.fxy, &switches.ax1,
+                          &switches.shortArcStops, &switches.pointArcStops, &switches.bareCycleStops,
+                          &switches.motionEndsCycle, &switches.setEndsLocal, &switches.centreStays})
     if (*unknown == Switch::Unknown)
       *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
   return dialect;

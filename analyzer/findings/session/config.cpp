@@ -26,7 +26,11 @@ constexpr std::array kSwitchNames = {
     SwitchName{"clv", &Switches::clv}, SwitchName{"nat", &Switches::nat}, SwitchName{"mfz", &Switches::mfz},
     SwitchName{"sqc", &Switches::sqc}, SwitchName{"mlg", &Switches::mlg}, SwitchName{"cva", &Switches::cva},
     SwitchName{"f16", &Switches::f16}, SwitchName{"mca", &Switches::mca}, SwitchName{"gmp", &Switches::gmp},
-    SwitchName{"ijk", &Switches::ijk}, SwitchName{"amm", &Switches::amm},
+    SwitchName{"ijk", &Switches::ijk}, SwitchName{"amm", &Switches::amm}, SwitchName{"fxy", &Switches::fxy},
+    SwitchName{"ax1", &Switches::ax1}, SwitchName{"short_arc_stops", &Switches::shortArcStops},
+    SwitchName{"point_arc_stops", &Switches::pointArcStops}, SwitchName{"bare_cycle_stops", &Switches::bareCycleStops},
+    SwitchName{"motion_ends_cycle", &Switches::motionEndsCycle}, SwitchName{"set_ends_local", &Switches::setEndsLocal},
+    SwitchName{"centre_stays", &Switches::centreStays},
 };
 
 std::string withSuggestion(std::string message, std::string_view word, std::span<const std::string_view> candidates) {

@@ -194,7 +194,8 @@ struct VariableRange {
   std::string_view meaning = {}; // "macro alarm"
 };
 
-enum class FunctionDomain : std::uint8_t { Any, NotNegative, Positive, MinusOneToOne, NotPole, Bcd };
+/// Exponent: the result has to be a number that the control can hold.
+enum class FunctionDomain : std::uint8_t { Any, NotNegative, Positive, MinusOneToOne, NotPole, Bcd, Exponent };
 /// How the arguments are written.
 enum class FunctionForm : std::uint8_t {
   OneArgument,   // SIN[a]
@@ -260,7 +261,7 @@ struct Switches {
   Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
   Switch ad2 = Switch::Off;     // 3403#6: a repeated address is an alarm
   Switch m3b = Switch::Unknown; // 3404#7: up to three M codes in a block
-  Switch g67 = Switch::Off;     // 6000#0: G67 without G66 is no alarm
+  Switch g67 = Switch::Unknown; // 6000#0: G67 without G66 is no alarm
   Switch mgo = Switch::Off;     // 6000#1: jumps use stored sequence numbers
   Switch v15 = Switch::Off;     // 6000#3: tool offset numbering of Series 15
   Switch hgo = Switch::Off;     // 6000#4: as mgo, for blocks read within the last hundred
@@ -277,6 +278,15 @@ struct Switches {
   Switch gmp = Switch::Off;     // 6008#6: code calls work inside programs called by a code
   Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
   Switch amm = Switch::Off;     // 7712#4: M99 in a main program is an alarm
+  Switch fxy = Switch::Unknown; // 5101#0: cycles drill along the normal of the plane (On) or along Z
+  Switch ax1 = Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system
+  // What controls do differently, or what no manual says (parity.md of each dialect).
+  Switch shortArcStops = Switch::Unknown;   // R a little below half the distance of the ends: an alarm, or a half circle
+  Switch pointArcStops = Switch::Unknown;   // an arc by R that ends where it starts: an alarm, or no movement
+  Switch bareCycleStops = Switch::Unknown;  // a canned cycle that was never given its depth or R level is an alarm
+  Switch motionEndsCycle = Switch::Unknown; // G00 to G03 behind the code of a canned cycle in its block end the cycle
+  Switch setEndsLocal = Switch::Unknown;    // G92 takes the offset of G52 away from the axes that it names
+  Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
   std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
 };
 
@@ -312,6 +322,12 @@ enum class ModuloMeaning : std::uint8_t {
 };
 enum class IntegerPart : std::uint8_t { TowardZero, Floor }; // FIX; FUP goes the other way
 enum class LogicMeaning : std::uint8_t { Bitwise, Logical }; // AND, OR, XOR of numbers
+/// G53 under G91.
+enum class MachineIncrement : std::uint8_t {
+  NotFollowed, // does nothing, or moves somehow
+  Distance,    // the words are distances
+  Alarm
+};
 
 /// How the control computes and moves, where controls differ.
 struct Behaviour {
@@ -333,6 +349,8 @@ struct Behaviour {
   bool endRestoresModes = false;      // M02 and M30 put G17, G40, G80, G90 and G94 back
   bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
   bool machineMoveByMode = false;     // G53 feeds where G01 is in force; else it is always rapid
+  MachineIncrement machineIncrement = MachineIncrement::NotFollowed;
+  bool absoluteBehindMappings = false; // also behind G68, not only behind G69, the first movement has to be absolute
   bool scalesByIncrements = false;    // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
   double equalTolerance = 0;          // EQ and NE take values this near as equal
   double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end

@@ -125,7 +125,7 @@ private:
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
     const ToolPoint<ConcreteReading> point = toolPointOf(ctx, entry_);
-    const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits;
+    const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits && point.sameSide;
     const Place own = frames_.size() > 1 ? frames_[1].call : here;
     const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
     for (Move<ConcreteValue> &move : moves)

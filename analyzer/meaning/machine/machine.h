@@ -64,7 +64,7 @@ struct RecordedMove {
   /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
   std::array<double, 3> zero = {};
   /// Its coordinates are those of the tool (tool_point.h): no cutter compensation is in force, its length and the units
-  /// are those of the start.
+  /// are those of the start, and no other axis has turned the part.
   bool isOfTool = true;
 };
 

@@ -84,6 +84,11 @@ private:
   }
   CallRequest<R> endModal(CallRequest<R> request) {
     request.action = CallAction::EndModal;
+    if (context_.state.modalCalls.empty()) {
+      const auto none = context_.either(reading_.negation(context_.state.modalCallsUnknown), context_.maybeNot());
+      const auto isIgnored = context_.isOn(context_.dialect().switches.g67, true);
+      reading_.alarm(reading_.both(none, reading_.negation(isIgnored)), {AlarmKind::NoModalCall, context_.place()});
+    }
     if (!context_.state.modalCalls.empty())
       context_.state.modalCalls.pop_back();
     return request;

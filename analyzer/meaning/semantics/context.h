@@ -29,6 +29,16 @@ template <ValueAlgebra R> struct StepContext {
   }
   bool certain(Truth truth) const { return !reading.mayBe(reading.negation(truth)); }
   Value zero() const { return reading.number(0); }
+  /// A setting of the machine.  Where it is not known a run takes `usual`, and all others look at both outcomes.
+  Truth isOn(Switch setting, bool usual = false) const {
+    if (setting != Switch::Unknown)
+      return reading.truth(setting == Switch::On);
+    return reading.negation(
+        reading.compare(Relation::Equal, reading.either(reading.number(usual ? 1 : 0), reading.number(usual ? 0 : 1)),
+                        zero()));
+  }
+  /// Not so in a run, and unknown where all runs are looked at.
+  Truth maybeNot() const { return isOn(Switch::Unknown); }
   /// The modal state of a kind is one of these codes.  Without such a group: `without`.
   Truth inForce(ModalKind kind, std::initializer_list<CodeAction> actions, Truth without) const {
     const auto group = modes.groupOf(kind);

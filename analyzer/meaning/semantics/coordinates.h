@@ -25,6 +25,11 @@ template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(St
 template <ValueAlgebra R>
 void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kAxisCount> &before);
 
+/// The zero point of an axis moves while the machine stands still: the coordinate of the tool becomes greater by
+/// `distance`.
+template <ValueAlgebra R>
+void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance);
+
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context);
 
@@ -67,6 +72,17 @@ template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context);
 // ---- implementation -----------------------------------------------------------------------------------------------
 
 namespace detail {
+
+/// No absolute word may have named the axis since the mappings changed.
+template <ValueAlgebra R> bool isPending(StepContext<R> &context, Axis axis) {
+  R &reading = context.reading;
+  return reading.mayBe(reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)])));
+}
+template <ValueAlgebra R> void forgetPending(StepContext<R> &context, Axis axis) {
+  R &reading = context.reading;
+  auto &pending = context.state.transform.pending[indexOf(axis)];
+  pending = reading.select(reading.isVacant(pending), pending, reading.either(pending, reading.anyNumber()));
+}
 
 /// How many work offset systems lie before the one in force: 0 for G54; absent when it is not one of them.
 template <ValueAlgebra R> std::optional<std::uint32_t> workOffsetInForce(StepContext<R> &context) {
@@ -208,14 +224,49 @@ template <ValueAlgebra R>
 void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kAxisCount> &before) {
   R &reading = context.reading;
   for (const Axis axis : kAllAxes) {
-    auto &coordinate = context.state.at(axis);
-    coordinate = reading.add(coordinate, reading.subtract(before[indexOf(axis)], originOf(context, axis)));
+    shiftCoordinate(context, axis, reading.subtract(before[indexOf(axis)], originOf(context, axis)));
   }
+}
+
+template <ValueAlgebra R>
+void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance) {
+  R &reading = context.reading;
+  MachineState<R> &state = context.state;
+  const std::size_t i = indexOf(axis);
+  state.at(axis) = reading.add(state.at(axis), distance);
+  if (context.certain(reading.compare(Relation::Equal, distance, context.zero())))
+    return;
+  if (detail::isPending(context, axis))
+    detail::forgetPending(context, axis);
+  // Mitsubishi M700V: the centre of a rotation stays where it is; other manuals do not say.
+  const auto stays = context.isOn(context.dialect().switches.centreStays);
+  const auto keep = [&](typename R::Value &coordinate) {
+    const auto isNone = reading.isVacant(coordinate);
+    if (context.certain(isNone))
+      return;
+    const auto moved = reading.add(reading.asNumber(coordinate), distance);
+    coordinate = reading.select(isNone, coordinate, reading.select(stays, moved, coordinate));
+  };
+  const std::optional<Plane> plane = planeOf(context);
+  if (reading.mayBe(state.transformed)) {
+    keep(state.transform.scaleCentre[i]);
+    keep(state.transform.mirrorAt[i]);
+    if (!plane)
+      state.transform.centre.fill(reading.anyNumber());
+    else if (axis == plane->first || axis == plane->second)
+      keep(state.transform.centre[axis == plane->first ? 0 : 1]);
+  }
+  if (!plane || axis == plane->normal || axis == Axis::Z)
+    for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial})
+      keep(*level);
 }
 
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context) {
   for (auto &coordinate : context.state.position)
     coordinate = context.reading.either(coordinate, context.reading.anyNumber());
+  for (const Axis axis : kAllAxes)
+    if (detail::isPending(context, axis))
+      detail::forgetPending(context, axis);
 }
 
 template <ValueAlgebra R>

@@ -43,6 +43,8 @@ public:
 
   void run() {
     learnLevels();
+    alarmWithoutLevels();
+    settleLevels();
     const std::optional<double> repeats = repeatCount();
     if (!repeats)
       return drillUnknownTimes();
@@ -73,6 +75,24 @@ private:
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
       if (const auto *entry = words_.find(letter))
         *kept = reading_.select(entry->present, entry->value, *kept);
+  }
+  void alarmWithoutLevels() {
+    const auto begins = [](const CodeWord &word) { return isDrillingCycle(word.code->action); };
+    if (std::none_of(words_.codes.begin(), words_.codes.end(), begins))
+      return;
+    const Truth bare = context_.either(reading_.isVacant(cycle_.bottom), reading_.isVacant(cycle_.retract));
+    reading_.alarm(reading_.both(bare, context_.isOn(context_.dialect().switches.bareCycleStops)),
+                   {AlarmKind::CycleWithoutLevel, context_.place()});
+  }
+  /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
+  void settleLevels() {
+    const auto settle = [&](Value &level, const Value &usual) {
+      const Truth open = reading_.isVacant(level);
+      if (reading_.mayBe(open))
+        level = reading_.select(open, reading_.either(usual, reading_.anyNumber()), reading_.asNumber(level));
+    };
+    settle(cycle_.retract, reading_.asNumber(cycle_.initial));
+    settle(cycle_.bottom, retractLevel());
   }
   /// With G91 the level is a distance from `base`.
   void learn(Value &level, const typename ExecutedWords<R>::Entry &entry, Truth absolute, const Value &base) {
@@ -149,7 +169,7 @@ private:
     Point target = targetOf(context_, words_);
     target[indexOf(plane_.normal)] = travelLevel();
     state_.position = target;
-    tell(context_, isOpenPolar(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid, start);
+    tell(context_, isOpenTarget(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid, start);
     const Kind kind = reading_.wantsMoves() ? kindOf() : Kind::Straight;
     if (kind == Kind::NotFollowed) {
       reading_.notModelled("the way of this boring cycle", context_.place());
@@ -260,12 +280,28 @@ private:
   Plane plane_;
 };
 
+/// Along the normal of the plane, or always along Z: parameter 5101#0 of FANUC controls.
+template <ValueAlgebra R>
+void drillAlong(StepContext<R> &context, const ExecutedWords<R> &words, const Plane &plane) {
+  R &reading = context.reading;
+  const auto byPlane = context.isOn(context.dialect().switches.fxy, true);
+  if (plane.normal == Axis::Z || context.certain(byPlane))
+    return DrillingCycle<R>(context, words, plane).run();
+  if (!reading.mayBe(byPlane))
+    return DrillingCycle<R>(context, words, kPlaneXY).run();
+  auto before = context.state;
+  DrillingCycle<R>(context, words, plane).run();
+  std::swap(context.state, before);
+  DrillingCycle<R>(context, words, kPlaneXY).run();
+  reading.join(context.state, byPlane, before);
+}
+
 } // namespace detail
 
 template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words) {
   const std::optional<Plane> plane = planeOf(context);
   if (plane)
-    return detail::DrillingCycle<R>(context, words, *plane).run();
+    return detail::drillAlong(context, words, *plane);
   const auto any = context.reading.anything();
   context.state.cycle = {any, any, any, any, any};
   const auto start = context.state.position;

@@ -280,7 +280,9 @@ private:
   Value inDomain(FunctionKind kind, const Value &argument, Span place) {
     const Function *row = findFunction(context_.dialect(), kind);
     if (row)
-      reading_.alarm(outside(row->domain, argument), {AlarmKind::ArgumentOutOfDomain, place});
+      reading_.alarm(outside(row->domain, argument),
+                     {row->domain == FunctionDomain::Exponent ? AlarmKind::Overflow : AlarmKind::ArgumentOutOfDomain,
+                      place});
     const Value result = reading_.function(kind, argument);
     if (kind == FunctionKind::Asin)
       return bySwitch(fullTurn(result), result);
@@ -294,12 +296,20 @@ private:
     case FunctionDomain::Positive: return reading_.compare(Relation::LessOrEqual, argument, context_.zero());
     case FunctionDomain::MinusOneToOne:
       return reading_.compare(Relation::Greater, reading_.function(FunctionKind::Abs, argument), reading_.number(1));
+    case FunctionDomain::Exponent: return overflows(argument);
     case FunctionDomain::NotPole: {
       const Value cosine = reading_.function(FunctionKind::Cos, argument);
       return reading_.compare(Relation::Less, reading_.function(FunctionKind::Abs, cosine), reading_.number(1e-12));
     }
     }
     return reading_.unknownTruth();
+  }
+  /// Of EXP: beyond about 1e308, or with the value range of Series 16 (6008#0) beyond 1e47 and below 1e-29.
+  Truth overflows(const Value &exponent) {
+    const Truth beyond = reading_.compare(Relation::Greater, exponent, reading_.number(709));
+    const Truth outside = context_.either(reading_.compare(Relation::Greater, exponent, reading_.number(108)),
+                                          reading_.compare(Relation::Less, exponent, reading_.number(-66)));
+    return context_.either(beyond, reading_.both(outside, context_.isOn(context_.dialect().switches.f16)));
   }
   Span spanOf(ExpressionId id) const { return context_.tree().expressions[id].span; }
 

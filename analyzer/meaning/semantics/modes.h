@@ -37,15 +37,20 @@ private:
     const std::optional<Plane> planeBefore = planeOf(context_);
     if (maps)
       leaveUnknownMappings();
+    const Truth mapped = state_.transformed;
+    const auto programmed = maps ? toProgrammed(context_, state_.position) : std::array<Value, kAxisCount>{};
+    const Truth lengthOff = context_.inForce(ModalKind::Length, {CodeAction::LengthOff}, reading_.truth(true));
     for (const CodeWord &word : words_.codes)
       enter(word);
     computedCodes();
     cancelCycle();
     if (shifts)
       moveOrigins(context_, before);
-    length();
-    if (maps)
+    length(lengthOff);
+    if (maps) {
       mappings();
+      expectAbsolute(programmed, context_.either(mapped, state_.transformed));
+    }
     otherPlane(planeBefore);
   }
 
@@ -110,6 +115,8 @@ private:
           lengths->fill(reading_.anyNumber());
       if (is({ModalKind::Units, ModalKind::Length}))
         state_.lengthOffset = reading_.anyNumber();
+      if (is({ModalKind::Length}))
+        state_.lengthChanged = reading_.truth(true);
       if (is({ModalKind::Units, ModalKind::Cycle}))
         for (Value *level : {&state_.cycle.bottom, &state_.cycle.retract, &state_.cycle.initial, &state_.cycle.peck,
                              &state_.cycle.dwell})
@@ -129,7 +136,8 @@ private:
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
 
-  /// A code of group 01 ends a canned cycle where cycles have a group of their own.
+  /// A code of group 01 ends a canned cycle where cycles have a group of their own; one behind the code of a cycle may do
+  /// so in the block in which that begins.
   void cancelCycle() {
     const auto cycle = context_.modes.groupOf(ModalKind::Cycle);
     const auto motion = context_.modes.groupOf(ModalKind::Motion);
@@ -141,14 +149,29 @@ private:
         return;
       moves = moves || group == *motion;
     }
+    bool begins = false;
     for (const CodeWord &word : words_.codes) {
-      if (word.address == 'G' && word.code->group == *cycle)
+      if (word.address != 'G')
+        continue;
+      if (word.code->group == *cycle && !isDrillingCycle(word.code->action))
         return;
-      moves = moves || (word.address == 'G' && word.code->group == *motion);
+      begins = begins || word.code->group == *cycle;
+      moves = word.code->group != *cycle && (moves || word.code->group == *motion);
     }
     if (!moves)
       return;
-    state_.codes[*cycle] = codeOfAction(ModalKind::Cycle, CodeAction::CycleOff);
+    const Truth ends =
+        begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : reading_.truth(true);
+    if (context_.certain(ends))
+      return leaveCycle(*cycle);
+    if (!reading_.mayBe(ends))
+      return;
+    const auto running = state_;
+    leaveCycle(*cycle);
+    reading_.join(state_, reading_.negation(ends), running);
+  }
+  void leaveCycle(std::uint8_t group) {
+    state_.codes[group] = codeOfAction(ModalKind::Cycle, CodeAction::CycleOff);
     endCycle(context_);
   }
   typename R::ModalCode codeOfAction(ModalKind kind, CodeAction action) {
@@ -233,21 +256,22 @@ private:
            reading_.onlyCode(state_.codes[word.code->group]) == index;
   }
   /// The tip of the tool gets another coordinate while the machine stands still.
-  void length() {
+  void length(Truth wasOff) {
     for (const CodeWord &word : words_.codes) {
       const CodeAction action = word.code->action;
       if (action == CodeAction::LengthOff)
-        setLength(context_.zero());
+        setLength(context_.zero(), reading_.negation(wasOff));
       else if (action == CodeAction::LengthGiven)
-        setLength(wordOr('Z', state_.lengthOffset));
+        setLength(wordOr('Z', state_.lengthOffset), reading_.truth(true));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
-        setLength(reading_.toolLength(state_, wordOr('H', state_.word('H'))));
+        setLength(reading_.toolLength(state_, wordOr('H', state_.word('H'))), reading_.truth(true));
     }
   }
-  void setLength(const Value &length) {
+  void setLength(const Value &length, Truth isNew) {
     const Value moved = reading_.subtract(state_.lengthOffset, length);
     state_.lengthOffset = length;
-    state_.at(Axis::Z) = reading_.add(state_.at(Axis::Z), moved);
+    state_.lengthChanged = context_.either(state_.lengthChanged, isNew);
+    shiftCoordinate(context_, Axis::Z, moved);
   }
   Value wordOr(char letter, const Value &otherwise) const {
     const auto *entry = words_.find(letter);
@@ -256,6 +280,20 @@ private:
 
   // ---- mirror, scaling, rotation ----
 
+  /// FANUC, Mitsubishi M700V: behind G69 the first movement has to be absolute.  Until then the control may take an axis
+  /// to be at the coordinate that it had under the mapping that has changed.
+  void expectAbsolute(const std::array<Value, kAxisCount> &before, Truth maps) {
+    if (!reading_.mayBe(maps))
+      return;
+    const auto now = toProgrammed(context_, state_.position);
+    for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+      Value &pending = state_.transform.pending[axis];
+      const Truth same = reading_.both(reading_.compare(Relation::Equal, before[axis], now[axis]),
+                                       reading_.isVacant(pending));
+      const Value other = reading_.select(reading_.isVacant(pending), before[axis], reading_.either(pending, reading_.anyNumber()));
+      pending = reading_.select(same, reading_.vacant(), other);
+    }
+  }
   bool changesMapping() const {
     for (const CodeAction action : {CodeAction::ScalingOn, CodeAction::ScalingOff, CodeAction::MirrorOn,
                                     CodeAction::MirrorOff, CodeAction::RotationOn, CodeAction::RotationOff})

@@ -27,12 +27,39 @@ public:
       : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
 
   void run() {
+    const bool others = namesOtherAxes();
+    const Point before = others ? state_.position : Point{};
     act();
-    if ((!words_.entries.empty() || ownWords()) && reading_.mayBe(otherGeometry(context_)))
+    if (const CodeWord *word = ownWords(); !word || isMovement(*word->code))
+      settlePending(context_, words_);
+    if ((!words_.entries.empty() || ownWords()) && reading_.mayBe(otherGeometry(context_))) {
       forgetPosition(context_);
+      state_.axisTurned = context_.either(state_.axisTurned, otherGeometry(context_));
+    }
+    if (others)
+      noteOtherAxes(before);
   }
 
 private:
+  static bool isMovement(const Code &code) {
+    constexpr std::array kMovements = {CodeAction::MachineMove, CodeAction::ReferenceReturn, CodeAction::SecondReference,
+                                       CodeAction::ReferenceCheck, CodeAction::Skip};
+    return std::find(kMovements.begin(), kMovements.end(), code.action) != kMovements.end();
+  }
+  static bool isOther(Axis axis) { return indexOf(axis) > indexOf(Axis::Z); }
+  bool namesOtherAxes() const {
+    return context_.dialect().machine == MachineKind::Milling &&
+           std::any_of(kAllAxes.begin(), kAllAxes.end(),
+                       [&](Axis axis) { return isOther(axis) && words_.find(letterOf(axis)); });
+  }
+  /// Such an axis turns the part, or moves it or the tool.
+  void noteOtherAxes(const Point &before) {
+    for (const Axis axis : kAllAxes)
+      if (isOther(axis) && words_.find(letterOf(axis)))
+        state_.axisTurned = context_.either(
+            state_.axisTurned,
+            reading_.negation(reading_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
+  }
   void act() {
     if (const CodeWord *word = ownWords())
       return consume(*word);
@@ -134,7 +161,22 @@ private:
   /// An arc whose end point is not written ends where it starts.
   Truth isFullCircle() {
     const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
-    return reading_.both(centre, isArc());
+    const Truth arc = reading_.both(centre, isArc());
+    const std::optional<Plane> plane = planeOf(context_);
+    if (!plane || !reading_.mayBe(arc))
+      return arc;
+    const Truth inPlane = context_.either(present(plane->firstCentre), present(plane->secondCentre));
+    if (reading_.mayBe(reading_.both(arc, reading_.negation(inPlane))))
+      reading_.notModelled("a distance to the centre beside the plane of the arc", context_.place());
+    return reading_.both(arc, context_.either(inPlane, context_.maybeNot()));
+  }
+  /// A distance to the centre on the axis that is not of the plane: a control may refuse it, or pass over it.
+  Truth centreBeside(const Plane &plane) const {
+    Truth beside = reading_.truth(false);
+    for (const char letter : {'I', 'J', 'K'})
+      if (letter != plane.firstCentre && letter != plane.secondCentre)
+        beside = context_.either(beside, present(letter));
+    return beside;
   }
   Truth cycleActive() {
     const Truth none = reading_.truth(false);
@@ -181,7 +223,7 @@ private:
   }
   /// Corners that are rounded or chamfered, dimensions given by an angle, single direction positioning (G60).
   bool hasOtherWay() const {
-    return words_.has(CodeAction::OtherCurve) || hasCommaWord() || isOpenPolar(context_, words_);
+    return words_.has(CodeAction::OtherCurve) || hasCommaWord() || isOpenTarget(context_, words_);
   }
   /// The same corners and angles, as lines of a lathe have them.
   bool hasLatheCorner() const {
@@ -202,6 +244,7 @@ private:
     Plane plane;
     Value first, second; // centre
     Truth byRadius;
+    Truth unknown; // only a distance beside the plane
   };
   void followArc(const Point &start, Truth arc, Truth follows) {
     const std::optional<Plane> plane = planeOf(context_);
@@ -214,24 +257,55 @@ private:
     closeCircle(*plane, start);
     const Truth byRadius = present('R');
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
-    reading_.alarm(reading_.both(follows, reading_.negation(context_.either(byRadius, byCentre))),
+    const Truth without = reading_.negation(context_.either(byRadius, byCentre));
+    const Truth beside = centreBeside(*plane);
+    reading_.alarm(reading_.both(reading_.both(follows, without),
+                                 context_.either(reading_.negation(beside), context_.maybeNot())),
                    {AlarmKind::ArcWithoutCentre, context_.place()});
     const auto [first, second] = centreOf(*plane, start);
     const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
+    alarmsOfRadius(*plane, start, mapping, reading_.both(follows, byRadius));
     const Value difference = radiusDifference(*plane, start, first, second);
     const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
-    const Truth isCircle = reading_.both(mapping.staysCircle, reading_.truth(turnsOf().has_value()));
-    const Truth mayDiffer =
-        context_.either(reading_.both(isCircle, differs), reading_.both(reading_.negation(isCircle), maybeNot()));
+    const Truth isCircle = reading_.both(reading_.both(mapping.staysCircle, byCentre),
+                                         reading_.truth(turnsOf().has_value()));
+    const Truth mayDiffer = context_.either(reading_.both(isCircle, differs),
+                                            reading_.both(reading_.negation(isCircle), context_.maybeNot()));
     reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), mayDiffer),
                    {AlarmKind::ArcRadius, context_.place()});
     if (reading_.wantsMoves() && context_.certain(arc))
-      tellArc(start, {*plane, first, second, byRadius}, mapping);
+      tellArc(start, {*plane, first, second, byRadius, reading_.both(without, beside)}, mapping);
   }
-  /// Not so in a run, and unknown where all runs are looked at.
-  Truth maybeNot() {
-    return reading_.compare(Relation::NotEqual, reading_.either(context_.zero(), reading_.anyNumber()),
-                            context_.zero());
+  /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
+  /// parameter of most, and one that is accepted makes half a circle.
+  void alarmsOfRadius(const Plane &plane, const Point &start, const CircleMapping<R> &mapping, Truth follows) {
+    const auto *entry = words_.find('R');
+    if (!entry || !reading_.mayBe(follows))
+      return;
+    const Value radius = reading_.function(FunctionKind::Abs, reading_.multiply(entry->value, mapping.scale));
+    const auto [a, b] = chordOf(plane, start);
+    const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
+    const Value halfSquare = reading_.divide(chordSquare, reading_.number(4));
+    const auto reaches = [&](const Value &length) {
+      return reading_.negation(reading_.compare(Relation::Greater, halfSquare, reading_.multiply(length, length)));
+    };
+    const Switches &switches = context_.dialect().switches;
+    const Truth isShort = reading_.both(
+        reading_.negation(reaches(radius)),
+        context_.either(reading_.negation(reaches(reading_.add(radius, tolerance()))), context_.isOn(switches.shortArcStops)));
+    const Truth isPoint = reading_.both(reading_.compare(Relation::Equal, chordSquare, context_.zero()),
+                                        context_.isOn(switches.pointArcStops));
+    const Truth asMapped = context_.either(mapping.staysCircle, context_.maybeNot());
+    reading_.alarm(reading_.both(follows, reading_.both(asMapped, isShort)),
+                   {AlarmKind::ArcTooShort, context_.place()});
+    reading_.alarm(reading_.both(follows, isPoint), {AlarmKind::ArcWithoutLength, context_.place()});
+  }
+  /// From start to end, as radii are counted.
+  std::pair<Value, Value> chordOf(const Plane &plane, const Point &start) {
+    const auto along = [&](Axis axis) {
+      return asRadius(axis, reading_.subtract(state_.at(axis), start[indexOf(axis)]));
+    };
+    return {along(plane.first), along(plane.second)};
   }
   /// Through the mappings and back a coordinate comes out a rounding error away, and a full circle would be none.
   void closeCircle(const Plane &plane, const Point &start) {
@@ -249,9 +323,16 @@ private:
   void alarmsOfUnknownPlane(Truth arc) {
     const Truth byCentre = reading_.both(arc, reading_.negation(present('R')));
     const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
-    const Truth without = context_.either(reading_.negation(anyDistance), maybeNot());
+    const Truth without = context_.either(reading_.negation(anyDistance), context_.maybeNot());
     reading_.alarm(reading_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
-    reading_.alarm(reading_.both(byCentre, maybeNot()), {AlarmKind::ArcRadius, context_.place()});
+    const auto mayStop = [&](Truth when, AlarmKind kind) {
+      reading_.alarm(reading_.both(when, context_.maybeNot()), {kind, context_.place()});
+    };
+    mayStop(byCentre, AlarmKind::ArcRadius);
+    const Truth byRadius = reading_.both(arc, present('R'));
+    mayStop(byRadius, AlarmKind::ArcTooShort);
+    if (context_.dialect().switches.pointArcStops != Switch::Off)
+      mayStop(byRadius, AlarmKind::ArcWithoutLength);
   }
   Truth present(char letter) const {
     const auto *entry = words_.find(letter);
@@ -306,7 +387,8 @@ private:
   void tellArc(const Point &start, const Arc &arc, const CircleMapping<R> &mapping) {
     const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
     const std::optional<std::uint32_t> turns = turnsOf();
-    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || hasOtherWay()) {
+    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || reading_.mayBe(arc.unknown) ||
+        hasOtherWay()) {
       if (!context_.certain(mapping.staysCircle))
         reading_.notModelled("an arc whose axes are scaled differently", context_.place());
       else if (!clockwise)
@@ -367,8 +449,7 @@ private:
       return {zero, zero};
     const Value radius = reading_.multiply(entry->value, scale);
     const Value two = reading_.number(2);
-    const Value a = reading_.subtract(state_.at(plane.first), start[indexOf(plane.first)]);
-    const Value b = reading_.subtract(state_.at(plane.second), start[indexOf(plane.second)]);
+    const auto [a, b] = chordOf(plane, start);
     const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
     const Value heightSquare =
         reading_.subtract(reading_.multiply(radius, radius), reading_.divide(chordSquare, reading_.number(4)));
@@ -381,11 +462,11 @@ private:
     const Value side =
         reading_.select(longArc, reading_.number(clockwise ? 1 : -1), reading_.number(clockwise ? -1 : 1));
     const Value ratio = reading_.multiply(side, reading_.divide(height, chord));
-    const Value first = reading_.subtract(reading_.add(start[indexOf(plane.first)], reading_.divide(a, two)),
-                                          reading_.multiply(ratio, b));
-    const Value second =
-        reading_.add(reading_.add(start[indexOf(plane.second)], reading_.divide(b, two)), reading_.multiply(ratio, a));
-    return {first, second};
+    const auto from = [&](Axis axis, const Value &length) {
+      return reading_.add(start[indexOf(axis)], asCoordinate(axis, length));
+    };
+    return {from(plane.first, reading_.subtract(reading_.divide(a, two), reading_.multiply(ratio, b))),
+            from(plane.second, reading_.add(reading_.divide(b, two), reading_.multiply(ratio, a)))};
   }
 
   // ---- codes that are not modal ----
@@ -403,11 +484,24 @@ private:
   }
   void machineMove() {
     const Point start = state_.position;
+    const Truth incremental = context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, reading_.truth(false));
+    const MachineIncrement meaning = context_.behaviour().machineIncrement;
+    if (meaning == MachineIncrement::Alarm)
+      reading_.alarm(reading_.both(incremental, axisWords()), {AlarmKind::MachineIncrement, context_.place()});
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         Value &position = state_.at(axis);
-        position = reading_.select(entry->present, reading_.subtract(entry->value, originOf(context_, axis)), position);
+        const Value absolute = reading_.subtract(entry->value, originOf(context_, axis));
+        const Value increment = meaning == MachineIncrement::Distance
+                                    ? reading_.add(position, entry->value)
+                                    : reading_.either(position, reading_.anyNumber());
+        const Value target = reading_.select(incremental, increment, absolute);
+        position = reading_.select(entry->present, target, position);
       }
+    if (meaning == MachineIncrement::NotFollowed && reading_.mayBe(incremental)) {
+      reading_.notModelled("G53 under G91", context_.place());
+      return tell(context_, MoveKind::Unfollowed, start);
+    }
     if (!context_.behaviour().machineMoveByMode)
       tell(context_, MoveKind::Rapid, start);
     else if (reading_.wantsMoves())
@@ -416,8 +510,9 @@ private:
   /// By way of the programmed point to the reference position.
   void referenceReturn(const CodeWord &word) {
     const Point start = state_.position;
+    const MoveKind way = isOpenTarget(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid;
     state_.position = targetOf(context_, words_);
-    tell(context_, MoveKind::Rapid, start);
+    tell(context_, way, start);
     const Point between = state_.position;
     const Truth all =
         reading_.both(reading_.truth(context_.behaviour().bareReferenceReturn), reading_.negation(axisWords()));

@@ -75,13 +75,25 @@ private:
     }
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
-        Value &position = state_.at(axis);
+        const Value position = state_.at(axis);
         Value &shift = state_.shift[indexOf(axis)];
         const Value target = reading_.select(entry->present, entry->value, position);
         shift = reading_.add(shift, reading_.subtract(position, target));
-        position = target;
+        endLocal(axis, entry->present);
+        shiftCoordinate(context_, axis, reading_.subtract(target, position));
+        state_.at(axis) = target;
       }
     keep();
+  }
+  /// NCT: G92 deletes the offset of G52; other manuals do not say.  The zero point is the same either way.
+  void endLocal(Axis axis, Truth when) {
+    Value &local = state_.local[indexOf(axis)];
+    Value &shift = state_.shift[indexOf(axis)];
+    const Truth ends = reading_.both(when, context_.isOn(context_.dialect().switches.setEndsLocal));
+    if (!reading_.mayBe(ends) || context_.certain(reading_.compare(Relation::Equal, local, context_.zero())))
+      return;
+    shift = reading_.select(ends, reading_.add(shift, local), shift);
+    local = reading_.select(ends, context_.zero(), local);
   }
   void setOff(Kept kept) {
     for (const Axis axis : kAllAxes)
@@ -98,7 +110,7 @@ private:
   }
   void moveTo(std::array<Value, kAxisCount> &shifts, Axis axis, const Value &wanted) {
     Value &shift = shifts[indexOf(axis)];
-    state_.at(axis) = reading_.add(state_.at(axis), reading_.subtract(shift, wanted));
+    shiftCoordinate(context_, axis, reading_.subtract(shift, wanted));
     shift = wanted;
   }
   void keep() {

@@ -25,6 +25,8 @@ enum class Part : std::uint8_t {
   CoordinateShift, // G92
   LocalShift,      // G52
   LengthOffset,
+  LengthChanged,
+  AxisTurned,
   CycleBottom,
   CycleRetract,
   CycleInitial,
@@ -35,6 +37,7 @@ enum class Part : std::uint8_t {
   MirrorAt,
   RotationAngle,
   RotationCentre,
+  PendingCoordinate,
   OtherMapping,
   Transformed,
   Spindle,
@@ -70,6 +73,7 @@ enum class PartEntry : std::uint8_t {
 enum class PartHavoc : std::uint8_t {
   Anything,
   Mapping, // anything where a mapping is or may be in force; else neutral: one is taken not to be left behind
+  Pending, // likewise, and where the part is not neutral already
 };
 /// What a part holds when nothing has set it, and what the element stands for that a list does not have.
 enum class PartNeutral : std::uint8_t { Vacant, Zero, One, No, Yes, PowerOn };
@@ -103,6 +107,9 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::RotationCentre: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
   case Part::MirrorAt:
   case Part::OtherMapping: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::Vacant};
+  case Part::LengthChanged:
+  case Part::AxisTurned: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
+  case Part::PendingCoordinate: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Pending, PartNeutral::Vacant};
   case Part::Transformed: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Mapping, PartNeutral::No};
   case Part::ModalCallRepeats: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::One};
   case Part::ModalCallLocal: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Vacant};
@@ -177,12 +184,13 @@ template <typename Member> ShapeMember shape(Member &) { return {}; }
 template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
-    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, cycle, transform,
-           transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
+    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned, cycle,
+           transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(forgotten), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
-        is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), nested(cycle), nested(transform),
+        is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset),
+        is<Part::LengthChanged>(lengthChanged), is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform),
         is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
         is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters));
   } else if constexpr (kIsA<S, CycleState>) {
@@ -190,9 +198,10 @@ template <typename Struct> auto membersOf(Struct &whole) {
     return std::tuple(is<Part::CycleBottom>(bottom), is<Part::CycleRetract>(retract), is<Part::CycleInitial>(initial),
                       is<Part::CyclePeck>(peck), is<Part::CycleDwell>(dwell));
   } else if constexpr (kIsA<S, TransformState>) {
-    auto &[scale, scaleCentre, mirrorAt, angle, centre, other] = whole;
+    auto &[scale, scaleCentre, mirrorAt, angle, centre, pending, other] = whole;
     return std::tuple(is<Part::Scale>(scale), is<Part::ScaleCentre>(scaleCentre), is<Part::MirrorAt>(mirrorAt),
-                      is<Part::RotationAngle>(angle), is<Part::RotationCentre>(centre), is<Part::OtherMapping>(other));
+                      is<Part::RotationAngle>(angle), is<Part::RotationCentre>(centre),
+                      is<Part::PendingCoordinate>(pending), is<Part::OtherMapping>(other));
   } else {
     static_assert(kIsA<S, ModalCallState>, "a struct of the state without a list of its members");
     auto &[file, call, repeats, locals] = whole;
@@ -386,6 +395,10 @@ template <typename R> void havocParts(R &reading, MachineState<R> &state, std::o
         if constexpr (requires { setNeutral(reading, id, part); })
           if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping)
             return setNeutral(reading, id, part);
+        if constexpr (requires { reading.isVacant(part); })
+          if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Pending &&
+              !reading.mayBe(reading.negation(reading.isVacant(part))))
+            return;
         setAnything(reading, id, part);
       },
       state);

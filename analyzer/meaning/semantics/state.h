@@ -68,6 +68,9 @@ template <typename Value> struct TransformState {
   std::array<Value, kAxisCount> mirrorAt; // vacant: not mirrored
   Value angle;                            // degrees, counterclockwise
   std::array<Value, 2> centre;            // of the rotation, in the plane of G68: scaled, not mirrored
+  /// Where the control may still take an axis to be: its programmed coordinate before the mappings changed, until an
+  /// absolute word names the axis; vacant: where it is.
+  std::array<Value, kAxisCount> pending;
   Value other; // a mode that is not followed has given movements another meaning; vacant: none since the start
   friend bool operator==(const TransformState &, const TransformState &) = default;
 };
@@ -107,6 +110,8 @@ template <typename R> struct MachineState {
   std::array<Value, kAxisCount> shift;         // of G92
   std::array<Value, kAxisCount> local;         // of G52
   Value lengthOffset;                          // of G43, along Z
+  Truth lengthChanged;                         // the program has set or taken away a tool length
+  Truth axisTurned;                            // an axis other than X, Y, Z has been moved since the start
   CycleState<Value> cycle;
   TransformState<Value> transform;
   Truth transformed;                             // a mapping beside those at the start of the run is or may be in force

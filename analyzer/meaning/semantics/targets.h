@@ -15,6 +15,13 @@ inline constexpr std::array<std::pair<char, Axis>, 4> kTurningIncrements = {
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);
 
+/// Where the words lead is not followed: polar coordinates of which one is not written, or incremental ones; distances
+/// from a place where the control does not take the tool to be.
+template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words);
+
+/// Behind a movement: an axis that an absolute word has named is where the control takes it to be.
+template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words);
+
 /// Tells the reading of a movement from `start` to the present position.
 template <ValueAlgebra R>
 void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
@@ -91,10 +98,67 @@ typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords
 
 namespace detail {
 
+template <ValueAlgebra R>
+typename R::Truth isWritten(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis) {
+  const auto *entry = words.find(letterOf(axis));
+  return entry ? entry->present : context.reading.truth(false);
+}
+
+/// The words may be distances from somewhere else than where the tool is.
+template <ValueAlgebra R> typename R::Truth isOpenIncrement(StepContext<R> &context, Axis axis) {
+  R &reading = context.reading;
+  if (!isPending(context, axis))
+    return reading.truth(false);
+  const auto pending = reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)]));
+  const auto unmapped = context.behaviour().absoluteBehindMappings ? reading.truth(true)
+                                                                   : reading.negation(context.state.transformed);
+  return reading.both(reading.both(pending, unmapped), reading.negation(isAbsolute(context)));
+}
+template <ValueAlgebra R>
+typename R::Value openedUp(StepContext<R> &context, Axis axis, const typename R::Value &coordinate) {
+  R &reading = context.reading;
+  const auto open = isOpenIncrement(context, axis);
+  if (!reading.mayBe(open))
+    return coordinate;
+  reading.notModelled("an incremental movement before an absolute one, behind mirror, scaling or rotation",
+                      context.place());
+  return reading.select(open, reading.either(coordinate, reading.anyNumber()), coordinate);
+}
+
+/// Whether an axis of the plane without a word, of which the other has one, is taken to the coordinate that it had under
+/// the mapping before.  11600#5 says so of rotation; no manual says what holds of mirror and scaling.
+template <ValueAlgebra R>
+typename R::Truth takesPending(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis, Axis other) {
+  R &reading = context.reading;
+  if (!isPending(context, axis))
+    return reading.truth(false);
+  const auto turned = reading.negation(reading.compare(Relation::Equal, context.state.transform.angle, context.zero()));
+  const auto keeps = context.isOn(context.certain(turned) ? context.dialect().switches.ax1 : Switch::Unknown, true);
+  const auto alone = reading.both(isWritten(context, words, other), reading.negation(isWritten(context, words, axis)));
+  const auto pending = reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)]));
+  return reading.both(reading.both(alone, isAbsolute(context)), reading.both(pending, reading.negation(keeps)));
+}
+template <ValueAlgebra R>
+void takePending(StepContext<R> &context, const ExecutedWords<R> &words,
+                 std::array<typename R::Value, kAxisCount> &target, std::array<bool, kAxisCount> &taken) {
+  R &reading = context.reading;
+  const std::optional<Plane> plane = planeOf(context);
+  if (!plane)
+    return;
+  for (const auto &[axis, other] : {std::pair{plane->first, plane->second}, std::pair{plane->second, plane->first}}) {
+    const auto takes = takesPending(context, words, axis, other);
+    if (!reading.mayBe(takes))
+      continue;
+    taken[indexOf(axis)] = true;
+    auto &coordinate = target[indexOf(axis)];
+    coordinate = reading.select(takes, reading.asNumber(context.state.transform.pending[indexOf(axis)]), coordinate);
+  }
+}
+
 /// An axis keeps its coordinate exactly where no word of the block is mapped to it.
 template <ValueAlgebra R>
 void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
-                 std::array<typename R::Value, kAxisCount> &target) {
+                 std::array<typename R::Value, kAxisCount> &target, const std::array<bool, kAxisCount> &taken) {
   const std::optional<Plane> plane = planeOf(context);
   const bool turned =
       !context.certain(context.reading.compare(Relation::Equal, context.state.transform.angle, context.zero()));
@@ -104,7 +168,7 @@ void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
   for (const Axis axis : kAllAxes) {
     const bool inPlane = turned && (axis == plane->first || axis == plane->second);
     const bool mapped = inPlane ? named(plane->first) || named(plane->second) : named(axis);
-    if (!mapped)
+    if (!mapped && !taken[indexOf(axis)])
       target[indexOf(axis)] = context.state.at(axis);
   }
 }
@@ -119,8 +183,11 @@ std::array<typename R::Value, kAxisCount> mappedIncrement(StepContext<R> &contex
     distance[indexOf(axis)] = entry ? reading.select(entry->present, entry->value, context.zero()) : context.zero();
   }
   distance = toWorkDistance(context, std::move(distance));
-  for (const Axis axis : kAllAxes)
+  for (const Axis axis : kAllAxes) {
     distance[indexOf(axis)] = reading.add(context.state.at(axis), distance[indexOf(axis)]);
+    if (words.find(letterOf(axis)))
+      distance[indexOf(axis)] = openedUp(context, axis, distance[indexOf(axis)]);
+  }
   return distance;
 }
 
@@ -139,7 +206,9 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   for (const Axis axis : kAllAxes)
     if (const auto *entry = words.find(letterOf(axis)))
       if (!incrementsByLetter || (axis != Axis::U && axis != Axis::V && axis != Axis::W))
-        target[indexOf(axis)] = targetOn(context, *entry, target[indexOf(axis)]);
+        target[indexOf(axis)] = detail::openedUp(context, axis, targetOn(context, *entry, target[indexOf(axis)]));
+  std::array<bool, kAxisCount> taken{};
+  detail::takePending(context, words, target, taken);
   if (incrementsByLetter)
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = words.find(letter)) {
@@ -149,8 +218,36 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   detail::fromPolar(context, words, target);
   target = toWork(context, std::move(target));
   if (isMapped && !incrementsByLetter)
-    detail::keepUnnamed(context, words, target);
+    detail::keepUnnamed(context, words, target, taken);
   return target;
+}
+
+template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words) {
+  return detail::isOpenPolar(context, words) || std::any_of(kAllAxes.begin(), kAllAxes.end(), [&](Axis axis) {
+           const auto open = detail::isOpenIncrement(context, axis);
+           return context.reading.mayBe(open) &&
+                  context.reading.mayBe(context.reading.both(open, detail::isWritten(context, words, axis)));
+         });
+}
+
+template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &reading = context.reading;
+  const std::optional<Plane> plane = planeOf(context);
+  const auto absolute = detail::isAbsolute(context);
+  const auto named = [&](Axis axis) { return detail::isWritten(context, words, axis); };
+  const bool anyInPlane = plane && (words.find(letterOf(plane->first)) || words.find(letterOf(plane->second)));
+  for (const Axis axis : kAllAxes) {
+    if (!detail::isPending(context, axis))
+      continue;
+    const bool isInPlane = plane && (axis == plane->first || axis == plane->second);
+    const auto moved = isInPlane && anyInPlane ? context.either(named(plane->first), named(plane->second)) : named(axis);
+    if (!reading.mayBe(moved))
+      continue;
+    if (reading.mayBe(reading.negation(absolute)))
+      detail::forgetPending(context, axis);
+    auto &pending = context.state.transform.pending[indexOf(axis)];
+    pending = reading.select(reading.both(moved, absolute), reading.vacant(), pending);
+  }
 }
 
 template <ValueAlgebra R>

@@ -2,7 +2,8 @@
 // the tool at all.
 //
 // With tool length in force (G43) coordinates are those of the tip: its offset is taken to be the tool's length.  So are
-// they where the length has not been changed since the start.  Where the program itself takes it away, Z is not known.
+// they where the program has not changed the length.  Where it takes away what it has set itself, Z is not known: the
+// codes are then those of the start, and the tip is not where it was.
 #pragma once
 
 #include "meaning/semantics/coordinates.h"
@@ -15,6 +16,9 @@ template <ValueAlgebra R> struct ToolPoint {
   typename R::Truth withoutCompensation; // of the cutter radius (G40)
   typename R::Truth lengthKnown;
   typename R::Truth sameUnits; // as at the start
+  typename R::Truth sameFeedMode;    // F means the same
+  typename R::Truth sameSpindleMode; // S means the same
+  typename R::Truth sameSide;        // no other axis has turned or moved the part, or the tool
 };
 
 /// Of the movements of the present block; `entry`: the state at the start.
@@ -46,8 +50,9 @@ template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
   });
 }
 
+/// How far the zero point of an axis lies from that of the start.
 template <ValueAlgebra R>
-std::array<typename R::Value, 3> zeroShift(StepContext<R> &context, MachineState<R> &entry) {
+typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axis axis) {
   R &reading = context.reading;
   StepContext<R> atEntry{reading, entry, context.programs, context.file, context.modes, context.block};
   const bool sameSystem = isAsAtEntry(context, entry, ModalKind::WorkOffset);
@@ -57,18 +62,26 @@ std::array<typename R::Value, 3> zeroShift(StepContext<R> &context, MachineState
     const auto group = context.modes.groupOf(ModalKind::WorkOffset);
     return group && reading.onlyCode(context.state.codes[*group]) ? reading.anyNumber() : context.zero();
   };
-  std::array<typename R::Value, 3> shift;
-  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-    auto &distance = shift[indexOf(axis)];
-    const std::size_t i = indexOf(axis);
-    if (unknownSystem && sameSystem && !offsetIsOpen(context))
-      distance = reading.add(reading.subtract(reading.add(context.state.shift[i], context.state.local[i]),
-                                              reading.add(entry.shift[i], entry.local[i])),
-                             additional());
-    else
-      distance = reading.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
-  }
-  return shift;
+  const std::size_t i = indexOf(axis);
+  if (unknownSystem && sameSystem && !offsetIsOpen(context))
+    return reading.add(reading.subtract(reading.add(context.state.shift[i], context.state.local[i]),
+                                        reading.add(entry.shift[i], entry.local[i])),
+                       additional());
+  return reading.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
+}
+
+/// The other axes stand where they stood at the start.
+template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry) {
+  R &reading = context.reading;
+  if (!reading.mayBe(context.state.axisTurned))
+    return reading.truth(true);
+  auto same = reading.truth(true);
+  for (const Axis axis : kAllAxes)
+    if (indexOf(axis) > indexOf(Axis::Z)) {
+      const auto now = reading.add(context.state.at(axis), zeroShift(context, entry, axis));
+      same = reading.both(same, reading.compare(Relation::Equal, now, entry.at(axis)));
+    }
+  return context.either(reading.negation(context.state.axisTurned), same);
 }
 
 } // namespace detail
@@ -79,10 +92,16 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
   const auto orAsAtEntry = [&](ModalKind kind, std::initializer_list<CodeAction> actions) {
     return detail::isAsAtEntry(context, entry, kind) ? always : context.inForce(kind, actions, always);
   };
-  return {detail::zeroShift(context, entry),
+  const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
+  const auto withLength = context.inForce(
+      ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven}, always);
+  return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
           context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
-          orAsAtEntry(ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven}),
-          orAsAtEntry(ModalKind::Units, {})};
+          context.either(reading.negation(context.state.lengthChanged), withLength),
+          orAsAtEntry(ModalKind::Units, {}),
+          orAsAtEntry(ModalKind::FeedMode, {}),
+          orAsAtEntry(ModalKind::Spindle, {}),
+          detail::isSameSide(context, entry)};
 }
 
 } // namespace feedhold

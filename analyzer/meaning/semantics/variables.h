@@ -134,12 +134,11 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
   context.state.variables.set(number, value);
   if (axis >= kAxisCount)
     return;
-  auto &coordinate = context.state.position[axis];
   const std::optional<std::uint32_t> inForce = workOffsetInForce(context);
   if (written == 0 || inForce == written - 1)
-    coordinate = reading.add(coordinate, moved);
+    shiftCoordinate(context, kAllAxes[axis], moved);
   else if (!inForce)
-    coordinate = reading.anyNumber();
+    shiftCoordinate(context, kAllAxes[axis], reading.anyNumber());
 }
 
 } // namespace detail

@@ -34,7 +34,7 @@ void Explorer::takeMoves(Path &path) {
 
 /// Whether cutter compensation puts the tool beside the path, or has done so before: a movement without it comes back
 /// to the path at its end, if it is one in the plane (FANUC operator's manual: the offset is cancelled by the first
-/// movement in the plane).
+/// movement in the plane; one of length 0 is none).
 void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point) {
   const TermId one = store_.number(smt::Number(1));
   const TermId zero = store_.number(smt::Number(0));
@@ -42,16 +42,17 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
   const TermId before = known ? known->number : one; // forgotten with all else
   const TermId without = point.withoutCompensation.term;
   point.withoutCompensation.term = store_.logicalAnd(without, store_.equal(before, zero));
-  const auto changes = [&](Axis axis) {
-    return std::any_of(moves.begin(), moves.end(), [&](const Move<SymbolicValue> &move) {
-      return move.start[indexOf(axis)].number != move.end[indexOf(axis)].number;
-    });
-  };
   auto context = contextOf(path);
   const std::optional<Plane> plane = planeOf(context);
-  const bool comesBack = plane && (changes(plane->first) || changes(plane->second));
+  TermId comesBack = store_.no();
+  for (const Move<SymbolicValue> &move : moves)
+    for (const Axis axis : plane ? std::vector{plane->first, plane->second} : std::vector<Axis>{})
+      if (move.kind != MoveKind::Unfollowed)
+        comesBack = store_.logicalOr(comesBack, store_.logicalNot(store_.equal(move.start[indexOf(axis)].number,
+                                                                               move.end[indexOf(axis)].number)));
   if (!moves.empty())
-    path.state.variables.set(kBesidePath, {store_.no(), store_.ite(without, comesBack ? zero : before, one)});
+    path.state.variables.set(kBesidePath,
+                             {store_.no(), store_.ite(without, store_.ite(comesBack, zero, before), one)});
 }
 
 /// Where it is known whether the arc is the shorter or the longer one.

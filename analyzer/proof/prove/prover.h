@@ -79,6 +79,7 @@ private:
   bool keepsAway(Obligation trial, const SpaceRule &rule, const std::vector<const MoveInstance *> &moves);
   void noteRounding(Obligation &obligation, const SpaceRule &rule) const;
   void limits();
+  bool breaksLimit(const WordLimit &limit, const RecordedMove &recorded, const GivenVariables &given) const;
 
   // ---- conditions with which a claim is proved that is not proved without (prover_guard.cpp) ----
   struct OpenClaim {

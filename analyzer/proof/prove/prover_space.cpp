@@ -294,6 +294,17 @@ std::string Prover::whyOpen(const std::vector<TermId> &conditions, const SpaceQu
   return "no proof was found, and no call that breaks it";
 }
 
+/// A movement of a run that cuts.  A run does not tell the S of its movements: that is asked of the exact one alone.
+bool Prover::breaksLimit(const WordLimit &limit, const RecordedMove &recorded, const GivenVariables &given) const {
+  const Move<ConcreteValue> &move = recorded.move;
+  const RunOptions options = witnesses_->runOptions(given);
+  const auto bound = [&](ExpressionId end) { return numberOf(programs_, program_, *contracts_, options, end); };
+  if (!isCutting(move.kind))
+    return false;
+  return limit.address != 'F' || move.feed.vacant || (limit.range.low && move.feed.number < bound(*limit.range.low)) ||
+         (limit.range.high && move.feed.number > bound(*limit.range.high));
+}
+
 void Prover::limits() {
   if (!wanted(ObligationKind::Limit))
     return;
@@ -301,16 +312,29 @@ void Prover::limits() {
     const SpaceRule rule{.kind = ObligationKind::Limit, .clause = limit.clause};
     std::map<Place, std::vector<Query>> queries;
     std::set<Place> inOtherUnits;
+    std::set<Place> unfollowed;
+    const auto mayBeReached = [&](Place own, const std::vector<TermId> &conditions) {
+      const Query never = onPath(conditions, store_.no());
+      if (!answered(never, budget_).proved())
+        unfollowed.insert(own);
+      queries[own].push_back(never);
+    };
     for (const MoveInstance &move : found_.moves) {
       if (!space_->concerns(rule, move))
         continue;
-      queries[move.own].push_back(onPath(
-          move.conditions, move.move.kind == MoveKind::Unfollowed ? store_.no() : space_->keepsLimit(limit, move)));
-      if (limit.address == 'F' && !answered(onPath(move.conditions, move.point.sameUnits.term), budget_).proved())
+      if (move.move.kind == MoveKind::Unfollowed) {
+        mayBeReached(move.own, move.conditions);
+        continue;
+      }
+      queries[move.own].push_back(onPath(move.conditions, space_->keepsLimit(limit, move)));
+      const TermId sameMeaning =
+          limit.address == 'F' ? store_.logicalAnd(move.point.sameUnits.term, move.point.sameFeedMode.term)
+                               : move.point.sameSpindleMode.term;
+      if (!answered(onPath(move.conditions, sameMeaning), budget_).proved())
         inOtherUnits.insert(move.own);
     }
     for (const UnfollowedCall &call : found_.unfollowedCalls)
-      queries[call.own].push_back(onPath(call.conditions, store_.no()));
+      mayBeReached(call.own, call.conditions);
     if (queries.empty() && found_.incomplete)
       queries[{program_.file, program_.entry}];
     for (const auto &[own, parts] : queries) {
@@ -318,14 +342,21 @@ void Prover::limits() {
                                    contracts_->clauses[limit.clause].text);
       obligation.id.insert(obligation.id.rfind('.'), fmt::format(".{}", limit.address));
       if (inOtherUnits.contains(own)) {
-        obligation.reason =
-            "F may be in other units than at the start (G20, G21), and those are the units of the limit";
+        obligation.reason = fmt::format("{} may be in other units than at the start ({}), and those are the units of "
+                                        "the limit",
+                                        limit.address, limit.address == 'F' ? "G20, G21, G93 to G95" : "G96, G97");
         continue;
       }
-      const auto cuts = [own = own, address = limit.address](const RunResult &run) -> std::optional<std::string> {
-        const bool isMet =
-            std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) { return move.own == own; });
-        return isMet ? std::optional(fmt::format("{} in force here is not within its limit", address)) : std::nullopt;
+      if (unfollowed.contains(own)) {
+        obligation.reason = notFollowedAt(own).value_or("a movement here is not followed, and may cut");
+        continue;
+      }
+      const auto cuts = [this, &limit, own = own](const RunResult &run, const GivenVariables &given) {
+        const bool isMet = std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) {
+          return move.own == own && breaksLimit(limit, move, given);
+        });
+        return isMet ? std::optional(fmt::format("{} in force here is not within its limit", limit.address))
+                     : std::nullopt;
       };
       settle(obligation, parts,
              {cuts, [this, kind = obligation.kind, claim = obligation.claim, own = own](const GivenVariables &given) {

@@ -16,10 +16,6 @@ using smt::TermId;
 
 namespace {
 
-bool isCutting(MoveKind kind) {
-  return kind == MoveKind::Feed || kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise;
-}
-
 TermPoint inSpace(smt::TermStore &store, const std::array<SymbolicValue, kAxisCount> &point,
                   const ToolPoint<SymbolicReading> &tool) {
   const auto at = [&](std::size_t i) { return store.add(point[i].number, tool.zero[i].number); };
@@ -116,6 +112,10 @@ bool hasSpaceClause(const Contract &contract) {
          !contract.limits.empty();
 }
 
+bool isCutting(MoveKind kind) {
+  return kind == MoveKind::Feed || kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise;
+}
+
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
                          const SymbolicState &entry)
     : store_(store), terms_(terms), contract_(contract), entry_(entry) {
@@ -204,6 +204,9 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
   premises.emplace_back(instance.point.lengthKnown.term,
                         "the tool length has been taken away (G49): how high the tip is, is not known; `@MODAL G49` "
                         "says that there was none at the start either");
+  if (rule.kind != ObligationKind::Travel)
+    premises.emplace_back(instance.point.sameSide.term,
+                          "another axis than X, Y and Z has moved since the start, and may have turned the part");
   premises.emplace_back(instance.point.sameUnits.term,
                         "the units may be others than at the start (G20, G21): `@MODAL G21`, for instance, says which "
                         "those are");

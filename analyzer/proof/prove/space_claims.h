@@ -63,6 +63,9 @@ private:
   std::vector<SpaceRule> rules_;
 };
 
+/// A movement that takes material away.
+bool isCutting(MoveKind kind);
+
 /// Whether the contract has a clause on movements.
 bool hasSpaceClause(const Contract &contract);
 

@@ -119,7 +119,9 @@ private:
                  "G43H1",    "G49",     "G4P100",   "G52X0Y0",    "G17",       "G18",   "G19",
                  "G41D1",    "G40",     "G10P1R5.", "G20",        "#5221=#1",  "M98P2", "G80",
                  "S#1",      "G31Z-2.", "G30Z0",    "G60X1.",     "G1X2.,R.5", "G92.1", "G68X0Y0R[#1*10]",
-                 "G99",      "G98"});
+                 "G99",      "G98",
+                 "G91G53Z0", "G81G0X1.Z-1.R1.F50",  "A90.",     "G2X1.R.1", "G43H1Z1.", "G52X5.",  "G40X#1", "G67",
+                 "G69",      "G51.1X0",             "G68X0Y0R90.", "G81X2.F50", "G90A0"});
   }
 
   /// From a known place, clockwise about I J, by a quarter, a half or all of a circle.

@@ -44,8 +44,10 @@ struct SpaceRun {
 
 class MillingSample {
 public:
-  explicit MillingSample(const Sample &sample)
-      : loaded_(sample.lines, soundness::controlOf(sample)),
+  explicit MillingSample(const Sample &sample) : MillingSample(sample, soundness::controlOf(sample)) {}
+  /// On a machine whose parameters are known.
+  MillingSample(const Sample &sample, const Dialect &dialect)
+      : loaded_(sample.lines, dialect),
         contracts_(readContracts(loaded_.source(), loaded_.tree(), loaded_.model(), loaded_.dialect())),
         promises_(loaded_, contracts_, contract()) {}
 
@@ -166,7 +168,9 @@ std::string argumentsOf(const GivenVariables &given) {
 
 class Judge {
 public:
-  Judge(const MillingSample &sample, std::uint64_t seed, const prove::Budget &budget) : sample_(sample), random_(seed) {
+  /// Proofs are of any machine, runs of one.
+  Judge(const MillingSample &sample, const MillingSample &machine, std::uint64_t seed, const prove::Budget &budget)
+      : sample_(sample), machine_(machine), random_(seed) {
     prove::ProveOptions options;
     options.budget = budget;
     options.guards = prove::InferGuards::No;
@@ -178,7 +182,7 @@ public:
     count();
     trial_.wrong = wrongWitness();
     for (int i = 0; i < runs && !trial_.wrong; ++i) {
-      const auto run = sample_.run(random_);
+      const auto run = machine_.run(random_);
       if (!run)
         break;
       ++trial_.tally.runs;
@@ -297,6 +301,7 @@ private:
   }
 
   const MillingSample &sample_;
+  const MillingSample &machine_;
   Random random_;
   prove::ProgramProof proof_;
   SpaceTrial trial_;
@@ -389,7 +394,9 @@ SpaceTrial trySpaceProofs(const Sample &sample, std::uint64_t seed, int runs, co
     unread.tally.unread = 1;
     return unread;
   }
-  return Judge(loaded, seed, budget).run(runs);
+  Random settings(seed);
+  const MillingSample machine(sample, soundness::machineOf(sample, settings));
+  return Judge(loaded, machine, seed, budget).run(runs);
 }
 
 Sample leastWrong(Sample sample, std::uint64_t seed, int runs, const prove::Budget &budget) {
