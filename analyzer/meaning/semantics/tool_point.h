@@ -70,6 +70,18 @@ typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axi
   return reading.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
 }
 
+/// The length of a tool is in force; G43 H0 takes it away as G49 does.
+template <ValueAlgebra R> typename R::Truth withLength(StepContext<R> &context) {
+  R &reading = context.reading;
+  const auto byNumber =
+      context.inForce(ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus}, reading.truth(true));
+  const auto &number = context.state.word('H');
+  const auto isNone = reading.both(reading.negation(reading.isVacant(number)),
+                                   reading.compare(Relation::Equal, reading.asNumber(number), context.zero()));
+  return context.either(context.inForce(ModalKind::Length, {CodeAction::LengthGiven}, reading.truth(true)),
+                        reading.both(byNumber, reading.negation(isNone)));
+}
+
 /// The other axes stand where they stood at the start.
 template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry) {
   R &reading = context.reading;
@@ -93,11 +105,9 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
     return detail::isAsAtEntry(context, entry, kind) ? always : context.inForce(kind, actions, always);
   };
   const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
-  const auto withLength = context.inForce(
-      ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven}, always);
   return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
           context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
-          context.either(reading.negation(context.state.lengthChanged), withLength),
+          context.either(reading.negation(context.state.lengthChanged), detail::withLength(context)),
           orAsAtEntry(ModalKind::Units, {}),
           orAsAtEntry(ModalKind::FeedMode, {}),
           orAsAtEntry(ModalKind::Spindle, {}),
