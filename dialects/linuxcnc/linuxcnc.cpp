@@ -161,7 +161,7 @@ const Dialect &linuxcnc() {
     dialect.switches.bareCycleStops = Switch::On;
     dialect.switches.motionEndsCycle = Switch::Off; // cycles are motion codes: two of them are an error
     dialect.switches.setEndsLocal = Switch::Off;    // G52 and G92 are one offset
-    dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
+    dialect.switches.mlg = Switch::On;              // a relation is a number, so AND and OR join conditions
     dialect.hints = kHints;
     return dialect;
   }();

@@ -26,7 +26,8 @@ struct Stop {
   Switch Switches::*setting = nullptr; // both outcomes, until the machine says so
   Switch value = Switch::On;
 };
-#define STOP(kind, ...) {AlarmKind::kind, #kind, __VA_ARGS__}
+#define STOP(kind, ...)                                                                                                \
+  { AlarmKind::kind, #kind, __VA_ARGS__ }
 
 const std::vector<Stop> kStops = {
     STOP(ArcTooShort, "fanuc-30i", "O1\nG0G90G17X0Y0\nG2X10.R1.F5.\nM30\n"),
@@ -104,9 +105,9 @@ INSTANTIATE_TEST_SUITE_P(All, Stops, ::testing::ValuesIn(kStops), [](const auto 
 });
 
 /// What is not in the list above: it needs several programs, or text that does not parse.
-constexpr std::array kElsewhere = {"GCodeNotUsable",  "IfFormat",         "LoopNumber",         "MacroFormat",
-                                   "MacroNesting",    "ProgramNotFound",  "ReadProtected",      "SequenceOutOfRange",
-                                   "SubprogramNesting"};
+constexpr std::array kElsewhere = {"GCodeNotUsable", "IfFormat",           "LoopNumber",
+                                   "MacroFormat",    "MacroNesting",       "ProgramNotFound",
+                                   "ReadProtected",  "SequenceOutOfRange", "SubprogramNesting"};
 
 TEST(StopsOfTheSemantics, EachHasAProgram) {
   std::set<std::string, std::less<>> known(kElsewhere.begin(), kElsewhere.end());

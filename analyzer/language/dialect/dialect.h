@@ -279,15 +279,16 @@ struct Switches {
   Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
   Switch amm = Switch::Off;     // 7712#4: M99 in a main program is an alarm
   Switch fxy = Switch::Unknown; // 5101#0: cycles drill along the normal of the plane (On) or along Z
-  Switch ax1 = Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system
+  Switch ax1 =
+      Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system
   // What controls do differently, or what no manual says (parity.md of each dialect).
-  Switch shortArcStops = Switch::Unknown;   // R a little below half the distance of the ends: an alarm, or a half circle
-  Switch pointArcStops = Switch::Unknown;   // an arc by R that ends where it starts: an alarm, or no movement
-  Switch bareCycleStops = Switch::Unknown;  // a canned cycle that was never given its depth or R level is an alarm
+  Switch shortArcStops = Switch::Unknown;  // R a little below half the distance of the ends: an alarm, or a half circle
+  Switch pointArcStops = Switch::Unknown;  // an arc by R that ends where it starts: an alarm, or no movement
+  Switch bareCycleStops = Switch::Unknown; // a canned cycle that was never given its depth or R level is an alarm
   Switch motionEndsCycle = Switch::Unknown; // G00 to G03 behind the code of a canned cycle in its block end the cycle
   Switch setEndsLocal = Switch::Unknown;    // G92 takes the offset of G52 away from the axes that it names
   Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
-  std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
+  std::vector<CodeCall> codeCalls = {};     // 6050-6059, 6080-6089, 6071-6079, ...
 };
 
 /// What a control accepts beyond, or short of, the common grammar.
@@ -334,28 +335,28 @@ struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
   IntegerPart integerPart = IntegerPart::TowardZero;
   LogicMeaning logic = LogicMeaning::Bitwise;
-  bool variablesMayBeVacant = true;   // else one that was never written reads as 0
-  bool roundsWords = true;            // a word computed from variables is rounded to the least increment
-  bool assignsAfterReading = false;   // all assignments of a line take place after the whole line is read
-  bool arcDistanceModes = false;      // G90.1 and G91.1 exist
-  bool cycleClearsFirst = false;      // a cycle that starts below its R level goes up to it before it goes to X, Y
-  bool cycleKeepsDepth = false;       // under G91 a new R level takes the bottom of the hole along
-  bool boringReturnsAtFeed = false;   // G89 feeds out up to the level to which it returns, not to the R level
-  bool oneSetOffset = false;          // G52 and G92 set one and the same offset
-  bool bareReferenceReturn = false;   // G28 without axis words moves all axes
-  bool dataIsAbsolute = false;        // G10 L2 sets the offset under G91 too
-  bool positionByData = false;        // G10 L20: the axes stand at the given coordinates
-  bool returnTargetIsLocal = false;   // `M99 P` jumps within its own program, also in a subprogram
-  bool endRestoresModes = false;      // M02 and M30 put G17, G40, G80, G90 and G94 back
-  bool repeatsByK = true;             // K of a canned cycle repeats it; L does so everywhere
-  bool machineMoveByMode = false;     // G53 feeds where G01 is in force; else it is always rapid
+  bool variablesMayBeVacant = true; // else one that was never written reads as 0
+  bool roundsWords = true;          // a word computed from variables is rounded to the least increment
+  bool assignsAfterReading = false; // all assignments of a line take place after the whole line is read
+  bool arcDistanceModes = false;    // G90.1 and G91.1 exist
+  bool cycleClearsFirst = false;    // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool cycleKeepsDepth = false;     // under G91 a new R level takes the bottom of the hole along
+  bool boringReturnsAtFeed = false; // G89 feeds out up to the level to which it returns, not to the R level
+  bool oneSetOffset = false;        // G52 and G92 set one and the same offset
+  bool bareReferenceReturn = false; // G28 without axis words moves all axes
+  bool dataIsAbsolute = false;      // G10 L2 sets the offset under G91 too
+  bool positionByData = false;      // G10 L20: the axes stand at the given coordinates
+  bool returnTargetIsLocal = false; // `M99 P` jumps within its own program, also in a subprogram
+  bool endRestoresModes = false;    // M02 and M30 put G17, G40, G80, G90 and G94 back
+  bool repeatsByK = true;           // K of a canned cycle repeats it; L does so everywhere
+  bool machineMoveByMode = false;   // G53 feeds where G01 is in force; else it is always rapid
   MachineIncrement machineIncrement = MachineIncrement::NotFollowed;
   bool absoluteBehindMappings = false; // also behind G68, not only behind G69, the first movement has to be absolute
-  bool scalesByIncrements = false;    // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
-  double equalTolerance = 0;          // EQ and NE take values this near as equal
-  double arcTolerance = 0.05;         // mm: largest difference of the radii at start and end
-  double peckClearance = 0.254;       // mm: how far above the last depth a peck begins (a parameter of most controls)
-  Decimal leastIncrementMetric{1, 3}; // mm and degrees
+  bool scalesByIncrements = false;     // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
+  double equalTolerance = 0;           // EQ and NE take values this near as equal
+  double arcTolerance = 0.05;          // mm: largest difference of the radii at start and end
+  double peckClearance = 0.254;        // mm: how far above the last depth a peck begins (a parameter of most controls)
+  Decimal leastIncrementMetric{1, 3};  // mm and degrees
   Decimal leastIncrementInch{1, 4};
 };
 

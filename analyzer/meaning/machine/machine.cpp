@@ -15,7 +15,8 @@ using State = MachineState<ConcreteReading>;
 class Machine {
 public:
   Machine(const ProgramSet &programs, Callee entry, const RunOptions &options)
-      : programs_(programs), options_(options), reading_(*programs.file(entry.file).dialect, options.variables, options.words),
+      : programs_(programs), options_(options),
+        reading_(*programs.file(entry.file).dialect, options.variables, options.words),
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(reading_, modes_, options.start)), at_{entry.file,
                                                                                                   entry.entry} {

@@ -33,9 +33,8 @@ template <ValueAlgebra R> struct StepContext {
   Truth isOn(Switch setting, bool usual = false) const {
     if (setting != Switch::Unknown)
       return reading.truth(setting == Switch::On);
-    return reading.negation(
-        reading.compare(Relation::Equal, reading.either(reading.number(usual ? 1 : 0), reading.number(usual ? 0 : 1)),
-                        zero()));
+    return reading.negation(reading.compare(
+        Relation::Equal, reading.either(reading.number(usual ? 1 : 0), reading.number(usual ? 0 : 1)), zero()));
   }
   /// Not so in a run, and unknown where all runs are looked at.
   Truth maybeNot() const { return isOn(Switch::Unknown); }

@@ -27,8 +27,7 @@ void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kA
 
 /// The zero point of an axis moves while the machine stands still: the coordinate of the tool becomes greater by
 /// `distance`.
-template <ValueAlgebra R>
-void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance);
+template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance);
 
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context);
@@ -228,8 +227,7 @@ void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kA
   }
 }
 
-template <ValueAlgebra R>
-void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance) {
+template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance) {
   R &reading = context.reading;
   MachineState<R> &state = context.state;
   const std::size_t i = indexOf(axis);

@@ -31,6 +31,16 @@ template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
 
 namespace detail {
 
+/// Of a block that begins a cycle; `isBare`: its depth or its R level has never been given.
+template <ValueAlgebra R>
+void alarmOfBareCycle(StepContext<R> &context, const ExecutedWords<R> &words, typename R::Truth isBare) {
+  R &reading = context.reading;
+  const auto begins = [](const CodeWord &word) { return isDrillingCycle(word.code->action); };
+  if (std::any_of(words.codes.begin(), words.codes.end(), begins))
+    reading.alarm(reading.both(isBare, context.isOn(context.dialect().switches.bareCycleStops)),
+                  {AlarmKind::CycleWithoutLevel, context.place()});
+}
+
 template <ValueAlgebra R> class DrillingCycle {
 public:
   using Value = typename R::Value;
@@ -43,7 +53,8 @@ public:
 
   void run() {
     learnLevels();
-    alarmWithoutLevels();
+    alarmOfBareCycle(context_, words_,
+                     context_.either(reading_.isVacant(cycle_.bottom), reading_.isVacant(cycle_.retract)));
     settleLevels();
     const std::optional<double> repeats = repeatCount();
     if (!repeats)
@@ -75,14 +86,6 @@ private:
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
       if (const auto *entry = words_.find(letter))
         *kept = reading_.select(entry->present, entry->value, *kept);
-  }
-  void alarmWithoutLevels() {
-    const auto begins = [](const CodeWord &word) { return isDrillingCycle(word.code->action); };
-    if (std::none_of(words_.codes.begin(), words_.codes.end(), begins))
-      return;
-    const Truth bare = context_.either(reading_.isVacant(cycle_.bottom), reading_.isVacant(cycle_.retract));
-    reading_.alarm(reading_.both(bare, context_.isOn(context_.dialect().switches.bareCycleStops)),
-                   {AlarmKind::CycleWithoutLevel, context_.place()});
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
   void settleLevels() {
@@ -281,8 +284,7 @@ private:
 };
 
 /// Along the normal of the plane, or always along Z: parameter 5101#0 of FANUC controls.
-template <ValueAlgebra R>
-void drillAlong(StepContext<R> &context, const ExecutedWords<R> &words, const Plane &plane) {
+template <ValueAlgebra R> void drillAlong(StepContext<R> &context, const ExecutedWords<R> &words, const Plane &plane) {
   R &reading = context.reading;
   const auto byPlane = context.isOn(context.dialect().switches.fxy, true);
   if (plane.normal == Axis::Z || context.certain(byPlane))
@@ -302,6 +304,7 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
   const std::optional<Plane> plane = planeOf(context);
   if (plane)
     return detail::drillAlong(context, words, *plane);
+  detail::alarmOfBareCycle(context, words, context.maybeNot());
   const auto any = context.reading.anything();
   context.state.cycle = {any, any, any, any, any};
   const auto start = context.state.position;

@@ -168,10 +168,12 @@ private:
     case OperatorKind::NotEqual: return reading_.negation(equal(left, right));
     case OperatorKind::GreaterThan:
       return reading_.compare(Relation::Greater, reading_.asNumber(left), reading_.asNumber(right));
-    case OperatorKind::GreaterOrEqual: return reading_.compare(Relation::GreaterOrEqual, reading_.asNumber(left), reading_.asNumber(right));
+    case OperatorKind::GreaterOrEqual:
+      return reading_.compare(Relation::GreaterOrEqual, reading_.asNumber(left), reading_.asNumber(right));
     case OperatorKind::LessThan:
       return reading_.compare(Relation::Less, reading_.asNumber(left), reading_.asNumber(right));
-    case OperatorKind::LessOrEqual: return reading_.compare(Relation::LessOrEqual, reading_.asNumber(left), reading_.asNumber(right));
+    case OperatorKind::LessOrEqual:
+      return reading_.compare(Relation::LessOrEqual, reading_.asNumber(left), reading_.asNumber(right));
     case OperatorKind::Add:
     case OperatorKind::Subtract:
     case OperatorKind::Multiply:
@@ -280,9 +282,9 @@ private:
   Value inDomain(FunctionKind kind, const Value &argument, Span place) {
     const Function *row = findFunction(context_.dialect(), kind);
     if (row)
-      reading_.alarm(outside(row->domain, argument),
-                     {row->domain == FunctionDomain::Exponent ? AlarmKind::Overflow : AlarmKind::ArgumentOutOfDomain,
-                      place});
+      reading_.alarm(
+          outside(row->domain, argument),
+          {row->domain == FunctionDomain::Exponent ? AlarmKind::Overflow : AlarmKind::ArgumentOutOfDomain, place});
     const Value result = reading_.function(kind, argument);
     if (kind == FunctionKind::Asin)
       return bySwitch(fullTurn(result), result);

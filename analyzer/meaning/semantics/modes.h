@@ -136,8 +136,8 @@ private:
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
 
-  /// A code of group 01 ends a canned cycle where cycles have a group of their own; one behind the code of a cycle may do
-  /// so in the block in which that begins.
+  /// A code of group 01 ends a canned cycle where cycles have a group of their own; one behind the code of a cycle may
+  /// do so in the block in which that begins.
   void cancelCycle() {
     const auto cycle = context_.modes.groupOf(ModalKind::Cycle);
     const auto motion = context_.modes.groupOf(ModalKind::Motion);
@@ -160,8 +160,7 @@ private:
     }
     if (!moves)
       return;
-    const Truth ends =
-        begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : reading_.truth(true);
+    const Truth ends = begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : reading_.truth(true);
     if (context_.certain(ends))
       return leaveCycle(*cycle);
     if (!reading_.mayBe(ends))
@@ -280,17 +279,18 @@ private:
 
   // ---- mirror, scaling, rotation ----
 
-  /// FANUC, Mitsubishi M700V: behind G69 the first movement has to be absolute.  Until then the control may take an axis
-  /// to be at the coordinate that it had under the mapping that has changed.
+  /// FANUC, Mitsubishi M700V: behind G69 the first movement has to be absolute.  Until then the control may take an
+  /// axis to be at the coordinate that it had under the mapping that has changed.
   void expectAbsolute(const std::array<Value, kAxisCount> &before, Truth maps) {
     if (!reading_.mayBe(maps))
       return;
     const auto now = toProgrammed(context_, state_.position);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
       Value &pending = state_.transform.pending[axis];
-      const Truth same = reading_.both(reading_.compare(Relation::Equal, before[axis], now[axis]),
-                                       reading_.isVacant(pending));
-      const Value other = reading_.select(reading_.isVacant(pending), before[axis], reading_.either(pending, reading_.anyNumber()));
+      const Truth same =
+          reading_.both(reading_.compare(Relation::Equal, before[axis], now[axis]), reading_.isVacant(pending));
+      const Value other =
+          reading_.select(reading_.isVacant(pending), before[axis], reading_.either(pending, reading_.anyNumber()));
       pending = reading_.select(same, reading_.vacant(), other);
     }
   }

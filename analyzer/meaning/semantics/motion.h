@@ -36,14 +36,16 @@ public:
       forgetPosition(context_);
       state_.axisTurned = context_.either(state_.axisTurned, otherGeometry(context_));
     }
+    if (words_.mayTakeAxes)
+      state_.axisTurned = context_.either(state_.axisTurned, reading_.unknownTruth());
     if (others)
       noteOtherAxes(before);
   }
 
 private:
   static bool isMovement(const Code &code) {
-    constexpr std::array kMovements = {CodeAction::MachineMove, CodeAction::ReferenceReturn, CodeAction::SecondReference,
-                                       CodeAction::ReferenceCheck, CodeAction::Skip};
+    constexpr std::array kMovements = {CodeAction::MachineMove, CodeAction::ReferenceReturn,
+                                       CodeAction::SecondReference, CodeAction::ReferenceCheck, CodeAction::Skip};
     return std::find(kMovements.begin(), kMovements.end(), code.action) != kMovements.end();
   }
   static bool isOther(Axis axis) { return indexOf(axis) > indexOf(Axis::Z); }
@@ -259,16 +261,16 @@ private:
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
     const Truth without = reading_.negation(context_.either(byRadius, byCentre));
     const Truth beside = centreBeside(*plane);
-    reading_.alarm(reading_.both(reading_.both(follows, without),
-                                 context_.either(reading_.negation(beside), context_.maybeNot())),
-                   {AlarmKind::ArcWithoutCentre, context_.place()});
+    reading_.alarm(
+        reading_.both(reading_.both(follows, without), context_.either(reading_.negation(beside), context_.maybeNot())),
+        {AlarmKind::ArcWithoutCentre, context_.place()});
     const auto [first, second] = centreOf(*plane, start);
     const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
     alarmsOfRadius(*plane, start, mapping, reading_.both(follows, byRadius));
     const Value difference = radiusDifference(*plane, start, first, second);
     const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
-    const Truth isCircle = reading_.both(reading_.both(mapping.staysCircle, byCentre),
-                                         reading_.truth(turnsOf().has_value()));
+    const Truth isCircle =
+        reading_.both(reading_.both(mapping.staysCircle, byCentre), reading_.truth(turnsOf().has_value()));
     const Truth mayDiffer = context_.either(reading_.both(isCircle, differs),
                                             reading_.both(reading_.negation(isCircle), context_.maybeNot()));
     reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), mayDiffer),
@@ -290,9 +292,9 @@ private:
       return reading_.negation(reading_.compare(Relation::Greater, halfSquare, reading_.multiply(length, length)));
     };
     const Switches &switches = context_.dialect().switches;
-    const Truth isShort = reading_.both(
-        reading_.negation(reaches(radius)),
-        context_.either(reading_.negation(reaches(reading_.add(radius, tolerance()))), context_.isOn(switches.shortArcStops)));
+    const Truth isShort = reading_.both(reading_.negation(reaches(radius)),
+                                        context_.either(reading_.negation(reaches(reading_.add(radius, tolerance()))),
+                                                        context_.isOn(switches.shortArcStops)));
     const Truth isPoint = reading_.both(reading_.compare(Relation::Equal, chordSquare, context_.zero()),
                                         context_.isOn(switches.pointArcStops));
     const Truth asMapped = context_.either(mapping.staysCircle, context_.maybeNot());
@@ -492,9 +494,8 @@ private:
       if (const auto *entry = words_.find(letterOf(axis))) {
         Value &position = state_.at(axis);
         const Value absolute = reading_.subtract(entry->value, originOf(context_, axis));
-        const Value increment = meaning == MachineIncrement::Distance
-                                    ? reading_.add(position, entry->value)
-                                    : reading_.either(position, reading_.anyNumber());
+        const Value increment = meaning == MachineIncrement::Distance ? reading_.add(position, entry->value)
+                                                                      : reading_.either(position, reading_.anyNumber());
         const Value target = reading_.select(incremental, increment, absolute);
         position = reading_.select(entry->present, target, position);
       }

@@ -184,15 +184,15 @@ template <typename Member> ShapeMember shape(Member &) { return {}; }
 template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
-    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned, cycle,
-           transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
+    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
+           cycle, transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(forgotten), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
-        is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset),
-        is<Part::LengthChanged>(lengthChanged), is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform),
-        is<Part::Transformed>(transformed), is<Part::Spindle>(spindle), nested(modalCalls),
-        is<Part::OtherModalCalls>(modalCallsUnknown), is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters));
+        is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
+        is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), is<Part::Transformed>(transformed),
+        is<Part::Spindle>(spindle), nested(modalCalls), is<Part::OtherModalCalls>(modalCallsUnknown),
+        is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters));
   } else if constexpr (kIsA<S, CycleState>) {
     auto &[bottom, retract, initial, peck, dwell] = whole;
     return std::tuple(is<Part::CycleBottom>(bottom), is<Part::CycleRetract>(retract), is<Part::CycleInitial>(initial),

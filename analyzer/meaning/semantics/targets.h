@@ -110,8 +110,8 @@ template <ValueAlgebra R> typename R::Truth isOpenIncrement(StepContext<R> &cont
   if (!isPending(context, axis))
     return reading.truth(false);
   const auto pending = reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)]));
-  const auto unmapped = context.behaviour().absoluteBehindMappings ? reading.truth(true)
-                                                                   : reading.negation(context.state.transformed);
+  const auto unmapped =
+      context.behaviour().absoluteBehindMappings ? reading.truth(true) : reading.negation(context.state.transformed);
   return reading.both(reading.both(pending, unmapped), reading.negation(isAbsolute(context)));
 }
 template <ValueAlgebra R>
@@ -125,8 +125,8 @@ typename R::Value openedUp(StepContext<R> &context, Axis axis, const typename R:
   return reading.select(open, reading.either(coordinate, reading.anyNumber()), coordinate);
 }
 
-/// Whether an axis of the plane without a word, of which the other has one, is taken to the coordinate that it had under
-/// the mapping before.  11600#5 says so of rotation; no manual says what holds of mirror and scaling.
+/// Whether an axis of the plane without a word, of which the other has one, is taken to the coordinate that it had
+/// under the mapping before.  11600#5 says so of rotation; no manual says what holds of mirror and scaling.
 template <ValueAlgebra R>
 typename R::Truth takesPending(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis, Axis other) {
   R &reading = context.reading;
@@ -240,7 +240,8 @@ template <ValueAlgebra R> void settlePending(StepContext<R> &context, const Exec
     if (!detail::isPending(context, axis))
       continue;
     const bool isInPlane = plane && (axis == plane->first || axis == plane->second);
-    const auto moved = isInPlane && anyInPlane ? context.either(named(plane->first), named(plane->second)) : named(axis);
+    const auto moved =
+        isInPlane && anyInPlane ? context.either(named(plane->first), named(plane->second)) : named(axis);
     if (!reading.mayBe(moved))
       continue;
     if (reading.mayBe(reading.negation(absolute)))

@@ -1,9 +1,9 @@
 // ToolPoint: where the coordinates of a movement lie in the space of the program's start, and whether they are those of
 // the tool at all.
 //
-// With tool length in force (G43) coordinates are those of the tip: its offset is taken to be the tool's length.  So are
-// they where the program has not changed the length.  Where it takes away what it has set itself, Z is not known: the
-// codes are then those of the start, and the tip is not where it was.
+// With tool length in force (G43) coordinates are those of the tip: its offset is taken to be the tool's length.  So
+// are they where the program has not changed the length.  Where it takes away what it has set itself, Z is not known:
+// the codes are then those of the start, and the tip is not where it was.
 #pragma once
 
 #include "meaning/semantics/coordinates.h"
@@ -15,7 +15,7 @@ template <ValueAlgebra R> struct ToolPoint {
   std::array<typename R::Value, 3> zero;
   typename R::Truth withoutCompensation; // of the cutter radius (G40)
   typename R::Truth lengthKnown;
-  typename R::Truth sameUnits; // as at the start
+  typename R::Truth sameUnits;       // as at the start
   typename R::Truth sameFeedMode;    // F means the same
   typename R::Truth sameSpindleMode; // S means the same
   typename R::Truth sameSide;        // no other axis has turned or moved the part, or the tool
@@ -51,8 +51,7 @@ template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
 }
 
 /// How far the zero point of an axis lies from that of the start.
-template <ValueAlgebra R>
-typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axis axis) {
+template <ValueAlgebra R> typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axis axis) {
   R &reading = context.reading;
   StepContext<R> atEntry{reading, entry, context.programs, context.file, context.modes, context.block};
   const bool sameSystem = isAsAtEntry(context, entry, ModalKind::WorkOffset);

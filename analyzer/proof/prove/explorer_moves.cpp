@@ -51,8 +51,7 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
         comesBack = store_.logicalOr(comesBack, store_.logicalNot(store_.equal(move.start[indexOf(axis)].number,
                                                                                move.end[indexOf(axis)].number)));
   if (!moves.empty())
-    path.state.variables.set(kBesidePath,
-                             {store_.no(), store_.ite(without, store_.ite(comesBack, zero, before), one)});
+    path.state.variables.set(kBesidePath, {store_.no(), store_.ite(without, store_.ite(comesBack, zero, before), one)});
 }
 
 /// Where it is known whether the arc is the shorter or the longer one.

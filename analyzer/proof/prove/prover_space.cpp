@@ -327,9 +327,9 @@ void Prover::limits() {
         continue;
       }
       queries[move.own].push_back(onPath(move.conditions, space_->keepsLimit(limit, move)));
-      const TermId sameMeaning =
-          limit.address == 'F' ? store_.logicalAnd(move.point.sameUnits.term, move.point.sameFeedMode.term)
-                               : move.point.sameSpindleMode.term;
+      const TermId sameMeaning = limit.address == 'F'
+                                     ? store_.logicalAnd(move.point.sameUnits.term, move.point.sameFeedMode.term)
+                                     : move.point.sameSpindleMode.term;
       if (!answered(onPath(move.conditions, sameMeaning), budget_).proved())
         inOtherUnits.insert(move.own);
     }
