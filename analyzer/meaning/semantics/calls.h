@@ -19,7 +19,7 @@ template <typename R> struct CallRequest {
   std::vector<Callee> possible; // without `callee`: the programs of these files that a computed number may name
   bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
   std::array<typename R::Value, kLocalVariables + 1> locals;
-  typename R::Value repeats; // L
+  typename R::Value repeats;    // L
 };
 
 /// Reads the arguments.  SetModal and EndModal have been carried out when this returns.
@@ -44,8 +44,11 @@ public:
     CallRequest<R> request;
     request.repeats = reading_.number(1);
     switch (call_.kind) {
-    case CallKind::ModalCancel: return endModal(std::move(request));
-    case CallKind::MacroA: request.action = CallAction::Operation; return request;
+    case CallKind::ModalCancel:
+      return endModal(std::move(request));
+    case CallKind::MacroA:
+      request.action = CallAction::Operation;
+      return request;
     case CallKind::Modal:
     case CallKind::ModalEach:
       request.action = CallAction::SetModal;
@@ -55,11 +58,16 @@ public:
       context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.repeats, request.locals});
       return request;
     case CallKind::Macro:
-    case CallKind::OWord: passArguments(request); break;
-    case CallKind::Code: passCode(request); break;
+    case CallKind::OWord:
+      passArguments(request);
+      break;
+    case CallKind::Code:
+      passCode(request);
+      break;
     case CallKind::Subprogram:
     case CallKind::Local:
-    case CallKind::External: break;
+    case CallKind::External:
+      break;
     }
     request.callee = callee(request.possible);
     readRepeats(request);

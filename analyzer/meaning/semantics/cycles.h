@@ -79,8 +79,9 @@ private:
     if (const auto *entry = words_.find('R'))
       learn(cycle_.retract, *entry, absolute, cycle_.initial);
     if (context_.behaviour().cycleKeepsDepth) // below the R level
-      cycle_.bottom = reading_.select(context_.either(absolute, reading_.isVacant(cycle_.bottom)), cycle_.bottom,
-                                      reading_.add(bottomLevel(), reading_.subtract(retractLevel(), before)));
+      cycle_.bottom = reading_.select(
+          context_.either(absolute, reading_.isVacant(cycle_.bottom)), cycle_.bottom,
+          reading_.add(reading_.asNumber(cycle_.bottom), reading_.subtract(reading_.asNumber(cycle_.retract), before)));
     if (const auto *entry = words_.find(letterOf(plane_.normal)))
       learn(cycle_.bottom, *entry, absolute, reading_.asNumber(cycle_.retract));
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
@@ -89,13 +90,13 @@ private:
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
   void settleLevels() {
-    const auto settle = [&](Value &level, const Value &usual) {
+    const auto settled = [&](const Value &level, const Value &usual) {
       const Truth open = reading_.isVacant(level);
-      if (reading_.mayBe(open))
-        level = reading_.select(open, reading_.either(usual, reading_.anyNumber()), reading_.asNumber(level));
+      const Value given = reading_.asNumber(level);
+      return reading_.mayBe(open) ? reading_.select(open, reading_.either(usual, reading_.anyNumber()), given) : given;
     };
-    settle(cycle_.retract, reading_.asNumber(cycle_.initial));
-    settle(cycle_.bottom, retractLevel());
+    retract_ = settled(cycle_.retract, reading_.asNumber(cycle_.initial));
+    bottom_ = settled(cycle_.bottom, retract_);
   }
   /// With G91 the level is a distance from `base`.
   void learn(Value &level, const typename ExecutedWords<R>::Entry &entry, Truth absolute, const Value &base) {
@@ -140,8 +141,8 @@ private:
     reading_.join(state_, reading_.unknownTruth(), notDrilled);
   }
 
-  Value retractLevel() { return reading_.asNumber(cycle_.retract); }
-  Value bottomLevel() { return reading_.asNumber(cycle_.bottom); }
+  const Value &retractLevel() const { return retract_; }
+  const Value &bottomLevel() const { return bottom_; }
   Value returnLevel() {
     const Truth toInitial =
         context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, reading_.truth(true));
@@ -281,6 +282,8 @@ private:
   CycleState<Value> &cycle_;
   const ExecutedWords<R> &words_;
   Plane plane_;
+  Value retract_{};
+  Value bottom_{};
 };
 
 /// Along the normal of the plane, or always along Z: parameter 5101#0 of FANUC controls.

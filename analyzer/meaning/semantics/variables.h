@@ -33,13 +33,20 @@ namespace detail {
 /// and the like, which are not followed.
 constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
   switch (offset) {
-  case 2: return 'B';
-  case 7: return 'D';
-  case 9: return 'F';
-  case 11: return 'H';
-  case 19: return 'S';
-  case 20: return 'T';
-  default: return std::nullopt;
+  case 2:
+    return 'B';
+  case 7:
+    return 'D';
+  case 9:
+    return 'F';
+  case 11:
+    return 'H';
+  case 19:
+    return 'S';
+  case 20:
+    return 'T';
+  default:
+    return std::nullopt;
   }
 }
 
@@ -68,10 +75,12 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::SetOffset:
   case VariableRole::Reference:
   case VariableRole::SecondReference:
-  case VariableRole::SkipPosition: return storedValue(context, number);
+  case VariableRole::SkipPosition:
+    return storedValue(context, number);
   case VariableRole::Volatile:
   case VariableRole::Alarm:
-  case VariableRole::MessageStop: return reading.volatileRead(number);
+  case VariableRole::MessageStop:
+    return reading.volatileRead(number);
   case VariableRole::ModalCode: {
     const std::uint32_t group = number - range.first + 1;
     return group < kModalGroups
@@ -84,14 +93,18 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   }
   case VariableRole::BlockEndPosition:
   case VariableRole::MachinePosition:
-  case VariableRole::WorkPosition: return readPosition(context, range, number);
-  case VariableRole::Pi: return reading.number(3.14159265358979323846);
-  case VariableRole::EulersNumber: return reading.number(2.71828182845904523536);
+  case VariableRole::WorkPosition:
+    return readPosition(context, range, number);
+  case VariableRole::Pi:
+    return reading.number(3.14159265358979323846);
+  case VariableRole::EulersNumber:
+    return reading.number(2.71828182845904523536);
   }
   return reading.anything();
 }
 
-template <ValueAlgebra R> typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
+template <ValueAlgebra R>
+typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
   R &reading = context.reading;
   if (number == kVacantVariable)
     return reading.vacant();
