@@ -29,6 +29,9 @@ void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kA
 /// `distance`.
 template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance);
 
+/// Zero points have moved by distances that are not known.
+template <ValueAlgebra R> void forgetOrigins(StepContext<R> &context);
+
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context);
 
@@ -257,6 +260,12 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
   if (!plane || axis == plane->normal || axis == Axis::Z)
     for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial})
       keep(*level);
+}
+
+template <ValueAlgebra R> void forgetOrigins(StepContext<R> &context) {
+  forgetPosition(context);
+  for (const Axis axis : kAllAxes)
+    shiftCoordinate(context, axis, context.reading.either(context.zero(), context.reading.anyNumber()));
 }
 
 template <ValueAlgebra R> void forgetPosition(StepContext<R> &context) {

@@ -108,7 +108,9 @@ private:
         return std::any_of(kinds.begin(), kinds.end(),
                            [&](ModalKind kind) { return context_.modes.groupOf(kind) == of; });
       };
-      if (is({ModalKind::Units, ModalKind::WorkOffset, ModalKind::Length, ModalKind::Cycle}))
+      if (is({ModalKind::WorkOffset, ModalKind::Length}))
+        forgetOrigins(context_);
+      if (is({ModalKind::Units, ModalKind::Cycle}))
         forgetPosition(context_);
       if (is({ModalKind::Units}))
         for (auto *lengths : {&state_.shift, &state_.local})

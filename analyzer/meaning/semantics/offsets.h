@@ -196,7 +196,7 @@ private:
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset)
         reading_.forgetVariables(state_, range.first, range.last);
-    forgetPosition(context_);
+    forgetOrigins(context_);
     reading_.notModelled("offsets set by G10", word.span);
   }
 
