@@ -15,7 +15,8 @@ using State = MachineState<ConcreteReading>;
 class Machine {
 public:
   Machine(const ProgramSet &programs, Callee entry, const RunOptions &options)
-      : programs_(programs), options_(options), reading_(*programs.file(entry.file).dialect, options.variables, options.words),
+      : programs_(programs), options_(options),
+        reading_(*programs.file(entry.file).dialect, options.variables, options.words),
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(reading_, modes_, options.start)), at_{entry.file,
                                                                                                   entry.entry} {
@@ -248,6 +249,10 @@ private:
 
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
   bool enter(const CallRequest<ConcreteReading> &request, std::optional<std::size_t> modal) {
+    if (!request.callee && !request.possible.empty()) {
+      giveUp("a program whose number several programs of the run have");
+      return true;
+    }
     if (!request.callee || callsNothing(request.repeats.number)) {
       reading_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
       return false;
