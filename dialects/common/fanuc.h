@@ -1,6 +1,7 @@
 // Tables that the FANUC series share.
 #pragma once
 
+#include "dialects/common/cell_aliases.h"
 #include "dialects/common/hints.h"
 #include "dialects/common/macro_b.h"
 #include "dialects/common/tables.h"
@@ -38,7 +39,7 @@ consteval std::array<Code, 1000> manualGuideCodes() {
   std::array<Code, 1000> codes{};
   for (std::uint16_t i = 0; i < 1000; ++i) {
     const auto tenths = static_cast<std::uint16_t>((1000 + i) * 10);
-    codes[i] = Code{tenths, 0, CodeRole::OwnWords, i < 900 ? CodeAction::OtherCycle : CodeAction::None,
+    codes[i] = Code{tenths, 0, CodeRole::OwnWords, i < 900 ? CodeAction::OtherCycle : CodeAction::Device,
                     i < 900 ? "MANUAL GUIDE i cycle or figure" : "MANUAL GUIDE i blank or display data"};
   }
   codes[900].meaning = "MANUAL GUIDE i blank: cylinder";
@@ -63,6 +64,7 @@ inline Dialect makeFanuc(MachineKind machine) {
   dialect.addresses = addressesOf(machine);
   dialect.mCodes = kFanucMCodes;
   dialect.operators = kOperators;
+  dialect.bitWords = kOutputWords;
   dialect.argumentVariables = kArgumentVariables;
   dialect.behaviour.scalesByIncrements = true;
   dialect.switches.pointArcStops = Switch::Off; // an arc of 0 degrees

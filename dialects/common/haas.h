@@ -1,6 +1,7 @@
 // Tables that the two generations of Haas controls share.
 #pragma once
 
+#include "dialects/common/cell_aliases.h"
 #include "dialects/common/hints.h"
 #include "dialects/common/macro_b.h"
 #include "dialects/common/tables.h"
@@ -58,6 +59,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.addresses['P' - 'A'].literalMayHavePoint = true; // G04 P1.5 is in seconds
   dialect.mCodes = kHaasMCodes;
   dialect.operators = kOperators;
+  dialect.aliases = kHaasAliases;
   dialect.argumentVariables = kArgumentVariables;
   dialect.limits.bracketDepth = 255; // no limit is documented
   dialect.limits.macroCallDepth = 9;

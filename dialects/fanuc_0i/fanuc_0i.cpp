@@ -59,6 +59,7 @@ const Dialect &fanuc0i() {
     dialect.title = "FANUC Series 0i, 16i, 18i, 21i, milling";
     dialect.gCodes = kMillingGCodes;
     dialect.variables = kMillingVariables;
+    dialect.aliases = kFanucMillingAliases;
     dialect.hints = kMillingHints;
     return dialect;
   }();
@@ -72,6 +73,7 @@ const Dialect &fanuc0iLathe() {
     dialect.title = "FANUC Series 0i, 16i, 18i, 21i, turning (G code system A)";
     dialect.gCodes = kTurningGCodes;
     dialect.variables = kTurningVariables;
+    dialect.aliases = kFanucTurningAliases;
     dialect.hints = kTurningHints0i;
     return dialect;
   }();

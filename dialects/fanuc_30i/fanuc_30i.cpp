@@ -21,6 +21,9 @@ constexpr auto kTurningGCodes = merged(kFanucTurningGCodes, kManualGuideCodes);
 constexpr auto kMillingVariables = merged(kFanucVariables, kFanucMillingVariables, k30iVariables);
 constexpr auto kTurningVariables = merged(kFanucVariables, kFanucTurningVariables, k30iVariables);
 
+constexpr auto kMillingAliases = joined(kFanucMillingAliases, kFanucAxisAliases);
+constexpr auto kTurningAliases = joined(kFanucTurningAliases, kFanucAxisAliases);
+
 constexpr auto kFunctions = joined(kBasicFunctions, std::array{
                                                         Function{FunctionKind::Pow, FunctionForm::TwoByComma},
                                                         Function{FunctionKind::Adp},
@@ -69,6 +72,7 @@ const Dialect &fanuc30i() {
     dialect.title = "FANUC Series 30i, milling";
     dialect.gCodes = kMillingGCodes;
     dialect.variables = kMillingVariables;
+    dialect.aliases = kMillingAliases;
     dialect.hints = kMillingHints;
     return dialect;
   }();
@@ -82,6 +86,7 @@ const Dialect &fanuc30iLathe() {
     dialect.title = "FANUC Series 30i, turning (G code system A)";
     dialect.gCodes = kTurningGCodes;
     dialect.variables = kTurningVariables;
+    dialect.aliases = kTurningAliases;
     dialect.hints = kTurningHints30i;
     return dialect;
   }();

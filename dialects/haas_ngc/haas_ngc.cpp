@@ -24,6 +24,7 @@ Dialect make(MachineKind machine) {
   Dialect dialect = makeHaas(machine);
   dialect.controls = "NGC, software 100.x";
   dialect.variables = kVariables;
+  dialect.aliases = kHaasNgcAliases;
   dialect.functions = kFunctions;
   dialect.grammar.fractionalVariable = true;
   dialect.limits.lastSequenceNumber = 99999999;

@@ -24,7 +24,7 @@ constexpr auto kVariables = sorted(std::array{
 consteval std::array<Code, 100> userMCodes() {
   std::array<Code, 100> codes{};
   for (std::uint16_t i = 0; i < 100; ++i)
-    codes[i] = Code{static_cast<std::uint16_t>((100 + i) * 10), 0, CodeRole::Plain, CodeAction::None, "user command"};
+    codes[i] = Code{static_cast<std::uint16_t>((100 + i) * 10), 0, CodeRole::Plain, CodeAction::Device, "user command"};
   return codes;
 }
 constexpr auto kMCodes = merged(kOwnMCodes, userMCodes());

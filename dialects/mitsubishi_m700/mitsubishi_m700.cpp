@@ -1,4 +1,5 @@
 // Mitsubishi MELDAS 60/64, M70, M700, M80, M800; MAZATROL controls read EIA programs in nearly the same language.
+#include "dialects/common/cell_aliases.h"
 #include "dialects/common/hints.h"
 #include "dialects/common/macro_b.h"
 #include "dialects/common/tables.h"
@@ -50,6 +51,8 @@ Dialect make(MachineKind machine) {
   dialect.addresses['P' - 'A'].literalMayHavePoint = true; // P is in the manual's list of addresses with a point
   dialect.mCodes = kMCodes;
   dialect.variables = kVariables;
+  dialect.aliases = kMitsubishiAliases;
+  dialect.bitWords = kOutputWords;
   dialect.functions = kFunctions;
   dialect.operators = kOperators;
   dialect.alarms = kAlarms;

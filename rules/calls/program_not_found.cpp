@@ -18,7 +18,7 @@ void check(const FileContext &context, const Reporter &reporter) {
   std::set<std::string> seen;
   for (const Call &call : context.model.calls) {
     const bool names = (namesProgram(call.kind) && call.kind != CallKind::External) || call.kind == CallKind::OWord;
-    if (!names || call.callee.empty() || context.callGraph.callee(context.file, call))
+    if (!names || call.callee.empty() || !context.callGraph.candidates(context.file, call).empty())
       continue;
     const std::string name = toString(call.callee);
     if (!seen.insert(name).second)

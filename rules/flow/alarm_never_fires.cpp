@@ -8,11 +8,6 @@
 namespace feedhold::rules {
 namespace {
 
-/// To the block, or to a lone sequence number before it.
-bool leadsTo(const FlowFacts &facts, const Jump &jump, BlockId block) {
-  return jump.target && facts.node(facts.file.cfg.nodeOf(*jump.target)).block == block;
-}
-
 /// A jump to the block whose condition has its outcome for other reasons than a wrong check.
 bool isReserve(const FlowFacts &facts, const Jump &jump) {
   const auto statements = facts.file.tree->statementsOf(jump.block);
@@ -33,12 +28,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const auto all = context.model.jumpsOf(facts.program);
     if (std::ranges::any_of(
-            all, [&](const Jump &jump) { return leadsTo(facts, jump, use.block) && isReserve(facts, jump); }))
+            all, [&](const Jump &jump) { return blockBehind(facts, jump) == use.block && isReserve(facts, jump); }))
       continue;
     const Span span = context.tree.expressions[use.expression].span;
     std::vector<Label> jumps;
     for (const Jump &jump : all)
-      if (leadsTo(facts, jump, use.block))
+      if (blockBehind(facts, jump) == use.block)
         jumps.push_back({jump.span, "never leads there"});
     reporter.report({.message = "this alarm never comes: no run reaches it",
                      .span = span,

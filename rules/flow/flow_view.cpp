@@ -344,6 +344,20 @@ std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId
   return other;
 }
 
+bool isLoneNumber(const FlowFacts &facts, NodeId node) {
+  return std::holds_alternative<Pass>(facts.node(node).instruction) && facts.node(node).next == node.next() &&
+         facts.file.tree->statementsOf(facts.node(node).block).empty();
+}
+
+std::optional<BlockId> blockBehind(const FlowFacts &facts, const Jump &jump) {
+  if (!jump.target)
+    return std::nullopt;
+  NodeId node = facts.file.cfg.nodeOf(*jump.target);
+  while (isLoneNumber(facts, node))
+    node = node.next();
+  return facts.node(node).block;
+}
+
 // ---- UnsetPaths ----------------------------------------------------------------------------------------------------
 
 namespace {

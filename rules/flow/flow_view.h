@@ -77,6 +77,11 @@ std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node);
 /// The node that evaluates an expression of the block; absent when it is not reached.
 std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId expression);
 
+/// A block of nothing but a sequence number.
+bool isLoneNumber(const FlowFacts &facts, NodeId node);
+/// The block that a jump leads to, or the one behind the lone sequence numbers at which it arrives.
+std::optional<BlockId> blockBehind(const FlowFacts &facts, const Jump &jump);
+
 /// Where a local variable may still be as it was when the program was started.  Where a subprogram or an assignment to
 /// a computed number may set it, it counts as set.  A loop is taken to run at least once.
 class UnsetPaths {

@@ -24,7 +24,7 @@ bool mayChangeUnseen(const FlowFacts &facts, NodeId node) {
   const SyntaxTree &tree = *facts.file.tree;
   return findCode(tree, block, *facts.file.dialect, CodeRole::ProgramStop) ||
          std::ranges::any_of(tree.wordsOf(block), [&](const Word &word) {
-           return word.address() == 'M' && !codeOf(word, *facts.file.dialect);
+           return word.address() == 'M' && word.isCode() && !codeOf(word, *facts.file.dialect);
          });
 }
 

@@ -10,7 +10,7 @@ namespace {
 /// A GOTO leads to the block, or to a lone sequence number before it.
 bool isJumpTarget(const FlowFacts &facts, BlockId block) {
   return std::ranges::any_of(facts.file.model->jumpsOf(facts.program), [&](const Jump &jump) {
-    return jump.kind == JumpKind::Goto && jump.target && facts.node(facts.file.cfg.nodeOf(*jump.target)).block == block;
+    return jump.kind == JumpKind::Goto && blockBehind(facts, jump) == block;
   });
 }
 
@@ -18,7 +18,11 @@ bool isJumpTarget(const FlowFacts &facts, BlockId block) {
 std::optional<NodeId> fallsFrom(const FlowFacts &facts, NodeId alarm) {
   if (alarm <= facts.entry())
     return std::nullopt;
-  const NodeId before(alarm.index() - 1);
+  NodeId before(alarm.index() - 1);
+  while (before > facts.entry() && isLoneNumber(facts, before)) {
+    alarm = before;
+    before = NodeId(before.index() - 1);
+  }
   const Node &node = facts.node(before);
   const bool acts =
       std::holds_alternative<ExecuteWords>(node.instruction) || std::holds_alternative<CallProgram>(node.instruction);

@@ -33,7 +33,7 @@ bool mayWait(const MotionView &view, NodeId node) {
     const Code *code = codeOf(*word, view.context().dialect);
     return !code || code->role == CodeRole::Skip || code->role == CodeRole::MachinePosition ||
            code->role == CodeRole::ReferenceReturn ||
-           (code->role == CodeRole::Plain && code->group == 0 && code->action == CodeAction::None);
+           (code->role == CodeRole::Plain && code->group == 0 && changesNothing(code->action));
   });
 }
 
@@ -61,7 +61,7 @@ bool limitsLookAhead(const MotionView &view, const FlowFacts &facts, NodeId unti
   for (NodeId node = facts.entry(); node < until; node = node.next())
     for (const Word *word : view.wordsOf(node)) {
       const Code *code = word->address() == 'G' ? codeOf(*word, view.context().dialect) : nullptr;
-      if (code && code->role == CodeRole::Plain && code->group == 0 && code->action == CodeAction::None)
+      if (code && code->role == CodeRole::Plain && code->group == 0 && changesNothing(code->action))
         return true;
     }
   return false;

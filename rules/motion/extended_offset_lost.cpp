@@ -16,7 +16,7 @@ bool isExtended(const Word &word, const FileContext &context) {
 /// P belongs to another code of the block.
 bool hasOtherTakerOfP(BlockId block, const FileContext &context) {
   return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
-    if (word.address() != 'G' && word.address() != 'M')
+    if (!word.isCode())
       return false;
     const Code *code = codeOf(word, context.dialect);
     return !code || code->action == CodeAction::ExtendedWorkOffset ||

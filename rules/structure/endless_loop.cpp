@@ -25,8 +25,9 @@ bool hasWayOut(const Loop &loop, const FileContext &context) {
 
 /// An M code that the tables do not know: the machine builder may have made a call or a stop of it.
 bool hasUnknownMCode(const FileContext &context, BlockId block) {
-  return std::ranges::any_of(context.tree.wordsOf(block),
-                             [&](const Word &word) { return word.address() == 'M' && !codeOf(word, context.dialect); });
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    return word.address() == 'M' && word.isCode() && !codeOf(word, context.dialect);
+  });
 }
 
 /// M30, M99, an alarm; under a condition, too.  M00 waits for a person, who may leave the loop by a reset.  A block

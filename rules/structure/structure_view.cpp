@@ -28,12 +28,13 @@ void addTarget(Entries &entries, const Jump &jump) {
 void addReturns(Entries &entries, const FileContext &context, ProgramId program) {
   std::set<ProgramRef> seen;
   for (const Call &call : context.model.callsOf(program)) {
-    const auto callee = context.callGraph.callee(context.file, call);
-    if (!callee || !seen.insert(*callee).second)
-      continue;
-    for (const Jump &jump : context.callGraph.model(callee->file).jumpsOf(callee->program))
-      if (jump.kind == JumpKind::ReturnTo)
-        addTarget(entries, jump);
+    for (const ProgramRef &callee : context.callGraph.candidates(context.file, call)) {
+      if (!seen.insert(callee).second)
+        continue;
+      for (const Jump &jump : context.callGraph.model(callee.file).jumpsOf(callee.program))
+        if (jump.kind == JumpKind::ReturnTo)
+          addTarget(entries, jump);
+    }
   }
 }
 

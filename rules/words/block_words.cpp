@@ -30,7 +30,7 @@ bool passesArguments(const FileContext &context, BlockId block) {
 bool meansOwnWords(const Word &word, const FileContext &context) {
   if (isCodeCall(word, context))
     return true;
-  if (word.address() != 'G' && word.address() != 'M')
+  if (!word.isCode())
     return false;
   const Code *code = codeOf(word, context.dialect);
   return !code || isMacroCall(code->role) || code->role == CodeRole::DataSetting || code->role == CodeRole::OwnWords;

@@ -14,7 +14,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Word *last = nullptr;
   std::size_t count = 0;
   for (const Word &word : words) {
-    if (word.address() != 'M' || word.has(Word::kAfterThen) || word.has(Word::kAfterSkip))
+    if (word.address() != 'M' || !word.isCode() || word.has(Word::kAfterThen) || word.has(Word::kAfterSkip))
       continue;
     first = first ? first : &word;
     last = &word;

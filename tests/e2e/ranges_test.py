@@ -56,6 +56,15 @@ class Ranges(Scratch):
         self.assertIn("O2000, called from O1000 line 6\n", text)
         self.assertNotRegex(self.ranges("O2000.nc"), "called from")  # by itself: with any argument
 
+    def test_a_lone_number_in_a_loop_joins_the_jump_and_the_loop(self):
+        self.write("O3000.nc", "O3000\n#2=0\nWHILE[#2LT3]DO1\n#2=#2+.5\nN10\nEND1\n#2=10\n"
+                               "IF[#1GT0]GOTO10\nM30\n")
+        self.assertRegex(self.ranges("O3000.nc:5"), r"#2 +0\.5, 1, .* or 10")
+
+    def test_an_armed_interrupt_leaves_nothing_to_tell(self):
+        self.write("O3001.nc", "O3001\n#100=1\nM96P2\n#101=1\nM30\nO2\n#100=0\nM99\n")
+        self.assertIn("a macro interrupt is armed", self.ranges("O3001.nc"))
+
     def test_one_program_of_a_file(self):
         self.write("both.nc", MAIN + SUB)
         self.assertIn("O2000, called from O1000 line 6\n", self.ranges("both.nc"))

@@ -129,13 +129,21 @@ private:
 
   // ---- control flow ----
 
+  /// A block that does nothing; jumps arrive there, from outside of the loop, too.
+  void loneNumber() {
+    if (random_.oneIn(4))
+      lines_.push_back("N" + label());
+  }
+
   void loop() {
     if (loops_ == 3)
       return add(assignment());
     ++loops_;
     const int number = random_.oneIn(10) ? 1 : loops_;
     add((random_.oneIn(8) ? std::string() : "WHILE" + condition()) + fmt::format("DO{}", number));
+    loneNumber();
     body(1 + random_.below(4));
+    loneNumber();
     lines_.push_back(fmt::format("END{}", number));
     --loops_;
   }
@@ -154,6 +162,7 @@ private:
       lines_.push_back(other + "=" + other + random_.of<const char *>({"+", "-"}) + step);
     body(random_.below(3));
     lines_.push_back(counter + "=" + counter + "+" + step);
+    loneNumber();
     lines_.push_back(fmt::format("END{}", loops_));
     --loops_;
   }

@@ -1,6 +1,7 @@
 #include "soundness/sample_runs.h"
 
 #include "inference/absint/analysis.h"
+#include "inference/absint/block_states.h"
 #include "soundness/containment.h"
 #include "soundness/sample_start.h"
 
@@ -10,6 +11,38 @@
 namespace feedhold::soundness {
 
 namespace {
+
+constexpr auto kAllBlocks = [](FileId, BlockId) { return true; };
+
+/// What a reader of `ranges` is told before each block.
+class ToldOfBlocks {
+public:
+  explicit ToldOfBlocks(const LoadedSample &sample)
+      : states_(collectBlockStates(sample.set, std::array{sample.main()}, kAllBlocks)) {}
+
+  /// Nothing is told where the analysis gave up.
+  bool speaks() const { return !states_.gaveUp && !states_.isCutShort; }
+  std::vector<AbstractState> of(BlockId block) const {
+    std::vector<AbstractState> told;
+    for (const ContextStates &context : states_.contexts)
+      if (const auto found = context.blocks.find(block); found != context.blocks.end())
+        told.push_back(found->second.state());
+    return told;
+  }
+
+private:
+  BlockStates states_;
+};
+
+/// A sequence number whose block has no node that stands for it: nothing is told there, or the state of a jump alone.
+std::optional<std::string> numberWithoutNode(const LoadedSample &sample) {
+  const Cfg &cfg = sample.set.file(FileId(0)).cfg;
+  for (const SequenceNumber &number : sample.model().sequenceNumbers)
+    if (const NodeId node = cfg.nodeOf(number.block);
+        cfg.nodes[node].block != number.block || std::holds_alternative<JumpIntoLoop>(cfg.nodes[node].instruction))
+      return fmt::format("N{} has no node of its own", number.number);
+  return std::nullopt;
+}
 
 /// All that the analysis tells.
 class Foreseen : public AnalysisVisitor {
@@ -36,8 +69,9 @@ public:
 
 class OneRun {
 public:
-  OneRun(const LoadedSample &machine, const LoadedSample &analysed, const Foreseen &foreseen, Random &random)
-      : machine_(machine), analysed_(analysed), foreseen_(foreseen), modes_(machine.dialect()),
+  OneRun(const LoadedSample &machine, const LoadedSample &analysed, const Foreseen &foreseen, const ToldOfBlocks &told,
+         Random &random)
+      : machine_(machine), analysed_(analysed), foreseen_(foreseen), told_(told), modes_(machine.dialect()),
         entry_(randomEntry(machine, random)), skip_(random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off) {}
 
   std::optional<std::string> run(Tally &tally) {
@@ -69,14 +103,21 @@ private:
       why_ = "a place that is not reached: " + machine_.blockOf(moment.place);
       return;
     }
+    requireSome(found->second, moment, "");
+    const Cfg &cfg = machine_.set.file(moment.place.file).cfg;
+    const BlockId block = cfg.nodes[moment.place.node].block;
+    if (!why_ && told_.speaks() && cfg.nodeOf(block) == moment.place.node)
+      requireSome(told_.of(block), moment, "told of the block: ");
+  }
+  void requireSome(const std::vector<AbstractState> &states, const RunMoment &moment, std::string_view source) {
     std::string reasons;
-    for (const AbstractState &state : found->second) {
+    for (const AbstractState &state : states) {
       const auto why = whyOutside(moment.state, state, entry_, modes_, analysed_.dialect());
       if (!why)
         return;
       reasons += "\n    " + *why;
     }
-    why_ = fmt::format("before {}, step {}:{}", machine_.blockOf(moment.place), steps_, reasons);
+    why_ = fmt::format("{}before {}, step {}:{}", source, machine_.blockOf(moment.place), steps_, reasons);
   }
   void ending(const RunResult &result) {
     if (result.end == RunEnd::Alarm && !foreseen_.hasAlarm(result.alarm, result.alarmSpan))
@@ -89,6 +130,7 @@ private:
   const LoadedSample &machine_;
   const LoadedSample &analysed_;
   const Foreseen &foreseen_;
+  const ToldOfBlocks &told_;
   ModalTable modes_;
   EntryValues entry_;
   BlockSkipSwitch skip_;
@@ -105,6 +147,8 @@ std::optional<std::string> unforeseen(const Sample &sample, std::uint64_t inputS
   const LoadedSample machine(sample.lines, machineOf(sample, random));
   if (analysed.isEmpty())
     return std::nullopt;
+  if (auto why = numberWithoutNode(analysed))
+    return why;
   Foreseen foreseen;
   AnalysisOptions options;
   options.budget = 200'000;
@@ -114,8 +158,9 @@ std::optional<std::string> unforeseen(const Sample &sample, std::uint64_t inputS
     tally.abandoned += static_cast<std::uint64_t>(runs);
     return std::nullopt;
   }
+  const ToldOfBlocks told(analysed);
   for (int i = 0; i < runs; ++i)
-    if (auto why = OneRun(machine, analysed, foreseen, random).run(tally))
+    if (auto why = OneRun(machine, analysed, foreseen, told, random).run(tally))
       return fmt::format("run {}: {}", i, *why);
   return std::nullopt;
 }

@@ -17,7 +17,7 @@ class AbstractReading;
 using AbstractState = MachineState<AbstractReading>;
 
 /// Symbols: what was there at the entry of the analysed program, and values that were fixed later.
-inline constexpr std::uint32_t kZeroSymbol = 0; // constants are distances from it
+inline constexpr std::uint32_t kZeroSymbol = 0;                                       // constants are distances from it
 constexpr std::uint32_t symbolOfVariable(std::uint32_t variable) { return variable; } // #0 is no variable
 inline constexpr std::uint32_t kPositionSymbols = 0x90000000;
 constexpr std::uint32_t symbolOfPosition(std::size_t axis) {
@@ -126,6 +126,9 @@ public:
   void move(const Move<Value> &move);
   void notModelled(std::string_view reason, Span place);
   void havoc(State &state, std::string_view reason, Span place);
+  void abandon(std::string_view reason, Span) { abandoned_ = reason; }
+  /// Why nothing is told of the program.
+  std::optional<std::string_view> abandoned() const { return abandoned_; }
   void evaluated(ExpressionId expression, const Value &value) {
     if (observer_)
       observer_->evaluated(expression, value);
@@ -139,6 +142,7 @@ private:
   StepObserver *observer_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
   std::uint32_t nextSymbol_ = kFirstFreshSymbol;
+  std::optional<std::string_view> abandoned_;
   bool stopped_ = false;
   bool mayHaveDividedByZero_ = false;
 };

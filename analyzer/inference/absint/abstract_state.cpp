@@ -188,9 +188,8 @@ void joinInto(AbstractReading &reading, AbstractState &state, const AbstractStat
 
 void widenInto(AbstractReading &reading, AbstractState &old, const AbstractState &next,
                std::span<const double> thresholds) {
-  combineInto(reading, old, next, [&](const AbstractValue &x, const AbstractValue &y) {
-    return widen(x, join(x, y), thresholds);
-  });
+  combineInto(reading, old, next,
+              [&](const AbstractValue &x, const AbstractValue &y) { return widen(x, join(x, y), thresholds); });
 }
 
 // ---- the reading's operations on whole states ----------------------------------------------------------------------
@@ -250,7 +249,8 @@ void AbstractReading::alarmsOfAnyOf(const Value &index, Use use, const Value &va
     if (first > last || (first == last && !hasIndex(index, first)))
       continue;
     existing += last - first + 1;
-    isProtected = isProtected || row.access == (use == Use::Read ? VariableAccess::WriteOnly : VariableAccess::ReadOnly);
+    isProtected =
+        isProtected || row.access == (use == Use::Read ? VariableAccess::WriteOnly : VariableAccess::ReadOnly);
     stops = stops || (use == Use::Write && row.role == VariableRole::Alarm);
   }
   if (existing <= range.last - range.first)
@@ -264,7 +264,7 @@ void AbstractReading::alarmsOfAnyOf(const Value &index, Use use, const Value &va
 AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span place) {
   alarmsOfAnyOf(index, Use::Read, index, place);
   const auto range = indicesOf(index);
-  if (!range || range->last - range->first > kMostIndices)
+  if (!range || range->last - range->first > kMostIndices || !cellsBeside(*dialect_, range->first, range->last).empty())
     return anything();
   std::optional<AbstractValue> all;
   for (std::uint32_t variable = range->first; variable <= range->last; ++variable) {
@@ -274,7 +274,8 @@ AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span 
     AbstractValue one = anything();
     if (row && row->kind == VariableKind::Local && variable <= kLocalVariables)
       one = state.locals[variable];
-    else if (row && (row->role == VariableRole::Plain || row->role == VariableRole::Stored))
+    else if (row && (row->role == VariableRole::Plain || row->role == VariableRole::Stored ||
+                     row->role == VariableRole::AdditionalWorkOffset))
       one = state.variables.find(variable) ? *state.variables.find(variable) : unwritten(state, variable);
     all = all ? feedhold::join(*all, one) : one;
   }
@@ -290,13 +291,15 @@ void AbstractReading::writeAnyOf(State &state, const Value &index, const Value &
   std::vector<std::pair<std::uint32_t, AbstractValue>> kept;
   for (const auto &[variable, old] : state.variables.entries())
     if (range.first <= variable && variable <= range.last)
-      kept.emplace_back(variable, hasIndex(index, variable)
-                                      ? feedhold::join(old, value).withOrigin(std::nullopt)
-                                      : old);
+      kept.emplace_back(variable,
+                        hasIndex(index, variable) ? feedhold::join(old, value).withOrigin(std::nullopt) : old);
   forget(state.forgotten, {range.first, range.last});
   for (auto &[variable, joined] : kept)
     state.variables.set(variable, joined);
-  if (range.last >= kFirstWorkOffset)
+  const std::vector<VariableSpan> beside = cellsBeside(*dialect_, range.first, range.last);
+  for (const VariableSpan &other : beside)
+    forgetVariables(state, other.first, other.last);
+  if (range.last >= kFirstWorkOffset || !beside.empty())
     state.position.fill(AbstractValue::anyNumber());
 }
 

@@ -94,10 +94,11 @@ private:
         given.vacancy == Vacancy::Possible ? AbstractValue::vacantOr(*number) : AbstractValue::number(*number);
     if (given.variable <= kLocalVariables)
       return meetCell(state_.locals[given.variable], wanted);
-    const AbstractValue *known = state_.variables.find(given.variable);
-    AbstractValue cell = known ? *known : reading_.unwritten(state_, given.variable);
+    const std::uint32_t place = cellOf(*within_.dialect, given.variable);
+    const AbstractValue *known = state_.variables.find(place);
+    AbstractValue cell = known ? *known : reading_.unwritten(state_, place);
     meetCell(cell, wanted);
-    state_.variables.set(given.variable, std::move(cell));
+    state_.variables.set(place, std::move(cell));
   }
   static void meetCell(AbstractValue &cell, const AbstractValue &wanted) {
     if (const auto met = meet(cell, wanted))

@@ -86,6 +86,8 @@ bool Engine::spend(std::uint64_t cost) {
   spent_ += cost;
   if (spent_ > options_.budget && !gaveUp_)
     gaveUp_ = "the programs are too involved to be followed within the budget";
+  if (!gaveUp_)
+    gaveUp_ = reading_.abandoned();
   return !gaveUp_;
 }
 

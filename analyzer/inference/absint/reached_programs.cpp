@@ -21,10 +21,9 @@ void collectReached(const ProgramSet &programs, ProgramRef from, ReachedPrograms
       continue;
     const ProgramFile &file = programs.file(next.file);
     for (const Call &call : file.model->callsOf(next.program)) {
-      if (const auto callee = programs.callGraph().callee(next.file, call))
-        open.push_back(*callee);
-      else
-        reached.orAny = reached.orAny || isComputed(*file.tree, call);
+      const auto callees = programs.callGraph().candidates(next.file, call);
+      open.insert(open.end(), callees.begin(), callees.end());
+      reached.orAny = reached.orAny || (callees.empty() && isComputed(*file.tree, call));
     }
   }
 }

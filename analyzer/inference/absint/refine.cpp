@@ -32,18 +32,12 @@ private:
 
 OperatorKind opposite(OperatorKind op) {
   switch (op) {
-  case OperatorKind::Equal:
-    return OperatorKind::NotEqual;
-  case OperatorKind::NotEqual:
-    return OperatorKind::Equal;
-  case OperatorKind::GreaterThan:
-    return OperatorKind::LessOrEqual;
-  case OperatorKind::GreaterOrEqual:
-    return OperatorKind::LessThan;
-  case OperatorKind::LessThan:
-    return OperatorKind::GreaterOrEqual;
-  case OperatorKind::LessOrEqual:
-    return OperatorKind::GreaterThan;
+  case OperatorKind::Equal: return OperatorKind::NotEqual;
+  case OperatorKind::NotEqual: return OperatorKind::Equal;
+  case OperatorKind::GreaterThan: return OperatorKind::LessOrEqual;
+  case OperatorKind::GreaterOrEqual: return OperatorKind::LessThan;
+  case OperatorKind::LessThan: return OperatorKind::GreaterOrEqual;
+  case OperatorKind::LessOrEqual: return OperatorKind::GreaterThan;
   case OperatorKind::Add:
   case OperatorKind::Subtract:
   case OperatorKind::Multiply:
@@ -52,8 +46,7 @@ OperatorKind opposite(OperatorKind op) {
   case OperatorKind::Power:
   case OperatorKind::And:
   case OperatorKind::Or:
-  case OperatorKind::Xor:
-    break;
+  case OperatorKind::Xor: break;
   }
   return op;
 }
@@ -102,8 +95,7 @@ public:
     if (!operation)
       return holds == Holds::Yes || isZero(inner);
     if (isRelation(operation->op))
-      return relation(holds == Holds::Yes ? operation->op : opposite(operation->op), operation->left,
-                      operation->right);
+      return relation(holds == Holds::Yes ? operation->op : opposite(operation->op), operation->left, operation->right);
     if (operation->op == OperatorKind::And && holds == Holds::Yes)
       return conditionOrValue(operation->left, holds) && conditionOrValue(operation->right, holds);
     if (operation->op == OperatorKind::Or && holds == Holds::No)
@@ -214,8 +206,8 @@ private:
   /// A vacant operand counts as 0.
   bool within(ExpressionId id, const Interval &wanted) {
     const AbstractValue present = value(id);
-    const auto number = present.mayBeNumber() ? meet(present.number(), AbstractNumber::inInterval(loosened(wanted)))
-                                              : std::nullopt;
+    const auto number =
+        present.mayBeNumber() ? meet(present.number(), AbstractNumber::inInterval(loosened(wanted))) : std::nullopt;
     const bool vacantFits = present.mayBeVacant() && loosened(wanted).contains(0.0);
     if (!number)
       return vacantFits ? push(id, AbstractValue::vacant()) : false;
@@ -245,6 +237,8 @@ private:
     if (range && (range->role == VariableRole::BlockEndPosition || range->role == VariableRole::WorkPosition))
       return number - range->first < kAxisCount ? &state_.position[number - range->first] : nullptr;
     if (range && range->role != VariableRole::Plain && range->role != VariableRole::Stored)
+      return nullptr;
+    if (range && (findBitWord(context_.dialect(), number) || feedhold::cellOf(context_.dialect(), number) != number))
       return nullptr;
     if (!state_.variables.find(number))
       state_.variables.set(number, context_.reading.unwritten(state_, number));

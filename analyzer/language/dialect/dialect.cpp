@@ -37,6 +37,74 @@ const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) 
   return number <= range.last ? &range : nullptr;
 }
 
+namespace {
+
+/// On: the cells are the same.
+Switch isSame(const Dialect &dialect, const CellAlias &alias) {
+  const Switch v15 = dialect.switches.v15;
+  switch (alias.when) {
+  case AliasWhen::Always: return Switch::On;
+  case AliasWhen::Perhaps: return Switch::Unknown;
+  case AliasWhen::WithV15: return v15;
+  case AliasWhen::WithoutV15: return v15 == Switch::Unknown ? v15 : v15 == Switch::On ? Switch::Off : Switch::On;
+  }
+  return Switch::Unknown;
+}
+
+/// All cells that the row names.
+VariableSpan cellsOf(const CellAlias &alias) {
+  const std::uint32_t rows = (alias.last - alias.first) / alias.period;
+  return {alias.cell, alias.cell + rows * alias.rowStep + (alias.width - 1) * alias.columnStep};
+}
+
+bool meets(VariableSpan a, VariableSpan b) { return a.first <= b.last && b.first <= a.last; }
+
+} // namespace
+
+std::uint32_t cellOf(const Dialect &dialect, std::uint32_t number) {
+  for (const CellAlias &alias : dialect.aliases)
+    if (isSame(dialect, alias) == Switch::On)
+      if (const auto cell = alias.cellOf(number))
+        return *cell;
+  return number;
+}
+
+std::vector<std::uint32_t> perhapsSameAs(const Dialect &dialect, std::uint32_t cell) {
+  std::vector<std::uint32_t> others;
+  for (const CellAlias &alias : dialect.aliases) {
+    if (isSame(dialect, alias) != Switch::Unknown)
+      continue;
+    if (const auto other = alias.cellOf(cell))
+      others.push_back(cellOf(dialect, *other));
+    if (const VariableSpan cells = cellsOf(alias); cells.first <= cell && cell <= cells.last)
+      for (std::uint32_t number = alias.first; number <= alias.last; ++number)
+        if (alias.cellOf(number) == cell)
+          others.push_back(cellOf(dialect, number));
+  }
+  return others;
+}
+
+const BitWord *findBitWord(const Dialect &dialect, std::uint32_t number) {
+  const auto found = std::find_if(dialect.bitWords.begin(), dialect.bitWords.end(),
+                                  [number](const BitWord &row) { return row.word == number; });
+  return found != dialect.bitWords.end() ? &*found : nullptr;
+}
+
+std::vector<VariableSpan> cellsBeside(const Dialect &dialect, std::uint32_t first, std::uint32_t last) {
+  std::vector<VariableSpan> beside;
+  for (const CellAlias &alias : dialect.aliases) {
+    const Switch same = isSame(dialect, alias);
+    if (same != Switch::Off && meets({first, last}, {alias.first, alias.last}))
+      beside.push_back(cellsOf(alias));
+    if (same == Switch::Unknown && meets({first, last}, cellsOf(alias)))
+      beside.push_back({alias.first, alias.last});
+  }
+  for (const BitWord &row : dialect.bitWords)
+    if (first <= row.word && row.word <= last)
+      beside.push_back({row.firstBit, row.firstBit + row.bits - 1});
+  return beside;
+}
+
 const Function *findFunction(const Dialect &dialect, FunctionKind kind) {
   const auto found = std::find_if(dialect.functions.begin(), dialect.functions.end(),
                                   [kind](const Function &function) { return function.kind == kind; });
@@ -81,6 +149,22 @@ const CodeCall *findCodeCall(const Dialect &dialect, char address, std::uint16_t
     if (call.address == address && call.tenths == tenths)
       return &call;
   return nullptr;
+}
+
+bool callsMacro(const Dialect &dialect, char address, std::uint16_t tenths) {
+  const Code *code = address == 'G'   ? findGCode(dialect, tenths)
+                     : address == 'M' ? findMCode(dialect, tenths)
+                                      : nullptr;
+  if (code &&
+      (code->role == CodeRole::MacroCall || code->role == CodeRole::ModalCall || code->role == CodeRole::ModalCallEach))
+    return true;
+  const CodeCall *call = findCodeCall(dialect, address, tenths);
+  return call && call->isMacro;
+}
+
+std::uint8_t argumentVariable(const Dialect &dialect, char address) {
+  return address >= 'A' && address <= 'Z' ? dialect.argumentVariables[static_cast<std::size_t>(address - 'A')]
+                                          : std::uint8_t{0};
 }
 
 } // namespace feedhold

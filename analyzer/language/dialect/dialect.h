@@ -62,12 +62,22 @@ enum class CodeRole : std::uint8_t {
   JumpOnInput,     // M96 P Q of controls that have it: jumps to N P while input Q is off
 };
 
-/// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  None: nothing that a
-/// program could notice in its variables or its path.  Unmodelled: it changes what coordinates mean in a way that is
-/// not followed, so that nothing is known of positions behind it.
+/// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  Every row of a table
+/// names one; a test refuses Unclassified.
 enum class CodeAction : std::uint8_t {
-  None,
-  Unmodelled,
+  Unclassified,
+  // Neither variables nor coordinates nor the path change, and why:
+  ByRole,       // what it does follows from its role: calls, returns, ends, stops
+  Device,       // it moves, switches or asks something beside the path: coolant, doors, chucks, spindles, displays
+  Tolerance,    // how fast and how exactly a path is followed, not which one
+  Check,        // at most it stops the machine
+  EndOfMode,    // it ends a mode of its modal group, which is all that is kept of the mode
+  InterruptOff, // no macro interrupt is armed any more
+  // Not followed:
+  Unmodelled,  // it changes what coordinates mean: nothing is known of positions behind it
+  Anything,    // it may change anything
+  InterruptOn, // arms a macro interrupt: from here on another program may run, and jump, between any two blocks
+  // Followed:
   Rapid,
   Linear,
   ArcClockwise,
@@ -144,13 +154,17 @@ enum class CodeAction : std::uint8_t {
   CoolantOff,
 };
 inline constexpr std::size_t kCodeActions = static_cast<std::size_t>(CodeAction::CoolantOff) + 1;
+/// No program notices the code in its variables or its path.
+constexpr bool changesNothing(CodeAction action) {
+  return CodeAction::ByRole <= action && action <= CodeAction::InterruptOff;
+}
 
 /// A G or M code.  `tenths`: ten times its number, so that G54.1 is 541.
 struct Code {
   std::uint16_t tenths = 0;
   std::uint8_t group = 0; // modal group of the control's own list; 0: not modal
   CodeRole role = CodeRole::Plain;
-  CodeAction action = CodeAction::None;
+  CodeAction action = CodeAction::Unclassified;
   std::string_view meaning; // for hover texts and messages: "linear interpolation"
 };
 
@@ -174,9 +188,10 @@ enum class VariableRole : std::uint8_t {
   MachinePosition,
   WorkPosition,
   SkipPosition,
-  WorkOffset, // in steps of 20 from #5201: external, G54 .. G59
-  SetOffset,  // of G92
-  Reference,  // machine coordinates to which G28 returns
+  WorkOffset,           // in steps of 20 from #5201: external, G54 .. G59
+  AdditionalWorkOffset, // of G54.1, G154
+  SetOffset,            // of G92
+  Reference,            // machine coordinates to which G28 returns
   SecondReference,
   Pi,
   EulersNumber,
@@ -192,6 +207,40 @@ struct VariableRange {
   VariableRole role = VariableRole::Plain;
   std::string_view name = {};    // `_ALM` where the control names it
   std::string_view meaning = {}; // "macro alarm"
+};
+
+/// When two numbers name one cell of the control.
+enum class AliasWhen : std::uint8_t {
+  Always,
+  WithV15,    // parameter 6000#3
+  WithoutV15, // with the parameter the numbers are tool offsets
+  Perhaps,    // no source decides: both outcomes
+};
+/// Numbers that name cells which have other numbers too: first + i * period + j, for j below width, is the cell
+/// cell + i * rowStep + j * columnStep.
+struct CellAlias {
+  std::uint32_t first;
+  std::uint32_t last;
+  std::uint32_t period;
+  std::uint32_t width;
+  std::uint32_t cell;
+  std::uint32_t rowStep;
+  std::uint32_t columnStep;
+  AliasWhen when;
+  /// The other number; absent for a number that the row does not have.
+  constexpr std::optional<std::uint32_t> cellOf(std::uint32_t number) const {
+    const std::uint32_t place = number - first;
+    if (number < first || number > last || place % period >= width)
+      return std::nullopt;
+    return cell + place / period * rowStep + place % period * columnStep;
+  }
+};
+/// A variable that reads and writes others as the bits of one number.
+struct BitWord {
+  std::uint32_t word;
+  std::uint32_t firstBit; // the variable of bit 0
+  std::uint32_t sureBits; // so many have the control for certain ..
+  std::uint32_t bits;     // .. and so many perhaps
 };
 
 /// Exponent: the result has to be a number that the control can hold.
@@ -382,6 +431,8 @@ struct Dialect {
   std::span<const Code> gCodes;              // sorted by tenths
   std::span<const Code> mCodes;              // sorted by tenths
   std::span<const VariableRange> variables;  // sorted, without overlap
+  std::span<const CellAlias> aliases;
+  std::span<const BitWord> bitWords;
   std::span<const Function> functions;
   std::span<const Operator> operators;
   std::span<const AlarmNumber> alarms;
@@ -402,6 +453,17 @@ const AddressFormat &formatOf(const Dialect &dialect, char address);
 const Code *findGCode(const Dialect &dialect, std::uint16_t tenths);
 const Code *findMCode(const Dialect &dialect, std::uint16_t tenths);
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
+/// The number by which the state keeps the cell that a variable names: one number for all its names.
+std::uint32_t cellOf(const Dialect &dialect, std::uint32_t number);
+/// Cells that may be the same one as this, or not.
+std::vector<std::uint32_t> perhapsSameAs(const Dialect &dialect, std::uint32_t cell);
+const BitWord *findBitWord(const Dialect &dialect, std::uint32_t number);
+struct VariableSpan {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+/// The cells beside those from first to last that a write to one of the numbers may change.
+std::vector<VariableSpan> cellsBeside(const Dialect &dialect, std::uint32_t first, std::uint32_t last);
 const Function *findFunction(const Dialect &dialect, FunctionKind kind);
 /// 0 when the dialect does not have the operator.
 int precedenceOf(const Dialect &dialect, OperatorKind op);
@@ -414,5 +476,9 @@ std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind ki
 /// "stops with PS0112 (divided by zero)", or without a number where it is not known.
 std::string stopsWith(const Dialect &dialect, AlarmKind kind);
 const CodeCall *findCodeCall(const Dialect &dialect, char address, std::uint16_t tenths);
+/// G65, G66, G66.1, or a code that the machine's parameters make a macro call: the words behind it are arguments.
+bool callsMacro(const Dialect &dialect, char address, std::uint16_t tenths);
+/// The local variable that an address sets by argument assignment I; 0 where it passes nothing.
+std::uint8_t argumentVariable(const Dialect &dialect, char address);
 
 } // namespace feedhold

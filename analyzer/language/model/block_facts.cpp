@@ -6,7 +6,7 @@
 namespace feedhold {
 
 const Code *codeOf(const Word &word, const Dialect &dialect) {
-  if (word.address() != 'G' && word.address() != 'M')
+  if (!word.isCode())
     return nullptr;
   const std::optional<std::uint16_t> tenths = word.tenths();
   if (!tenths)

@@ -12,7 +12,7 @@ namespace feedhold {
 const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &dialect, CodeRole role);
 /// The first word of an address; comma words do not count.
 const Word *findWord(const SyntaxTree &tree, BlockId block, char address);
-/// The dialect's row for a G or M word with a literal number.
+/// The dialect's row for a G or M word with a literal number; none for an argument of a call.
 const Code *codeOf(const Word &word, const Dialect &dialect);
 
 /// How the control goes on after a block that is not skipped.

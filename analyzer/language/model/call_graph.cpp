@@ -71,7 +71,7 @@ struct CallGraph::Impl {
 
   void indexPrograms();
   void indexCalls();
-  std::optional<ProgramRef> find(FileId from, const ProgramName &name) const;
+  std::vector<ProgramRef> find(FileId from, const ProgramName &name) const;
   void computeDepths(ProgramRef start);
   std::optional<Depth> depthFromCallees(ProgramRef program) const;
 };
@@ -92,21 +92,28 @@ void CallGraph::Impl::indexPrograms() {
   }
 }
 
-/// The caller's own file first, then its folder, then everywhere; the first in order of the files where there are
-/// several.  A subroutine of o-words is found in the caller's own file or in the one named after it (`name.ngc`).
-std::optional<ProgramRef> CallGraph::Impl::find(FileId from, const ProgramName &name) const {
+/// The caller's own file first, then its folder, then everywhere; all of the nearest place.  A subroutine of o-words is
+/// found in the caller's own file or in the one named after it (`name.ngc`).
+std::vector<ProgramRef> CallGraph::Impl::find(FileId from, const ProgramName &name) const {
   const auto found = name.empty() ? byName.end() : byName.find(keyOf(name));
   if (found == byName.end())
-    return std::nullopt;
+    return {};
   const std::string &folder = file(from).folder;
   const auto distance = [&](const ProgramRef &ref) {
     const bool isInReach = !name.isSubroutine || ref.file == from || comparedName(file(ref.file).stem) == name.text;
     return !isInReach ? 3 : ref.file == from ? 0 : file(ref.file).folder == folder ? 1 : 2;
   };
-  const auto nearest =
-      std::min_element(found->second.begin(), found->second.end(),
-                       [&](const ProgramRef &a, const ProgramRef &b) { return distance(a) < distance(b); });
-  return distance(*nearest) < 3 ? std::optional(*nearest) : std::nullopt;
+  int nearest = 3;
+  std::vector<ProgramRef> programs;
+  for (const ProgramRef &ref : found->second) {
+    const int here = distance(ref);
+    if (here < nearest)
+      programs.clear();
+    if (here < 3 && here <= nearest)
+      programs.push_back(ref);
+    nearest = std::min(nearest, here);
+  }
+  return programs;
 }
 
 void CallGraph::Impl::indexCalls() {
@@ -115,11 +122,10 @@ void CallGraph::Impl::indexCalls() {
       const Call &call = each.model->calls[CallId(i)];
       if (!transfersControl(call.kind))
         continue;
-      const std::optional<ProgramRef> target = find(each.file, call.callee);
-      if (!target)
-        continue;
-      callees[{each.file, call.caller}].push_back({*target, call.kind});
-      callers[*target].push_back({each.file, CallId(i)});
+      for (const ProgramRef &target : find(each.file, call.callee)) {
+        callees[{each.file, call.caller}].push_back({target, call.kind});
+        callers[target].push_back({each.file, CallId(i)});
+      }
     }
   for (const ModelledFile &each : files)
     for (std::size_t i = 0; i < each.model->programs.size(); ++i)
@@ -177,7 +183,25 @@ CallGraph::CallGraph(std::vector<ModelledFile> files) {
 }
 
 std::optional<ProgramRef> CallGraph::callee(FileId file, const Call &call) const {
-  return impl_ && transfersControl(call.kind) ? impl_->find(file, call.callee) : std::nullopt;
+  const std::vector<ProgramRef> programs = candidates(file, call);
+  return programs.size() == 1 ? std::optional(programs.front()) : std::nullopt;
+}
+
+std::vector<ProgramRef> CallGraph::candidates(FileId file, const Call &call) const {
+  return impl_ && transfersControl(call.kind) ? impl_->find(file, call.callee) : std::vector<ProgramRef>();
+}
+
+std::vector<ProgramRef> CallGraph::namesakes(ProgramRef program) const {
+  std::vector<ProgramRef> others;
+  if (!impl_)
+    return others;
+  const auto found = impl_->byName.find(keyOf(model(program.file).programs[program.program].name));
+  if (found == impl_->byName.end())
+    return others;
+  for (const ProgramRef &ref : found->second)
+    if (ref != program && impl_->file(ref.file).folder == impl_->file(program.file).folder)
+      others.push_back(ref);
+  return others;
 }
 
 std::vector<CallGraph::Caller> CallGraph::callers(ProgramRef program) const {

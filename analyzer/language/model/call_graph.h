@@ -30,8 +30,13 @@ public:
   CallGraph() = default;
   explicit CallGraph(std::vector<ModelledFile> files);
 
-  /// The program that a call reaches; absent when it is in none of the files.
+  /// The program that a call reaches; absent when it is in none of the files, or when several have the number.
   std::optional<ProgramRef> callee(FileId file, const Call &call) const;
+  /// The programs that a call may reach: several where one number is given twice, so that which of them the control
+  /// has in its memory is not known.
+  std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
+  /// The other programs of its file and its folder that have the name of a program.
+  std::vector<ProgramRef> namesakes(ProgramRef program) const;
   /// The calls that reach a program.
   struct Caller {
     FileId file;

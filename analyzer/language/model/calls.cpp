@@ -128,7 +128,7 @@ void findCalls(const ResolveContext &context, ProgramModel &model) {
       if (const auto *oWord = std::get_if<OWord>(&statement.node); oWord && oWord->kind == OWordKind::Call)
         model.calls.add(readOWordCall(context, model, block, *oWord, statement.span));
     for (const Word &word : tree.wordsOf(block)) {
-      if (word.address() != 'G' && word.address() != 'M' && word.address() != 'T')
+      if (!word.isCode() && (word.address() != 'T' || word.has(Word::kArgument)))
         continue;
       if (const std::optional<CallKind> kind = kindOf(word, context.dialect)) {
         model.calls.add(readCall(context, model, block, word, *kind));
@@ -192,8 +192,7 @@ std::vector<Argument> assignArguments(const ResolveContext &context, BlockId blo
                            fits ? ArgumentRole::Passed : ArgumentRole::BeyondSets, set > 0});
       continue;
     }
-    const std::uint8_t variable =
-        letter >= 'A' && letter <= 'Z' ? context.dialect.argumentVariables[static_cast<std::size_t>(letter - 'A')] : 0;
+    const std::uint8_t variable = argumentVariable(context.dialect, letter);
     if (variable != 0)
       arguments.push_back({id, variable, ArgumentRole::Passed, false});
     else if (!isArgumentless(letter) || letter == 'O' || letter == 'N')

@@ -49,6 +49,7 @@ void Parser::closeBlock() {
   if (lowerCase_ && !quiet_)
     tree_.lowerCase.push_back(*lowerCase_);
   noteBlockCodes();
+  markArguments();
   tree_.blocks.add(block_);
 }
 
@@ -290,6 +291,20 @@ void Parser::noteBlockCodes() {
     parameters = parameters || (word.address() == 'L' && (word.integer() == 50u || word.integer() == 52u));
   }
   dataBlocks_ = dataBlocks_ || (dataSetting && parameters);
+}
+
+/// Behind `G65` and its like every word is an argument whose address can be one, whatever it means elsewhere.
+void Parser::markArguments() {
+  if (block_.has(Block::kData))
+    return;
+  bool inCall = false;
+  for (std::size_t i = block_.firstWord.index(); i < tree_.words.size(); ++i) {
+    Word &word = tree_.words[WordId(i)];
+    if (inCall && !word.has(Word::kComma) && argumentVariable(dialect_, word.address()) != 0)
+      word.mark(Word::kArgument);
+    else
+      inCall = inCall || (word.tenths() && callsMacro(dialect_, word.address(), *word.tenths()));
+  }
 }
 
 } // namespace feedhold

@@ -62,7 +62,7 @@ constexpr std::uint8_t usualPrecedence(OperatorKind op) {
 SyntaxTree parse(const SourceFile &source, const Dialect &dialect) { return Parser(source.text(), dialect).run(); }
 
 Parser::Parser(std::string_view text, const Dialect &dialect)
-    : text_(text), grammar_(dialect.grammar), lexer_(text, dialect.grammar) {
+    : text_(text), dialect_(dialect), grammar_(dialect.grammar), lexer_(text, dialect.grammar) {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(OperatorKind::LessOrEqual); ++i) {
     const auto op = static_cast<OperatorKind>(i);
     const int own = precedenceOf(dialect, op);

@@ -55,6 +55,7 @@ private:
   void readStrayCloseParenthesis();
   void skipBrokenRest();
   void noteBlockCodes();
+  void markArguments();
 
   // statements.cpp
   void readStatement();
@@ -121,6 +122,7 @@ private:
   std::optional<Decimal> numberHere();
 
   std::string_view text_;
+  const Dialect &dialect_;
   const Grammar &grammar_;
   Lexer lexer_;
   SyntaxTree tree_;

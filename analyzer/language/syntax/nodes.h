@@ -38,6 +38,7 @@ public:
     kAfterThen = 4,  // belongs to the action of an IF
     kSigned = 8,     // a sign is written
     kAfterSkip = 16, // stands after a `/` in mid-block
+    kArgument = 32,  // sets a variable of the program that the block calls: M of `G65 P1 M30.` is no code
   };
 
   Word(char address, WordForm form, Span span, std::uint8_t flags)
@@ -58,6 +59,9 @@ public:
   WordForm form() const { return form_; }
   Span span() const { return {begin_, end_}; }
   bool has(Flag flag) const { return (flags_ & flag) != 0; }
+  void mark(Flag flag) { flags_ = static_cast<std::uint8_t>(flags_ | flag); }
+  /// A G or M word that is executed, or would be if the control had the code.
+  bool isCode() const { return (address_ == 'G' || address_ == 'M') && !has(kArgument); }
   bool isNumber() const { return form_ == WordForm::Number; }
   /// Only of a Number.
   Decimal number() const { return Decimal(payload_, scale_); }

@@ -15,12 +15,18 @@ void Lowering::block(BlockId id) {
   if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && !block.has(Block::kBroken)))
     return;
   block_ = id;
-  if (!isPlain(id)) {
+  if (isPlain(id))
+    plainBlock(id);
+  else
     wholeBlock(id);
-    return;
-  }
+  // Jumps arrive at a node of the block itself: that of the next block may be the head of a loop, or behind a gate.
+  if (end() == cfg_.nodeOf(id) && !model_.sequenceNumbersIn(id, id.next()).empty())
+    emit(Pass{});
+}
+
+void Lowering::plainBlock(BlockId id) {
   const std::span<const Word> all = tree_.wordsOf(id);
-  const bool data = block.has(Block::kData);
+  const bool data = tree_.blocks[id].has(Block::kData);
   const bool acts = std::any_of(all.begin(), all.end(), [&](const Word &word) {
     return data || word.has(Word::kComma) || (word.address() != 'N' && word.address() != 'O' && word.address() != '<');
   });

@@ -30,6 +30,7 @@ private:
   // lower_blocks.cpp
   void block(BlockId id);
   bool isPlain(BlockId id);
+  void plainBlock(BlockId id);
   void wholeBlock(BlockId id);
   void brokenBlock(const BlockWords &words);
   void words(const BlockWords &words);

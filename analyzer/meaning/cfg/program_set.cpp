@@ -86,8 +86,8 @@ void ProgramSet::findModalCallees(const ProgramFile &from) {
     if (kind != CallKind::Modal && kind != CallKind::ModalEach)
       continue;
     hasModalCalls_ = true;
-    if (const auto found = callee(from.file, CallId(i)))
-      modalCallees_.push_back(*found);
+    const std::vector<Callee> found = candidates(from.file, from.model->calls[CallId(i)]);
+    modalCallees_.insert(modalCallees_.end(), found.begin(), found.end());
   }
 }
 
@@ -131,6 +131,13 @@ std::optional<Callee> ProgramSet::callee(FileId id, CallId callId) const {
   const std::optional<NodeId> label =
       findLabel(to.cfg, *to.model, program->program, *number, lastBlockOf(to.model->programs[program->program]));
   return label ? std::optional(Callee{program->file, *label, program->program}) : std::nullopt;
+}
+
+std::vector<Callee> ProgramSet::candidates(FileId file, const Call &call) const {
+  std::vector<Callee> callees;
+  for (const ProgramRef &program : callGraph_.candidates(file, call))
+    callees.push_back(*entryOf(program));
+  return callees;
 }
 
 std::optional<Callee> ProgramSet::calleeOf(FileId caller, std::uint32_t programNumber) const {

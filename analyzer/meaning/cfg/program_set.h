@@ -52,6 +52,8 @@ public:
   /// Absent when the program is in none of the files, its number is computed, its start (Q of M98, P of M97) is missing
   /// or not known, or the call transfers no control (G67, Macro A).
   std::optional<Callee> callee(FileId file, CallId call) const;
+  /// The programs that a call may enter: several where their number is given twice.
+  std::vector<Callee> candidates(FileId file, const Call &call) const;
   /// As callee, for a number that is known only when the call is made.
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
   /// Some program that others call, or that returns to a caller, assigns to the variable by its number.
@@ -88,7 +90,7 @@ private:
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_;
   bool hasModalCalls_ = false;
-  std::vector<std::uint32_t> written_; // sorted
+  std::vector<std::uint32_t> written_;                              // sorted
   std::vector<std::string> names_;                                  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };

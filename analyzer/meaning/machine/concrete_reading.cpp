@@ -153,6 +153,13 @@ ConcreteValue ConcreteReading::given(std::uint32_t variable) const {
   return range && range->kind == VariableKind::System ? Value::of(0) : Value{};
 }
 
+GivenVariables ConcreteReading::byCell(const Dialect &dialect, const GivenVariables &given) {
+  GivenVariables cells;
+  for (const auto &[variable, value] : given.entries())
+    cells.set(cellOf(dialect, variable), value);
+  return cells;
+}
+
 bool ConcreteReading::isLocal(std::uint32_t variable) const {
   const VariableRange *range = variable <= kLocalVariables ? findVariable(*dialect_, variable) : nullptr;
   return range && range->kind == VariableKind::Local;

@@ -38,7 +38,7 @@ public:
   using State = MachineState<ConcreteReading>;
 
   ConcreteReading(const Dialect &dialect, GivenVariables given, WordRounding rounding = WordRounding::Increment)
-      : dialect_(&dialect), given_(std::move(given)), rounding_(rounding) {}
+      : dialect_(&dialect), given_(byCell(dialect, given)), rounding_(rounding) {}
 
   // ---- what happened, for the machine ----
   enum class Stop : std::uint8_t { None, ControlAlarm, UserAlarm };
@@ -128,9 +128,13 @@ public:
   void move(const Move<Value> &move);
   void notModelled(std::string_view reason, Span) { notes_.push_back(reason); }
   void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
+  void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
+  /// Under the one number of each cell.
+  static GivenVariables byCell(const Dialect &dialect, const GivenVariables &given);
+
   const Dialect *dialect_;
   GivenVariables given_;
   WordRounding rounding_;

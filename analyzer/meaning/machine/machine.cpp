@@ -249,6 +249,10 @@ private:
 
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
   bool enter(const CallRequest<ConcreteReading> &request, std::optional<std::size_t> modal) {
+    if (!request.callee && !request.possible.empty()) {
+      giveUp("a program whose number several programs of the run have");
+      return true;
+    }
     if (!request.callee || callsNothing(request.repeats.number)) {
       reading_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
       return false;

@@ -133,12 +133,14 @@ concept HearsEffects = requires(R reading, const typename R::Value value, const 
   reading.notModelled(std::string_view(), place);
   /// Anything may have happened to the whole state.
   reading.havoc(state, std::string_view(), place);
+  /// From here on nothing that the text says need hold, nor did it perhaps before: no claim on the program is made.
+  reading.abandon(std::string_view(), place);
   /// An expression has been evaluated.
   reading.evaluated(expression, value);
 };
 
 template <typename R>
-concept ValueAlgebra = HasValues<R> && HasArithmetic<R> && HasTruths<R> && HasModalCodes<R> && HasVariables<R> &&
-                       HearsEffects<R>;
+concept ValueAlgebra =
+    HasValues<R> && HasArithmetic<R> && HasTruths<R> && HasModalCodes<R> && HasVariables<R> && HearsEffects<R>;
 
 } // namespace feedhold

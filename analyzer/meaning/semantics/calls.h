@@ -19,7 +19,7 @@ template <typename R> struct CallRequest {
   std::vector<Callee> possible; // without `callee`: the programs of these files that a computed number may name
   bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
   std::array<typename R::Value, kLocalVariables + 1> locals;
-  typename R::Value repeats;    // L
+  typename R::Value repeats; // L
 };
 
 /// Reads the arguments.  SetModal and EndModal have been carried out when this returns.
@@ -44,11 +44,8 @@ public:
     CallRequest<R> request;
     request.repeats = reading_.number(1);
     switch (call_.kind) {
-    case CallKind::ModalCancel:
-      return endModal(std::move(request));
-    case CallKind::MacroA:
-      request.action = CallAction::Operation;
-      return request;
+    case CallKind::ModalCancel: return endModal(std::move(request));
+    case CallKind::MacroA: request.action = CallAction::Operation; return request;
     case CallKind::Modal:
     case CallKind::ModalEach:
       request.action = CallAction::SetModal;
@@ -58,16 +55,11 @@ public:
       context_.state.modalCalls.push_back({context_.file.file.index(), id_.index(), request.repeats, request.locals});
       return request;
     case CallKind::Macro:
-    case CallKind::OWord:
-      passArguments(request);
-      break;
-    case CallKind::Code:
-      passCode(request);
-      break;
+    case CallKind::OWord: passArguments(request); break;
+    case CallKind::Code: passCode(request); break;
     case CallKind::Subprogram:
     case CallKind::Local:
-    case CallKind::External:
-      break;
+    case CallKind::External: break;
     }
     request.callee = callee(request.possible);
     readRepeats(request);
@@ -100,8 +92,19 @@ private:
     for (const Argument &argument : call_.arguments)
       if (argument.role == ArgumentRole::Passed && argument.variable != 0)
         request.locals[argument.variable] = argumentValue(context_.tree().words[argument.word]);
+      else if (argument.role == ArgumentRole::Forbidden)
+        refuse(AlarmKind::ArgumentAddress, argument);
+      else if (argument.role == ArgumentRole::BeyondSets)
+        refuse(AlarmKind::TooManyIjkSets, argument);
     for (std::size_t i = 0; i < call_.values.size() && i + 1 < request.locals.size(); ++i)
       request.locals[i + 1] = evaluate(context_, call_.values[i]);
+  }
+  /// Most controls stop; G66.1 of some may pass a G.  Where one goes on, what it makes of the word is not known.
+  void refuse(AlarmKind alarm, const Argument &argument) {
+    const Span place = context_.tree().words[argument.word].span();
+    if (call_.kind != CallKind::ModalEach)
+      reading_.alarm(reading_.unknownTruth(), {alarm, place});
+    reading_.havoc(context_.state, "a word of a call that cannot be an argument", place);
   }
   /// Copied as it is: a vacant argument leaves its variable vacant, nothing is rounded.
   Value argumentValue(const Word &word) {
@@ -126,6 +129,8 @@ private:
   std::optional<Callee> callee(std::vector<Callee> &possible) {
     if (const auto known = context_.programs.callee(context_.file.file, id_))
       return known;
+    if (!call_.callee.empty())
+      possible = context_.programs.candidates(context_.file.file, call_);
     if (!call_.programWord || !call_.callee.empty())
       return std::nullopt;
     const Word &word = context_.tree().words[*call_.programWord];
@@ -137,7 +142,10 @@ private:
       possible = calleesOf(value);
     if (!number || *number < 0 || *number > 1e9)
       return std::nullopt;
-    return context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
+    const auto found = context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
+    if (!found)
+      addCandidates(static_cast<std::uint32_t>(*number), possible);
+    return found;
   }
   std::vector<Callee> calleesOf(const Value &value) {
     std::vector<Callee> callees;
@@ -145,9 +153,15 @@ private:
       for (const Program &program : context_.programs.file(FileId(i)).model->programs)
         if (program.name.number &&
             reading_.mayBe(reading_.compare(Relation::Equal, value, reading_.number(*program.name.number))))
-          if (const auto found = context_.programs.calleeOf(context_.file.file, *program.name.number))
-            callees.push_back(*found);
+          addCandidates(*program.name.number, callees);
     return callees;
+  }
+  void addCandidates(std::uint32_t number, std::vector<Callee> &callees) const {
+    Call named = call_;
+    named.callee = {number, ""};
+    for (const Callee &found : context_.programs.candidates(context_.file.file, named))
+      if (std::find(callees.begin(), callees.end(), found) == callees.end())
+        callees.push_back(found);
   }
   void readRepeats(CallRequest<R> &request) {
     if (call_.repeats) {
@@ -186,6 +200,9 @@ CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<ty
   request.locals = modal.locals;
   request.repeats = modal.repeats;
   request.callee = context.programs.callee(FileId(modal.file), CallId(modal.call));
+  if (!request.callee)
+    request.possible = context.programs.candidates(
+        FileId(modal.file), context.programs.file(FileId(modal.file)).model->calls[CallId(modal.call)]);
   return request;
 }
 

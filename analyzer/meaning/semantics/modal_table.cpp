@@ -24,7 +24,7 @@ constexpr std::array<KindRow, kModalKinds> kKinds = {{
     {ModalKind::Cycle, "canned cycle", CodeAction::CycleOff},
     {ModalKind::ReturnLevel, "return level", CodeAction::ReturnToR},
     {ModalKind::Scaling, "scaling", CodeAction::ScalingOff},
-    {ModalKind::ModalCall, "modal call", CodeAction::None},
+    {ModalKind::ModalCall, "modal call", CodeAction::Unclassified},
     {ModalKind::Spindle, "spindle mode", CodeAction::ConstantSpeed},
     {ModalKind::WorkOffset, "work offset", CodeAction::WorkOffset},
     {ModalKind::Rotation, "rotation", CodeAction::RotationOff},
@@ -34,10 +34,10 @@ constexpr std::array<KindRow, kModalKinds> kKinds = {{
 
 // FANUC parameter 3402 and the reset state that its manual names; a lathe starts in ZX with feed per revolution.
 constexpr std::array kPowerOnActions = {
-    CodeAction::Rapid,           CodeAction::PlaneXY,        CodeAction::Absolute,      CodeAction::ArcIncremental,
-    CodeAction::FeedPerMinute,   CodeAction::Metric,         CodeAction::CompensationOff, CodeAction::LengthOff,
-    CodeAction::CycleOff,        CodeAction::ReturnToInitial, CodeAction::ScalingOff,   CodeAction::ConstantSpeed,
-    CodeAction::WorkOffset,      CodeAction::RotationOff,    CodeAction::PolarOff,      CodeAction::MirrorOff,
+    CodeAction::Rapid,         CodeAction::PlaneXY,         CodeAction::Absolute,        CodeAction::ArcIncremental,
+    CodeAction::FeedPerMinute, CodeAction::Metric,          CodeAction::CompensationOff, CodeAction::LengthOff,
+    CodeAction::CycleOff,      CodeAction::ReturnToInitial, CodeAction::ScalingOff,      CodeAction::ConstantSpeed,
+    CodeAction::WorkOffset,    CodeAction::RotationOff,     CodeAction::PolarOff,        CodeAction::MirrorOff,
 };
 constexpr std::array kPowerOnTurning = {CodeAction::PlaneZX, CodeAction::FeedPerRevolution};
 
@@ -51,7 +51,7 @@ ModalTable::ModalTable(const Dialect &dialect) {
       continue;
     groups_[code.group].codes.push_back(&code);
     for (const KindRow &row : kKinds)
-      if (row.sample != CodeAction::None && code.action == row.sample)
+      if (row.sample != CodeAction::Unclassified && code.action == row.sample)
         kinds_[static_cast<std::size_t>(row.kind)] = code.group;
     if (code.role == CodeRole::ModalCallCancel)
       kinds_[static_cast<std::size_t>(ModalKind::ModalCall)] = code.group;

@@ -111,6 +111,7 @@ private:
                                     CodeAction::MirrorOn,
                                     CodeAction::MirrorOff,
                                     CodeAction::Unmodelled,
+                                    CodeAction::Anything,
                                     CodeAction::OtherCycle,
                                     CodeAction::TurningCycle,
                                     CodeAction::SideCycle};
@@ -135,7 +136,8 @@ private:
       referenceCheck();
     else if (action == CodeAction::TurningCycle)
       roundTrip(word.code->meaning, word.span);
-    else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled)
+    else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled ||
+             action == CodeAction::Anything)
       unfollowed(word);
     else
       Offsets<R>(context_, words_).carryOut(word);

@@ -126,7 +126,7 @@ private:
     const std::optional<double> which = kind ? reading_.constantOf(kind->value) : std::nullopt;
     const std::optional<std::uint32_t> first = firstOfSystem();
     if (which == 50.0 || which == 52.0)
-      return; // parameters of the machine
+      return reading_.abandon("parameters of the control that G10 sets", word.span);
     turnSystem(word, which);
     if (first && which == 2.0)
       return setWorkOffset(*first);
@@ -194,7 +194,8 @@ private:
   }
   void forgetStored(const CodeWord &word) {
     for (const VariableRange &range : context_.dialect().variables)
-      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset)
+      if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset ||
+          range.role == VariableRole::AdditionalWorkOffset)
         reading_.forgetVariables(state_, range.first, range.last);
     forgetOrigins(context_);
     reading_.notModelled("offsets set by G10", word.span);

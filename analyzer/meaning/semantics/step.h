@@ -95,6 +95,11 @@ template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice 
       if (range.role == VariableRole::SkipPosition)
         context.reading.forgetVariables(context.state, range.first, range.last);
   }
+  for (const CodeWord &word : words.codes)
+    if (word.code->action == CodeAction::Anything)
+      context.reading.havoc(context.state, word.code->meaning, word.span);
+    else if (word.code->action == CodeAction::InterruptOn)
+      context.reading.abandon("a macro interrupt is armed, and its program may run between any two blocks", word.span);
   if (words.unfollowed)
     context.reading.havoc(context.state, "a code that is not known", context.place());
 }

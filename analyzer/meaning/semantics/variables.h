@@ -33,20 +33,13 @@ namespace detail {
 /// and the like, which are not followed.
 constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
   switch (offset) {
-  case 2:
-    return 'B';
-  case 7:
-    return 'D';
-  case 9:
-    return 'F';
-  case 11:
-    return 'H';
-  case 19:
-    return 'S';
-  case 20:
-    return 'T';
-  default:
-    return std::nullopt;
+  case 2: return 'B';
+  case 7: return 'D';
+  case 9: return 'F';
+  case 11: return 'H';
+  case 19: return 'S';
+  case 20: return 'T';
+  default: return std::nullopt;
   }
 }
 
@@ -65,6 +58,19 @@ typename R::Value readPosition(StepContext<R> &context, const VariableRange &ran
   return context.reading.add(context.state.position[axis], originOf(context, kAllAxes[axis]));
 }
 
+/// The number whose bits are the variables of the row, where all of them are known.
+template <ValueAlgebra R> typename R::Value readBits(StepContext<R> &context, const BitWord &row) {
+  double number = 0;
+  for (std::uint32_t bit = 0; bit < row.bits; ++bit) {
+    const auto value = context.reading.constantOf(context.reading.asNumber(storedValue(context, row.firstBit + bit)));
+    const bool isBit = value == 0.0 || (value == 1.0 && bit < row.sureBits);
+    if (!isBit)
+      return context.reading.volatileRead(row.word);
+    number += *value * std::ldexp(1.0, static_cast<int>(bit));
+  }
+  return context.reading.number(number);
+}
+
 template <ValueAlgebra R>
 typename R::Value readSystem(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
   R &reading = context.reading;
@@ -72,15 +78,14 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::Plain:
   case VariableRole::Stored:
   case VariableRole::WorkOffset:
+  case VariableRole::AdditionalWorkOffset:
   case VariableRole::SetOffset:
   case VariableRole::Reference:
   case VariableRole::SecondReference:
-  case VariableRole::SkipPosition:
-    return storedValue(context, number);
+  case VariableRole::SkipPosition: return storedValue(context, number);
   case VariableRole::Volatile:
   case VariableRole::Alarm:
-  case VariableRole::MessageStop:
-    return reading.volatileRead(number);
+  case VariableRole::MessageStop: return reading.volatileRead(number);
   case VariableRole::ModalCode: {
     const std::uint32_t group = number - range.first + 1;
     return group < kModalGroups
@@ -93,18 +98,14 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   }
   case VariableRole::BlockEndPosition:
   case VariableRole::MachinePosition:
-  case VariableRole::WorkPosition:
-    return readPosition(context, range, number);
-  case VariableRole::Pi:
-    return reading.number(3.14159265358979323846);
-  case VariableRole::EulersNumber:
-    return reading.number(2.71828182845904523536);
+  case VariableRole::WorkPosition: return readPosition(context, range, number);
+  case VariableRole::Pi: return reading.number(3.14159265358979323846);
+  case VariableRole::EulersNumber: return reading.number(2.71828182845904523536);
   }
   return reading.anything();
 }
 
-template <ValueAlgebra R>
-typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
+template <ValueAlgebra R> typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
   R &reading = context.reading;
   if (number == kVacantVariable)
     return reading.vacant();
@@ -121,7 +122,11 @@ typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Sp
     return reading.vacant();
   if (range->access == VariableAccess::WriteOnly)
     reading.alarm(reading.truth(true), {AlarmKind::ReadProtected, place});
-  return readSystem(context, *range, number);
+  if (const BitWord *row = findBitWord(context.dialect(), number))
+    return readBits(context, *row);
+  const std::uint32_t cell = cellOf(context.dialect(), number);
+  const VariableRange *kept = cell == number ? range : findVariable(context.dialect(), cell);
+  return kept ? readSystem(context, *kept, cell) : reading.anything();
 }
 
 /// A work offset in force is changed: the machine stands still, its work coordinates change.
@@ -139,6 +144,43 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
     shiftCoordinate(context, kAllAxes[axis], moved);
   else if (!inForce)
     shiftCoordinate(context, kAllAxes[axis], reading.anyNumber());
+}
+
+/// The offsets in force are not told by a code that is followed: one of these may be among them.
+template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, Span place) {
+  if (workOffsetInForce(context))
+    return;
+  context.state.position.fill(context.reading.anyNumber());
+  context.reading.notModelled("an additional work offset is changed while one may be in force", place);
+}
+
+template <ValueAlgebra R>
+void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_t cell, typename R::Value value,
+               Span place) {
+  R &reading = context.reading;
+  if (range.kind == VariableKind::System) // cells of the control hold numbers
+    value = reading.asNumber(value);
+  if (range.role == VariableRole::WorkOffset)
+    return writeWorkOffset(context, cell, value);
+  if (range.role == VariableRole::AdditionalWorkOffset)
+    changeAdditionalOffset(context, place);
+  if (range.role != VariableRole::MessageStop && range.role != VariableRole::Volatile)
+    context.state.variables.set(cell, std::move(value));
+}
+
+/// Bits beyond those that are certain keep what they hold, or not.
+template <ValueAlgebra R> void writeBits(StepContext<R> &context, const BitWord &row, const typename R::Value &value) {
+  R &reading = context.reading;
+  const auto number = reading.constantOf(reading.roundTo(reading.asNumber(value), Decimal(1, 0)));
+  const bool isKnown = number && *number >= 0 && *number < std::ldexp(1.0, static_cast<int>(row.bits));
+  const auto bits = isKnown ? static_cast<std::uint64_t>(*number) : 0;
+  for (std::uint32_t bit = 0; bit < row.bits; ++bit) {
+    const auto written = isKnown ? reading.number((bits >> bit & 1U) != 0 ? 1 : 0)
+                                 : reading.between(reading.number(0), reading.number(1));
+    const std::uint32_t cell = row.firstBit + bit;
+    context.state.variables.set(
+        cell, bit < row.sureBits ? written : reading.either(written, reading.asNumber(storedValue(context, cell))));
+  }
 }
 
 } // namespace detail
@@ -172,12 +214,14 @@ void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Va
   }
   if (range->role == VariableRole::Alarm)
     return reading.userAlarm(value, place);
-  if (range->kind == VariableKind::System) // cells of the control hold numbers
-    value = reading.asNumber(value);
-  if (range->role == VariableRole::WorkOffset)
-    return detail::writeWorkOffset(context, number, value);
-  if (range->role != VariableRole::MessageStop && range->role != VariableRole::Volatile)
-    context.state.variables.set(number, std::move(value));
+  if (const BitWord *row = findBitWord(context.dialect(), number))
+    return detail::writeBits(context, *row, value);
+  const std::uint32_t cell = cellOf(context.dialect(), number);
+  for (const std::uint32_t other : perhapsSameAs(context.dialect(), cell))
+    if (const VariableRange *otherRange = findVariable(context.dialect(), other))
+      detail::writeCell(context, *otherRange, other, reading.either(value, detail::storedValue(context, other)), place);
+  if (const VariableRange *kept = findVariable(context.dialect(), cell))
+    detail::writeCell(context, *kept, cell, std::move(value), place);
 }
 
 } // namespace feedhold

@@ -51,7 +51,8 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
     const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
     const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr;
     if (of && of->variable > kLocalVariables)
-      state.variables.set(oldVariable(of->variable), reading_.unwritten(entry, of->variable));
+      state.variables.set(oldVariable(of->variable),
+                          reading_.unwritten(entry, cellOf(*programs_.file(file_).dialect, of->variable)));
   }
   return state;
 }
@@ -80,8 +81,9 @@ TermId ContractTerms::number(ExpressionId expression, const SymbolicState &entry
 SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState &state) const {
   if (variable <= kLocalVariables)
     return state.locals[variable];
-  const SymbolicValue *written = state.variables.find(variable);
-  return written ? *written : reading_.unwritten(state, variable);
+  const std::uint32_t cell = cellOf(*programs_.file(file_).dialect, variable);
+  const SymbolicValue *written = state.variables.find(cell);
+  return written ? *written : reading_.unwritten(state, cell);
 }
 
 TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {

@@ -283,6 +283,8 @@ void Explorer::recordPass(const Path &path) {
 // ---- what a step may have stopped at ----
 
 bool Explorer::takeChecks(Path &path) {
+  if (const auto reason = reading_.abandoned())
+    giveUp(*reason);
   for (const auto &[reason, span] : reading_.takeNotes())
     if (purpose_ == Purpose::Record)
       result_.unfollowed.push_back({reason, path.at, span});

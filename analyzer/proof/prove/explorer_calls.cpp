@@ -100,10 +100,10 @@ bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Calle
       const Call &call = model.calls[CallId(i)];
       if (call.caller != at.program)
         continue;
-      if (const auto callee = programs_.callee(at.file, CallId(i)))
-        open.push_back(*callee);
-      else if (call.programWord && call.callee.empty()) // a number that is computed
+      if (call.programWord && call.callee.empty()) // a number that is computed
         return true;
+      const std::vector<Callee> callees = programs_.candidates(at.file, call);
+      open.insert(open.end(), callees.begin(), callees.end());
     }
   }
   return false;

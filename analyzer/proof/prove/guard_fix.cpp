@@ -111,7 +111,7 @@ private:
       if (statement.nested || std::holds_alternative<ConditionalWords>(statement.node))
         return false;
     for (const Word &word : tree_.wordsOf(block)) {
-      const auto code = word.address() == 'M' ? word.integer() : std::nullopt;
+      const auto code = word.address() == 'M' && word.isCode() ? word.integer() : std::nullopt;
       ends = ends || (code && (*code == 2 || *code == 30 || *code == 99) && !word.has(Word::kAfterThen));
     }
     return ends;

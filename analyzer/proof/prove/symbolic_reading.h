@@ -157,6 +157,9 @@ public:
   bool wantsMoves() const { return true; }
   void move(const Move<Value> &move);
   void notModelled(std::string_view reason, Span place) { notes_.emplace_back(reason, place); }
+  void abandon(std::string_view reason, Span) { abandoned_ = reason; }
+  /// Why no claim on the program is made.
+  std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
   void evaluated(ExpressionId, const Value &) const {}
 
@@ -173,6 +176,7 @@ private:
   PathKnowledge *path_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
   std::vector<StopCheck> checks_;
+  std::optional<std::string_view> abandoned_;
   std::vector<std::pair<std::string_view, Span>> notes_;
   std::vector<Move<Value>> moves_;
   std::vector<smt::TermId> facts_;

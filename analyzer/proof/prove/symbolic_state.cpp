@@ -140,7 +140,10 @@ void SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &
       continue;
     }
     forgetVariables(state, row.first, row.last);
-    if (row.role != VariableRole::Plain && row.role != VariableRole::Stored)
+    const std::vector<VariableSpan> beside = cellsBeside(*dialect_, row.first, row.last);
+    for (const VariableSpan &other : beside)
+      forgetVariables(state, other.first, other.last);
+    if ((row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty())
       fillWith(state.position, [&] { return anyNumber(); });
   }
 }

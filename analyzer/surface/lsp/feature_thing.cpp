@@ -80,7 +80,7 @@ private:
   }
   void words() {
     for (const Word &word : file_.tree.wordsOf(block_))
-      if (word.address() == 'G' || word.address() == 'M')
+      if (word.isCode())
         offer(word.span(), CodeThing{file_.tree.idOf(word)});
       else
         offer(word.span(), WordThing{file_.tree.idOf(word)});
