@@ -118,7 +118,7 @@ Judged judged(const ProgramLines &lines, const std::vector<Start> &starts) {
     return result;
   const prove::ProgramProof proof = provedKinds(program, breaks);
   result.isRefuted = std::any_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &each) {
-    return each.verdict == Verdict::Refuted && each.witness &&
+    return each.verdict == Verdict::Refuted && each.verdict.witness() &&
            (each.kind != ObligationKind::AlarmUnreachable || // of alarms that may be raised, a promise speaks
             std::any_of(breaks.begin(), breaks.end(), [&](const Break &found) { return speaksOf(each, found); }));
   });
@@ -132,7 +132,7 @@ Judged judged(const ProgramLines &lines, const std::vector<Start> &starts) {
         "{} {}: {} ({}); {}", nameOf(each.kind), each.name, each.what, program.textOf(start),
         !isClaimed             ? std::string("nothing is claimed")
         : holds(said->verdict) ? fmt::format("{} is {}", said->id, nameOf(said->verdict))
-                               : fmt::format("{} is {}: {}", said->id, nameOf(said->verdict), said->reason));
+                               : fmt::format("{} is {}: {}", said->id, nameOf(said->verdict), said->verdict.reason()));
     const bool isTakenToHold = isClaimed ? holds(said->verdict) : !proof.incomplete;
     if (isTakenToHold && rounding.alone(each))
       result.rounded.push_back(text);

@@ -63,17 +63,18 @@ public:
   /// Claims that are not proved, with what is said of them.
   std::size_t explained() const {
     return static_cast<std::size_t>(
-        std::count_if(proof_.obligations.begin(), proof_.obligations.end(),
-                      [](const Obligation &each) { return !holds(each) && (each.witness || !each.reason.empty()); }));
+        std::count_if(proof_.obligations.begin(), proof_.obligations.end(), [](const Obligation &each) {
+          return !holds(each) && (each.verdict.witness() || !each.verdict.reason().empty());
+        }));
   }
 
   /// A witness that the machine does not run to what is said of it.
   std::optional<std::string> idleWitness() const {
     for (const Obligation &obligation : proof_.obligations) {
-      if (!obligation.witness)
+      if (!obligation.verdict.witness())
         continue;
       RunOptions options;
-      options.variables = obligation.witness->variables;
+      options.variables = obligation.verdict.witness()->variables;
       options.fuel = kMuchFuel;
       const ModalTable modes(analysed_.dialect());
       EntryValues entry{startState(ConcreteReading(analysed_.dialect(), options.variables), modes, {}),
@@ -255,15 +256,16 @@ private:
   std::optional<std::string> tooManyPasses(const EntryValues &entry, const Passes &passes, ProofTally &tally) const {
     for (const Obligation &obligation : proof_.obligations) {
       const auto seen = passes.find(obligation.place);
-      if (obligation.bound.empty() || !holds(obligation) || seen == passes.end() || isNested(obligation.place.node))
+      if (obligation.verdict.bound().empty() || !holds(obligation) || seen == passes.end() ||
+          isNested(obligation.place.node))
         continue;
-      const std::optional<double> most = valueAtEntry(obligation.bound, entry);
+      const std::optional<double> most = valueAtEntry(std::string(obligation.verdict.bound()), entry);
       ++tally.bounded;
       if (!most && seen->second.times == 1) // a quotient by a step of 0, where no pass is made
         continue;
       if (!most || std::max(*most, 0.0) + 1 < static_cast<double>(seen->second.times))
         return fmt::format("{}: at most {} = {} passes, and the run comes there {} times", obligation.id,
-                           obligation.bound, most.value_or(-1), seen->second.times);
+                           obligation.verdict.bound(), most.value_or(-1), seen->second.times);
     }
     return std::nullopt;
   }

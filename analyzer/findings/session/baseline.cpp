@@ -92,7 +92,7 @@ KnownFinding entryOf(const Finding &finding, const std::string &path) {
 }
 
 KnownObligation entryOf(const prove::Obligation &obligation, const std::string &path) {
-  return {path, obligation.id, std::string(nameOf(obligation.kind)), obligation.verdict};
+  return {path, obligation.id, std::string(nameOf(obligation.kind)), obligation.verdict.kind()};
 }
 
 bool isOpen(const prove::Obligation &obligation) {

@@ -26,7 +26,7 @@ struct KnownObligation {
   std::string path;
   std::string id;
   std::string kind;
-  prove::Verdict verdict; // Refuted or Unknown
+  prove::Verdict::Kind verdict; // Refuted or Unknown
 
   friend bool operator==(const KnownObligation &a, const KnownObligation &b) { return (a <=> b) == 0; }
   friend std::strong_ordering operator<=>(const KnownObligation &a, const KnownObligation &b);

@@ -1,5 +1,7 @@
 #include "findings/session/proof_record.h"
 
+#include "base/support/match.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -175,11 +177,82 @@ prove::Guard readGuard(Reader &reader, Place place) {
   return guard;
 }
 
+void write(Writer &writer, const prove::verdict::Proved &verdict) {
+  const auto &[proof, why, bound, margin, exactOnly] = verdict;
+  const auto &[grade, method, evidence] = proof;
+  static_cast<void>(evidence);
+  writer.number(static_cast<std::uint64_t>(grade));
+  writer.text(method);
+  writer.text(why);
+  writer.text(bound);
+  writer.optional(margin, [&](double value) { writer.real(value); });
+  writer.number(exactOnly ? 1 : 0);
+}
+
+prove::verdict::Proved readProved(Reader &reader) {
+  prove::verdict::Proved verdict;
+  verdict.proof.grade = reader.upTo(prove::Grade::TwoSolvers);
+  verdict.proof.method = reader.text();
+  verdict.why = reader.text();
+  verdict.bound = reader.text();
+  if (reader.isPresent())
+    verdict.margin = reader.real();
+  verdict.exactOnly = reader.isPresent();
+  return verdict;
+}
+
+void write(Writer &writer, const prove::verdict::Refuted &verdict) {
+  const auto &[shownBy, guard] = verdict;
+  writer.number(shownBy.index());
+  match(
+      shownBy, [&](const prove::Witness &witness) { write(writer, witness); },
+      [&](const prove::verdict::Refuted::NoCall &none) { writer.text(none.reason); });
+  writer.optional(guard, [&](const prove::Guard &value) { write(writer, value); });
+}
+
+prove::verdict::Refuted readRefuted(Reader &reader, Place place) {
+  prove::verdict::Refuted verdict;
+  if (reader.numberUpTo(1) == 0)
+    verdict.shownBy = readWitness(reader);
+  else
+    verdict.shownBy = prove::verdict::Refuted::NoCall{std::string(reader.text())};
+  if (reader.isPresent())
+    verdict.guard = readGuard(reader, place);
+  return verdict;
+}
+
+void write(Writer &writer, const prove::verdict::Unknown &verdict) {
+  const auto &[reason, at, guard] = verdict;
+  writer.text(reason);
+  writer.optional(at, [&](Place place) { writer.place(place); });
+  writer.optional(guard, [&](const prove::Guard &value) { write(writer, value); });
+}
+
+prove::verdict::Unknown readUnknown(Reader &reader, Place place) {
+  prove::verdict::Unknown verdict;
+  verdict.reason = reader.text();
+  if (reader.isPresent())
+    verdict.at = reader.place();
+  if (reader.isPresent())
+    verdict.guard = readGuard(reader, place);
+  return verdict;
+}
+
+void write(Writer &writer, const prove::verdict::Unreachable &verdict) { writer.text(verdict.method); }
+
+prove::Verdict readVerdict(Reader &reader, Place place) {
+  switch (reader.upTo(prove::Verdict::Unreachable)) {
+  case prove::Verdict::Proved: return readProved(reader);
+  case prove::Verdict::Refuted: return readRefuted(reader, place);
+  case prove::Verdict::Unknown: return readUnknown(reader, place);
+  case prove::Verdict::Unreachable: break;
+  }
+  return prove::verdict::Unreachable{std::string(reader.text())};
+}
+
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, grade, method, reason, exactOnly, bound, witness, margin,
-               effort, evidence, guard] = obligation;
-  static_cast<void>(evidence);
+  const auto &[kind, id, place, span, claim, alarm, verdict, effort] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -187,16 +260,9 @@ void write(Writer &writer, const Obligation &obligation) {
   writer.span(span);
   writer.text(claim);
   writer.optional(alarm, enumeration);
-  enumeration(verdict);
-  writer.optional(grade, enumeration);
-  writer.text(method);
-  writer.text(reason);
-  writer.number(exactOnly ? 1 : 0);
-  writer.text(bound);
-  writer.optional(witness, [&](const prove::Witness &value) { write(writer, value); });
-  writer.optional(margin, [&](double value) { writer.real(value); });
+  enumeration(verdict.kind());
+  verdict.visit([&](const auto &alternative) { write(writer, alternative); });
   writer.number(effort);
-  writer.optional(guard, [&](const prove::Guard &value) { write(writer, value); });
 }
 
 Obligation readObligation(Reader &reader) {
@@ -207,20 +273,8 @@ Obligation readObligation(Reader &reader) {
   obligation.claim = reader.text();
   if (reader.isPresent())
     obligation.alarm = reader.oneOf<AlarmKind>(kAlarmKinds);
-  obligation.verdict = reader.upTo(prove::Verdict::Unreachable);
-  if (reader.isPresent())
-    obligation.grade = reader.upTo(prove::Grade::TwoSolvers);
-  obligation.method = reader.text();
-  obligation.reason = reader.text();
-  obligation.exactOnly = reader.isPresent();
-  obligation.bound = reader.text();
-  if (reader.isPresent())
-    obligation.witness = readWitness(reader);
-  if (reader.isPresent())
-    obligation.margin = reader.real();
+  obligation.verdict = readVerdict(reader, place);
   obligation.effort = reader.number();
-  if (reader.isPresent())
-    obligation.guard = readGuard(reader, place);
   return obligation;
 }
 

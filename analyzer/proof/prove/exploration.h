@@ -132,6 +132,9 @@ struct Exploration {
   std::size_t paths = 0;
   std::size_t steps = 0;
   std::uint64_t work = 0; // of all questions on paths
+
+  /// What is not followed in a block, by its name.
+  std::optional<std::string> notFollowedAt(Place place) const;
 };
 
 /// Whether paths that meet go on as one (merging.h): fewer of them, of which less can be told.

@@ -6,6 +6,7 @@
 #include "proof/prove/stop.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace feedhold::prove {
 
@@ -16,6 +17,13 @@ namespace {
 constexpr std::string_view kTooMany = "there are too many ways through the program";
 constexpr std::uint32_t kLongestPath = 20'000; // steps
 } // namespace
+
+std::optional<std::string> Exploration::notFollowedAt(Place place) const {
+  for (const Unfollowed &each : unfollowed)
+    if (each.place == place)
+      return fmt::format("where this block leads is not known: \"{}\" is not followed", each.reason);
+  return std::nullopt;
+}
 
 // ---- Path ----
 

@@ -22,7 +22,7 @@ constexpr std::size_t kLateStates = 8;
 constexpr std::size_t kMostNumbers = 6;
 constexpr std::size_t kMostPaired = 4;
 constexpr std::uint64_t kMostWork = 400'000;
-constexpr std::size_t kMostWords = 8; // of a number in a state that is followed
+constexpr std::size_t kMostNumberWords = 8; // of a number in a state that is followed
 constexpr Budget kEffort{.search = 30'000, .z3 = 0, .cvc5 = 0};
 
 bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whole) {
@@ -154,7 +154,7 @@ private:
   static bool isHuge(const Model &state) {
     return std::any_of(state.begin(), state.end(), [](const auto &held) {
       const auto *number = std::get_if<Number>(&held.second);
-      return number && number->words() > kMostWords;
+      return number && number->words() > kMostNumberWords;
     });
   }
 

@@ -83,6 +83,13 @@ RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   return options;
 }
 
+RunResult WitnessSearch::runOf(const GivenVariables &given, WordRounding words) const {
+  RunOptions options = runOptions(given);
+  options.fuel = kFuel;
+  options.words = words;
+  return run(programs_, entry_, options);
+}
+
 std::vector<double> WitnessSearch::plainNumbers() const {
   std::vector<double> plain{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
   for (const double constant : constants_)
@@ -164,7 +171,7 @@ void WitnessSearch::keepSample(GivenVariables given) {
   samples_.push_back({std::move(given), std::move(result)});
 }
 
-std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) {
+std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
   int inexact = 0;
   for (const Sample &sample : samples_) {
     const auto happened = violation.happened(sample.result, sample.given);
@@ -224,7 +231,7 @@ GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
 }
 
 std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
-                                                std::uint64_t fuel) {
+                                                std::uint64_t fuel) const {
   smt::Model whole = model;
   whole.insert(others_.begin(), others_.end());
   const GivenVariables given = inputsOf(whole);

@@ -45,6 +45,7 @@ public:
     place_ = std::move(place);
   }
   RunOptions runOptions(const GivenVariables &given) const;
+  RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
   /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
   /// Where plain numbers seldom satisfy what they have to: the same, around inputs that do.  A model that names some
@@ -53,9 +54,10 @@ public:
   /// At the ends of what the inputs may be, and midway: where claims break first.
   void sampleEnds(const std::vector<InputEnds> &ends);
   /// Among the sampled runs.
-  std::optional<Witness> amongSamples(const Violation &violation);
+  std::optional<Witness> amongSamples(const Violation &violation) const;
   /// The inputs that a model of the solver names, then made as plain as they can be.
-  std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation, std::uint64_t fuel = kFuel);
+  std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation,
+                                   std::uint64_t fuel = kFuel) const;
 
   struct Sample {
     GivenVariables given;

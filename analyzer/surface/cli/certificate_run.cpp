@@ -60,13 +60,13 @@ void addGuards(ProofsResult &proofs, const ProofsWish &made) {
   for (const ProvedFile &file : guarded.files)
     for (const ProvedProgram &program : file.programs)
       for (const prove::Obligation &obligation : program.proof.obligations)
-        if (obligation.guard)
-          guards[{file.file().shown, obligation.id}] = &*obligation.guard;
+        if (obligation.verdict.guard())
+          guards[{file.file().shown, obligation.id}] = obligation.verdict.guard();
   for (ProvedFile &file : proofs.files)
     for (ProvedProgram &program : file.programs)
       for (prove::Obligation &obligation : program.proof.obligations)
         if (const auto guard = guards.find({file.file().shown, obligation.id}); guard != guards.end())
-          obligation.guard = *guard->second;
+          obligation.verdict.setGuard(*guard->second);
 }
 
 std::vector<std::string> solvers() {

@@ -22,13 +22,13 @@ Lens lensOf(const DocumentProof &proved, Json argument) {
   std::size_t held = 0, refuted = 0, unknown = 0;
   const prove::Obligation *shown = nullptr;
   for (const prove::Obligation &obligation : proved.proof.obligations)
-    switch (obligation.verdict) {
+    switch (obligation.verdict.kind()) {
     case prove::Verdict::Proved:
     case prove::Verdict::Unreachable: ++held; break;
     case prove::Verdict::Unknown: ++unknown; break;
     case prove::Verdict::Refuted:
       ++refuted;
-      shown = shown || !obligation.witness ? shown : &obligation;
+      shown = shown || !obligation.verdict.witness() ? shown : &obligation;
       break;
     }
   std::string title;

@@ -52,10 +52,10 @@ private:
           add(file_.tree.words[argument.word].span().begin, name + ":", kParameter);
   }
   void bound(const prove::Obligation &obligation) {
-    if (obligation.bound.empty() || obligation.place.file != kDocument || !prove::holds(obligation.verdict))
+    if (obligation.verdict.bound().empty() || obligation.place.file != kDocument)
       return;
     const BlockId block = programs_.set->node(obligation.place).block;
-    add(file_.tree.blocks[block].end, fmt::format("at most {} passes", obligation.bound), kType);
+    add(file_.tree.blocks[block].end, fmt::format("at most {} passes", obligation.verdict.bound()), kType);
   }
 
   // ---- G90 and G91 ----

@@ -78,12 +78,12 @@ public:
                   .code = std::string(nameOf(obligation.kind)),
                   .subject = obligation.id,
                   .message = messageOf(obligation, dialect)};
-    if (!obligation.reason.empty())
-      remark.message += "\n" + obligation.reason;
-    if (obligation.witness)
+    if (!obligation.verdict.reason().empty())
+      remark.message += fmt::format("\n{}", obligation.verdict.reason());
+    if (obligation.verdict.witness())
       addWitness(remark, obligation, program);
-    if (obligation.guard)
-      addGuard(remark, *obligation.guard, obligation.place.file);
+    if (obligation.verdict.guard())
+      addGuard(remark, *obligation.verdict.guard(), obligation.place.file);
     if (obligation.place.file != FileId(0))
       moveToOwnText(remark, obligation, program);
     return remark;
@@ -91,7 +91,7 @@ public:
 
 private:
   void addWitness(Remark &remark, const Obligation &obligation, const ProvedProgram &program) const {
-    const prove::Witness &witness = *obligation.witness;
+    const prove::Witness &witness = *obligation.verdict.witness();
     const TypedWitness call = typed(witness, file_, program, report_);
     const std::string happened = happenedIn(witness, obligation, file_.loaded->dialect);
     remark.message += fmt::format("\n{}: {}", textOf(call), happened);

@@ -188,10 +188,10 @@ Json ClientSession::runWitness(const OpenDocument &document, const std::string &
     for (const ProvedFile &file : document.proved->files)
       for (const ProvedProgram &program : file.programs)
         for (const prove::Obligation &obligation : program.proof.obligations)
-          if (obligation.id == id && obligation.witness) {
+          if (obligation.id == id && obligation.verdict.witness()) {
             const ProveReport report{.result = *document.proved};
-            const TypedWitness witness = typed(*obligation.witness, file, program, report);
-            const std::string happened = happenedIn(*obligation.witness, obligation, file.loaded->dialect);
+            const TypedWitness witness = typed(*obligation.verdict.witness(), file, program, report);
+            const std::string happened = happenedIn(*obligation.verdict.witness(), obligation, file.loaded->dialect);
             show(Severity::Info, fmt::format("{}: {}\n{}", textOf(witness), happened, witness.run()));
             return {{"call", textOf(witness)}, {"happened", happened}, {"run", witness.run()}};
           }

@@ -19,7 +19,7 @@ using prove::Verdict;
 
 Json countsToJson(const VerdictCounts &counts) {
   Json row = Json::object();
-  for (const Verdict verdict : {Verdict::Proved, Verdict::Refuted, Verdict::Unknown, Verdict::Unreachable})
+  for (const Verdict::Kind verdict : {Verdict::Proved, Verdict::Refuted, Verdict::Unknown, Verdict::Unreachable})
     row[std::string(prove::nameOf(verdict))] = counts.of(verdict);
   return row;
 }
@@ -325,21 +325,21 @@ private:
     const Dialect &dialect = file.loaded->dialect;
     row.erase("program");
     row["evidence"] = evidenceToJson(row.at("evidence"));
-    row["method"] = obligation.method.empty() ? Json() : Json(obligation.method);
+    row["method"] = obligation.verdict.method().empty() ? Json() : Json(obligation.verdict.method());
     row["rlimit"] = obligation.effort;
-    row["margin"] = obligation.margin ? Json(*obligation.margin) : Json();
+    row["margin"] = obligation.verdict.margin() ? Json(*obligation.verdict.margin()) : Json();
     row["path"] = relative(file.loaded->file(obligation.place.file).path);
     row["line"] = file.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
     row["message"] = holds(obligation.verdict) ? Json() : Json(messageOf(obligation, dialect));
     row["alarm"] = alarmToJson(raisedAlarm(obligation, file));
-    row["guard"] = obligation.guard ? Json(obligation.guard->clause) : Json();
-    if (!obligation.witness)
+    row["guard"] = obligation.verdict.guard() ? Json(obligation.verdict.guard()->clause) : Json();
+    if (!obligation.verdict.witness())
       return row;
-    const TypedWitness call = typed(*obligation.witness, file, program, {.result = input_.proofs});
+    const TypedWitness call = typed(*obligation.verdict.witness(), file, program, {.result = input_.proofs});
     const std::string options = quotedWord(path) + optionsBehindFile(call, file) + readingOptions();
     Json &witness = row["witness"];
     witness["call"] = feedhold::textOf(call);
-    witness["happened"] = happenedIn(*obligation.witness, obligation, dialect);
+    witness["happened"] = happenedIn(*obligation.verdict.witness(), obligation, dialect);
     witness["run"] = "feedhold run " + options;
     witness["plot"] = "feedhold plot " + options;
     return row;

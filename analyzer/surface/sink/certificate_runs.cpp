@@ -32,14 +32,15 @@ public:
     std::vector<ShownRun> runs;
     std::set<std::string> drawn;
     for (const prove::Obligation &obligation : program_.proof.obligations) {
-      if (!obligation.witness || !obligation.witness->gouge || runs.size() == kMostPictures)
+      if (!obligation.verdict.witness() || !obligation.verdict.witness()->gouge || runs.size() == kMostPictures)
         continue;
-      const TypedWitness call = typed(*obligation.witness, file_, program_, {.result = none_});
+      const TypedWitness call = typed(*obligation.verdict.witness(), file_, program_, {.result = none_});
       if (!drawn.insert(call.options).second)
         continue;
-      RunOptions options{.variables = obligation.witness->variables};
+      RunOptions options{.variables = obligation.verdict.witness()->variables};
       options = prove::startedAsSaid(*file_.loaded->set, start(), file_.file().contracts, std::move(options));
-      runs.push_back(draw(*obligation.witness, obligation.id, options, run(*file_.loaded->set, start(), options)));
+      runs.push_back(
+          draw(*obligation.verdict.witness(), obligation.id, options, run(*file_.loaded->set, start(), options)));
     }
     return runs;
   }

@@ -77,7 +77,7 @@ Summary summaryOf(const ProvedFile &file, const ProvedProgram &program) {
   Summary summary;
   summary.counts.add(program.proof);
   for (const Obligation &obligation : program.proof.obligations) {
-    summary.isGouge = summary.isGouge || (obligation.witness && obligation.witness->gouge);
+    summary.isGouge = summary.isGouge || (obligation.verdict.witness() && obligation.verdict.witness()->gouge);
     const auto alarm = raisedAlarm(obligation, file);
     if (alarm && ++summary.raised <= kMostAlarmsNamed)
       summary.alarms += (summary.alarms.empty() ? "" : ", ") +

@@ -101,21 +101,22 @@ private:
   Json obligationToJson(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program) {
     const std::string name = fileNameOf(++count_, obligation.id);
     Json evidence = Json::array();
-    for (const prove::Outcome &outcome : obligation.evidence)
-      if (const auto *proved = std::get_if<prove::Proved>(&outcome.answer))
-        evidence.push_back(evidenceToJson(*proved, fmt::format("{}/{}", name, evidence.size() + 1)));
-    const auto orNull = [](const std::string &text) { return text.empty() ? Json() : Json(text); };
+    if (const prove::verdict::Proved *proof = obligation.verdict.proved())
+      for (const prove::Outcome &outcome : proof->proof.evidence)
+        if (const auto *proved = std::get_if<prove::Proved>(&outcome.answer))
+          evidence.push_back(evidenceToJson(*proved, fmt::format("{}/{}", name, evidence.size() + 1)));
+    const auto orNull = [](std::string_view text) { return text.empty() ? Json() : Json(text); };
     return {{"id", obligation.id},
             {"program", toString(file.file().model.programs[program.program].name)},
             {"kind", prove::nameOf(obligation.kind)},
             {"line", file.file().source.lineOf(obligation.span.begin)},
             {"claim", claimOf(obligation, file.loaded->dialect)},
             {"verdict", prove::nameOf(obligation.verdict)},
-            {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
-            {"reason", orNull(obligation.reason)},
-            {"exactOnly", obligation.exactOnly},
-            {"bound", orNull(obligation.bound)},
-            {"witness", obligation.witness ? witnessToJson(*obligation.witness, file) : Json()},
+            {"grade", obligation.verdict.grade() ? Json(prove::nameOf(*obligation.verdict.grade())) : Json()},
+            {"reason", orNull(obligation.verdict.reason())},
+            {"exactOnly", obligation.verdict.exactOnly()},
+            {"bound", orNull(obligation.verdict.bound())},
+            {"witness", obligation.verdict.witness() ? witnessToJson(*obligation.verdict.witness(), file) : Json()},
             {"evidence", std::move(evidence)}};
   }
   static Json witnessToJson(const prove::Witness &witness, const ProvedFile &file) {

@@ -9,7 +9,7 @@ namespace {
 using json::Json;
 using prove::Obligation;
 
-Json orNull(const std::string &text) { return text.empty() ? Json() : Json(text); }
+Json orNull(std::string_view text) { return text.empty() ? Json() : Json(text); }
 
 class FileJson {
 public:
@@ -45,6 +45,7 @@ private:
             {"unfollowed", std::move(unfollowed)}};
   }
   Json obligationToJson(const Obligation &obligation, const ProvedProgram &program) const {
+    const prove::Verdict &verdict = obligation.verdict;
     const Position at = file_.loaded->file(obligation.place.file).source.position(obligation.span.begin);
     return {{"id", obligation.id},
             {"program", nameOf(program)},
@@ -52,24 +53,24 @@ private:
             {"line", at.line},
             {"column", at.column},
             {"claim", claimOf(obligation, file_.loaded->dialect)},
-            {"verdict", prove::nameOf(obligation.verdict)},
-            {"grade", obligation.grade ? Json(prove::nameOf(*obligation.grade)) : Json()},
-            {"method", orNull(obligation.method)},
-            {"reason", orNull(obligation.reason)},
-            {"exactOnly", obligation.exactOnly},
-            {"bound", orNull(obligation.bound)},
-            {"margin", obligation.margin ? Json(*obligation.margin) : Json()},
-            {"witness", obligation.witness ? witnessToJson(obligation, program) : Json()},
-            {"guard", obligation.guard ? guardToJson(obligation) : Json()},
+            {"verdict", prove::nameOf(verdict)},
+            {"grade", verdict.grade() ? Json(prove::nameOf(*verdict.grade())) : Json()},
+            {"method", orNull(verdict.method())},
+            {"reason", orNull(verdict.reason())},
+            {"exactOnly", verdict.exactOnly()},
+            {"bound", orNull(verdict.bound())},
+            {"margin", verdict.margin() ? Json(*verdict.margin()) : Json()},
+            {"witness", verdict.witness() ? witnessToJson(obligation, program) : Json()},
+            {"guard", verdict.guard() ? guardToJson(obligation) : Json()},
             {"rlimit", obligation.effort}};
   }
   Json guardToJson(const Obligation &obligation) const {
-    const auto &[conditions, clause, fix] = *obligation.guard;
+    const auto &[conditions, clause, fix] = *obligation.verdict.guard();
     const SourceFile &source = file_.loaded->file(obligation.place.file).source;
     return {{"conditions", conditions}, {"clause", clause}, {"fix", fix ? json::fixToJson(*fix, source) : Json()}};
   }
   Json witnessToJson(const Obligation &obligation, const ProvedProgram &program) const {
-    const prove::Witness &witness = *obligation.witness;
+    const prove::Witness &witness = *obligation.verdict.witness();
     const TypedWitness call = typed(witness, file_, program, report_);
     Json variables = Json::object();
     for (const auto &[name, value] : call.variables)

@@ -5,6 +5,8 @@
 #include "surface/sink/prove_shown.h"
 #include "surface/sink/sarif_parts.h"
 
+#include <fmt/format.h>
+
 namespace feedhold {
 
 namespace {
@@ -38,29 +40,30 @@ std::string_view summaryOf(ObligationKind kind) {
 
 /// Something for a person to look at.
 bool isOpen(const Obligation &obligation) {
-  return obligation.verdict == Verdict::Refuted || obligation.verdict == Verdict::Unknown || obligation.exactOnly;
+  return obligation.verdict == Verdict::Refuted || obligation.verdict == Verdict::Unknown ||
+         obligation.verdict.exactOnly();
 }
 
 std::string_view levelOf(const Obligation &obligation) {
-  if (obligation.exactOnly)
+  if (obligation.verdict.exactOnly())
     return "note";
   return obligation.verdict == Verdict::Refuted ? "error" : "warning";
 }
 
 std::string textFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
                     const ProveReport &report) {
-  if (obligation.exactOnly)
+  if (obligation.verdict.exactOnly())
     return claimOf(obligation, file.loaded->dialect) + "\n" + std::string(kExactOnly);
   std::string text = messageOf(obligation, file.loaded->dialect);
-  if (!obligation.reason.empty())
-    text += "\n" + obligation.reason;
-  if (obligation.witness) {
-    const TypedWitness witness = typed(*obligation.witness, file, program, report);
-    text += "\n" + textOf(witness) + ": " + happenedIn(*obligation.witness, obligation, file.loaded->dialect) +
-            "\nsee it: " + witness.run();
+  if (!obligation.verdict.reason().empty())
+    text += fmt::format("\n{}", obligation.verdict.reason());
+  if (obligation.verdict.witness()) {
+    const TypedWitness witness = typed(*obligation.verdict.witness(), file, program, report);
+    text += "\n" + textOf(witness) + ": " +
+            happenedIn(*obligation.verdict.witness(), obligation, file.loaded->dialect) + "\nsee it: " + witness.run();
   }
-  if (obligation.guard)
-    text += "\n" + remedyOf(*obligation.guard);
+  if (obligation.verdict.guard())
+    text += "\n" + remedyOf(*obligation.verdict.guard());
   return text;
 }
 
@@ -78,8 +81,9 @@ Json resultFor(const Obligation &obligation, const ProvedFile &file, const Prove
               {"locations", Json::array({std::move(location)})},
               {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},
               {"properties", Json{{"verdict", nameOf(obligation.verdict)}}}};
-  if (obligation.guard && obligation.guard->fix)
-    row["fixes"] = Json::array({sarif::fixToJson(*obligation.guard->fix, there.shown, there.source, report.root)});
+  if (obligation.verdict.guard() && obligation.verdict.guard()->fix)
+    row["fixes"] =
+        Json::array({sarif::fixToJson(*obligation.verdict.guard()->fix, there.shown, there.source, report.root)});
   return row;
 }
 

@@ -47,12 +47,12 @@ std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
 
 void VerdictCounts::add(const prove::ProgramProof &proof) {
   for (const Obligation &obligation : proof.obligations)
-    ++byVerdict[static_cast<std::size_t>(obligation.verdict)];
+    ++byVerdict[static_cast<std::size_t>(obligation.verdict.kind())];
 }
 
 std::string textOf(const VerdictCounts &counts) {
   std::string text;
-  for (const Verdict verdict : kVerdicts)
+  for (const Verdict::Kind verdict : kVerdicts)
     if (counts.of(verdict) != 0)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts.of(verdict), nameOf(verdict));
   return text.empty() ? "nothing to prove" : text;

@@ -15,7 +15,7 @@ struct VerdictCounts {
   std::array<std::size_t, 4> byVerdict{};
 
   void add(const prove::ProgramProof &proof);
-  std::size_t of(prove::Verdict verdict) const { return byVerdict[static_cast<std::size_t>(verdict)]; }
+  std::size_t of(prove::Verdict::Kind verdict) const { return byVerdict[static_cast<std::size_t>(verdict)]; }
   std::size_t all() const { return byVerdict[0] + byVerdict[1] + byVerdict[2] + byVerdict[3]; }
 };
 /// `5 proved, 1 refuted, 1 unknown`; verdicts that nothing has are left out.
@@ -42,7 +42,7 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
 /// `G65 P9100 D6. with #500=3`
 std::string textOf(const TypedWitness &witness);
 
-/// Of Obligation::exactOnly.
+/// Of Verdict::exactOnly.
 inline constexpr std::string_view kExactOnly =
     "holds in exact arithmetic only: there is no margin, and a control that rounds may break it";
 

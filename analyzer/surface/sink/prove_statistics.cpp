@@ -23,8 +23,8 @@ struct Row {
 };
 
 std::string_view methodOf(const Obligation &obligation) {
-  if (!obligation.method.empty())
-    return obligation.method;
+  if (!obligation.verdict.method().empty())
+    return std::string(obligation.verdict.method());
   return obligation.verdict == Verdict::Refuted ? "a run" : "none";
 }
 
@@ -37,7 +37,7 @@ std::string proveStatistics(const ProveReport &report) {
     for (const ProvedProgram &program : file.programs)
       for (const Obligation &obligation : program.proof.obligations) {
         Row &row = kinds[obligation.kind];
-        ++row.byVerdict[static_cast<std::size_t>(obligation.verdict)];
+        ++row.byVerdict[static_cast<std::size_t>(obligation.verdict.kind())];
         row.effort += obligation.effort;
         Cost &cost = methods[methodOf(obligation)];
         ++cost.obligations;
@@ -47,7 +47,7 @@ std::string proveStatistics(const ProveReport &report) {
                                  "unreachable", "effort");
   for (const auto &[kind, counts] : kinds) {
     const Row &row = counts;
-    const auto of = [&](Verdict verdict) { return row.byVerdict[static_cast<std::size_t>(verdict)]; };
+    const auto of = [&](Verdict::Kind verdict) { return row.byVerdict[static_cast<std::size_t>(verdict)]; };
     text += fmt::format("{:<20} {:>8} {:>8} {:>8} {:>11} {:>12}\n", prove::nameOf(kind), of(Verdict::Proved),
                         of(Verdict::Refuted), of(Verdict::Unknown), of(Verdict::Unreachable), row.effort);
   }

@@ -39,8 +39,9 @@ public:
       text_ += fmt::format("  not all ways were followed: {}\n", *program_.proof.incomplete);
     text_ += '\n';
     forEach(Verdict::Refuted, [&](const Obligation &obligation) { picture(obligation, witnessNotes(obligation)); });
-    forEach(Verdict::Unknown,
-            [&](const Obligation &obligation) { picture(obligation, {fmt::format("{}", obligation.reason)}); });
+    forEach(Verdict::Unknown, [&](const Obligation &obligation) {
+      picture(obligation, {fmt::format("{}", obligation.verdict.reason())});
+    });
     const std::size_t before = text_.size();
     forEach(Verdict::Proved, [&](const Obligation &obligation) { line(obligation); });
     forEach(Verdict::Unreachable, [&](const Obligation &obligation) { line(obligation); });
@@ -50,7 +51,7 @@ public:
   }
 
 private:
-  template <typename Visit> void forEach(Verdict verdict, Visit visit) {
+  template <typename Visit> void forEach(Verdict::Kind verdict, Visit visit) {
     for (const Obligation &obligation : program_.proof.obligations)
       if (obligation.verdict == verdict)
         visit(obligation);
@@ -59,10 +60,10 @@ private:
   void picture(const Obligation &obligation, std::vector<std::string> notes) {
     Diagnostic diagnostic{
         .message = messageOf(obligation, file_.loaded->dialect), .span = obligation.span, .notes = std::move(notes)};
-    if (obligation.guard) {
-      diagnostic.notes.push_back(remedyOf(*obligation.guard));
-      if (obligation.guard->fix)
-        addFix(diagnostic, *obligation.guard->fix, file_.loaded->file(obligation.place.file).source);
+    if (obligation.verdict.guard()) {
+      diagnostic.notes.push_back(remedyOf(*obligation.verdict.guard()));
+      if (obligation.verdict.guard()->fix)
+        addFix(diagnostic, *obligation.verdict.guard()->fix, file_.loaded->file(obligation.place.file).source);
     }
     const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.loaded->file(id).source; };
     text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
@@ -82,40 +83,42 @@ private:
   }
 
   std::vector<std::string> witnessNotes(const Obligation &obligation) const {
-    if (!obligation.witness)
-      return {obligation.reason};
-    const TypedWitness witness = typed(*obligation.witness, file_, program_, report_);
+    if (!obligation.verdict.witness())
+      return {std::string(obligation.verdict.reason())};
+    const TypedWitness witness = typed(*obligation.verdict.witness(), file_, program_, report_);
     std::vector<std::string> notes{
-        fmt::format("{}: {}", textOf(witness), happenedIn(*obligation.witness, obligation, file_.loaded->dialect)),
+        fmt::format("{}: {}", textOf(witness),
+                    happenedIn(*obligation.verdict.witness(), obligation, file_.loaded->dialect)),
         "see it: " + witness.run()};
-    if (obligation.witness->gouge)
+    if (obligation.verdict.witness()->gouge)
       notes.push_back(fmt::format("draw it: {} -o gouge.svg", witness.plot()));
     return notes;
   }
 
   static std::string whyOf(const Obligation &obligation) {
-    if (obligation.margin)
+    const prove::Verdict &verdict = obligation.verdict;
+    const std::string_view reason = verdict.reason();
+    if (const auto margin = verdict.margin())
       return fmt::format("{}{}{}",
-                         *obligation.margin > 0 ? fmt::format("keeps at least {:.4g} away", *obligation.margin)
-                                                : std::string("comes as near as it may"),
-                         obligation.reason.empty() ? "" : "; ", obligation.reason);
-    if (obligation.bound.empty())
-      return obligation.reason;
-    return fmt::format("at most `{}` passes{}{}", obligation.bound, obligation.reason.empty() ? "" : ": ",
-                       obligation.reason);
+                         *margin > 0 ? fmt::format("keeps at least {:.4g} away", *margin)
+                                     : std::string("comes as near as it may"),
+                         reason.empty() ? "" : "; ", reason);
+    if (verdict.bound().empty())
+      return std::string(reason);
+    return fmt::format("at most `{}` passes{}{}", verdict.bound(), reason.empty() ? "" : ": ", reason);
   }
 
   void line(const Obligation &obligation) {
     const std::uint32_t at = file_.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
-    const std::string_view grade = obligation.grade ? nameOf(*obligation.grade) : "";
+    const std::string_view grade = obligation.verdict.grade() ? nameOf(*obligation.verdict.grade()) : "";
     text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
                          claimOf(obligation, file_.loaded->dialect), obligation.id);
     if (const std::string why = whyOf(obligation); !why.empty())
       text_ += fmt::format("            {}\n", why);
-    if (obligation.exactOnly)
+    if (obligation.verdict.exactOnly())
       text_ += fmt::format("            {}\n", kExactOnly);
-    if (report_.showMethods == ShowMethods::Yes && !obligation.method.empty())
-      text_ += fmt::format("            by {}, effort {}\n", obligation.method, obligation.effort);
+    if (report_.showMethods == ShowMethods::Yes && !obligation.verdict.method().empty())
+      text_ += fmt::format("            by {}, effort {}\n", obligation.verdict.method(), obligation.effort);
   }
 
   const ProveReport &report_;

@@ -128,7 +128,9 @@ std::string contradiction(const LoadedProgram &loaded, const KnownProgram &known
   return "";
 }
 
-Verdict plain(Verdict verdict) { return verdict == Verdict::Unreachable ? Verdict::Proved : verdict; }
+Verdict::Kind plain(const Verdict &verdict) {
+  return verdict == Verdict::Unreachable ? Verdict::Proved : verdict.kind();
+}
 
 void compare(const LoadedProgram &loaded, const prove::ProgramProof &proof, const KnownProgram &known,
              const KnownAnswer &answer, Comparison &into) {
@@ -151,7 +153,7 @@ void compare(const LoadedProgram &loaded, const prove::ProgramProof &proof, cons
   for (const Obligation *claim : claims)
     if (claim->verdict == Verdict::Unknown)
       verdicts.undecided.push_back(
-          fmt::format("{}: {}, not known to be {}", name, claim->reason, nameOf(answer.verdict)));
+          fmt::format("{}: {}, not known to be {}", name, claim->verdict.reason(), nameOf(answer.verdict)));
     else if (plain(claim->verdict) != answer.verdict)
       verdicts.wrong.push_back(
           fmt::format("{}: {}, but is known to be {}", name, nameOf(claim->verdict), nameOf(answer.verdict)));

@@ -14,9 +14,9 @@ namespace feedhold::proof_tests {
 using Inputs = std::vector<std::pair<std::uint32_t, double>>;
 
 struct KnownAnswer {
-  std::string claim;      // the id of an obligation without its program: `loop-ends.N20`
-  prove::Verdict verdict; // Proved, also where the place is never reached, or Refuted
-  Inputs shownBy = {};    // of Refuted: a run on them breaks the claim
+  std::string claim;            // the id of an obligation without its program: `loop-ends.N20`
+  prove::Verdict::Kind verdict; // Proved, also where the place is never reached, or Refuted
+  Inputs shownBy = {};          // of Refuted: a run on them breaks the claim
 };
 
 struct KnownProgram {

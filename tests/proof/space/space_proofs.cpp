@@ -191,8 +191,8 @@ public:
     }
     trial_.tally.missed = missed_.size();
     for (const auto &[claim, arguments] : missed_)
-      trial_.reasons.push_back(fmt::format("{}, and a run breaks it: {}; {} with{}", nameOf(claim->kind), claim->reason,
-                                           claim->id, arguments));
+      trial_.reasons.push_back(fmt::format("{}, and a run breaks it: {}; {} with{}", nameOf(claim->kind),
+                                           claim->verdict.reason(), claim->id, arguments));
     return std::move(trial_);
   }
 
@@ -206,9 +206,9 @@ private:
       tally.proved += obligation.verdict == Verdict::Proved ? 1 : 0;
       tally.unreachable += obligation.verdict == Verdict::Unreachable ? 1 : 0;
       tally.refuted += obligation.verdict == Verdict::Refuted ? 1 : 0;
-      tally.margins += obligation.margin ? 1 : 0;
+      tally.margins += obligation.verdict.margin() ? 1 : 0;
       if (obligation.verdict == Verdict::Unknown)
-        trial_.reasons.push_back(fmt::format("{}: {}", nameOf(obligation.kind), obligation.reason));
+        trial_.reasons.push_back(fmt::format("{}: {}", nameOf(obligation.kind), obligation.verdict.reason()));
     }
   }
   std::string at(Place place) const { return sample_.loaded().blockOf(place); }
@@ -219,7 +219,7 @@ private:
     for (const Obligation &obligation : proof_.obligations) {
       if (obligation.verdict != Verdict::Refuted)
         continue;
-      const GivenVariables &given = obligation.witness->variables;
+      const GivenVariables &given = obligation.verdict.witness()->variables;
       if (!sample_.allows(given))
         return fmt::format("{}: the contract does not allow the witness{}", obligation.id, argumentsOf(given));
       const SpaceRun run = sample_.run(given);
@@ -230,7 +230,7 @@ private:
         if (depth < kRounding)
           return fmt::format("{}: the witness{} does no harm at {}", obligation.id, argumentsOf(given),
                              at(obligation.place));
-        const auto &gouge = obligation.witness->gouge;
+        const auto &gouge = obligation.verdict.witness()->gouge;
         if (gouge && gouge->depth > kSeen && clause.claim != SpaceClaim::Clearance && !isSeen(run, clause, *gouge))
           return fmt::format("{}: the witness{} is said to be {} deep at {}, {}, {}, and nothing is seen there",
                              obligation.id, argumentsOf(given), gouge->depth, gouge->at[0], gouge->at[1], gouge->at[2]);
@@ -282,12 +282,12 @@ private:
       if (claim)
         missed_.emplace(claim, argumentsOf(run.given));
     }
-    if (isProved && claim->margin && depth <= kRounding) {
+    if (isProved && claim->verdict.margin() && depth <= kRounding) {
       const auto margin =
           geometry::smallestMargin(run.space, clause.claim, clause.region, run.result.moves, ownMoves(own));
-      if (margin && *margin < *claim->margin - kMarginRounding)
-        return fmt::format("{} has a margin of {}, and the tool comes as near as {} in {}", claim->id, *claim->margin,
-                           *margin, at(own));
+      if (margin && *margin < *claim->verdict.margin() - kMarginRounding)
+        return fmt::format("{} has a margin of {}, and the tool comes as near as {} in {}", claim->id,
+                           *claim->verdict.margin(), *margin, at(own));
     }
     if (!looksClosely)
       return std::nullopt;

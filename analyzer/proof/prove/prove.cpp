@@ -1,0 +1,173 @@
+#include "proof/prove/prove.h"
+
+#include "proof/prove/guard_inference.h"
+#include "proof/prove/obligations.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+namespace {
+
+/// One exploration and the verdicts that come of it.
+struct Stage {
+  Exploration found;
+  LoopEnds ends = {};
+  SettledRows settled = {};
+};
+
+class Work {
+public:
+  explicit Work(const ProofSubject &subject)
+      : subject_(subject), start_(subject), promises_(subject), stage_(std::make_unique<Stage>()) {
+    const ExploreOptions options = start_.exploreOptions(subject);
+    stage_->found = explore(start_.reading(), subject.programs, subject.program, start_.entry(), options);
+    witnesses_.emplace(sampledRuns(subject, start_, start_.demands()));
+    if (subject.contract())
+      sampleContract();
+  }
+
+  ProgramProof run() {
+    settleStage(*stage_);
+    followPasses();
+    std::vector<Obligation> &rows = stage_->settled.rows;
+    requireSomeCall(rows);
+    markRounding(contextOf(*stage_), rows);
+    if (subject_.options.guards == InferGuards::Yes)
+      addGuards(contextOf(*stage_), stage_->settled.open, rows);
+    putInOrder(rows);
+    if (subject_.contract() && !subject_.contract()->isSound)
+      withdraw(rows, "a clause of the contract could not be read");
+    return {std::move(rows), std::move(stage_->found.unfollowed), stage_->found.incomplete};
+  }
+
+private:
+  ProofContext contextOf(Stage &stage) {
+    return {{subject_, start_, stage.found}, *witnesses_, promises_, stage.ends, anyCall_ ? &*anyCall_ : nullptr,
+            subject_.options.budget};
+  }
+
+  void sampleContract() {
+    anyCall_ = discharge(start_.store(), start_.onPath(start_.demands(), start_.store().no()), subject_.options.budget);
+    if (const smt::Model *model = anyCall_->counterexample())
+      witnesses_->sampleAround(*model);
+    witnesses_->sampleEnds(start_.terms().inputEnds(*subject_.contract(), start_.entry()));
+  }
+
+  void settleStage(Stage &stage) {
+    const ProofContext context = contextOf(stage);
+    SettledRows &settled = stage.settled;
+    const auto add = [&](std::vector<Obligation> rows) {
+      std::move(rows.begin(), rows.end(), std::back_inserter(settled.rows));
+    };
+    settleAll(context, stopQuestions(context), settled);
+    settleAll(context, unmetAlarms(context), settled);
+    add(loopRows(context));
+    if (auto end = programEndRow(context))
+      settled.rows.push_back(*std::move(end));
+    settleAll(context, promiseQuestions(context), settled);
+    for (Obligation &row : settled.rows)
+      if (row.kind == ObligationKind::AlarmIff)
+        requireEnds(context, row);
+    add(spaceRows(context));
+    if (auto guarded = guardedRow(context))
+      settled.rows.push_back(*std::move(guarded));
+  }
+
+  void followPasses();
+
+  /// A contract that no call satisfies would make everything true.
+  void requireSomeCall(std::vector<Obligation> &rows) const {
+    if (!anyCall_ || !anyCall_->proved())
+      return;
+    for (Obligation &row : rows)
+      if (row.verdict.holds())
+        row.verdict = Verdict::unknown("no call satisfies the contract");
+    Obligation none = subject_.obligation(ObligationKind::ContractSatisfiable, "some call satisfies this contract");
+    none.verdict = verdict::Refuted{.shownBy = verdict::Refuted::NoCall{
+                                        "no call satisfies this contract: what it says of the arguments contradicts "
+                                        "itself"}};
+    rows.push_back(std::move(none));
+  }
+
+  /// By kind, then by place; names that several have are numbered.
+  static void putInOrder(std::vector<Obligation> &rows) {
+    std::stable_sort(rows.begin(), rows.end(), [](const Obligation &a, const Obligation &b) {
+      return std::pair(a.kind, a.span.begin) < std::pair(b.kind, b.span.begin);
+    });
+    std::map<std::string, int> names;
+    for (Obligation &row : rows)
+      if (const int number = ++names[row.id]; number > 1)
+        row.id += fmt::format(".{}", number);
+  }
+
+  /// What rests on a contract that is not what its author meant is not told.
+  static void withdraw(std::vector<Obligation> &rows, const std::string &reason) {
+    for (Obligation &row : rows)
+      row.verdict = Verdict::unknown(reason);
+  }
+
+  const ProofSubject &subject_;
+  ProofStart start_;
+  BrokenPromises promises_;
+  std::unique_ptr<Stage> stage_;
+  std::optional<WitnessSearch> witnesses_;
+  std::optional<Outcome> anyCall_;
+};
+
+bool isOpen(const Obligation &row) { return row.verdict == Verdict::Unknown; }
+
+/// No path stops at the place, and all paths have been followed to their end.
+Obligation notMet(Obligation row) {
+  const bool isStop = row.kind == ObligationKind::AlarmUnreachable || row.kind == ObligationKind::NoControlAlarm;
+  if (isOpen(row) && isStop)
+    row.verdict = verdict::Unreachable{.method = "each pass"};
+  return row;
+}
+
+/// The verdicts on both sides; what was decided before stays.
+void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> &rows) {
+  for (Obligation &now : rows) {
+    const auto known =
+        std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSameClaim(old, now); });
+    if (known != before.end() && !isOpen(*known))
+      now = *known;
+  }
+  for (const Obligation &old : before)
+    if (std::none_of(rows.begin(), rows.end(), [&](const Obligation &now) { return isSameClaim(old, now); }))
+      rows.push_back(notMet(old));
+}
+
+/// Claims that are open after loops were met in the midst of any pass: where all loops have few passes, each pass is
+/// followed.
+void Work::followPasses() {
+  const Exploration &found = stage_->found;
+  const std::vector<Obligation> &before = stage_->settled.rows;
+  const bool hasLoops = !found.loops.empty() || found.incomplete;
+  if (!hasLoops || !found.unfollowedCalls.empty() || std::none_of(before.begin(), before.end(), isOpen))
+    return;
+  ExploreOptions options = start_.exploreOptions(subject_);
+  options.loops = LoopTreatment::EachPass;
+  options.mostSteps = 8'000;
+  options.mostPaths = 100;
+  options.mostWork = 200'000;
+  options.mostTerms = 100'000;
+  auto each = std::make_unique<Stage>();
+  each->found = explore(start_.reading(), subject_.programs, subject_.program, start_.entry(), options);
+  if (each->found.incomplete || !each->found.unfollowedCalls.empty())
+    return;
+  settleStage(*each);
+  keepDecided(before, each->settled.rows);
+  stage_ = std::move(each);
+}
+
+} // namespace
+
+ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
+                   const ProveOptions &options) {
+  const ProofSubject subject{programs, program, contracts, options};
+  return Work(subject).run();
+}
+
+} // namespace feedhold::prove
