@@ -68,7 +68,9 @@ class Space:
                 place = near_box(t, sides)
                 for i, c in zip(plane, centre):
                     place[i] = c
-                return [place]
+                beside = list(place)
+                beside[plane[0]] = min(max(t[plane[0]], centre[0] - radius), centre[0] + radius)
+                return [place, beside]
             return Part(lambda p: min(slab(p), radius - math.hypot(*(p[i] - c for i, c in zip(plane, centre)))), nearest)
         if shape == "SPHERE":
             centre = [self.at(clause, letter) for letter in "XYZ"]
@@ -110,8 +112,9 @@ class Space:
         for aim in aims:
             for height in {max(0.0, aim[2] - tip[2]), *HEIGHTS[:4]}:
                 far = math.dist(aim[:2], tip[:2])
-                part = min(1.0, self.radius_at(height) * (1 - 1e-12) / far) if far else 0.0
-                yield (tip[0] + part * (aim[0] - tip[0]), tip[1] + part * (aim[1] - tip[1]), tip[2] + height)
+                whole = self.radius_at(height) * (1 - 1e-12) / far if far else 0.0
+                for part in {min(1.0, whole), whole}:
+                    yield (tip[0] + part * (aim[0] - tip[0]), tip[1] + part * (aim[1] - tip[1]), tip[2] + height)
         for height in HEIGHTS:
             around = self.radius_at(height)
             for _ in range(max(1, count // len(HEIGHTS))):
@@ -133,7 +136,7 @@ class Space:
                     yield corner
                 for _ in range(pieces):
                     yield tuple(p + (q - p) * rng.random() for p, q in zip(a, b))
-            count = max(1, pieces * 3 // len(points)) if len(points) > 2 else pieces
+            count = max(1, pieces * 3 // len(points)) if len(points) > 2 else max(pieces, min(80, int(math.dist(a, b) / 0.3)))
             for k in range(count + 1):
                 yield tuple(p + (q - p) * k / count for p, q in zip(a, b))
 
