@@ -114,7 +114,7 @@ public:
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
   Value toolLength(const State &, const Value &) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
-  void writeAnyOf(State &state, const Value &index, const Value &value, Span place);
+  bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
   Value between(const Value &start, const Value &end) const;
   void join(State &state, Truth truth, const State &second);

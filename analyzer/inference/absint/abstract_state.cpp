@@ -282,7 +282,7 @@ AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span 
   return all.value_or(anything());
 }
 
-void AbstractReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+bool AbstractReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
   alarmsOfAnyOf(index, Use::Write, value, place);
   const IndexRange range = indicesOf(index).value_or(IndexRange{0, 0xffffffff});
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
@@ -299,8 +299,7 @@ void AbstractReading::writeAnyOf(State &state, const Value &index, const Value &
   const std::vector<VariableSpan> beside = cellsBeside(*dialect_, range.first, range.last);
   for (const VariableSpan &other : beside)
     forgetVariables(state, other.first, other.last);
-  if (range.last >= kFirstWorkOffset || !beside.empty())
-    state.position.fill(AbstractValue::anyNumber());
+  return range.last >= kFirstWorkOffset || !beside.empty();
 }
 
 } // namespace feedhold

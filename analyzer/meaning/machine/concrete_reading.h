@@ -112,10 +112,10 @@ public:
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
   Value toolLength(State &state, const Value &number) const;
-  Value readAnyOf(State &, const Value &, Span) const { return {}; }    // the index is always one number
-  void writeAnyOf(State &, const Value &, const Value &, Span) const {} // likewise
-  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so
-  Value between(const Value &, const Value &end) const { return end; }  // no signal comes
+  Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number
+  bool writeAnyOf(State &, const Value &, const Value &, Span) const { return false; } // likewise
+  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {} // they keep what they hold: a note says so
+  Value between(const Value &, const Value &end) const { return end; } // no signal comes
   void join(State &state, bool truth, const State &second) const {
     if (truth)
       state = second;

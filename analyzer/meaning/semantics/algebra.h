@@ -110,7 +110,8 @@ concept HasVariables = requires(R reading, const typename R::Value value, const 
   { reading.toolLength(state, value) } -> std::same_as<typename R::Value>;
   /// A variable whose number is not one constant.
   { reading.readAnyOf(state, value, place) } -> std::same_as<typename R::Value>;
-  reading.writeAnyOf(state, value, value, place);
+  /// Whether a zero point may have been written: then it has moved by a distance that is not known.
+  { reading.writeAnyOf(state, value, value, place) } -> std::same_as<bool>;
   /// Nothing is known any more of the variables of a range of numbers.
   reading.forgetVariables(state, variable, variable);
   /// Two states into the first: `second` where the truth holds, else the first.

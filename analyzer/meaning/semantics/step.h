@@ -42,7 +42,9 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
     const auto index = evaluate(context, indirect->index);
     if (const auto number = variableAt(context, index, expression.span))
       return writeVariable(context, *number, std::move(value), expression.span);
-    return reading.writeAnyOf(context.state, reading.asNumber(index), value, expression.span);
+    if (reading.writeAnyOf(context.state, reading.asNumber(index), value, expression.span))
+      forgetOrigins(context);
+    return;
   } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
     if (const auto number = context.programs.variableOf(context.file.file, named->name))
       return writeVariable(context, *number, std::move(value), expression.span);

@@ -150,7 +150,7 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
 template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, Span place) {
   if (workOffsetInForce(context))
     return;
-  context.state.position.fill(context.reading.anyNumber());
+  forgetOrigins(context);
   context.reading.notModelled("an additional work offset is changed while one may be in force", place);
 }
 

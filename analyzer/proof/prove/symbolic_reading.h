@@ -147,7 +147,7 @@ public:
   Value volatileRead(std::uint32_t variable);
   Value toolLength(const State &state, const Value &number);
   Value readAnyOf(State &state, const Value &index, Span place);
-  void writeAnyOf(State &state, const Value &index, const Value &value, Span place);
+  bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
   void join(State &state, Truth truth, const State &second);
 

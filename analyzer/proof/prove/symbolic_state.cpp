@@ -127,8 +127,9 @@ SymbolicValue SymbolicReading::readAnyOf(State &, const Value &index, Span place
   return anything();
 }
 
-void SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+bool SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
   alarmsOfAnyOf(index, Use::Write, value, place);
+  bool mayMoveZero = false;
   for (const VariableRange &row : dialect_->variables) {
     if (row.access == VariableAccess::ReadOnly)
       continue;
@@ -143,9 +144,9 @@ void SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &
     const std::vector<VariableSpan> beside = cellsBeside(*dialect_, row.first, row.last);
     for (const VariableSpan &other : beside)
       forgetVariables(state, other.first, other.last);
-    if ((row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty())
-      fillWith(state.position, [&] { return anyNumber(); });
+    mayMoveZero |= (row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty();
   }
+  return mayMoveZero;
 }
 
 // ---- what is not followed ----
