@@ -7,6 +7,7 @@
 #include "proof/prove/loop_account.h"
 #include "proof/prove/recurrence.h"
 #include "proof/prove/stop.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -536,6 +537,7 @@ void Prover::programEnds() {
 
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
+  const smt::Steps steps(options.steps, smt::Steps::AtEnd::GoOn);
   return Prover(programs, program, contracts, options).run();
 }
 
