@@ -18,7 +18,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::UnusedVariable};
 } // namespace
 
 extern const Rule unusedContractVariable;
-const Rule unusedContractVariable{.info = {"unused-contract-variable", Category::Contract, Severity::Warning,
+const Rule unusedContractVariable{.info = {"unused-contract-variable", Category::Contract, Severity::Error,
                                            "Reports a variable in a contract that the program does not use."},
                                   .hooks = {.contract = check, .contractKinds = kKinds}};
 

@@ -74,7 +74,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
          .span = span,
          .labels = {{cover(step, value), "changes it"}},
          .way = wayFromEntry(facts, exit.test),
-         .notes = {"once it runs it never ends; turn the comparison or the sign of the step"}});
+         .notes = {fmt::format("{} once it runs; turn the comparison or the sign of the step", endlessnessOf(loop))}});
   }
 }
 

@@ -48,6 +48,9 @@ LoopFlow described(const FlowFacts &facts, LoopFlow loop) {
     addExits(facts, loop, node);
     loop.changesUnseen = loop.changesUnseen || mayChangeUnseen(facts, node);
   }
+  const auto isInside = [&](const auto &alarm) { return contains(loop, alarm.node); };
+  loop.mayStop =
+      std::ranges::any_of(facts.alarms(), isInside) || std::ranges::any_of(facts.userAlarms(), isInside);
   return loop;
 }
 
@@ -81,6 +84,10 @@ std::vector<std::vector<NodeId>> partsOf(const FlowFacts &facts, NodeId head, co
 }
 
 } // namespace
+
+std::string_view endlessnessOf(const LoopFlow &loop) {
+  return loop.mayStop ? "only an alarm ends this loop" : "this loop never ends";
+}
 
 std::vector<LoopFlow> loopsOf(const FlowFacts &facts) {
   std::vector<LoopFlow> loops;

@@ -3,6 +3,7 @@
 
 #include "rules/flow/flow_view.h"
 
+#include <string_view>
 #include <vector>
 
 namespace feedhold::rules {
@@ -23,7 +24,12 @@ struct LoopFlow {
   bool exitsAreKnown = true;
   /// A call, a stop for the operator, or something that could not be read: variables may change unseen.
   bool changesUnseen = false;
+  /// The control may stop with an alarm in it, in some pass of some run.
+  bool mayStop = false;
 };
+
+/// What a message may say of a loop without a way out: `this loop never ends`, unless an alarm may stop it.
+std::string_view endlessnessOf(const LoopFlow &loop);
 
 /// The loops of a program, outer ones before those inside.
 std::vector<LoopFlow> loopsOf(const FlowFacts &facts);

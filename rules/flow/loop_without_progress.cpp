@@ -60,11 +60,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     done.push_back(exit.test);
     const Span span = context.tree.expressions[exit.condition].span;
     const Span head = context.tree.blocks[facts.node(loop.head).block].span();
-    Diagnostic diagnostic{.message = fmt::format("this loop never ends once {} {}", context.quoted(span),
+    Diagnostic diagnostic{.message = fmt::format("{} once {} {}", endlessnessOf(loop), context.quoted(span),
                                                  exit.leavesWhenTrue ? "does not hold" : "holds"),
                           .span = span,
                           .way = wayFromEntry(facts, exit.test),
-                          .notes = {"nothing in the loop changes a variable of its condition; only reset stops it"}};
+                          .notes = {loop.mayStop ? "nothing in the loop changes a variable of its condition"
+                                                 : "nothing in the loop changes a variable of its condition; only "
+                                                   "reset stops it"}};
     if (!head.contains(span))
       diagnostic.labels.push_back({head, "the loop begins here"});
     reporter.report(std::move(diagnostic));

@@ -44,11 +44,18 @@ struct Job {
   ProvedProgram *result;
 };
 
+/// A file of very many programs has as many steps as a few large programs.
+std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
+  constexpr std::size_t kFullShares = 4;
+  return programsInFile <= kFullShares ? stepsOfOne : stepsOfOne * kFullShares / programsInFile;
+}
+
 void proveAnew(const Job &job, const prove::ProveOptions &options) {
   const LoadedPrograms &programs = *job.loaded;
   const ProgramId program = job.result->program;
   const Callee callee{FileId(0), programs.set->file(FileId(0)).cfg.entryOf(program), program};
   prove::ProveOptions own = options;
+  own.steps = stepsFor(options.steps, programs.file(FileId(0)).model.programs.size());
   for (const auto &file : programs.files)
     own.contractsOf.push_back(&file->contracts);
   job.result->proof = prove::prove(*programs.set, callee, &programs.file(FileId(0)).contracts, own);

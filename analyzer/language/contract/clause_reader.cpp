@@ -239,6 +239,24 @@ ExpressionId ClauseReader::value(std::string_view what) {
   return result;
 }
 
+/// Behind `..`: what follows at once, or behind blanks what begins as a number does.  A letter behind blanks begins the
+/// next part (`X0.. Z..5`, `1.. MM`), unless blanks in front of `..`, too, say that a function follows.
+bool ClauseReader::hasUpperEnd(bool spacedBefore) {
+  const std::uint32_t dotsEnd = at_;
+  skipBlanks();
+  if (atEnd())
+    return false;
+  const char first = sign(at_);
+  if (at_ == dotsEnd || isDigit(first) || first == '#' || first == '[' || first == '-' || first == '+')
+    return true;
+  if (first == '.')
+    return sign(at_ + 1) != '.';
+  std::uint32_t nameEnd = at_;
+  while (nameEnd < end_ && isLetter(sign(nameEnd)))
+    ++nameEnd;
+  return spacedBefore && nameEnd - at_ > 1 && nameEnd < end_ && sign(nameEnd) == '[';
+}
+
 Range ClauseReader::range(std::string_view what) {
   const std::uint32_t begin = at_;
   const auto bound = [&] {
@@ -268,9 +286,9 @@ Range ClauseReader::range(std::string_view what) {
   if (isAmbiguous)
     fail(ContractIssueKind::Malformed, {begin, operandEnd(at_)},
          "a blank before or behind `..`, which tells whose decimal point the third one is");
-  if (spaced)
-    skipBlanks();
-  if (!atEnd() && !isBlank(sign(at_)))
+  if (const std::uint32_t dotsEnd = at_; !hasUpperEnd(spaced))
+    at_ = dotsEnd;
+  else
     range.high = bound();
   reading_.ranges.push_back({clause_, range, {begin, at_}});
   skipBlanks();

@@ -66,6 +66,7 @@ public:
   ExpressionId value(std::string_view what);
   /// `1..[#2/2]`, `..5`, `0..`, `..`
   Range range(std::string_view what);
+  bool hasUpperEnd(bool spacedBefore);
   /// All that is left.
   ExpressionId condition(FindReserved reserved);
   ExpressionId expression(FindReserved reserved);

@@ -1,5 +1,7 @@
 #include "proof/check/polynomial.h"
 
+#include "proof/smt/steps.h"
+
 #include <algorithm>
 
 namespace feedhold::check {
@@ -11,6 +13,7 @@ Polynomial variable(std::uint32_t index) { return {{Monomial{index}, Number(1)}}
 void addTo(Polynomial &sum, const Polynomial &other, const Number &factor) {
   if (factor.isZero())
     return;
+  smt::spend(10 * other.size());
   for (const auto &[monomial, coefficient] : other) {
     auto [place, isNew] = sum.try_emplace(monomial);
     place->second += coefficient * factor;
@@ -26,6 +29,7 @@ Monomial multiply(const Monomial &left, const Monomial &right) {
 }
 
 Polynomial multiply(const Polynomial &left, const Polynomial &right) {
+  smt::spend(15 * left.size() * right.size());
   Polynomial product;
   for (const auto &[leftMonomial, leftCoefficient] : left) {
     for (const auto &[rightMonomial, rightCoefficient] : right) {

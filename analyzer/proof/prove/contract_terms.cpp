@@ -1,6 +1,9 @@
 #include "proof/prove/contract_terms.h"
 
 #include "base/support/match.h"
+#include "proof/smt/steps.h"
+
+#include <set>
 
 namespace feedhold::prove {
 
@@ -8,6 +11,8 @@ using smt::Number;
 using smt::TermId;
 
 namespace {
+
+constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over which a clause is read
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
 template <typename Evaluate>
@@ -43,7 +48,16 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
   }
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
     state.variables.set(oldVariable(local), entry.locals[local]);
-  for (const Expression &expression : contracts_.tree.expressions) {
+  for (const std::uint32_t variable : oldVariables_)
+    state.variables.set(oldVariable(variable),
+                        reading_.unwritten(entry, cellOf(*programs_.file(file_).dialect, variable)));
+  smt::spend(kStepsOfTerm);
+  return state;
+}
+
+std::vector<std::uint32_t> ContractTerms::oldOf(const FileContracts &contracts) {
+  std::set<std::uint32_t> found;
+  for (const Expression &expression : contracts.tree.expressions) {
     const auto *variable = std::get_if<NumberedVariable>(&expression.node);
     const auto number = variable ? variable->number.asInteger() : std::nullopt;
     if (!number || *number >= 0)
@@ -51,10 +65,9 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
     const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
     const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr;
     if (of && of->variable > kLocalVariables)
-      state.variables.set(oldVariable(of->variable),
-                          reading_.unwritten(entry, cellOf(*programs_.file(file_).dialect, of->variable)));
+      found.insert(of->variable);
   }
-  return state;
+  return {found.begin(), found.end()};
 }
 
 TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {

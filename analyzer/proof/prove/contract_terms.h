@@ -18,7 +18,7 @@ struct InputEnds {
 class ContractTerms {
 public:
   ContractTerms(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts)
-      : reading_(reading), programs_(programs), file_(file), contracts_(contracts) {}
+      : reading_(reading), programs_(programs), file_(file), contracts_(contracts), oldVariables_(oldOf(contracts)) {}
 
   /// The modal codes and the start position of the contract are put into the state.
   void prepare(const Contract &contract, SymbolicState &entry);
@@ -41,11 +41,13 @@ private:
   smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
   SymbolicValue value(ExpressionId expression, const SymbolicState &state);
   SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
+  static std::vector<std::uint32_t> oldOf(const FileContracts &contracts);
 
   SymbolicReading &reading_;
   const ProgramSet &programs_;
   FileId file_;
   const FileContracts &contracts_;
+  std::vector<std::uint32_t> oldVariables_; // whose values on entry some clause asks for; no locals
 };
 
 } // namespace feedhold::prove

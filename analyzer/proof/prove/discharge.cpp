@@ -9,6 +9,7 @@
 #include "proof/prove/stop.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 
@@ -17,6 +18,12 @@ namespace {
 
 using smt::TermId;
 
+// Measured: a unit of Z3 takes two to three microseconds in questions with products.
+constexpr std::uint64_t kStepsOfZ3 = 3 * kStepsOfWork;
+constexpr std::uint64_t kStepsOfCvc5 = 50 * kStepsOfWork;
+/// cvc5 does not tell what it has used.  When it answers it has mostly used a small part, and else all.
+constexpr std::uint64_t kShareOfAnswer = 20;
+
 thread_local CertificateLog *openLog = nullptr;
 
 /// Absent when the certificate does not hold: the search is not to be believed.
@@ -24,6 +31,8 @@ std::optional<Proved> certified(const check::Claim &claim, const check::Certific
   if (check::verify(claim, certificate))
     return std::nullopt;
   CertificateEvidence evidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)};
+  constexpr std::uint64_t kStepsOfByte = 2;
+  smt::spend(kStepsOfByte * (evidence.claim.size() + evidence.certificate.size()));
   if (openLog)
     openLog->add(evidence);
   return Proved{Grade::Certified, std::move(evidence)};
@@ -145,6 +154,7 @@ private:
   /// Values by Z3; its `unsat` is remembered.
   std::optional<Outcome> byModel(std::uint64_t work) {
     z3_ = askZ3Once(text_, smt::arithmeticOf(store_, pure_), work);
+    smt::spend(kStepsOfZ3 * z3_.effort);
     effort_ += z3_.effort;
     if (const auto *sat = std::get_if<smt::Sat>(&z3_.result))
       return Outcome{Counterexample{completed(sat->model)}, "z3", effort_};
@@ -161,6 +171,8 @@ private:
     if (!z3.isUnsat())
       return {Unknown{reason_ + "; " + std::get<smt::NoAnswer>(z3.result).reason}, "z3", effort_};
     const smt::Answer cvc5 = askCvc5Once(text_, budget_.cvc5);
+    const bool isAnswer = !std::holds_alternative<smt::NoAnswer>(cvc5.result);
+    smt::spend(kStepsOfCvc5 * cvc5.effort / (isAnswer ? kShareOfAnswer : 1));
     effort_ += cvc5.effort;
     if (const auto *none = std::get_if<smt::NoAnswer>(&cvc5.result))
       return {Unknown{"one solver only: " + none->reason}, "z3+cvc5", effort_};
@@ -202,11 +214,16 @@ std::optional<Query> nearPart(const smt::TermStore &store, const Query &query) {
   return isLess ? std::optional(std::move(near)) : std::nullopt;
 }
 
-} // namespace
+/// Of all that is done for one question: several times what its budget for searching takes, because putting the
+/// question and reading the certificate take steps, too.
+std::uint64_t mostSteps(const Budget &budget) {
+  constexpr std::uint64_t kToPutIt = 20'000'000;
+  constexpr std::uint64_t kMargin = 3;
+  return kToPutIt + kMargin * (kStepsOfWork * budget.search + 2 * kStepsOfZ3 * budget.z3 + kStepsOfCvc5 * budget.cvc5);
+}
 
-Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
+Outcome tryToDischarge(smt::TermStore &store, const Query &query, const Budget &budget) {
   constexpr std::uint64_t kShareOfNear = 8;
-  throwIfStopped();
   std::uint64_t spent = 0;
   if (const auto near = nearPart(store, query)) {
     Outcome outcome = Discharge(store, *near, {.search = budget.search / kShareOfNear, .z3 = 0, .cvc5 = 0}).run();
@@ -217,6 +234,19 @@ Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budge
   Outcome outcome = Discharge(store, query, budget).run();
   outcome.effort += spent;
   return outcome;
+}
+
+} // namespace
+
+Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
+  throwIfStopped();
+  const std::uint64_t most = mostSteps(budget);
+  if (auto outcome = smt::within(most, [&] { return tryToDischarge(store, query, budget); }))
+    return std::move(*outcome);
+  const std::uint64_t effort = most / kStepsOfWork;
+  if (smt::areStepsUsedUp())
+    return {Unknown{std::string(kProgramStepsUsedUp)}, "", effort};
+  return {Unknown{"gave up: the question takes too many steps"}, "", effort};
 }
 
 } // namespace feedhold::prove

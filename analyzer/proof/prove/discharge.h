@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -80,6 +81,13 @@ struct Outcome {
   }
 };
 
+/// Of a step of a search or a unit of work: about a microsecond.
+constexpr std::uint64_t kStepsOfWork = 100;
+/// Of the proof of one program, about 12 seconds (smt/steps.h).
+constexpr std::uint64_t kStepsOfProgram = 1'200'000'000;
+constexpr std::string_view kProgramStepsUsedUp = "gave up: the steps for the proof of this program are used up";
+
+/// Never spends more steps than go with the budget, and no more than the program has left.
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget = {});
 
 /// Keeps what is certified on this thread while it lives, in the search for verdicts, too: which ways are possible,

@@ -2,6 +2,7 @@
 
 #include "base/support/memo.h"
 #include "base/support/process.h"
+#include "proof/smt/steps.h"
 
 namespace feedhold::prove {
 namespace {
@@ -65,9 +66,15 @@ template <typename Ask> smt::Answer askOnce(Memo<smt::Answer> &memo, std::string
 SearchResult searchOnce(const check::Claim &claim, std::uint64_t workLimit) {
   static Memo<SearchResult> memo(kMostBytes);
   std::string key = Key(claim, workLimit).take();
-  if (auto known = memo.find(key))
+  smt::spend(key.size());
+  // A search that is taken from the memo costs what it cost: what is given up must not hang on who searched first.
+  if (auto known = memo.find(key)) {
+    smt::spend(known->steps);
     return *known;
+  }
+  const smt::Steps steps(~std::uint64_t{0}, smt::Steps::AtEnd::Throw);
   SearchResult result = searchCertificate(claim, workLimit);
+  result.steps = steps.spent();
   if (result.work >= kWorthKeeping)
     memo.keep(std::move(key), result);
   return result;

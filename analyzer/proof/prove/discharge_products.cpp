@@ -1,5 +1,7 @@
 #include "proof/prove/discharge_products.h"
 
+#include "proof/smt/steps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,6 +128,7 @@ bool Products::mayBeViolated(Sign sign, Relation relation) {
 
 void Products::offer(const Rows &rows, RowSource source, const Known &known, Relation relation) {
   work_ += known.polynomial.size();
+  smt::spend(5 + 3 * known.polynomial.size());
   const Sign clear = sign(rows, known);
   if (!mayBeViolated(clear, relation))
     return;
@@ -242,6 +245,7 @@ void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hy
 bool Products::mayBreakSquare(const Rows &rows, const Monomial &x, const Monomial &y) {
   constexpr std::uint64_t kWork = 6;
   work_ += kWork;
+  smt::spend(20 * kWork);
   const auto moment = [&](const Monomial &a, const Monomial &b) { return realOf(rows, check::multiply(a, b)); };
   const double yy = moment(y, y), xy = moment(x, y), xx = moment(x, x);
   const double both = xx * yy, mixed = xy * xy;
@@ -253,6 +257,7 @@ void Products::square(const Rows &rows, const Monomial &x, const Monomial &y, co
   auto moment = [&](const Monomial &a, const Monomial &b) {
     const Polynomial product = check::multiply(factor, Polynomial{{check::multiply(a, b), Number(1)}});
     work_ += by ? product.size() + 1 : 0;
+    smt::spend(20);
     return rows.value(product).real;
   };
   const Number yy = moment(y, y), xy = moment(x, y), xx = moment(x, x);

@@ -1,5 +1,7 @@
 #include "proof/prove/discharge_rows.h"
 
+#include "proof/smt/steps.h"
+
 #include <algorithm>
 
 namespace feedhold::prove {
@@ -67,6 +69,7 @@ DeltaNumber Rows::value(const Monomial &monomial) const {
 }
 
 DeltaNumber Rows::value(const Polynomial &polynomial) const {
+  smt::spend(10 * polynomial.size());
   DeltaNumber sum;
   for (const auto &[monomial, coefficient] : polynomial)
     sum += value(monomial) * coefficient;
@@ -80,6 +83,7 @@ std::size_t Rows::newMonomials(const Polynomial &polynomial) const {
 }
 
 std::vector<Number> Rows::point() const {
+  smt::spend(10 * variableCount_);
   const Number delta = simplex_.smallDelta();
   std::vector<Number> values;
   for (std::uint32_t index = 0; index < variableCount_; ++index) {

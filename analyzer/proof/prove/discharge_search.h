@@ -23,6 +23,7 @@ struct NotFound {
 struct SearchResult {
   std::variant<Found, Satisfied, NotFound> answer;
   std::uint64_t work = 0;
+  std::uint64_t steps = 0; // that it took in all (smt/steps.h)
   enum class Reasoning : std::uint8_t { Linear, Products } reasoning = Reasoning::Linear;
 };
 

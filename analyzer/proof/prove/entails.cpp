@@ -1,5 +1,7 @@
 #include "proof/prove/entails.h"
 
+#include "proof/smt/steps.h"
+
 #include <algorithm>
 #include <set>
 
@@ -8,9 +10,12 @@ namespace feedhold::prove {
 using smt::TermId;
 
 void FactIndex::add(std::span<const TermId> facts) {
-  for (; indexed_ < facts.size(); ++indexed_)
-    for (const TermId variable : smt::variablesOf(store_, facts[indexed_]))
+  for (; indexed_ < facts.size(); ++indexed_) {
+    const std::vector<TermId> &variables = smt::variablesOf(store_, facts[indexed_]);
+    smt::spend(5 + 10 * variables.size());
+    for (const TermId variable : variables)
       users_[variable].push_back(indexed_);
+  }
 }
 
 const std::vector<std::size_t> *FactIndex::factsOn(TermId variable) const {
@@ -50,10 +55,13 @@ private:
         open_.push_back(variable);
   }
   void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::set<std::size_t> &taken) {
-    if (const auto *users = index.factsOn(variable))
-      for (const std::size_t user : *users)
-        if (user < terms.size() && taken.insert(user).second)
-          want(terms[user]);
+    const auto *users = index.factsOn(variable);
+    if (!users)
+      return;
+    smt::spend(5 * users->size());
+    for (const std::size_t user : *users)
+      if (user < terms.size() && taken.insert(user).second)
+        want(terms[user]);
   }
   static void collect(std::span<const TermId> terms, const std::set<std::size_t> &taken, std::vector<TermId> &into) {
     for (const std::size_t user : taken)
@@ -82,6 +90,8 @@ Query relevantQuery(const smt::TermStore &store, std::span<const TermId> facts, 
 
 Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
                     std::span<const TermId> conditions, TermId goal) {
+  if (smt::areStepsUsedUp()) // it will not be asked
+    return {{}, goal};
   return {Relevant(store, index, facts, conditions).to(goal), goal};
 }
 

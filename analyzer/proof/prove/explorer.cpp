@@ -4,6 +4,7 @@
 #include "proof/prove/loops.h"
 #include "proof/prove/path_memory.h"
 #include "proof/prove/stop.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,7 +16,15 @@ using smt::TermKind;
 
 namespace {
 constexpr std::string_view kTooMany = "there are too many ways through the program";
-constexpr std::uint32_t kLongestPath = 20'000; // steps
+constexpr std::string_view kTooLarge = "gave up: following the ways through the program takes too many steps";
+constexpr std::uint32_t kLongestPath = 20'000; // instructions
+constexpr std::string_view kValueTooLarge = "a value that is too large to reason about is taken as any number";
+
+/// Of going one instruction further, and of the copy of a state.
+std::uint64_t stepsOf(const Path &path) {
+  constexpr std::uint64_t kOfInstruction = 200;
+  return kOfInstruction + 2 * path.conditions.size() + 4 * path.state.variables.entries().size();
+}
 } // namespace
 
 std::optional<std::string> Exploration::notFollowedAt(Place place) const {
@@ -28,6 +37,7 @@ std::optional<std::string> Exploration::notFollowedAt(Place place) const {
 // ---- Path ----
 
 bool Path::says(const smt::TermStore &store, TermId condition) const {
+  smt::spend(2 + conditions.size() / 8);
   if (condition == store.yes() || std::find(conditions.begin(), conditions.end(), condition) != conditions.end())
     return true;
   const smt::Term &term = store[condition];
@@ -40,6 +50,7 @@ bool Path::says(const smt::TermStore &store, TermId condition) const {
 }
 
 bool Path::denies(const smt::TermStore &store, TermId condition) const {
+  smt::spend(2 + conditions.size() / 2);
   const smt::Term &term = store[condition];
   const auto isDenied = [&](TermId part) { return denies(store, part); };
   if (term.kind == TermKind::And)
@@ -102,11 +113,16 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     path.state.variables.set(kBesidePath, reading_.number(0));
     takeMoves(path);
   }
-  bool possible = true;
-  for (const TermId assumption : options_.assumptions)
-    possible = possible && path.assume(store_, assumption);
-  if (possible)
-    follow(std::move(path), Purpose::Record, nullptr);
+  const bool isWithin = smt::within(options_.mostWork * kStepsOfWork, [&] {
+                          bool possible = true;
+                          for (const TermId assumption : options_.assumptions)
+                            possible = possible && path.assume(store_, assumption);
+                          if (possible)
+                            follow(std::move(path), Purpose::Record, nullptr);
+                          return true;
+                        }).has_value();
+  if (!isWithin)
+    giveUp(smt::areStepsUsedUp() ? kProgramStepsUsedUp : kTooLarge);
   for (const UnfollowedCall &call : result_.unfollowedCalls)
     for (const std::size_t loop : call.loops)
       result_.loops[loop].callsUnknown = true;
@@ -179,6 +195,7 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
   while (!work.empty() && !result_.incomplete)
     for (Path &path : merged(work.takeFirst(), trial)) {
       throwIfStopped();
+      smt::spend(stepsOf(path));
       if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
         return giveUp(kTooMany);
       purpose_ = purpose; // opening a loop tries it
@@ -267,6 +284,7 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
 
 /// In the state of an earlier visit: whatever comes has been followed from there.
 bool Explorer::comesBack(Path &path) {
+  smt::spend(stepsOf(path));
   result_.heads.insert(path.at);
   const auto &known = path.landmark;
   if (known && known->at == path.at && known->moved == path.moved && known->frames == path.frames &&
@@ -293,6 +311,8 @@ void Explorer::recordPass(const Path &path) {
 bool Explorer::takeChecks(Path &path) {
   if (const auto reason = reading_.abandoned())
     giveUp(*reason);
+  if (reading_.takeTooLarge())
+    reading_.notModelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
   for (const auto &[reason, span] : reading_.takeNotes())
     if (purpose_ == Purpose::Record)
       result_.unfollowed.push_back({reason, path.at, span});
@@ -304,6 +324,7 @@ bool Explorer::takeChecks(Path &path) {
       auto found = std::find_if(result_.checks.begin(), result_.checks.end(), same);
       if (found == result_.checks.end())
         found = result_.checks.insert(result_.checks.end(), Check{path.at, check.place, check.alarm, {}});
+      smt::spend(path.conditions.size());
       found->instances.push_back({path.conditions, check.when.term, check.number, path.moved});
     }
     if (!path.assume(store_, store_.logicalNot(check.when.term)))
@@ -363,6 +384,7 @@ std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken)
     return paths;
   const TermId opposite = store_.logicalNot(condition.term);
   if (isPossible(path, opposite)) {
+    smt::spend(stepsOf(path));
     Path straightOn = to(path, next);
     if (straightOn.assume(store_, opposite))
       paths.push_back(std::move(straightOn));
@@ -445,7 +467,7 @@ Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee
   first.mostWork /= 2;
   first.mostTerms /= 2;
   Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
-  if (found.incomplete != kTooMany)
+  if (found.incomplete != kTooMany && found.incomplete != kTooLarge)
     return found;
   return Explorer(reading, programs, options, PathMerging::Yes).run(entry, start);
 }

@@ -2,6 +2,7 @@
 
 #include "proof/prove/entails.h"
 #include "proof/prove/shop_terms.h"
+#include "proof/smt/steps.h"
 
 #include <fmt/format.h>
 
@@ -194,7 +195,8 @@ private:
 
 LoopAccount accountOf(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop,
                       const Termination &end) {
-  return Account(reading, programs, loop).of(end);
+  constexpr std::uint64_t kMostSteps = 200'000'000;
+  return smt::within(kMostSteps, [&] { return Account(reading, programs, loop).of(end); }).value_or(LoopAccount());
 }
 
 } // namespace feedhold::prove

@@ -2,6 +2,7 @@
 
 #include "proof/prove/guard_inference.h"
 #include "proof/prove/obligations.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -166,6 +167,7 @@ void Work::followPasses() {
 
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
+  const smt::Steps steps(options.steps, smt::Steps::AtEnd::GoOn);
   const ProofSubject subject{programs, program, contracts, options};
   return Work(subject).run();
 }

@@ -12,6 +12,7 @@ enum class InferGuards : std::uint8_t { No, Yes };
 struct ProveOptions {
   std::vector<ObligationKind> only = {}; // empty: all
   Budget budget = {};
+  std::uint64_t steps = kStepsOfProgram; // of all that is done for the program (smt/steps.h)
   InferGuards guards = InferGuards::Yes;
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };

@@ -379,7 +379,9 @@ private:
 std::optional<Recurrence> recurrenceFrom(const SymbolicReading &reading, smt::TermStore &store,
                                          const Exploration &exploration, const LoopInstance &loop,
                                          const Model &inputs) {
-  return RecurrenceSearch(reading, store, exploration, loop, inputs).run();
+  return smt::within(3 * kStepsOfWork * kMostWork,
+                     [&] { return RecurrenceSearch(reading, store, exploration, loop, inputs).run(); })
+      .value_or(std::nullopt);
 }
 
 bool endsInside(const ProgramSet &programs, Callee entry, Place head, const RunResult &run) {

@@ -13,8 +13,9 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostWords = 64; // 4096 bits of numerator and denominator
 constexpr std::size_t kMostArguments = 64;
+// Behind these, no certificate can speak of the value (check/claim.cpp), and each further operation makes it larger.
+constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64}; // 4096 bits
 
 Number numberOf(Decimal value) {
   Number number(static_cast<std::int64_t>(value.mantissa()));
@@ -93,9 +94,13 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
 /// A number that grows without end (`#1=#1*#1` in a loop) is taken as any number at some size.
 SymbolicValue SymbolicReading::of(TermId number) {
   const smt::Term &term = store_[number];
-  const bool isHuge =
-      store_.isNumber(number) ? term.number.words() > kMostWords : term.arguments.size() > kMostArguments;
-  return isHuge ? anyNumber() : SymbolicValue{store_.no(), number};
+  const smt::TermShape &shape = store_.shape(number);
+  const bool isHuge = term.arguments.size() > kMostArguments || shape.monomials > kLargest.monomials ||
+                      shape.degree > kLargest.degree || shape.depth > kLargest.depth || shape.words > kLargest.words;
+  if (!isHuge)
+    return {store_.no(), number};
+  tooLarge_ = true;
+  return anyNumber();
 }
 
 SymbolicValue SymbolicReading::literal(Decimal value) { return of(store_.number(numberOf(value))); }
@@ -126,9 +131,16 @@ SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
 
 // ---- arithmetic ----
 
-/// By its form: roots, absolute values, squares, and sums and products of such.
-bool SymbolicReading::isNeverNegative(TermId id) const {
-  const Term &term = store_[id];
+/// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a rounding
+/// has its argument several times, and nested roundings would be walked through without an end.
+bool SymbolicReading::isNeverNegative(TermId id) {
+  const auto known = neverNegative_.find(id);
+  return known != neverNegative_.end() ? known->second
+                                       : neverNegative_.emplace(id, hasFormNeverNegative(id)).first->second;
+}
+
+bool SymbolicReading::hasFormNeverNegative(TermId id) {
+  const Term term = store_[id]; // a copy: telling absolute values makes terms
   const auto allNeverNegative = [&](const auto &terms) {
     return std::all_of(terms.begin(), terms.end(), [&](TermId each) { return isNeverNegative(each); });
   };

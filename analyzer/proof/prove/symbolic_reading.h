@@ -81,6 +81,8 @@ public:
   const std::vector<Move<Value>> &moves() const { return moves_; }
   /// Reasons why something was not followed, since they were last taken.
   std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
+  /// Whether a value was too large to be kept, since that was last asked.
+  bool takeTooLarge() { return std::exchange(tooLarge_, false); }
   /// What is true of the variables that this reading has made.
   const std::vector<smt::TermId> &facts() const { return facts_; }
   /// A new variable; its name starts with `what`.
@@ -166,7 +168,8 @@ public:
 private:
   Value of(smt::TermId number);
   Value freshValue(MayBeVacant mayBeVacant);
-  bool isNeverNegative(smt::TermId term) const;
+  bool isNeverNegative(smt::TermId term);
+  bool hasFormNeverNegative(smt::TermId term);
   smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);
   enum class Use : std::uint8_t { Read, Write };
   void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
@@ -181,12 +184,14 @@ private:
   std::vector<Move<Value>> moves_;
   std::vector<smt::TermId> facts_;
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
+  std::map<smt::TermId, bool> neverNegative_;
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
   std::set<smt::TermId> entry_;
   std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;
+  bool tooLarge_ = false;
   bool moved_ = false;
 };
 

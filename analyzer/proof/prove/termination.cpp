@@ -3,6 +3,7 @@
 #include "proof/prove/entails.h"
 #include "proof/prove/lasting_facts.h"
 #include "proof/prove/ranking_synthesis.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <set>
@@ -26,6 +27,7 @@ constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 constexpr Budget kLittle{.search = 8'000, .z3 = 0, .cvc5 = 0};
 /// For all questions about one loop.
 constexpr std::uint64_t kMostWork = 1'500'000;
+constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
 
 class RankingSearch {
 public:
@@ -428,14 +430,8 @@ private:
   Termination result_;
 };
 
-} // namespace
-
-Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop) {
-  return RankingSearch(reading, store, loop).run();
-}
-
-std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
-                                         const LoopInstance &loop) {
+std::optional<std::size_t> recurrentPassOf(const SymbolicReading &reading, smt::TermStore &store,
+                                           const LoopInstance &loop) {
   Entailment entails(store);
   for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
     const Transition &pass = loop.transitions[i];
@@ -447,6 +443,24 @@ std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::Te
       return i;
   }
   return std::nullopt;
+}
+
+} // namespace
+
+Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop) {
+  auto found = smt::within(kMostSteps, [&] { return RankingSearch(reading, store, loop).run(); });
+  if (found)
+    return std::move(*found);
+  Termination given;
+  given.reason = smt::areStepsUsedUp() ? kProgramStepsUsedUp
+                                       : "gave up: the search for what each pass of the loop lowers takes too many steps";
+  return given;
+}
+
+std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
+                                         const LoopInstance &loop) {
+  const auto found = smt::within(kMostSteps, [&] { return recurrentPassOf(reading, store, loop); });
+  return found.value_or(std::nullopt);
 }
 
 } // namespace feedhold::prove

@@ -1,6 +1,7 @@
 #include "proof/prove/witness.h"
 
 #include "proof/prove/stop.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ constexpr int kSamples = 150;
 constexpr std::size_t kFewSamples = 30;
 constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
+constexpr std::uint64_t kStepsOfInstruction = 30;
+constexpr std::uint64_t kStepsOfLook = 10; // at a run, and at a movement of it
 constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
@@ -162,18 +165,22 @@ void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
 }
 
 void WitnessSearch::keepSample(GivenVariables given) {
-  if (!allowed(given))
+  if (smt::areStepsUsedUp() || !allowed(given))
     return;
   throwIfStopped();
   RunOptions options = runOptions(given);
   options.fuel = kSampleFuel;
   RunResult result = run(programs_, entry_, options);
+  smt::spend(kStepsOfInstruction * result.steps);
   samples_.push_back({std::move(given), std::move(result)});
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
   int inexact = 0;
   for (const Sample &sample : samples_) {
+    if (smt::areStepsUsedUp())
+      return std::nullopt;
+    smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
     const auto happened = violation.happened(sample.result, sample.given);
     if (!happened)
       continue;
@@ -200,11 +207,12 @@ bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, c
 std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
                                             std::uint64_t fuel) const {
   throwIfStopped();
-  if (!allowed(given))
+  if (smt::areStepsUsedUp() || !allowed(given))
     return std::nullopt;
   RunOptions options = runOptions(given);
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
+  smt::spend(kStepsOfInstruction * result.steps);
   const auto happened = violation.happened(result, given);
   if (!happened || !isExact(given, result, violation))
     return std::nullopt;

@@ -1,6 +1,7 @@
 #include "proof/smt/number.h"
 
 #include "base/support/check.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,12 @@ namespace {
 
 bool allDigits(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Of an operation that needs GMP: a common divisor is sought of what comes out.
+void spendOn(const Number &left, const Number &right) {
+  const std::uint64_t words = left.words() + right.words();
+  spend(20 + words + words * words / 8);
 }
 
 } // namespace
@@ -105,9 +112,14 @@ double Number::toDouble() const {
 }
 
 std::size_t Number::hash() const {
-  // The low limbs and the sizes: enough to tell apart the numbers of one program.
-  const std::size_t above = big_ ? mpz_get_ui(big_->get_num_mpz_t()) : static_cast<std::size_t>(small_.numerator());
-  const std::size_t below = big_ ? mpz_get_ui(big_->get_den_mpz_t()) : static_cast<std::size_t>(small_.denominator());
+  const auto ofAll = [](mpz_srcptr integer) {
+    std::size_t hash = mpz_size(integer);
+    for (std::size_t limb = 0; limb < mpz_size(integer); ++limb) // the lowest alone are 0 for all high powers of 2
+      hash = hash * 0x9E3779B97F4A7C15u + mpz_getlimbn(integer, static_cast<mp_size_t>(limb));
+    return hash;
+  };
+  const std::size_t above = big_ ? ofAll(big_->get_num_mpz_t()) : static_cast<std::size_t>(small_.numerator());
+  const std::size_t below = big_ ? ofAll(big_->get_den_mpz_t()) : static_cast<std::size_t>(small_.denominator());
   return (above * 2 + (sign() < 0 ? 1 : 0)) * 0x9E3779B97F4A7C15u ^ below;
 }
 
@@ -124,35 +136,43 @@ Number Number::operator-() const {
 }
 
 Number &Number::operator+=(const Number &other) {
-  if (const auto small = big_ || other.big_ ? std::nullopt : add(small_, other.small_))
+  if (const auto small = big_ || other.big_ ? std::nullopt : add(small_, other.small_)) {
     take(small);
-  else
+  } else {
+    spendOn(*this, other);
     *this = Number(mpq_class(wide() + other.wide()));
+  }
   return *this;
 }
 
 Number &Number::operator-=(const Number &other) {
-  if (const auto small = big_ || other.big_ ? std::nullopt : subtract(small_, other.small_))
+  if (const auto small = big_ || other.big_ ? std::nullopt : subtract(small_, other.small_)) {
     take(small);
-  else
+  } else {
+    spendOn(*this, other);
     *this = Number(mpq_class(wide() - other.wide()));
+  }
   return *this;
 }
 
 Number &Number::operator*=(const Number &other) {
-  if (const auto small = big_ || other.big_ ? std::nullopt : multiply(small_, other.small_))
+  if (const auto small = big_ || other.big_ ? std::nullopt : multiply(small_, other.small_)) {
     take(small);
-  else
+  } else {
+    spendOn(*this, other);
     *this = Number(mpq_class(wide() * other.wide()));
+  }
   return *this;
 }
 
 Number &Number::operator/=(const Number &other) {
   FEEDHOLD_CHECK(!other.isZero(), "a Number was divided by 0");
-  if (const auto small = big_ || other.big_ ? std::nullopt : divide(small_, other.small_))
+  if (const auto small = big_ || other.big_ ? std::nullopt : divide(small_, other.small_)) {
     take(small);
-  else
+  } else {
+    spendOn(*this, other);
     *this = Number(mpq_class(wide() / other.wide()));
+  }
   return *this;
 }
 

@@ -1,6 +1,7 @@
 #include "proof/smt/simplex.h"
 
 #include "base/support/check.h"
+#include "proof/smt/steps.h"
 
 namespace feedhold::smt {
 namespace {
@@ -88,6 +89,7 @@ void Simplex::attach(Index index) {
         add(inner, innerFactor * factor);
     work_ += 1 + variable.row.size();
   }
+  spend(20 * variables_[index].definition.size() + 10 * row.size());
   Variable &variable = variables_[index];
   variable.row = std::move(row);
   variable.value = value;
@@ -119,6 +121,7 @@ void Simplex::bound(Index index, Change::Side side, Bound bound) {
 /// A nonbasic variable moves, and with it all basic ones that depend on it.
 void Simplex::shift(Index index, const DeltaNumber &step) {
   variables_[index].value += step;
+  spend(2 * variables_.size());
   for (Variable &variable : variables_) {
     if (variable.place != Place::Basic)
       continue;
@@ -202,6 +205,7 @@ Simplex::Status Simplex::check(std::uint64_t workLimit) {
 
 /// The first of them (Bland's rule, which cannot cycle).
 std::optional<Simplex::Index> Simplex::violated() const {
+  spend(variables_.size());
   for (Index index = 0; index < variables_.size(); ++index) {
     const Variable &variable = variables_[index];
     if (variable.place == Place::Basic && ((variable.lower && variable.value < variable.lower->limit) ||
@@ -238,6 +242,7 @@ void Simplex::pivot(Index basic, Index nonbasic) {
     auto found = variable.row.find(nonbasic);
     if (found == variable.row.end())
       continue;
+    spend(10 * row.size());
     const Number factor = std::move(found->second);
     variable.row.erase(found);
     for (const auto &[index, coefficient] : row) {

@@ -1,6 +1,7 @@
 #include "proof/smt/term.h"
 
 #include "base/support/check.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <array>
@@ -69,13 +70,42 @@ TermId TermStore::variableNamed(std::string_view name) const {
 }
 
 TermId TermStore::intern(Term term) {
+  constexpr std::uint64_t kSought = 10, kMade = 30;
+  const std::uint64_t size = 1 + term.arguments.size() + term.number.words();
+  spend(kSought + 2 * size);
   TermId id = terms_.add(std::move(term));
   auto [known, isNew] = known_.insert(id);
-  if (isNew)
+  if (isNew) {
+    shapes_.push_back(shapeOf(terms_[id]));
+    spend(kMade + 2 * size);
     return id;
+  }
   TermId result = *known;
   terms_.truncate(id.index());
   return result;
+}
+
+TermShape TermStore::shapeOf(const Term &term) const {
+  constexpr std::uint32_t kMost = 1'000'000;
+  TermShape shape{term.kind == TermKind::Add ? 0U : 1U, 0, 0, static_cast<std::uint32_t>(term.number.words())};
+  const auto capped = [](std::uint64_t size) { return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, kMost)); };
+  for (const TermId argument : term.arguments) {
+    const TermShape &inner = shapes_[argument.index()];
+    shape.depth = std::max(shape.depth, inner.depth);
+    shape.words = std::max(shape.words, inner.words);
+    if (term.kind == TermKind::Add) {
+      shape.monomials = capped(std::uint64_t{shape.monomials} + inner.monomials);
+      shape.degree = std::max(shape.degree, inner.degree);
+    } else if (term.kind == TermKind::Multiply) {
+      shape.monomials = capped(std::uint64_t{shape.monomials} * inner.monomials);
+      shape.degree = capped(std::uint64_t{shape.degree} + inner.degree);
+    }
+  }
+  if (term.kind == TermKind::Divide || term.kind == TermKind::Apply || term.kind == TermKind::Ite)
+    shape.depth = capped(std::uint64_t{shape.depth} + 1);
+  if (term.kind != TermKind::Add && term.kind != TermKind::Multiply)
+    shape.degree = term.kind == TermKind::Number ? 0 : 1;
+  return shape;
 }
 
 LinearSum TermStore::linear(TermId term) const {
@@ -94,6 +124,7 @@ LinearSum TermStore::linear(TermId term) const {
     addOne(term);
     return sum;
   }
+  spend(3 * terms_[term].arguments.size());
   for (TermId part : terms_[term].arguments)
     addOne(part);
   return sum;
@@ -132,6 +163,7 @@ TermId TermStore::add(std::span<const TermId> terms) {
   for (TermId term : terms) {
     LinearSum part = linear(term);
     constant += part.constant;
+    spend(8 * part.terms.size());
     for (const auto &[factorTerm, factor] : part.terms)
       factors[factorTerm] += factor;
   }
@@ -272,6 +304,7 @@ TermId TermStore::junction(TermKind kind, std::span<const TermId> terms) {
   std::vector<TermId> parts;
   for (TermId term : terms) {
     FEEDHOLD_CHECK(sort(term) == Sort::Bool, "a number is no Bool");
+    spend(2 + 2 * terms_[term].arguments.size());
     if (terms_[term].kind == kind)
       parts.insert(parts.end(), terms_[term].arguments.begin(), terms_[term].arguments.end());
     else if (term != neutral)

@@ -67,6 +67,14 @@ struct Term {
   std::string name; ///< of a Variable
 };
 
+/// How large a number becomes when it is written out as a polynomial over variables, quotients and functions.
+struct TermShape {
+  std::uint32_t monomials; ///< at most so many; a million stands for more
+  std::uint32_t degree;
+  std::uint32_t depth; ///< of quotients, functions and choices within one another
+  std::uint32_t words; ///< of the largest number in it
+};
+
 /// constant + the sum of factor * term; the terms are no sums, differ, and ascend; no factor is 0.
 struct LinearSum {
   Number constant;
@@ -126,6 +134,7 @@ public:
 
   const Term &operator[](TermId id) const { return terms_[id]; }
   Sort sort(TermId id) const { return terms_[id].sort; }
+  const TermShape &shape(TermId id) const { return shapes_[id.index()]; }
   std::size_t size() const { return terms_.size(); }
   bool isNumber(TermId id) const { return terms_[id].kind == TermKind::Number; }
 
@@ -147,6 +156,7 @@ private:
   };
 
   TermId intern(Term term);
+  TermShape shapeOf(const Term &term) const;
   TermId compare(TermKind kind, TermId left, TermId right);
   TermId junction(TermKind kind, std::span<const TermId> terms);
   std::optional<TermId> foldedFloor(TermId argument);
@@ -154,6 +164,7 @@ private:
   bool isWhole(const LinearSum &sum) const;
 
   Store<Term, TermId> terms_;
+  std::vector<TermShape> shapes_; // by term
   std::unordered_set<TermId, Hash, Same> known_;
   std::map<std::string, TermId, std::less<>> variables_;
   mutable std::unordered_map<std::uint32_t, std::vector<TermId>> variablesOf_; // of the terms that were asked for

@@ -2,6 +2,7 @@
 #include "proof/smt/term.h"
 
 #include "base/support/check.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 
@@ -25,6 +26,7 @@ std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> te
     for (TermId argument : store[term].arguments)
       visit(argument);
   }
+  spend(store.size() / 128 + 8 * found.size());
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -129,7 +129,7 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
   if (!output)
     return {noAnswer(output.error().message)};
   if (output.value().end == ProcessOutput::End::Killed)
-    return {noAnswer("it did not obey its budget and was stopped"), resources};
+    return {noAnswer("it did not obey its budget and was stopped"), 3 * resources};
   return readAnswer(output.value().output);
 }
 

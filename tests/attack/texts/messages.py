@@ -1,12 +1,13 @@
 """Messages of `check` with never, always or stops, against one run of a program that no other calls."""
 from .claims import Wrong
 
-HELD, FAILED, RUN, PAST, OVER = "held", "failed", "run", "past", "over"
+HELD, FAILED, RUN, PAST, OVER, LEFT = "held", "failed", "run", "past", "over", "left"
 SAYINGS = (("decided-condition", "never holds", HELD), ("decided-condition", "always holds", FAILED),
            ("constant-condition", "never true", HELD), ("constant-condition", "always true", FAILED),
            ("unreachable-block", "never run", RUN), ("loop-never-entered", "never entered", HELD),
-           ("endless-loop", "never ends", OVER), ("loop-without-progress", "never ends", OVER),
-           ("loop-in-wrong-direction", "never gets past", OVER), ("alarm-never-fires", "never comes", "alarm"),
+           ("endless-loop", "no way leads out", LEFT), ("loop-without-progress", "never ends", OVER),
+           ("loop-without-progress", "only an alarm ends", LEFT),
+           ("loop-in-wrong-direction", "never gets past", LEFT), ("alarm-never-fires", "never comes", "alarm"),
            ("division-by-zero", "divides by zero", PAST), ("out-of-domain", "is outside of what", PAST),
            ("goto-missing-label", "has no target", PAST))
 ALL_CALLS = ("decided-condition", "alarm-never-fires", "loop-never-entered")
@@ -43,5 +44,6 @@ def shows(run, visit, line, how) -> bool:
         return line in visit.done and ("IF[" not in text or line in visit.held)
     if how == "alarm":
         return run.end == "alarm" and run.where is visit and run.line == line
-    return line in visit.lines and run.end in ("return", "end", "stop", "alarm") and \
+    ends = ("return", "end") if how == LEFT else ("return", "end", "stop", "alarm")
+    return line in visit.lines and run.end in ends and \
         ("WHILE[" not in text or line in visit.held)

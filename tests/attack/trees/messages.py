@@ -58,6 +58,10 @@ def has_ended(activation, block, outcome) -> bool:
     return outcome.end in ("return", "M30", "alarm", "user-alarm")
 
 
+def has_left(activation, block, outcome) -> bool:
+    return outcome.end in ("return", "M30")
+
+
 def went_on(activation, block, outcome) -> bool:
     statement = activation.program.blocks[block].statement
     is_conditional = isinstance(statement, (syntax.IfThen, syntax.IfGoto))
@@ -66,6 +70,10 @@ def went_on(activation, block, outcome) -> bool:
 
 def once_in(activation, block, outcome) -> bool:
     return block in activation.taken and has_ended(activation, block, outcome)
+
+
+def once_in_left(activation, block, outcome) -> bool:
+    return block in activation.taken and has_left(activation, block, outcome)
 
 
 ROWS = (
@@ -77,9 +85,10 @@ ROWS = (
     Row("alarm-never-fires", "never comes",
         lambda a, b, o: o.end == "user-alarm" and o.activation is a and o.block == b, "it came"),
     Row("loop-never-entered", "never entered", lambda a, b, o: b in a.taken, "it was entered"),
-    Row("endless-loop", "never ends", has_ended, "the run ended"),
+    Row("endless-loop", "no way leads out", has_left, "the run left it"),
     Row("loop-without-progress", "never ends", once_in, "the run ended"),
-    Row("loop-in-wrong-direction", "never gets past", once_in, "the run ended"),
+    Row("loop-without-progress", "only an alarm ends", once_in_left, "the run left it"),
+    Row("loop-in-wrong-direction", "never gets past", once_in_left, "the run left it"),
     Row("division-by-zero", "^divides by zero", went_on, "it went on"),
     Row("out-of-domain", "is outside of what", went_on, "it went on"),
     Row("goto-missing-label", "has no target", went_on, "it went on"),
