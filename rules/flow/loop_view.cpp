@@ -49,8 +49,7 @@ LoopFlow described(const FlowFacts &facts, LoopFlow loop) {
     loop.changesUnseen = loop.changesUnseen || mayChangeUnseen(facts, node);
   }
   const auto isInside = [&](const auto &alarm) { return contains(loop, alarm.node); };
-  loop.mayStop =
-      std::ranges::any_of(facts.alarms(), isInside) || std::ranges::any_of(facts.userAlarms(), isInside);
+  loop.mayStop = std::ranges::any_of(facts.alarms(), isInside) || std::ranges::any_of(facts.userAlarms(), isInside);
   return loop;
 }
 

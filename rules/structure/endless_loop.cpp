@@ -48,10 +48,11 @@ void check(const FileContext &context, const Reporter &reporter) {
   for (const Loop &loop : context.model.loops) {
     if (!loop.endBlock || hasCondition(context, loop) || hasWayOut(loop, context) || mayEnd(loop, context))
       continue;
-    reporter.report({.message = "no way leads out of this loop: it has no condition and nothing inside leaves it",
-                     .span = context.tree.statements[loop.doStatement].span,
-                     .labels = {{context.tree.statements[*loop.endStatement].span, "goes back every time"}},
-                     .notes = {"only reset or an alarm stops it; write `WHILE[..]` before the DO, or leave it by `IF[..]GOTO`"}});
+    reporter.report(
+        {.message = "no way leads out of this loop: it has no condition and nothing inside leaves it",
+         .span = context.tree.statements[loop.doStatement].span,
+         .labels = {{context.tree.statements[*loop.endStatement].span, "goes back every time"}},
+         .notes = {"only reset or an alarm stops it; write `WHILE[..]` before the DO, or leave it by `IF[..]GOTO`"}});
   }
 }
 

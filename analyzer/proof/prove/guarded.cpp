@@ -16,12 +16,23 @@ std::optional<std::string> getsPastGuards(const RunResult &run, const GivenVaria
   return ended ? std::optional<std::string>("the program ends without an alarm") : std::nullopt;
 }
 
+/// The modes and the place are those of the contract in all calls that are looked at: the claim says so.  Callers
+/// answer for them (`call-meets-contract`).
+std::string claimOf(const ProofSubject &subject) {
+  const Contract &contract = *subject.contract();
+  std::string claim = subject.textOf(*contract.guarded);
+  if (!contract.modal.empty())
+    claim += " (calls in the modes of @MODAL";
+  if (contract.start)
+    claim += contract.modal.empty() ? " (calls from the place of @START" : ", from the place of @START";
+  return contract.modal.empty() && !contract.start ? claim : claim + ")";
+}
+
 Question guardedQuestion(const ExploredProgram &outside) {
   const auto &[subject, start, found] = outside;
   smt::TermStore &store = start.store();
-  Question question{.row = subject.obligation(ObligationKind::Guarded, subject.textOf(*subject.contract()->guarded)),
-                    .goals = {},
-                    .broken = getsPastGuards};
+  Question question{
+      .row = subject.obligation(ObligationKind::Guarded, claimOf(subject)), .goals = {}, .broken = getsPastGuards};
   for (const PathExit &exit : found.exits)
     question.goals.push_back({&exit.conditions, store.no()});
   for (const Check &check : found.checks)

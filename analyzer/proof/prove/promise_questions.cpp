@@ -57,6 +57,24 @@ TermId codesHold(const ExploredProgram &program, const std::vector<ModalCode> &c
   return all;
 }
 
+/// What a program leaves behind besides codes: zero points, a tool length, mappings and modes that are not followed,
+/// modal calls.  Words (F, S, T, D, H) and the spindle are not part of it (docs/contracts.md).
+TermId settingsKept(const ExploredProgram &program, const SymbolicState &state) {
+  smt::TermStore &store = program.start.store();
+  const SymbolicState &entry = program.start.entry();
+  const bool hasModalCall = state.modalCalls.size() != entry.modalCalls.size();
+  TermId kept = hasModalCall ? store.no() : store.logicalNot(state.modalCallsUnknown.term);
+  const auto keep = [&](const SymbolicValue &now, const SymbolicValue &before) {
+    kept = store.logicalAnd(kept, store.equal(now.number, before.number));
+  };
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    keep(state.shift[axis], entry.shift[axis]);
+    keep(state.local[axis], entry.local[axis]);
+  }
+  keep(state.lengthOffset, entry.lengthOffset);
+  return store.logicalAnd(kept, store.logicalNot(state.transformed.term));
+}
+
 TermId codesKept(const ExploredProgram &program, const SymbolicState &state) {
   smt::TermStore &store = program.start.store();
   const ModalTable modes(program.subject.dialect());
@@ -72,7 +90,7 @@ TermId promisedAt(const ExploredProgram &program, const Ensure &ensure, const Sy
     return program.start.terms().condition(*expression, program.start.entry(), state);
   if (const auto *codes = std::get_if<std::vector<ModalCode>>(&ensure.promise))
     return codesHold(program, *codes, state);
-  return codesKept(program, state);
+  return program.start.store().logicalAnd(codesKept(program, state), settingsKept(program, state));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "proof/prove/guard_inference.h"
 #include "proof/prove/obligations.h"
+#include "proof/prove/stray_writes.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
@@ -71,6 +72,9 @@ private:
     for (Obligation &row : settled.rows)
       if (row.kind == ObligationKind::AlarmIff)
         requireEnds(context, row);
+      else if (row.kind == ObligationKind::Assigns && row.verdict.holds())
+        if (auto stray = strayWrite(subject_))
+          row.verdict = Verdict::unknown(*std::move(stray));
     add(spaceRows(context));
     if (auto guarded = guardedRow(context))
       settled.rows.push_back(*std::move(guarded));

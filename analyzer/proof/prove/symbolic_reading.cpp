@@ -131,8 +131,8 @@ SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
 
 // ---- arithmetic ----
 
-/// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a rounding
-/// has its argument several times, and nested roundings would be walked through without an end.
+/// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a
+/// rounding has its argument several times, and nested roundings would be walked through without an end.
 bool SymbolicReading::isNeverNegative(TermId id) {
   const auto known = neverNegative_.find(id);
   return known != neverNegative_.end() ? known->second

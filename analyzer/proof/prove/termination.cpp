@@ -452,8 +452,9 @@ Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, con
   if (found)
     return std::move(*found);
   Termination given;
-  given.reason = smt::areStepsUsedUp() ? kProgramStepsUsedUp
-                                       : "gave up: the search for what each pass of the loop lowers takes too many steps";
+  given.reason = smt::areStepsUsedUp()
+                     ? kProgramStepsUsedUp
+                     : "gave up: the search for what each pass of the loop lowers takes too many steps";
   return given;
 }
 

@@ -17,7 +17,7 @@ constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfLook = 10; // at a run, and at a movement of it
-constexpr int kMostInexact = 5; // samples that break a claim by rounding, before the others are left alone
+constexpr int kMostInexact = 5;            // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
 GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {

@@ -88,7 +88,9 @@ TermId TermStore::intern(Term term) {
 TermShape TermStore::shapeOf(const Term &term) const {
   constexpr std::uint32_t kMost = 1'000'000;
   TermShape shape{term.kind == TermKind::Add ? 0U : 1U, 0, 0, static_cast<std::uint32_t>(term.number.words())};
-  const auto capped = [](std::uint64_t size) { return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, kMost)); };
+  const auto capped = [](std::uint64_t size) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, kMost));
+  };
   for (const TermId argument : term.arguments) {
     const TermShape &inner = shapes_[argument.index()];
     shape.depth = std::max(shape.depth, inner.depth);
