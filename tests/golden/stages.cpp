@@ -6,6 +6,7 @@
 #include "findings/session/ranges.h"
 #include "findings/session/session.h"
 #include "golden/run_stage.h"
+#include "golden/verdicts_stage.h"
 #include "findings/session/sidecars.h"
 #include "language/lex/lexer.h"
 #include "language/parse/parse.h"
@@ -173,6 +174,13 @@ std::string invariants(const Input &input) {
   return writeRangesText({*programs.value()->set, shown, states.value()});
 }
 
+std::string verdicts(const Input &input) {
+  const Folder folder(input);
+  ProofsWish wish{.files = optionsFor(input)};
+  wish.prove.guards = prove::InferGuards::No;
+  return verdictsOf(proveAll(wish, knownNames()));
+}
+
 } // namespace
 
 std::optional<std::string> runStage(std::string_view stage, const Input &input) {
@@ -188,6 +196,8 @@ std::optional<std::string> runStage(std::string_view stage, const Input &input) 
     return contract(input);
   if (stage == "invariants")
     return invariants(input);
+  if (stage == "verdicts")
+    return verdicts(input);
   if (stage == "run" || stage.starts_with("run ")) {
     const Folder folder(input);
     return runStageOf(input, stage.substr(3));

@@ -157,7 +157,8 @@ bool ContractOnRun::keepsModes(const State &before, const State &now) const {
   for (std::size_t group = 1; group < kModalGroups; ++group)
     if (!modes.group(group).codes.empty() && before.codes[group] != now.codes[group])
       return false;
-  return true;
+  return before.words == now.words && before.shift == now.shift && before.local == now.local &&
+         before.spindle == now.spindle && before.modalCalls == now.modalCalls;
 }
 
 std::optional<bool> ContractOnRun::keeps(const Ensure &ensure, const EntryValues &entry, const State &now) const {

@@ -281,7 +281,8 @@ Obligation readObligation(Reader &reader) {
 } // namespace
 
 std::string writeProofRecord(const ProgramProof &proof) {
-  const auto &[obligations, unfollowed, incomplete] = proof;
+  const auto &[obligations, unfollowed, incomplete, contradictions] = proof;
+  static_cast<void>(contradictions); // a proof that has any is not kept
   Writer writer;
   writer.number(obligations.size());
   for (const Obligation &obligation : obligations)

@@ -81,7 +81,7 @@ void proveOrRecall(const Job &job, const ProofsWish &wish) {
   const std::uint64_t failures = failedChildren();
   proveAnew(job, wish.prove);
   // A solver that is missing today may be there tomorrow, and one that had to be stopped may be in time.
-  if (failedChildren() == failures)
+  if (failedChildren() == failures && job.result->proof.contradictions.empty())
     remember(*wish.cache, key, job.result->proof);
 }
 

@@ -1,6 +1,6 @@
 #include "findings/session/ranges.h"
 
-#include "inference/absint/reached_programs.h"
+#include "meaning/cfg/reached_programs.h"
 
 #include <fmt/format.h>
 

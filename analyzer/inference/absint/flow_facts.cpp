@@ -1,6 +1,6 @@
 #include "inference/absint/flow_facts.h"
 
-#include "inference/absint/reached_programs.h"
+#include "meaning/cfg/reached_programs.h"
 
 #include <algorithm>
 

@@ -161,7 +161,16 @@ struct WordLimit {
   Range range;
 };
 
-struct ModalPreserved {};
+/// What "modal state" contains is told in docs/contracts.md.
+struct ModalPreserved {
+  std::string except = {}; // addresses whose words may be others: `F`
+};
+/// `@GUARDED`: calls outside of the contract raise an alarm, but for those that break only what is excepted.
+struct Guarded {
+  ClauseId clause;
+  bool exceptModal = false; // `@MODAL`
+  bool exceptStart = false; // `@START`
+};
 /// `@ENSURE`: a condition, the modal state of entry, or codes in force.
 struct Ensure {
   ClauseId clause;
@@ -210,7 +219,7 @@ struct Contract {
   std::vector<WordLimit> limits;
   std::vector<Ensure> ensures;
   std::vector<Assigns> assigns; // together: the union
-  std::optional<ClauseId> guarded;
+  std::optional<Guarded> guarded;
   std::vector<AlarmPromise> alarms;
   std::vector<LoopHint> invariants;
   std::vector<LoopHint> variants;

@@ -151,7 +151,8 @@ private:
     for (const Assigns &each : contract.assigns)
       line("assigns" + variables(each));
     if (contract.guarded)
-      line("guarded");
+      line(fmt::format("guarded{}{}", contract.guarded->exceptModal ? " whatever the modes" : "",
+                       contract.guarded->exceptStart ? " from any place" : ""));
     for (const AlarmPromise &each : contract.alarms)
       line(fmt::format("alarm {} {} {}", each.number, each.claim == AlarmClaim::If ? "if" : "if and only if",
                        writer(each.clause).text(each.condition)));
@@ -166,7 +167,9 @@ private:
   std::string promise(const Ensure &ensure) const {
     return match(
         ensure.promise, [&](ExpressionId condition) { return writer(ensure.clause).text(condition); },
-        [](const ModalPreserved &) { return std::string("the modal state of entry"); },
+        [](const ModalPreserved &kept) {
+          return std::string("the modal state of entry") + (kept.except.empty() ? "" : " except " + kept.except);
+        },
         [](const std::vector<ModalCode> &codes) {
           std::string all = "in force:";
           for (const ModalCode &code : codes)

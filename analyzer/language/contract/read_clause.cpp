@@ -53,7 +53,7 @@ private:
     case ClauseKind::Limit: return limit();
     case ClauseKind::Ensure: return ensure();
     case ClauseKind::Assigns: return assigns();
-    case ClauseKind::Guarded: return mark(contract_.guarded);
+    case ClauseKind::Guarded: return guarded();
     case ClauseKind::Alarm: return alarm();
     case ClauseKind::Invariant: return hint(contract_.invariants);
     case ClauseKind::Variant: return hint(contract_.variants);
@@ -289,8 +289,15 @@ private:
     if (reader_.take("MODAL")) {
       if (!reader_.take("PRESERVED"))
         reader_.expected("`PRESERVED`");
+      ModalPreserved kept;
+      if (reader_.take("EXCEPT")) {
+        while (const std::optional<char> address = reader_.takeLetter("FSTDHEB"))
+          kept.except += *address;
+        if (kept.except.empty())
+          reader_.expected("addresses, such as `EXCEPT F S`");
+      }
       if (isRead())
-        contract_.ensures.push_back({id_, ModalPreserved{}});
+        contract_.ensures.push_back({id_, std::move(kept)});
       return;
     }
     if (reader_.peekLetter("GM")) {
@@ -325,6 +332,18 @@ private:
     if (place)
       return refuseSecond(*place, fmt::format("`{}`", nameOf(reading_.result.clauses[id_].kind)));
     place = id_;
+  }
+
+  void guarded() {
+    Guarded guarded{id_};
+    if (reader_.take("EXCEPT")) {
+      guarded.exceptModal = reader_.take("MODAL");
+      guarded.exceptStart = reader_.take("START");
+      if (!guarded.exceptModal && !guarded.exceptStart)
+        reader_.expected("`MODAL` or `START`");
+    }
+    if (isRead())
+      setOnce(contract_.guarded, guarded, "`@GUARDED`");
   }
 
   void alarm() {

@@ -166,6 +166,9 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
     changeAdditionalOffset(context, place);
   if (range.role != VariableRole::MessageStop && range.role != VariableRole::Volatile)
     context.state.variables.set(cell, std::move(value));
+  else if constexpr (requires { reading.writesUnkept(cell); })
+    if (range.role == VariableRole::Volatile)
+      reading.writesUnkept(cell);
 }
 
 /// Bits beyond those that are certain keep what they hold, or not.

@@ -1,6 +1,7 @@
 // Of each entry of another program: that it is one for which that program was proved.
 #include "proof/prove/obligations.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -21,9 +22,9 @@ std::optional<std::string> neverBroken(const RunResult &, const GivenVariables &
 using CallKey = std::pair<Place, std::uint32_t>;
 CallKey keyOf(const CallInstance &call) { return {call.own, static_cast<std::uint32_t>(call.callee.entry.index())}; }
 
-Question meetsContract(const ProofSubject &subject, const CallInstance &call) {
-  return {.row = subject.obligation(ObligationKind::CallMeetsContract, call.own, subject.spanOf(call.own),
-                                    fmt::format("this call satisfies the contract of {}", subject.nameOf(call.callee))),
+Question meetsContract(const ProofSubject &subject, Place own, const Callee &callee) {
+  return {.row = subject.obligation(ObligationKind::CallMeetsContract, own, subject.spanOf(own),
+                                    fmt::format("this call satisfies the contract of {}", subject.nameOf(callee))),
           .goals = {},
           .broken = brokenByCall,
           .isJudgedExactly = true};
@@ -40,10 +41,10 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
       continue;
     ContractTerms terms(start.reading(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
-    const TermId met = contract.isSound ? store.logicalAnd(terms.demandsOfCall(contract, call.state)) : store.no();
+    const TermId met = contract.isSound ? store.logicalAnd(terms.assumptions(contract, call.state)) : store.no();
     auto known = asked.find(keyOf(call));
     if (known == asked.end())
-      known = asked.emplace(keyOf(call), meetsContract(subject, call)).first;
+      known = asked.emplace(keyOf(call), meetsContract(subject, call.own, call.callee)).first;
     known->second.goals.push_back({&call.conditions, met});
   }
   for (auto &[key, question] : asked)
@@ -70,6 +71,25 @@ void noModalCallIsInForce(const ExploredProgram &program, Questions &questions) 
   }
 }
 
+/// Where paths are missing, the calls in the text that none of the others has come to.
+void callsNotMet(const ExploredProgram &program, Questions &questions) {
+  const auto &[subject, start, found] = program;
+  if (!found.incomplete)
+    return;
+  const auto &calls = subject.file().model->calls;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const auto callee = subject.programs.callee(subject.program.file, CallId(i));
+    if (calls[CallId(i)].caller != subject.program.program || !callee || !subject.contractsOf(*callee))
+      continue;
+    const Place own{subject.program.file, subject.file().cfg.nodeOf(calls[CallId(i)].block)};
+    Question question = meetsContract(subject, own, *callee);
+    const bool isMet = std::any_of(questions.begin(), questions.end(),
+                                   [&](const Question &other) { return isSameClaim(other.row, question.row); });
+    if (!isMet)
+      questions.push_back(std::move(question));
+  }
+}
+
 } // namespace
 
 Questions callQuestions(const ExploredProgram &program) {
@@ -78,6 +98,7 @@ Questions callQuestions(const ExploredProgram &program) {
     return questions;
   contractsAreMet(program, questions);
   noModalCallIsInForce(program, questions);
+  callsNotMet(program, questions);
   return questions;
 }
 

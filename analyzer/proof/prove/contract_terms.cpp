@@ -148,15 +148,28 @@ std::vector<InputEnds> ContractTerms::inputEnds(const Contract &contract, const 
   return ends;
 }
 
-std::vector<TermId> ContractTerms::demandsOfCall(const Contract &contract, const SymbolicState &called) {
-  smt::TermStore &store = reading_.store();
-  std::vector<TermId> all = demands(contract, called);
-  SymbolicState prepared = called;
+std::vector<TermId> ContractTerms::modesOfStart(const Contract &contract, const SymbolicState &started) {
+  SymbolicState prepared = started;
   prepare(contract, prepared);
+  std::vector<TermId> all;
   for (std::size_t group = 0; group < kModalGroups; ++group)
-    all.push_back(store.equal(called.codes[group].index, prepared.codes[group].index));
+    all.push_back(reading_.store().equal(started.codes[group].index, prepared.codes[group].index));
+  return all;
+}
+
+std::vector<TermId> ContractTerms::placeOfStart(const Contract &contract, const SymbolicState &started) {
+  SymbolicState prepared = started;
+  prepare(contract, prepared);
+  std::vector<TermId> all;
   for (const Axis axis : kAllAxes)
-    all.push_back(store.equal(called.at(axis).number, prepared.at(axis).number));
+    all.push_back(reading_.store().equal(started.at(axis).number, prepared.at(axis).number));
+  return all;
+}
+
+std::vector<TermId> ContractTerms::assumptions(const Contract &contract, const SymbolicState &started) {
+  std::vector<TermId> all = demands(contract, started);
+  for (const auto &more : {modesOfStart(contract, started), placeOfStart(contract, started)})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

@@ -24,8 +24,13 @@ public:
   void prepare(const Contract &contract, SymbolicState &entry);
   /// `@PARAM`, `@GLOBAL` and `@REQUIRE`: what a caller has to see to.
   std::vector<smt::TermId> demands(const Contract &contract, const SymbolicState &entry);
-  /// The same, and the modal codes and the start position, of a state in which the program is called.
-  std::vector<smt::TermId> demandsOfCall(const Contract &contract, const SymbolicState &called);
+  /// The modal codes and the start position of the contract are those of the state.
+  std::vector<smt::TermId> modesOfStart(const Contract &contract, const SymbolicState &started);
+  std::vector<smt::TermId> placeOfStart(const Contract &contract, const SymbolicState &started);
+  /// All that a proof of the program assumes of the state in which it is started: the same, the modal codes and the
+  /// start position.  Whoever calls the program answers for each of them, and a call that breaks one of them is a call
+  /// outside of the contract.
+  std::vector<smt::TermId> assumptions(const Contract &contract, const SymbolicState &started);
   /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
   smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
   /// A condition over a point of the space, and the values on entry.

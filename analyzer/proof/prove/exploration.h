@@ -86,6 +86,14 @@ struct CallInstance {
   smt::TermId modalCall; // a modal call is in force that the movements of the program make
 };
 
+/// One path to a write of a variable that other programs can see, or to what may be one.
+struct WriteInstance {
+  Place place;
+  std::vector<smt::TermId> conditions;
+  smt::TermId isKept;                    // the variable holds the same as before
+  std::optional<std::uint32_t> variable; // absent: its number is not known
+};
+
 /// One way to a movement.
 struct MoveInstance {
   Place place; // of the block
@@ -120,8 +128,9 @@ struct Exploration {
   std::vector<Check> checks;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
-  std::vector<CallInstance> calls; // for which the started program has to answer
-  std::vector<MoveInstance> moves; // of ExploreOptions::moves
+  std::vector<CallInstance> calls;   // for which the started program has to answer
+  std::vector<MoveInstance> moves;   // of ExploreOptions::moves
+  std::vector<WriteInstance> writes; // of ExploreOptions::keepWrites
   LoopTreatment treatment = LoopTreatment::AnyPass;
   std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
   std::set<Place> heads;      // of EachPass: those that were met
@@ -157,10 +166,11 @@ struct ExploreOptions {
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;
-  LoopHints invariants = {};                         // tried with those that are guessed
-  LoopHints measures = {};                           // kept for LoopInstance::measures
+  LoopHints invariants = {};                        // tried with those that are guessed
+  LoopHints measures = {};                          // kept for LoopInstance::measures
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
   KeepMoves moves = KeepMoves::No;
+  bool keepWrites = false;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 6'000'000;

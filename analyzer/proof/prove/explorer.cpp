@@ -367,11 +367,15 @@ std::vector<Path> Explorer::execute(Path path) {
 std::vector<Path> Explorer::straight(Path path) {
   const Node &node = nodeOf(path);
   auto context = contextOf(path);
+  const bool keepsWrites = options_.keepWrites && purpose_ == Purpose::Record;
+  const std::optional<SymbolicState> before = keepsWrites ? std::optional(path.state) : std::nullopt;
   step(context, node.instruction, words_);
   const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
   const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
   if (!takeChecks(path))
     return {};
+  if (before)
+    takeWrites(path, *before);
   if (moves.term != store_.no())
     return modalCall(std::move(path), moves);
   return {to(std::move(path), node.next)};

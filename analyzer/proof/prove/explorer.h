@@ -66,6 +66,8 @@ private:
   bool takeChecks(Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
+  /// What the step has written (explorer_writes.cpp).  `before`: of the step.
+  void takeWrites(const Path &path, const SymbolicState &before);
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);

@@ -48,9 +48,16 @@ private:
     const TermId quotient = inSteps(smt::substitute(store_, measure.measure, loop_.first), measure.decrease);
     const TermId one = store_.number(Number(1));
     TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
-    if (!testsFirst()) // what comes back to the start begins one pass more
-      most = store_.add(most, one);
+    if (!testsFirst()) {
+      most = store_.add(most, one); // what comes back to the start begins one pass more
+      if (!isMetWith(store_.lessOrEqual(one, most)))
+        return ""; // such a loop has one pass at least, however small the number is
+    }
     return roundedText(most).value_or("");
+  }
+  /// It holds whenever the loop is met.
+  bool isMetWith(TermId goal) {
+    return discharge(store_, relevantQuery(store_, reading_.facts(), loop_.arrival, goal), Budget::quick()).proved();
   }
   /// FUP and FIX go by the sign of what they round: whole numbers beside it come into its brackets, where the sum is
   /// not negative if there are passes.

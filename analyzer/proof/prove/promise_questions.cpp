@@ -1,8 +1,10 @@
 // What the contract of a program promises for its return, and for the calls that raise alarms.
+#include "proof/prove/modal_state.h"
 #include "proof/prove/obligations.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace feedhold::prove {
 
@@ -35,6 +37,36 @@ std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariable
   return *end + ", and what was promised does not hold";
 }
 
+/// Broken as soon as something happens, however the run ends.
+std::optional<std::string> brokenOnTheWay(const RunResult &run) {
+  if (run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
+    return std::nullopt;
+  return "a variable that the clause does not name gets another value on the way";
+}
+
+/// A write of it outlasts the program, or is seen outside of it.
+bool isSeenByOthers(const Dialect &dialect, std::uint32_t variable) {
+  const VariableRange *row = variable < kFirstNamedVariable ? findVariable(dialect, variable) : nullptr;
+  return row && row->kind != VariableKind::Local;
+}
+
+/// The cells of the control behind the numbers that a contract names: a cell may have several.
+std::set<std::uint32_t> cellsOf(const Dialect &dialect, const std::vector<Assigns> &clauses) {
+  std::set<std::uint32_t> cells;
+  for (const Assigns &clause : clauses)
+    for (const Assigns::Variables &range : clause.variables)
+      for (std::uint32_t number = range.first; number <= range.last; ++number) {
+        const std::uint32_t cell = cellOf(dialect, number);
+        cells.insert(cell);
+        for (const std::uint32_t other : perhapsSameAs(dialect, cell))
+          cells.insert(other);
+        if (const BitWord *word = findBitWord(dialect, number))
+          for (std::uint32_t bit = 0; bit < word->bits; ++bit)
+            cells.insert(word->firstBit + bit);
+      }
+  return cells;
+}
+
 Question promise(const ProofSubject &subject, ObligationKind kind, ClauseId clause) {
   return {.row = subject.obligation(kind, subject.textOf(clause)),
           .goals = {},
@@ -57,40 +89,12 @@ TermId codesHold(const ExploredProgram &program, const std::vector<ModalCode> &c
   return all;
 }
 
-/// What a program leaves behind besides codes: zero points, a tool length, mappings and modes that are not followed,
-/// modal calls.  Words (F, S, T, D, H) and the spindle are not part of it (docs/contracts.md).
-TermId settingsKept(const ExploredProgram &program, const SymbolicState &state) {
-  smt::TermStore &store = program.start.store();
-  const SymbolicState &entry = program.start.entry();
-  const bool hasModalCall = state.modalCalls.size() != entry.modalCalls.size();
-  TermId kept = hasModalCall ? store.no() : store.logicalNot(state.modalCallsUnknown.term);
-  const auto keep = [&](const SymbolicValue &now, const SymbolicValue &before) {
-    kept = store.logicalAnd(kept, store.equal(now.number, before.number));
-  };
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
-    keep(state.shift[axis], entry.shift[axis]);
-    keep(state.local[axis], entry.local[axis]);
-  }
-  keep(state.lengthOffset, entry.lengthOffset);
-  return store.logicalAnd(kept, store.logicalNot(state.transformed.term));
-}
-
-TermId codesKept(const ExploredProgram &program, const SymbolicState &state) {
-  smt::TermStore &store = program.start.store();
-  const ModalTable modes(program.subject.dialect());
-  TermId kept = store.yes();
-  for (std::size_t group = 1; group < kModalGroups; ++group)
-    if (!modes.group(group).codes.empty())
-      kept = store.logicalAnd(kept, store.equal(state.codes[group].index, program.start.entry().codes[group].index));
-  return kept;
-}
-
 TermId promisedAt(const ExploredProgram &program, const Ensure &ensure, const SymbolicState &state) {
   if (const auto *expression = std::get_if<ExpressionId>(&ensure.promise))
     return program.start.terms().condition(*expression, program.start.entry(), state);
   if (const auto *codes = std::get_if<std::vector<ModalCode>>(&ensure.promise))
     return codesHold(program, *codes, state);
-  return program.start.store().logicalAnd(codesKept(program, state), settingsKept(program, state));
+  return modalStateKept(program, std::get<ModalPreserved>(ensure.promise), state);
 }
 
 } // namespace
@@ -117,6 +121,11 @@ Questions ensureQuestions(const ExploredProgram &program) {
     Question question = promise(subject, kind, ensure.clause);
     for (const PathExit &exit : found.exits)
       question.goals.push_back({&exit.conditions, promisedAt(program, ensure, exit.state)});
+    if (const auto *kept = std::get_if<ModalPreserved>(&ensure.promise)) {
+      question.whyOpen = whyNotKept(program, *kept);
+      if (modeNotTold(program))
+        question.open = question.whyOpen;
+    }
     questions.push_back(std::move(question));
   }
   return questions;
@@ -127,29 +136,19 @@ Questions assignQuestions(const ExploredProgram &program) {
   const Contract &contract = *subject.contract();
   if (contract.assigns.empty() || !subject.wants(ObligationKind::Assigns))
     return {};
-  const auto allowed = [&](std::uint32_t variable) {
-    for (const Assigns &assigns : contract.assigns)
-      for (const Assigns::Variables &range : assigns.variables)
-        if (range.first <= variable && variable <= range.last)
-          return true;
-    return false;
-  };
-  smt::TermStore &store = start.store();
+  const std::set<std::uint32_t> allowed = cellsOf(subject.dialect(), contract.assigns);
   Question question = promise(subject, ObligationKind::Assigns, contract.assigns.front().clause);
-  for (const PathExit &exit : found.exits) {
-    TermId kept = store.yes();
-    for (const auto &[variable, value] : exit.state.variables.entries()) {
-      const VariableRange *row = variable < kFirstNamedVariable ? findVariable(subject.dialect(), variable) : nullptr;
-      if (!row || row->kind == VariableKind::System || row->kind == VariableKind::Local || allowed(variable))
-        continue;
-      const SymbolicValue before = start.reading().atEntry(variable);
-      kept = store.logicalAnd(
-          kept, store.logicalAnd(store.equal(value.vacant, before.vacant), store.equal(value.number, before.number)));
-    }
-    if (!exit.state.forgotten.empty())
+  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenOnTheWay(run); };
+  for (const WriteInstance &write : found.writes) {
+    if (!write.variable)
       question.open = "a variable whose number is not known is written";
-    question.goals.push_back({&exit.conditions, kept});
+    else if (isSeenByOthers(subject.dialect(), *write.variable) && !allowed.contains(*write.variable))
+      question.goals.push_back({&write.conditions, write.isKept});
   }
+  if (!found.unfollowedCalls.empty())
+    question.open = "a program that is called is not followed, and may write any variable";
+  if (question.goals.empty() && !found.incomplete) // there is nothing to break it
+    question.goals.push_back({&start.demands(), start.store().yes()});
   return {std::move(question)};
 }
 

@@ -63,6 +63,7 @@ ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
     startExactly(reading_, *given);
   entry_ = symbolicEntry(reading_);
   keepPolar(subject.dialect());
+  anyEntry_ = entry_;
   codes_ = entry_.codes;
   if (subject.contract())
     readContract(subject);
@@ -82,21 +83,20 @@ void ProofStart::keepPolar(const Dialect &dialect) {
 void ProofStart::readContract(const ProofSubject &subject) {
   const Contract &contract = *subject.contract();
   terms_ = std::make_unique<ContractTerms>(reading_, subject.programs, subject.program.file, *subject.contracts);
-  const auto anyCodes = entry_.codes;
   terms_->prepare(contract, entry_);
   codes_ = entry_.codes;
-  leaveMappingsOpen(subject, anyCodes);
+  leaveMappingsOpen(subject);
   demands_ = terms_->demands(contract, entry_);
   space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_);
 }
 
 /// A mapping whose code is certain is taken to be the program's own; one of the caller ends with what was known of the
 /// position, so that its code is left open.
-void ProofStart::leaveMappingsOpen(const ProofSubject &subject, const decltype(SymbolicState::codes) &anyCodes) {
+void ProofStart::leaveMappingsOpen(const ProofSubject &subject) {
   for (const ModalCode &code : subject.contract()->modal) {
     const Code *row = code.address == 'G' ? findGCode(subject.dialect(), code.tenths) : nullptr;
     if (row && beginsMapping(row->action))
-      entry_.codes[row->group] = anyCodes[row->group];
+      entry_.codes[row->group] = anyEntry_.codes[row->group];
   }
 }
 
@@ -137,6 +137,7 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   const Contract *contract = subject.contract();
   if (!contract)
     return options;
+  options.keepWrites = !contract->assigns.empty();
   options.moves = contract->clearance         ? KeepMoves::WithColumn
                   : hasSpaceClause(*contract) ? KeepMoves::Yes
                                               : KeepMoves::No;

@@ -55,6 +55,8 @@ public:
   ContractTerms &terms() { return *terms_; }
   const SpaceClaims &space() const { return *space_; }
   const SymbolicState &entry() const { return entry_; }
+  /// Any start, within the contract or outside of it.
+  const SymbolicState &anyEntry() const { return anyEntry_; }
   /// What the contract demands of the inputs.
   const std::vector<smt::TermId> &demands() const { return demands_; }
   /// Codes and place of the runs of the machine, as the contract says.
@@ -70,11 +72,12 @@ private:
   using HintTerm = std::function<smt::TermId(ExpressionId, const SymbolicState &)>;
   void keepPolar(const Dialect &dialect);
   void readContract(const ProofSubject &subject);
-  void leaveMappingsOpen(const ProofSubject &subject, const decltype(SymbolicState::codes) &anyCodes);
+  void leaveMappingsOpen(const ProofSubject &subject);
 
   smt::TermStore store_;
   SymbolicReading reading_;
-  SymbolicState entry_;
+  SymbolicState anyEntry_;
+  SymbolicState entry_;                  // as the contract says
   decltype(SymbolicState::codes) codes_; // as the contract says
   std::vector<smt::TermId> demands_;
   std::unique_ptr<ContractTerms> terms_;

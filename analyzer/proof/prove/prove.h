@@ -17,10 +17,18 @@ struct ProveOptions {
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };
 
+/// A run did what a verdict denies.  The verdict has been withdrawn.
+struct Contradiction {
+  std::string id;      // of the obligation
+  std::string verdict; // that was withdrawn: `proved`
+  Witness run;
+};
+
 struct ProgramProof {
-  std::vector<Obligation> obligations;        // by kind, then by place
-  std::vector<Unfollowed> unfollowed;         // what was taken as anything at all
-  std::optional<std::string_view> incomplete; // why not all ways were followed
+  std::vector<Obligation> obligations;            // by kind, then by place
+  std::vector<Unfollowed> unfollowed;             // what was taken as anything at all
+  std::optional<std::string_view> incomplete;     // why not all ways were followed
+  std::vector<Contradiction> contradictions = {}; // defects of Feedhold
 };
 
 /// For every input that the contract allows; without one, for every input.  `contracts`: of the file of the program.

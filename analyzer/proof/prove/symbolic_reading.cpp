@@ -49,6 +49,7 @@ std::optional<Function> functionOf(FunctionKind kind) {
 void SymbolicReading::start() {
   checks_.clear();
   moves_.clear();
+  unkeptWrites_.clear();
   stopped_ = moved_ = false;
 }
 

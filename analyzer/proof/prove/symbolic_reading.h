@@ -79,6 +79,9 @@ public:
   bool moved() const { return moved_; }
   /// The movements of the step, in order.
   const std::vector<Move<Value>> &moves() const { return moves_; }
+  /// A variable is written of which the state keeps nothing: it may hold anything at the next read.
+  void writesUnkept(std::uint32_t variable) { unkeptWrites_.push_back(variable); }
+  const std::vector<std::uint32_t> &unkeptWrites() const { return unkeptWrites_; }
   /// Reasons why something was not followed, since they were last taken.
   std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
   /// Whether a value was too large to be kept, since that was last asked.
@@ -181,6 +184,7 @@ private:
   std::vector<StopCheck> checks_;
   std::optional<std::string_view> abandoned_;
   std::vector<std::pair<std::string_view, Span>> notes_;
+  std::vector<std::uint32_t> unkeptWrites_;
   std::vector<Move<Value>> moves_;
   std::vector<smt::TermId> facts_;
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term

@@ -17,7 +17,8 @@ constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfLook = 10; // at a run, and at a movement of it
-constexpr int kMostInexact = 5;            // samples that break a claim by rounding, before the others are left alone
+constexpr std::size_t kMostReplays = 200; // that are kept for the judge
+constexpr int kMostInexact = 5;           // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
 GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
@@ -68,6 +69,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
   narrowed.startFrom(start_, place_);
   narrowed.others_ = others_;
   narrowed.exactRuns_ = exactRuns_;
+  narrowed.replays_ = replays_;
   narrowed.demands_.push_back(demand);
   for (const Sample &sample : samples_)
     if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
@@ -192,10 +194,18 @@ std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) c
   return std::nullopt;
 }
 
+std::vector<WitnessSearch::Sample> WitnessSearch::allRuns() const {
+  std::vector<Sample> all = samples_;
+  all.insert(all.end(), replays_->begin(), replays_->end());
+  return all;
+}
+
 /// What happens only because the machine rounds is no witness: proofs are over exact numbers.
 bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const {
-  if (violation.breaksExactly)
-    return violation.breaksExactly(given);
+  return violation.breaksExactly ? violation.breaksExactly(given) : isExact(given, run);
+}
+
+bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) const {
   switch (agreesExactly(given, run)) {
   case Agreement::Same: return true;
   case Agreement::Different: return false;
@@ -213,6 +223,8 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
   options.fuel = fuel;
   const RunResult result = run(programs_, entry_, options);
   smt::spend(kStepsOfInstruction * result.steps);
+  if (replays_->size() < kMostReplays)
+    replays_->push_back({given, result});
   const auto happened = violation.happened(result, given);
   if (!happened || !isExact(given, result, violation))
     return std::nullopt;

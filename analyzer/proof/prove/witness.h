@@ -64,6 +64,10 @@ public:
     RunResult result;
   };
   const std::vector<Sample> &samples() const { return samples_; }
+  /// These, and runs on counterexamples, of narrowed searches too.
+  std::vector<Sample> allRuns() const;
+  /// What the run comes to is not made by the rounding of the machine.
+  bool isExact(const GivenVariables &given, const RunResult &run) const;
   /// The inputs in exact numbers.
   smt::Model modelOf(const GivenVariables &given) const;
   /// They satisfy what the inputs have to.
@@ -95,7 +99,8 @@ private:
   std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
   std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
-  smt::Model others_;                    // inputs that satisfy what they have to
+  std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
+  smt::Model others_; // inputs that satisfy what they have to
 };
 
 } // namespace feedhold::prove

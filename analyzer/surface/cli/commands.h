@@ -10,6 +10,7 @@ namespace feedhold {
 inline constexpr int kExitClean = 0;
 inline constexpr int kExitFindings = 1;
 inline constexpr int kExitCouldNotRun = 2;
+inline constexpr int kExitDefect = 4;  // of `prove`: a run contradicts a verdict, which is a defect of Feedhold
 inline constexpr int kExitUnknown = 3; // of `prove`: nothing is refuted, not all is proved
 
 /// A sub-command on the command line, and what it does: returns the exit code.

@@ -59,6 +59,9 @@ The command could not run: a mistake in the call, a file that cannot be read, a 
 .TP
 3
 Of \fBprove\fR: nothing is refuted, but not everything is proved.
+.TP
+4
+Of \fBprove\fR: a run contradicts a verdict, which is a defect of Feedhold; please report it.
 .SH FILES
 .TP
 feedhold.toml

@@ -116,7 +116,16 @@ std::string readingOptions(const ProveArguments &arguments) {
   return text;
 }
 
+bool hasContradiction(const ProofsResult &result) {
+  return std::any_of(result.files.begin(), result.files.end(), [](const ProvedFile &file) {
+    return std::any_of(file.programs.begin(), file.programs.end(),
+                       [](const ProvedProgram &program) { return !program.proof.contradictions.empty(); });
+  });
+}
+
 int exitCodeOf(const ProofsResult &result) {
+  if (hasContradiction(result))
+    return kExitDefect;
   if (!result.errors.empty())
     return kExitCouldNotRun;
   bool isRefuted = false;
@@ -159,6 +168,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
                            .colour = useColour(colourWishFrom(arguments.color))};
   printProblems(result.errors);
+  printAside(defectsText(report));
   print(arguments.statistics          ? proveStatistics(report)
         : arguments.format == "json"  ? writeProveJson(report)
         : arguments.format == "sarif" ? writeProveSarif(report)

@@ -29,6 +29,8 @@ std::string writeProveJson(const ProveReport &report);
 std::string writeProveSarif(const ProveReport &report);
 /// For people, behind the text: how many of what.
 std::string proveSummary(const ProveReport &report);
+/// Verdicts that a run contradicts, and the calls to report; empty: there are none.
+std::string defectsText(const ProveReport &report);
 /// The verdicts of each kind of obligation, and what each method has found at what cost.
 std::string proveStatistics(const ProveReport &report);
 

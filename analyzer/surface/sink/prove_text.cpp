@@ -137,6 +137,19 @@ std::string writeProveText(const ProveReport &report) {
   return text;
 }
 
+std::string defectsText(const ProveReport &report) {
+  std::string text;
+  for (const ProvedFile &file : report.result.files)
+    for (const ProvedProgram &program : file.programs)
+      for (const prove::Contradiction &each : program.proof.contradictions) {
+        const TypedWitness call = typed(each.run, file, program, report);
+        text += fmt::format("defect of Feedhold: {} was {}, and a run contradicts it: {}: {}\n"
+                            "  see it: {}\n  please report this program and this call; the verdict was withdrawn\n",
+                            each.id, each.verdict, textOf(call), each.run.happened, call.run());
+      }
+  return text;
+}
+
 std::string proveSummary(const ProveReport &report) {
   VerdictCounts counts;
   std::size_t programs = 0;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSlip = "%\nO1001(SLIP)\nN10 #510-1.5\nM30\n%\n";
+constexpr std::string_view kProgramWithSlip = "%\nO1001(SLIP)\nN10 #510-1.5\nM30\n%\n";
 
 class Session : public testing::Test {
 protected:
@@ -61,12 +61,12 @@ protected:
 };
 
 TEST_F(Session, FoldersAreWalkedByNameAndContent) {
-  write("b/O1001", kSlip);
-  write("a/part.NC", kSlip);
-  write("a/part.txt", kSlip);
+  write("b/O1001", kProgramWithSlip);
+  write("a/part.NC", kProgramWithSlip);
+  write("a/part.txt", kProgramWithSlip);
   write("a/notes.txt", "the coolant must be changed every week\nand the filter too\n");
-  write("a/readme.md", kSlip);
-  write(".git/part.nc", kSlip);
+  write("a/readme.md", kProgramWithSlip);
+  write(".git/part.nc", kProgramWithSlip);
   const CheckResult result = run();
   EXPECT_EQ(names(result), (std::vector<std::string>{"a/part.NC", "a/part.txt", "b/O1001"}));
   ASSERT_EQ(result.skipped.size(), 1U);
@@ -75,23 +75,23 @@ TEST_F(Session, FoldersAreWalkedByNameAndContent) {
 }
 
 TEST_F(Session, NamedFilesAreTakenWhateverTheirExtension) {
-  write("part.xyz", kSlip);
+  write("part.xyz", kProgramWithSlip);
   EXPECT_EQ(names(run(options("part.xyz"))), (std::vector<std::string>{"part.xyz"}));
   EXPECT_EQ(run().errors.size(), 1U); // no program in the folder
 }
 
 TEST_F(Session, ExcludeAndInclude) {
   write("feedhold.toml", "exclude = [\"old/\"]\ninclude = [\"*.xyz\"]\n");
-  write("old/part.nc", kSlip);
-  write("new/part.xyz", kSlip);
+  write("old/part.nc", kProgramWithSlip);
+  write("new/part.xyz", kProgramWithSlip);
   EXPECT_EQ(names(run()), (std::vector<std::string>{"new/part.xyz"}));
 }
 
 TEST_F(Session, TheNearestConfigurationCounts) {
   write("feedhold.toml", "ignore = [\"missing-equals\"]\n");
-  write("part.nc", kSlip);
+  write("part.nc", kProgramWithSlip);
   write("strict/feedhold.toml", "dialect = \"fanuc-0i\"\n[severity]\nmissing-equals = \"info\"\n");
-  write("strict/part.nc", kSlip);
+  write("strict/part.nc", kProgramWithSlip);
   const CheckResult result = run();
   ASSERT_EQ(result.files.size(), 2U);
   EXPECT_TRUE(result.files[0].findings.empty());
@@ -104,8 +104,8 @@ TEST_F(Session, TheNearestConfigurationCounts) {
 
 TEST_F(Session, AConfigurationWithErrorsStopsOnlyItsFiles) {
   write("bad/feedhold.toml", "dialct = \"x\"\n");
-  write("bad/part.nc", kSlip);
-  write("good/part.nc", kSlip);
+  write("bad/part.nc", kProgramWithSlip);
+  write("good/part.nc", kProgramWithSlip);
   const CheckResult result = run();
   EXPECT_EQ(names(result), (std::vector<std::string>{"good/part.nc"}));
   ASSERT_EQ(result.errors.size(), 1U);
@@ -114,8 +114,8 @@ TEST_F(Session, AConfigurationWithErrorsStopsOnlyItsFiles) {
 
 TEST_F(Session, SettingsByPattern) {
   write("feedhold.toml", "[[files]]\npath = \"lathe/**\"\ndialect = \"haas-ngc\"\nignore = [\"expression\"]\n");
-  write("lathe/part.nc", kSlip);
-  write("mill/part.nc", kSlip);
+  write("lathe/part.nc", kProgramWithSlip);
+  write("mill/part.nc", kProgramWithSlip);
   const CheckResult result = run();
   ASSERT_EQ(result.files.size(), 2U);
   EXPECT_EQ(result.files[0].dialect, "haas-ngc");
@@ -124,7 +124,7 @@ TEST_F(Session, SettingsByPattern) {
 }
 
 TEST_F(Session, FingerprintsOutliveEditsElsewhere) {
-  write("part.nc", kSlip);
+  write("part.nc", kProgramWithSlip);
   const std::string before = onlyFingerprint();
   EXPECT_EQ(before.size(), 16U);
   write("part.nc", "%\nO1001(SLIP)\n(NEW)\nN20  #510 - 1.5\nM30\n%\n");
@@ -154,19 +154,19 @@ TEST_F(Session, ForeignLanguageIsOneFinding) {
 }
 
 TEST_F(Session, UnsafeFixesOnlyWhenAskedFor) {
-  write("part.nc", kSlip);
+  write("part.nc", kProgramWithSlip);
   EXPECT_TRUE(fix(options(), FixWish::Safe, known()).files.empty());
   const FixResult all = fix(options(), FixWish::All, known());
   ASSERT_EQ(all.files.size(), 1U);
-  EXPECT_EQ(all.files[0].before, kSlip);
+  EXPECT_EQ(all.files[0].before, kProgramWithSlip);
   EXPECT_EQ(all.files[0].after, "%\nO1001(SLIP)\nN10 #510=1.5\nM30\n%\n");
   EXPECT_EQ(all.files[0].fixes, 1U);
   EXPECT_TRUE(all.remaining.files[0].findings.empty());
-  EXPECT_EQ(read("part.nc"), kSlip);
+  EXPECT_EQ(read("part.nc"), kProgramWithSlip);
 }
 
 TEST_F(Session, WritingKeepsThePermissionsAndLeavesNothingBehind) {
-  write("part.nc", kSlip);
+  write("part.nc", kProgramWithSlip);
   fs::permissions(folder_ / "part.nc", fs::perms::owner_all);
   const FixResult fixed = fix(options(), FixWish::All, known());
   EXPECT_TRUE(writeFixes(fixed.files).empty());
@@ -176,7 +176,7 @@ TEST_F(Session, WritingKeepsThePermissionsAndLeavesNothingBehind) {
 }
 
 TEST_F(Session, BinaryAndEmptyFilesDoNotStopTheOthers) {
-  write("part.nc", kSlip);
+  write("part.nc", kProgramWithSlip);
   write("empty.nc", "");
   write("picture.nc", std::string("\x01\x02\x03\x04\x05\x06\x07\x08", 8));
   const CheckResult result = run();

@@ -1,4 +1,4 @@
-#include "inference/absint/reached_programs.h"
+#include "meaning/cfg/reached_programs.h"
 
 #include <vector>
 

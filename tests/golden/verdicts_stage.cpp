@@ -1,0 +1,37 @@
+#include "golden/verdicts_stage.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::golden {
+
+namespace {
+
+std::string detailOf(const prove::Verdict &verdict) {
+  if (!verdict.bound().empty())
+    return fmt::format("\n  at most `{}` passes", verdict.bound());
+  if (verdict == prove::Verdict::Unknown)
+    return fmt::format("\n  {}", verdict.reason());
+  return verdict.witness() ? fmt::format("\n  {}", verdict.witness()->happened) : "";
+}
+
+std::string rowsOf(const ProvedFile &file, const ProvedProgram &program) {
+  std::string text;
+  for (const prove::Obligation &row : program.proof.obligations)
+    text += fmt::format("line {}: {}: {}: {}{}\n", file.file().source.lineOf(row.span.begin), nameOf(row.verdict),
+                        nameOf(row.kind), row.claim, detailOf(row.verdict));
+  return text;
+}
+
+} // namespace
+
+std::string verdictsOf(const ProofsResult &result) {
+  std::string text;
+  for (const PathProblem &problem : result.errors)
+    text += fmt::format("{}: {}\n", problem.path, problem.message);
+  for (const ProvedFile &file : result.files)
+    for (const ProvedProgram &program : file.programs)
+      text += fmt::format("{}\n{}", toString(file.file().model.programs[program.program].name), rowsOf(file, program));
+  return text;
+}
+
+} // namespace feedhold::golden
