@@ -11,6 +11,7 @@ ExploreOptions exactOptions() {
   ExploreOptions options;
   options.loops = LoopTreatment::EachPass;
   options.mayEnclose = true;
+  options.mayBeCalled = false;
   options.mostSteps = 6'000;
   options.mostPaths = 20;
   options.mostWork = 1'000'000;

@@ -169,6 +169,9 @@ struct ExploreOptions {
   LoopHints invariants = {};                        // tried with those that are guessed
   LoopHints measures = {};                          // kept for LoopInstance::measures
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
+  /// Whether the program may have been called where it ends with `M99 P`, which then returns; a started one goes on at
+  /// that number of its own.  False: for single runs of a started program.
+  bool mayBeCalled = true;
   KeepMoves moves = KeepMoves::No;
   bool keepWrites = false;
   std::size_t mostSteps = 100'000;

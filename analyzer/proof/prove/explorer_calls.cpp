@@ -1,8 +1,8 @@
 // Calls: the programs that a block calls, or that a modal call calls after a movement.
+#include "meaning/cfg/reached_programs.h"
 #include "proof/prove/explorer.h"
 
 #include <algorithm>
-#include <set>
 
 namespace feedhold::prove {
 
@@ -84,29 +84,12 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicRea
 
 /// A program that is in none of the files is taken to call none of them.
 bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const {
-  std::vector<Callee> open = request.possible;
+  ReachedPrograms reached;
+  for (const Callee &each : request.possible)
+    collectReached(programs_, {each.file, each.program}, reached);
   if (request.callee)
-    open.push_back(*request.callee);
-  std::set<std::pair<FileId, ProgramId>> seen;
-  while (!open.empty()) {
-    const Callee at = open.back();
-    open.pop_back();
-    if (at.file == program.file && at.program == program.program)
-      return true;
-    if (!seen.emplace(at.file, at.program).second)
-      continue;
-    const ProgramModel &model = *programs_.file(at.file).model;
-    for (std::size_t i = 0; i < model.calls.size(); ++i) {
-      const Call &call = model.calls[CallId(i)];
-      if (call.caller != at.program)
-        continue;
-      if (call.programWord && call.callee.empty()) // a number that is computed
-        return true;
-      const std::vector<Callee> callees = programs_.candidates(at.file, call);
-      open.insert(open.end(), callees.begin(), callees.end());
-    }
-  }
-  return false;
+    collectReached(programs_, {request.callee->file, request.callee->program}, reached);
+  return reached.orAny || reached.programs.contains({program.file, program.program});
 }
 
 /// A call in the text of another program is an obligation of that program's own proof.  A modal call that a movement of
@@ -193,6 +176,8 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
   SymbolicFrame &frame = path.frames.back();
   if (path.frames.size() == 1) {
     if (target) {
+      if (options_.mayBeCalled)
+        exit(path, ExitKind::Returns);
       const BlockId block = nodeOf(path).block;
       return search(std::move(path), *target, block);
     }

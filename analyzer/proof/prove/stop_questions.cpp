@@ -52,6 +52,20 @@ TermId isOneOf(SymbolicReading &reading, const SymbolicValue &value, const std::
   return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
 }
 
+/// The node that assigns: the same as where a path meets it, so that it is the same claim.
+NodeId writeOf(const ProgramFile &file, const VariableUse &use) {
+  NodeId node = file.cfg.nodeOf(use.block);
+  for (NodeId at = node; at.index() < file.cfg.nodes.size() && file.cfg.nodes[at].block == use.block; at = at.next())
+    if (const auto *assign = std::get_if<Assign>(&file.cfg.nodes[at].instruction))
+      for (std::uint32_t i = 0; i < assign->count; ++i) {
+        const Statement &statement = file.tree->statements[StatementId(assign->first.index() + i)];
+        if (const auto *assignment = std::get_if<Assignment>(&statement.node);
+            assignment && assignment->target == use.expression)
+          node = at;
+      }
+  return node;
+}
+
 } // namespace
 
 Questions stopQuestions(const ExploredProgram &program) {
@@ -91,10 +105,13 @@ Questions unmetAlarms(const ExploredProgram &program) {
     const VariableRange *row = use.write && use.number ? findVariable(subject.dialect(), *use.number) : nullptr;
     if (!row || row->role != VariableRole::Alarm || isMet(use.block))
       continue;
-    const Place place{subject.program.file, subject.file().cfg.nodeOf(use.block)};
+    const Check check{.place = {subject.program.file, writeOf(subject.file(), use)},
+                      .span = subject.file().tree->expressions[use.expression].span,
+                      .alarm = {},
+                      .instances = {}};
     questions.push_back(
-        {.row = subject.obligation(ObligationKind::AlarmUnreachable, place,
-                                   subject.file().tree->expressions[use.expression].span, "this alarm is never raised"),
+        {.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
+                                   stopClaim(check, foreseenAlarms(subject.contract()))),
          .goals = {},
          .broken = [](const RunResult &, const GivenVariables &) { return std::nullopt; }});
   }
