@@ -3,18 +3,15 @@
 // and call.
 #pragma once
 
-#include "proof/prove/prove.h"
-#include "proof/prove/witness.h"
+#include "proof/prove/proof_context.h"
 
 #include <vector>
 
 namespace feedhold::prove {
 
-/// What the run does that the claim denies, in shop words; absent: the run does not speak of it.
-std::optional<std::string> denial(const Obligation &row, const Contract *contract, const RunResult &run);
-
-/// `witnesses`: has made the runs, and tells whether they end so in exact numbers, too.
-std::vector<Contradiction> judge(const WitnessSearch &witnesses, const Contract *contract,
+/// `denials`: of claims that may be among the rows.  Each run is looked at by the predicate that would have made it the
+/// witness of a refutation, and counts where it ends so in exact numbers, too.
+std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
                                  std::vector<Obligation> &rows);
 
 } // namespace feedhold::prove

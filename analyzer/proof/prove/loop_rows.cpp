@@ -97,47 +97,64 @@ bool isMeantToGoOn(const ProofSubject &subject, const Wto &wto, NodeId head) {
 
 constexpr std::string_view kRepeats = "the run comes back to the same state and goes on for ever";
 
-Obligation rowOfLoop(const ProofContext &context, const Wto &wto, Place place) {
+std::optional<std::string> comesBack(const RunResult &run) {
+  return run.end == RunEnd::Repeats ? std::optional(std::string(kRepeats)) : std::nullopt;
+}
+
+Violation staysInside(std::shared_ptr<const Wto> wto, Place place) {
+  return [wto = std::move(wto), place](const RunResult &run) -> std::optional<std::string> {
+    const bool stays = !run.circle.empty() && std::all_of(run.circle.begin(), run.circle.end(),
+                                                          [&](Place at) { return isInside(*wto, place, at); });
+    return stays ? comesBack(run) : std::nullopt;
+  };
+}
+
+Obligation rowOfLoop(const ProofContext &context, const std::shared_ptr<const Wto> &wto, Place place) {
   Instances instances;
   Instances within; // a pass that stays in one of these for ever does not end
   for (const LoopInstance &loop : context.found.loops) {
     if (loop.head == place)
       instances.push_back(&loop);
-    if (isInside(wto, place, loop.calls.empty() ? loop.head : loop.calls.front()))
+    if (isInside(*wto, place, loop.calls.empty() ? loop.head : loop.calls.front()))
       within.push_back(&loop);
   }
-  const Violation violation = [&](const RunResult &run) -> std::optional<std::string> {
-    const bool staysInside = !run.circle.empty() && std::all_of(run.circle.begin(), run.circle.end(),
-                                                                [&](Place at) { return isInside(wto, place, at); });
-    return run.end == RunEnd::Repeats && staysInside ? std::optional(std::string(kRepeats)) : std::nullopt;
-  };
   Obligation row =
       context.subject.obligation(ObligationKind::LoopEnds, place, context.subject.spanOf(place), "this loop ends");
-  settleLoop(context, row, within, violation);
+  settleLoop(context, row, within, staysInside(wto, place));
   if (verdict::Proved *proved = row.verdict.proved())
     explainEnd(context, *proved, instances);
   return row;
 }
 
-Wto loopsOf(const ProofSubject &subject) {
-  return Wto(subject.file().cfg, *subject.file().model, subject.program.entry);
+std::shared_ptr<const Wto> loopsOf(const ProofSubject &subject) {
+  return std::make_shared<const Wto>(subject.file().cfg, *subject.file().model, subject.program.entry);
 }
 
 } // namespace
 
-std::vector<Obligation> loopRows(const ProofContext &context) {
-  std::vector<Obligation> rows;
+void settleLoops(const ProofContext &context, SettledRows &into) {
   if (!context.subject.wants(ObligationKind::LoopEnds))
-    return rows;
-  const Wto wto = loopsOf(context.subject);
-  for (const NodeId head : wto.order())
-    if (wto.isHead(head) && !isMeantToGoOn(context.subject, wto, head))
-      rows.push_back(rowOfLoop(context, wto, {context.subject.program.file, head}));
-  return rows;
+    return;
+  const auto wto = loopsOf(context.subject);
+  for (const NodeId head : wto->order()) {
+    if (!wto->isHead(head) || isMeantToGoOn(context.subject, *wto, head))
+      continue;
+    const Place place{context.subject.program.file, head};
+    into.rows.push_back(rowOfLoop(context, wto, place));
+    into.denials.push_back({into.rows.back(), [wto, place](const ProofContext &) { return staysInside(wto, place); }});
+  }
 }
 
 Obligation loopRow(const ProofContext &context, Place head) {
   return rowOfLoop(context, loopsOf(context.subject), head);
+}
+
+void settleEnd(const ProofContext &context, SettledRows &into) {
+  auto row = programEndRow(context);
+  if (!row)
+    return;
+  into.denials.push_back({*row, [](const ProofContext &) { return Violation(comesBack); }});
+  into.rows.push_back(*std::move(row));
 }
 
 std::optional<Obligation> programEndRow(const ProofContext &context) {
@@ -149,9 +166,7 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
     instances.push_back(&loop);
   Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
   row.id = fmt::format("{}.program-ends", subject.name());
-  settleLoop(context, row, instances, [](const RunResult &run) -> std::optional<std::string> {
-    return run.end == RunEnd::Repeats ? std::optional(std::string(kRepeats)) : std::nullopt;
-  });
+  settleLoop(context, row, instances, comesBack);
   if (!context.found.unfollowedCalls.empty() && row.verdict.kind() != Verdict::Refuted)
     row.verdict = Verdict::unknown("a program that is called is not followed and need not come back",
                                    context.found.unfollowedCalls.front().own);

@@ -2,8 +2,8 @@
 
 #include "proof/prove/entails.h"
 #include "proof/prove/explorer.h"
-#include "proof/prove/path_memory.h"
 #include "proof/prove/invariant_candidates.h"
+#include "proof/prove/path_memory.h"
 
 #include <algorithm>
 

@@ -19,13 +19,14 @@ Questions alarmQuestions(const ExploredProgram &program);
 Questions limitQuestions(const ExploredProgram &program);
 
 // ---- obligations that are settled in ways of their own ----
-std::vector<Obligation> loopRows(const ProofContext &context);
+void settleLoops(const ProofContext &context, SettledRows &into);
 /// Of the loop at this head alone.
 Obligation loopRow(const ProofContext &context, Place head);
 std::optional<Obligation> programEndRow(const ProofContext &context);
+void settleEnd(const ProofContext &context, SettledRows &into);
 /// What is claimed of all calls is not so of one that goes on for ever.
 void requireEnds(const ProofContext &context, Obligation &obligation);
-std::vector<Obligation> spaceRows(const ProofContext &context);
+void settleSpace(const ProofContext &context, SettledRows &into);
 /// Every call that the contract does not allow raises an alarm before an axis moves.
 std::optional<Obligation> guardedRow(const ProofContext &context);
 

@@ -55,10 +55,17 @@ struct Question {
 };
 using Questions = std::vector<Question>;
 
+/// What a run does that denies a claim, whatever the verdict is: for the judge (judge.h).
+struct Denial {
+  Obligation row;
+  std::function<Violation(const ProofContext &)> violation;
+};
+
 /// Obligations with their verdicts, and the questions of which the answer was not found: `[i]` of `rows`.
 struct SettledRows {
   std::vector<Obligation> rows;
   std::vector<Question> open;
+  std::vector<Denial> denials;
 };
 
 std::vector<Query> queriesOf(ProofStart &start, const Question &question);

@@ -39,7 +39,7 @@ public:
     if (subject_.options.guards == InferGuards::Yes)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
     putInOrder(rows);
-    std::vector<Contradiction> contradictions = judge(*witnesses_, subject_.contract(), rows);
+    std::vector<Contradiction> contradictions = judge(contextOf(*stage_), stage_->settled.denials, rows);
     if (subject_.contract() && !subject_.contract()->isSound)
       withdraw(rows, "a clause of the contract could not be read");
     return {std::move(rows), std::move(stage_->found.unfollowed), stage_->found.incomplete, std::move(contradictions)};
@@ -61,19 +61,15 @@ private:
   void settleStage(Stage &stage) {
     const ProofContext context = contextOf(stage);
     SettledRows &settled = stage.settled;
-    const auto add = [&](std::vector<Obligation> rows) {
-      std::move(rows.begin(), rows.end(), std::back_inserter(settled.rows));
-    };
     settleAll(context, stopQuestions(context), settled);
     settleAll(context, unmetAlarms(context), settled);
-    add(loopRows(context));
-    if (auto end = programEndRow(context))
-      settled.rows.push_back(*std::move(end));
+    settleLoops(context, settled);
+    settleEnd(context, settled);
     settleAll(context, promiseQuestions(context), settled);
     for (Obligation &row : settled.rows)
       if (row.kind == ObligationKind::AlarmIff)
         requireEnds(context, row);
-    add(spaceRows(context));
+    settleSpace(context, settled);
     if (auto guarded = guardedRow(context))
       settled.rows.push_back(*std::move(guarded));
   }
@@ -164,6 +160,7 @@ void Work::followPasses() {
     return;
   settleStage(*each);
   keepDecided(before, each->settled.rows);
+  std::ranges::move(stage_->settled.denials, std::back_inserter(each->settled.denials));
   stage_ = std::move(each);
 }
 

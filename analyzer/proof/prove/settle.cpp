@@ -8,8 +8,15 @@ namespace {
 Violation violationOf(const ProofContext &context, const Question &question) {
   if (!question.isJudgedExactly)
     return {question.broken};
-  return {question.broken,
-          [&context, &question](const GivenVariables &given) { return context.promises.breaks(given, question.row); }};
+  return {question.broken, [&promises = context.promises, row = question.row](const GivenVariables &given) {
+            return promises.breaks(given, row);
+          }};
+}
+
+Denial denialOf(const Question &question) {
+  const Question claim{
+      .row = question.row, .goals = {}, .broken = question.broken, .isJudgedExactly = question.isJudgedExactly};
+  return {question.row, [claim](const ProofContext &context) { return violationOf(context, claim); }};
 }
 
 Query queryOf(ProofStart &start, const PathGoal &goal) {
@@ -107,6 +114,7 @@ Obligation settle(const ProofContext &context, const Question &question) {
 
 void settleAll(const ProofContext &context, Questions questions, SettledRows &into) {
   for (Question &question : questions) {
+    into.denials.push_back(denialOf(question));
     into.rows.push_back(settle(context, question));
     if (!into.rows.back().verdict.holds()) {
       question.row = into.rows.back();

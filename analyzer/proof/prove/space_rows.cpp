@@ -115,8 +115,9 @@ std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
     return Verdict::unknown(*rule.missing);
   for (const UnfollowedCall &call : context_.found.unfollowedCalls)
     if (call.own == own)
-      return Verdict::unknown(
-          context_.found.notFollowedAt(own).value_or("a program that is called here is not followed, and may move the tool"), own);
+      return Verdict::unknown(context_.found.notFollowedAt(own).value_or(
+                                  "a program that is called here is not followed, and may move the tool"),
+                              own);
   const Query sound = start_.onPath(start_.demands(), rule.isSound);
   if (!discharge(start_.store(), sound, context_.subject.options.budget).proved())
     return Verdict::unknown("the tool or the region may be empty or turned inside out (a radius below 0, a range from "
@@ -253,16 +254,18 @@ std::vector<std::pair<Place, Moves>> groupsOf(const ProofContext &context, const
 
 } // namespace
 
-std::vector<Obligation> spaceRows(const ProofContext &context) {
-  std::vector<Obligation> rows;
+void settleSpace(const ProofContext &context, SettledRows &into) {
   if (!context.subject.contract() || !hasSpaceClause(*context.subject.contract()))
-    return rows;
+    return;
   SpaceProver prover(context);
   for (const SpaceRule &rule : context.start.space().rules())
     if (context.subject.wants(rule.kind))
-      for (const auto &[own, moves] : groupsOf(context, rule))
-        rows.push_back(prover.row(rule, own, moves));
-  return rows;
+      for (const auto &[own, moves] : groupsOf(context, rule)) {
+        into.rows.push_back(prover.row(rule, own, moves));
+        into.denials.push_back({into.rows.back(), [&rule, own = own](const ProofContext &judged) {
+                                  return SpaceRuns(judged, rule, own).violation();
+                                }});
+      }
 }
 
 } // namespace feedhold::prove

@@ -52,13 +52,14 @@ std::optional<GougeAt> SpaceRuns::gougeIn(const RunResult &run, const GivenVaria
 }
 
 Violation SpaceRuns::violation() const {
-  const auto happened = [this](const RunResult &run, const GivenVariables &given) {
-    const auto gouge = gougeIn(run, given);
-    return gouge ? std::optional(textOf(rule_, *gouge)) : std::nullopt;
+  const auto happened = [runs = *this](const RunResult &run, const GivenVariables &given) {
+    const auto gouge = runs.gougeIn(run, given);
+    return gouge ? std::optional(textOf(runs.rule_, *gouge)) : std::nullopt;
   };
-  return {happened, [this](const GivenVariables &given) {
-            const RunResult run = context_.witnesses.runOf(given, WordRounding::None);
-            return gougeIn(run, given) && context_.witnesses.agreesExactly(given, run) != Agreement::Different;
+  return {happened, [runs = *this](const GivenVariables &given) {
+            const WitnessSearch &witnesses = runs.context_.witnesses;
+            const RunResult run = witnesses.runOf(given, WordRounding::None);
+            return runs.gougeIn(run, given) && witnesses.agreesExactly(given, run) != Agreement::Different;
           }};
 }
 

@@ -109,11 +109,10 @@ Questions unmetAlarms(const ExploredProgram &program) {
                       .span = subject.file().tree->expressions[use.expression].span,
                       .alarm = {},
                       .instances = {}};
-    questions.push_back(
-        {.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
-                                   stopClaim(check, foreseenAlarms(subject.contract()))),
-         .goals = {},
-         .broken = [](const RunResult &, const GivenVariables &) { return std::nullopt; }});
+    questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
+                                                   stopClaim(check, foreseenAlarms(subject.contract()))),
+                         .goals = {},
+                         .broken = [](const RunResult &, const GivenVariables &) { return std::nullopt; }});
   }
   return questions;
 }

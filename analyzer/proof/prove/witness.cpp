@@ -17,8 +17,8 @@ constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfLook = 10; // at a run, and at a movement of it
-constexpr std::size_t kMostReplays = 200; // that are kept for the judge
-constexpr int kMostInexact = 5;           // samples that break a claim by rounding, before the others are left alone
+constexpr std::size_t kMostReplays = 200;  // that are kept for the judge
+constexpr int kMostInexact = 5;            // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
 GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
@@ -194,10 +194,11 @@ std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) c
   return std::nullopt;
 }
 
-std::vector<WitnessSearch::Sample> WitnessSearch::allRuns() const {
-  std::vector<Sample> all = samples_;
-  all.insert(all.end(), replays_->begin(), replays_->end());
-  return all;
+std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &violation) const {
+  const auto happened = violation.happened(run.result, run.given);
+  if (!happened || !allowed(run.given) || !isExact(run.given, run.result, violation))
+    return std::nullopt;
+  return Witness{run.given, run.result.end, *happened};
 }
 
 /// What happens only because the machine rounds is no witness: proofs are over exact numbers.
@@ -221,14 +222,11 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
     return std::nullopt;
   RunOptions options = runOptions(given);
   options.fuel = fuel;
-  const RunResult result = run(programs_, entry_, options);
-  smt::spend(kStepsOfInstruction * result.steps);
+  const Sample replay{given, run(programs_, entry_, options)};
+  smt::spend(kStepsOfInstruction * replay.result.steps);
   if (replays_->size() < kMostReplays)
-    replays_->push_back({given, result});
-  const auto happened = violation.happened(result, given);
-  if (!happened || !isExact(given, result, violation))
-    return std::nullopt;
-  return Witness{given, result.end, *happened};
+    replays_->push_back(replay);
+  return shown(replay, violation);
 }
 
 /// An input without a number, or with one beyond all doubles, is left out.

@@ -64,10 +64,10 @@ public:
     RunResult result;
   };
   const std::vector<Sample> &samples() const { return samples_; }
-  /// These, and runs on counterexamples, of narrowed searches too.
-  std::vector<Sample> allRuns() const;
-  /// What the run comes to is not made by the rounding of the machine.
-  bool isExact(const GivenVariables &given, const RunResult &run) const;
+  /// Runs on counterexamples, of narrowed searches too.
+  const std::vector<Sample> &replays() const { return *replays_; }
+  /// The run, if it breaks the claim on inputs that are allowed, and not by the rounding of the machine alone.
+  std::optional<Witness> shown(const Sample &run, const Violation &violation) const;
   /// The inputs in exact numbers.
   smt::Model modelOf(const GivenVariables &given) const;
   /// They satisfy what the inputs have to.
@@ -86,6 +86,7 @@ private:
   std::vector<double> plainNumbers() const;
   GivenVariables inputsOf(const smt::Model &model) const;
   void keepSample(GivenVariables given);
+  bool isExact(const GivenVariables &given, const RunResult &run) const;
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;

@@ -2,6 +2,7 @@
 #include "dialects/registry.h"
 #include "language/parse/parse.h"
 #include "proof/prove/judge.h"
+#include "proof/prove/obligations.h"
 #include "proof/prove/proof_context.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,14 @@ struct Case {
     const ProveOptions options;
     const ProofSubject subject{set, main, nullptr, options};
     ProofStart start(subject);
-    explore(start.reading(), set, main, start.entry(), start.exploreOptions(subject)); // names the inputs
-    return judge(sampledRuns(subject, start, {}), nullptr, rows);
+    const Exploration found = explore(start.reading(), set, main, start.entry(), start.exploreOptions(subject));
+    const WitnessSearch witnesses = sampledRuns(subject, start, {});
+    BrokenPromises promises(subject);
+    LoopEnds ends;
+    const ProofContext context{{subject, start, found}, witnesses, promises, ends, nullptr, options.budget};
+    SettledRows settled;
+    settleAll(context, stopQuestions(context), settled);
+    return judge(context, settled.denials, rows);
   }
 };
 
