@@ -1,0 +1,84 @@
+// Merging: what is true on each of two paths, and nothing else, is true on the one that they make.
+#include "proof/prove/merging.h"
+
+#include "proof/prove/discharge.h"
+#include "unit/proof/explored.h"
+
+#include <gtest/gtest.h>
+
+namespace feedhold::prove {
+namespace {
+
+using smt::TermId;
+
+class MergingTest : public ::testing::Test {
+protected:
+  MergingTest() : program("O1\nM99\n"), store(program.start.store()) {}
+
+  Path path(TermId condition, int held) {
+    Path made{.at = {FileId(0), NodeId(0)},
+              .state = program.start.entry(),
+              .conditions = {condition},
+              .frames = {},
+              .loops = {},
+              .moved = store.no()};
+    made.state.variables.set(500, program.start.reading().number(held));
+    return made;
+  }
+  bool follows(const Path &from, TermId goal) { return discharge(store, {from.conditions, goal}).proved(); }
+  TermId holds(const Path &at, int value) {
+    return store.equal(at.state.variables.find(500)->number, store.number(smt::Number(value)));
+  }
+
+  Explored program;
+  smt::TermStore &store;
+};
+
+TEST_F(MergingTest, TheStateIsThatOfTheOneOrOfTheOther) {
+  const TermId condition = store.variable("c", smt::Sort::Bool);
+  Path merged = path(condition, 1);
+  mergeInto(program.start.reading(), merged, path(store.logicalNot(condition), 2));
+  EXPECT_TRUE(follows(merged, store.implies(condition, holds(merged, 1))));
+  EXPECT_TRUE(follows(merged, store.implies(store.logicalNot(condition), holds(merged, 2))));
+  EXPECT_FALSE(follows(merged, holds(merged, 1)));
+  EXPECT_FALSE(follows(merged, store.no()));
+}
+
+TEST_F(MergingTest, PathsThatShareNoConditionMayBothBeMeant) {
+  Path merged = path(store.variable("a", smt::Sort::Bool), 1);
+  mergeInto(program.start.reading(), merged, path(store.variable("b", smt::Sort::Bool), 2));
+  EXPECT_TRUE(follows(merged, store.logicalOr(holds(merged, 1), holds(merged, 2))));
+  EXPECT_FALSE(follows(merged, holds(merged, 1)));
+  EXPECT_FALSE(follows(merged, holds(merged, 2)));
+}
+
+TEST_F(MergingTest, OnlyPathsAtOnePlaceInOneCallAreMerged) {
+  const Path here = path(store.yes(), 1);
+  Path elsewhere = here;
+  elsewhere.at.node = NodeId(1);
+  EXPECT_TRUE(canMerge(here, here));
+  EXPECT_FALSE(canMerge(here, elsewhere));
+}
+
+TEST(Worklist, GivesThePathsThatOthersMayMeetLaterFirst) {
+  Explored program("O1\nM99\n");
+  Worklist list;
+  const auto add = [&](Worklist::Position position, std::uint32_t node) {
+    list.add(std::move(position), {.at = {FileId(0), NodeId(node)},
+                                   .state = program.start.entry(),
+                                   .conditions = {},
+                                   .frames = {},
+                                   .loops = {},
+                                   .moved = program.start.store().no()});
+  };
+  add({2}, 2);
+  add({1, 5}, 5);
+  add({1, 5}, 6);
+  EXPECT_EQ(list.size(), 3U);
+  EXPECT_EQ(list.takeFirst().size(), 2U);
+  EXPECT_EQ(list.takeFirst().front().at.node, NodeId(2));
+  EXPECT_TRUE(list.empty());
+}
+
+} // namespace
+} // namespace feedhold::prove
