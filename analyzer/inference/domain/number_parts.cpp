@@ -173,7 +173,6 @@ AbstractNumber NumberParts::asGiven() const {
 }
 
 std::optional<AbstractNumber> NumberParts::reduced() const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (interval.lo > interval.hi || interval.lo == kInfinity || interval.hi == -kInfinity)
     return std::nullopt;
   if (interval.isConstant())

@@ -106,10 +106,13 @@ private:
       reading_.alarm(reading_.unknownTruth(), {alarm, place});
     reading_.havoc(context_.state, "a word of a call that cannot be an argument", place);
   }
-  /// Copied as it is: a vacant argument leaves its variable vacant, nothing is rounded.
+  /// Copied as it is: an argument that is dropped leaves its variable vacant, nothing is rounded.
   Value argumentValue(const Word &word) {
-    if (word.form() == WordForm::Expression)
-      return evaluate(context_, word.expression());
+    if (word.form() == WordForm::Expression) {
+      const Value value = evaluate(context_, word.expression());
+      const auto present = isWordPresent(context_, word.expression(), value);
+      return reading_.mayBe(reading_.negation(present)) ? reading_.select(present, value, reading_.vacant()) : value;
+    }
     if (word.form() == WordForm::Number)
       return scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
     return reading_.anything();

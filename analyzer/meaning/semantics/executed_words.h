@@ -95,6 +95,19 @@ typename R::Value byUnits(StepContext<R> &context, const AddressFormat &format, 
   return context.reading.select(metric, make(behaviour.leastIncrementMetric), make(behaviour.leastIncrementInch));
 }
 
+/// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
+/// `value`: of the expression.
+template <ValueAlgebra R>
+typename R::Truth isWordPresent(StepContext<R> &context, ExpressionId expression, const typename R::Value &value) {
+  R &reading = context.reading;
+  if (const auto *negated = std::get_if<Negation>(&context.tree().expressions[expression].node)) {
+    const auto operandVacant = reading.isVacant(evaluate(context, negated->operand));
+    if (reading.mayBe(operandVacant))
+      return reading.negation(reading.both(operandVacant, reading.unknownTruth()));
+  }
+  return reading.negation(reading.isVacant(value));
+}
+
 template <ValueAlgebra R> class WordReader {
 public:
   WordReader(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words)
@@ -128,17 +141,10 @@ private:
     }
   }
 
-  /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
   void readExpression(const Word &word, const AddressFormat &format) {
     const auto value = evaluate(context_, word.expression(), roundingOf(word.address(), format));
-    Truth present = reading_.negation(reading_.isVacant(value));
-    const Expression &expression = context_.tree().expressions[word.expression()];
-    if (const auto *negated = std::get_if<Negation>(&expression.node)) {
-      const Truth operandVacant = reading_.isVacant(evaluate(context_, negated->operand));
-      if (reading_.mayBe(operandVacant))
-        present = reading_.negation(reading_.both(operandVacant, reading_.unknownTruth()));
-    }
-    add(word, present, roundedToIncrement(context_, format, reading_.asNumber(value)));
+    add(word, isWordPresent(context_, word.expression(), value),
+        roundedToIncrement(context_, format, reading_.asNumber(value)));
   }
   RoundingUnit roundingOf(char address, const AddressFormat &format) const {
     if (!context_.behaviour().roundsWords || !takesIncrement(format, address))

@@ -71,6 +71,28 @@ void noModalCallIsInForce(const ExploredProgram &program, Questions &questions) 
   }
 }
 
+/// What is proved of a program by itself begins at its head, and so do the stops that are looked for in its text.
+void entriesAreAtHeads(const ExploredProgram &program, Questions &questions) {
+  const auto &[subject, start, found] = program;
+  std::map<CallKey, Question> asked;
+  for (const CallInstance &call : found.calls) {
+    const Callee &callee = call.callee;
+    if (callee.entry == subject.programs.file(callee.file).cfg.entryOf(callee.program))
+      continue;
+    asked.try_emplace(
+        keyOf(call),
+        Question{.row = subject.obligation(ObligationKind::CallMeetsContract, call.own, subject.spanOf(call.own),
+                                           fmt::format("{} is entered at its head", subject.nameOf(callee))),
+                 .goals = {},
+                 .broken = neverBroken,
+                 .open = fmt::format("the call enters {} at a sequence number: what is proved of that "
+                                     "program by itself does not cover it",
+                                     subject.nameOf(callee))});
+  }
+  for (auto &[key, question] : asked)
+    questions.push_back(std::move(question));
+}
+
 /// Where paths are missing, the calls in the text that none of the others has come to.
 void callsNotMet(const ExploredProgram &program, Questions &questions) {
   const auto &[subject, start, found] = program;
@@ -98,6 +120,7 @@ Questions callQuestions(const ExploredProgram &program) {
     return questions;
   contractsAreMet(program, questions);
   noModalCallIsInForce(program, questions);
+  entriesAreAtHeads(program, questions);
   callsNotMet(program, questions);
   return questions;
 }

@@ -100,7 +100,12 @@ void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const Symb
     return;
   const TermId modalCall =
       programs_.hasModalCalls() ? mayCallModally(reading_, state, frame.modalLimit).term : store_.no();
-  if (modalCall != store_.no() || options_.demands(frame.callee))
+  const Callee &callee = frame.callee;
+  const Callee &own = path.frames.front().callee;
+  const bool isInside = callee.entry != programs_.file(callee.file).cfg.entryOf(callee.program);
+  if (isInside && callee.file == own.file && callee.program == own.program)
+    return; // M97: a part of the program that is proved
+  if (modalCall != store_.no() || isInside || options_.demands(callee))
     result_.calls.push_back({ownPlace(path), frame.callee, path.conditions, state, modalCall});
 }
 

@@ -202,8 +202,8 @@ private:
 
 LoopAccount accountOf(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop,
                       const Termination &end) {
-  constexpr std::uint64_t kMostSteps = 200'000'000;
-  return smt::within(kMostSteps, [&] { return Account(reading, programs, loop).of(end); }).value_or(LoopAccount());
+  constexpr std::uint64_t kStepsOfAccount = 200'000'000;
+  return smt::within(kStepsOfAccount, [&] { return Account(reading, programs, loop).of(end); }).value_or(LoopAccount());
 }
 
 } // namespace feedhold::prove

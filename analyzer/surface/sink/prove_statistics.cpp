@@ -24,7 +24,7 @@ struct Row {
 
 std::string_view methodOf(const Obligation &obligation) {
   if (!obligation.verdict.method().empty())
-    return std::string(obligation.verdict.method());
+    return obligation.verdict.method();
   return obligation.verdict == Verdict::Refuted ? "a run" : "none";
 }
 
