@@ -44,10 +44,10 @@ struct Job {
   ProvedProgram *result;
 };
 
-/// All programs of a file together have half as many steps again as one large program: a file is given up in 20
-/// seconds.  Each has its share, however the programs are spread over threads.
+/// All programs of a file together have as many steps as one large program, so that a file is given up in 20 seconds.
+/// Each has its share, however the programs are spread over threads.
 std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
-  return std::min(stepsOfOne, stepsOfOne * 3 / 2 / std::max<std::size_t>(programsInFile, 1));
+  return stepsOfOne / std::max<std::size_t>(programsInFile, 1);
 }
 
 void proveAnew(const Job &job, const prove::ProveOptions &options) {

@@ -175,7 +175,8 @@ void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypo
       const Constraint &left = *factors[i].constraint, &right = *factors[j].constraint;
       if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)
         continue;
-      offer(rows, {{factors[i].index, factors[j].index}, {}, {}}, product(factors[i], factors[j]),
+      const Known &pair = product(factors[i], factors[j]);
+      offer(rows, {{factors[i].index, factors[j].index}, {}, {}}, pair,
             relationOf(isStrict(left) && isStrict(right)));
     }
   }
@@ -195,8 +196,9 @@ void Products::triples(const Rows &rows, const std::vector<ActiveHypothesis> &hy
         const bool strict =
             isStrict(*factors[i].constraint) && isStrict(*factors[j].constraint) && isStrict(*factors[k].constraint);
         work_ += pair.size() * third.size() * 4;
+        Polynomial product = check::multiply(pair, third);
         offer(rows, {{{factors[i].index, factors[j].index, factors[k].index}, {}, {}},
-                     check::multiply(pair, third),
+                     std::move(product),
                      relationOf(strict)});
       }
     }
@@ -211,7 +213,8 @@ void Products::equalities(const Rows &rows, const std::vector<ActiveHypothesis> 
     for (const Monomial &factor : factors) {
       if (factor.empty() || check::degree(polynomial) + factor.size() > std::max<std::size_t>(limits.degree, 3))
         continue;
-      offer(rows, {{equality.index}, {}, factor}, timesMonomial(equality, factor), Relation::Zero);
+      const Known &product = timesMonomial(equality, factor);
+      offer(rows, {{equality.index}, {}, factor}, product, Relation::Zero);
     }
   }
 }
@@ -279,7 +282,9 @@ void Products::square(const Rows &rows, const Monomial &x, const Monomial &y, co
     check::addTo(base, Polynomial{{y, Number(1)}}, -share);
   }
   const std::vector<std::uint32_t> hypotheses = by ? std::vector{by->index} : std::vector<std::uint32_t>{};
-  offer(rows, {{hypotheses, {base}, {}}, check::multiply(factor, check::multiply(base, base)), Relation::NonNegative});
+  // Not within the braces: when the steps run out there, GCC 12 destroys what they have made so far twice.
+  Polynomial square = check::multiply(factor, check::multiply(base, base));
+  offer(rows, {{hypotheses, {base}, {}}, std::move(square), Relation::NonNegative});
 }
 
 } // namespace feedhold::prove

@@ -298,7 +298,7 @@ Trial GuardInference::alongKnownPaths(const Obligation &claim, const GuardSubjec
     work_ -= std::min(work_, outcome.effort);
     trial.holds = outcome.proved();
     if (const smt::Model *model = outcome.counterexample())
-      trial.witness = context_.witnesses.narrowed(condition).fromModel(*model, breaks);
+      trial.witness = context_.witnesses.narrowed(condition, {}).fromModel(*model, breaks);
     if (!trial.holds)
       break;
   }
@@ -313,7 +313,7 @@ Trial GuardInference::exploredWith(const Obligation &claim, TermId condition) {
   const Exploration found = explore(start_.reading(), subject.programs, subject.program, start_.entry(), options);
   const std::uint64_t done = found.work + (claim.kind == ObligationKind::NoControlAlarm ? kWorkOfStop : kWorkOfEnd);
   work_ -= std::min(work_, done);
-  const WitnessSearch witnesses = context_.witnesses.narrowed(condition);
+  const WitnessSearch witnesses = context_.witnesses.narrowed(condition, sampleInputs_);
   LoopEnds ends;
   return settledIn({{subject, start_, found}, witnesses, context_.promises, ends, context_.anyCall, kBudget}, claim);
 }

@@ -16,9 +16,10 @@ constexpr std::size_t kFewSamples = 30;
 constexpr int kSamplesOfEnds = 50;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
-constexpr std::uint64_t kStepsOfLook = 10; // at a run, and at a movement of it
-constexpr std::size_t kMostReplays = 200;  // that are kept for the judge
-constexpr int kMostInexact = 5;            // samples that break a claim by rounding, before the others are left alone
+constexpr std::uint64_t kStepsOfInput = 20; // of a model
+constexpr std::uint64_t kStepsOfLook = 10;  // at a run, and at a movement of it
+constexpr std::size_t kMostReplays = 200;   // that are kept for the judge
+constexpr int kMostInexact = 5;             // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
 GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
@@ -48,6 +49,7 @@ std::vector<std::uint32_t> WitnessSearch::inputs() const {
 smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   smt::Model model;
   const smt::TermStore &store = reading_.store();
+  smt::spend(kStepsOfInput * reading_.entryValues().size());
   for (const auto &[variable, value] : reading_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
@@ -59,21 +61,23 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
 }
 
 bool WitnessSearch::allowed(const GivenVariables &given) const {
+  if (demands_.empty())
+    return true;
   const smt::Model model = modelOf(given);
   return std::all_of(demands_.begin(), demands_.end(),
                      [&](smt::TermId demand) { return smt::isTrue(reading_.store(), demand, model); });
 }
 
-WitnessSearch WitnessSearch::narrowed(smt::TermId demand) const {
+WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {
   WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
   narrowed.startFrom(start_, place_);
   narrowed.others_ = others_;
   narrowed.exactRuns_ = exactRuns_;
   narrowed.replays_ = replays_;
   narrowed.demands_.push_back(demand);
-  for (const Sample &sample : samples_)
-    if (smt::isTrue(reading_.store(), demand, modelOf(sample.given)))
-      narrowed.samples_.push_back(sample);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (smt::isTrue(reading_.store(), demand, inputs[i]))
+      narrowed.samples_.push_back(samples_[i]);
   return narrowed;
 }
 

@@ -76,8 +76,9 @@ public:
   Agreement agreesExactly(const GivenVariables &given, const RunResult &run) const {
     return exactRuns_->agrees(given, run);
   }
-  /// The samples that satisfy one more condition.
-  WitnessSearch narrowed(smt::TermId demand) const;
+  /// With one more condition on the inputs, and those of the samples that satisfy it.  `inputs`: modelOf each sample;
+  /// empty: without samples.
+  WitnessSearch narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const;
 
   static constexpr std::uint64_t kFuel = 20'000;
 

@@ -53,7 +53,10 @@ TEST(Witness, InputsThatTheContractForbidsAreNone) {
   program.runs();
   smt::TermStore &store = program.start.store();
   const smt::TermId input = program.start.reading().entryValues().begin()->second.number;
-  const WitnessSearch small = program.runs()->narrowed(store.less(input, store.number(smt::Number(5))));
+  std::vector<smt::Model> inputs;
+  for (const WitnessSearch::Sample &sample : program.runs()->samples())
+    inputs.push_back(program.runs()->modelOf(sample.given));
+  const WitnessSearch small = program.runs()->narrowed(store.less(input, store.number(smt::Number(5))), inputs);
   EXPECT_FALSE(small.amongSamples(stopsWithAlarm()));
   EXPECT_FALSE(small.fromModel(modelOf(program, 9), stopsWithAlarm()));
   EXPECT_TRUE(program.runs()->amongSamples(stopsWithAlarm()));
