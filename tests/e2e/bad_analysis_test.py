@@ -2,17 +2,18 @@
 little memory, with an answer or with the reason why there is none."""
 import resource
 import subprocess
-import time
 import unittest
 
 from harness import FEEDHOLD, Scratch
 
-LONGEST = 20  # seconds; a few on a machine that does nothing else
+LONGEST = 20  # seconds of processor time: a machine that does other work, too, takes as long
+HANGS = 300
 MOST_MEMORY = 1 << 30
 
 
-def little_memory():
+def little_memory_and_time():
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))
 
 
 class BadAnalysis(Scratch):
@@ -21,14 +22,12 @@ class BadAnalysis(Scratch):
         self.write("program.nc", "\n".join(("%", *blocks, "%", "")))
         outputs = {}
         for command in ("check", "ranges", "run"):
-            start = time.monotonic()
             result = subprocess.run([FEEDHOLD, command, "--dialect", dialect, "program.nc"], cwd=self.folder,
-                                    capture_output=True, timeout=LONGEST, preexec_fn=little_memory,
+                                    capture_output=True, timeout=HANGS, preexec_fn=little_memory_and_time,
                                     stdin=subprocess.DEVNULL)
             text = (result.stdout + result.stderr).decode(errors="replace")
             self.assertIn(result.returncode, (0, 1), f"{command}: {text[-2000:]}")
             self.assertTrue(text.strip(), command)
-            self.assertLess(time.monotonic() - start, LONGEST)
             outputs[command] = text
         return outputs
 
@@ -64,10 +63,10 @@ class BadAnalysis(Scratch):
             for number in range(1, 501):
                 blocks += [f"O{number}", "#1=#1+1", f"IF[#1GT{number}]GOTO10", *extra, f"M98P{number + 1}", "N10M99"]
             self.write("program.nc", "\n".join(("%", *blocks, "O501", "M99", "%", "")))
-            start = time.monotonic()
-            subprocess.run([FEEDHOLD, "check", "--dialect", "fanuc-30i", "program.nc"], cwd=self.folder, check=False,
-                           capture_output=True, timeout=LONGEST, preexec_fn=little_memory, stdin=subprocess.DEVNULL)
-            self.assertLess(time.monotonic() - start, LONGEST)
+            result = subprocess.run([FEEDHOLD, "check", "--dialect", "fanuc-30i", "program.nc"], cwd=self.folder,
+                                    check=False, capture_output=True, timeout=HANGS,
+                                    preexec_fn=little_memory_and_time, stdin=subprocess.DEVNULL)
+            self.assertIn(result.returncode, (0, 1))
 
     def test_modal_calls_without_end(self):
         self.follow("O1", "N10G66P2A#1", "#1=#1+1", "GOTO10", "O2", "M99")
