@@ -337,8 +337,12 @@ private:
   void guarded() {
     Guarded guarded{id_};
     if (reader_.take("EXCEPT")) {
-      guarded.exceptModal = reader_.take("MODAL");
-      guarded.exceptStart = reader_.take("START");
+      for (bool more = true; more;) {
+        const bool modal = reader_.take("MODAL"), start = !modal && reader_.take("START");
+        guarded.exceptModal |= modal;
+        guarded.exceptStart |= start;
+        more = modal || start;
+      }
       if (!guarded.exceptModal && !guarded.exceptStart)
         reader_.expected("`MODAL` or `START`");
     }

@@ -367,15 +367,16 @@ std::vector<Path> Explorer::execute(Path path) {
 std::vector<Path> Explorer::straight(Path path) {
   const Node &node = nodeOf(path);
   auto context = contextOf(path);
-  const bool keepsWrites = options_.keepWrites && purpose_ == Purpose::Record;
-  const std::optional<SymbolicState> before = keepsWrites ? std::optional(path.state) : std::nullopt;
+  auto writes = beginWrites(path);
   step(context, node.instruction, words_);
+  if (writes)
+    writes->unkept = reading_.unkeptWrites();
   const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
   const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
   if (!takeChecks(path))
     return {};
-  if (before)
-    takeWrites(path, *before);
+  if (writes)
+    takeWrites(path, *writes);
   if (moves.term != store_.no())
     return modalCall(std::move(path), moves);
   return {to(std::move(path), node.next)};

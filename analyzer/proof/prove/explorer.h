@@ -66,8 +66,15 @@ private:
   bool takeChecks(Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
-  /// What the step has written (explorer_writes.cpp).  `before`: of the step.
-  void takeWrites(const Path &path, const SymbolicState &before);
+  // ---- writes (explorer_writes.cpp) ----
+  struct StepWrites {
+    SymbolicState before;                   // the step
+    std::vector<std::uint32_t> unkept = {}; // variables that it wrote, of which the state keeps nothing
+  };
+  /// Absent: writes are not asked for.
+  std::optional<StepWrites> beginWrites(const Path &path) const;
+  /// What a step that has not stopped has written.
+  void takeWrites(const Path &path, const StepWrites &step);
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);

@@ -16,10 +16,13 @@ constexpr double kMostRepeats = 100;
 
 std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
   auto context = contextOf(path);
+  auto writes = beginWrites(path);
   const CallRequest<SymbolicReading> request = prepareCall(context, call.call);
   const NodeId next = nodeOf(path).next;
   if (!takeChecks(path))
     return {};
+  if (writes) // a call by T hands it over in a variable
+    takeWrites(path, *writes);
   switch (request.action) {
   case CallAction::SetModal:
   case CallAction::EndModal: return {to(std::move(path), next)};
@@ -175,9 +178,12 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> 
 
 std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
   auto context = contextOf(path);
+  auto writes = beginWrites(path);
   const auto target = returnTarget(context, from);
   if (!takeChecks(path))
     return {};
+  if (writes) // the value that is returned
+    takeWrites(path, *writes);
   SymbolicFrame &frame = path.frames.back();
   if (path.frames.size() == 1) {
     if (target) {

@@ -12,8 +12,10 @@ using smt::TermId;
 namespace {
 
 std::optional<std::string> getsPastGuards(const RunResult &run, const GivenVariables &) {
-  const bool moved = std::any_of(run.moves.begin(), run.moves.end(),
-                                 [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });
+  const bool moved = std::any_of(run.moves.begin(), run.moves.end(), [](const RecordedMove &move) {
+    // a block that is not followed need not move
+    return move.move.kind != MoveKind::Dwell && move.move.kind != MoveKind::Unfollowed;
+  });
   if (moved)
     return "an axis moves";
   const bool ended = run.end == RunEnd::M02 || run.end == RunEnd::M30 || run.end == RunEnd::Returned;

@@ -15,7 +15,7 @@ using smt::TermId;
 
 namespace {
 
-/// Neither modal nor of the program alone: the words of the manual for the parts of a state.
+/// In the words of the manual; empty for parts that are not of the modal state.
 std::string nameOfPart(PartId id) {
   switch (id.part) {
   case Part::Code: return "G codes";
@@ -111,23 +111,49 @@ bool maySetMode(const Code &code) {
   return code.group == 0 && std::find(kModes.begin(), kModes.end(), code.action) != kModes.end();
 }
 
-const Code *modeWithoutGroup(const ProgramFile &file, const Program &program) {
+/// With words of its own, it sets more than the code of its group: P of G54.1, P of G64, the box of G22, S of G50.
+bool keepsWord(const Code &code, char address) {
+  struct Row {
+    CodeAction action;
+    std::string_view addresses;
+  };
+  constexpr Row kRows[] = {{CodeAction::ExtendedWorkOffset, "P"},
+                           {CodeAction::Tolerance, "PQR"},
+                           {CodeAction::Check, "XYZIJKPQR"},
+                           {CodeAction::CoordinateSet, "SQ"}};
+  return std::any_of(std::begin(kRows), std::end(kRows), [&](const Row &row) {
+    return row.action == code.action && row.addresses.find(address) != std::string_view::npos;
+  });
+}
+
+const Code *modeOf(const ProgramFile &file, BlockId block) {
+  const auto words = file.tree->wordsOf(block);
+  for (const Word &word : words) {
+    const Code *code = word.address() == 'G' ? codeOf(word, *file.dialect) : nullptr;
+    if (code && (maySetMode(*code) || std::any_of(words.begin(), words.end(), [&](const Word &other) {
+                   return keepsWord(*code, other.address());
+                 })))
+      return code;
+  }
+  return nullptr;
+}
+
+const Code *modeSetIn(const ProgramFile &file, const Program &program) {
   for (BlockId block = program.first; block < program.last; block = block.next())
-    for (const Word &word : file.tree->wordsOf(block))
-      if (const Code *code = word.address() == 'G' ? codeOf(word, *file.dialect) : nullptr; code && maySetMode(*code))
-        return code;
+    if (const Code *code = modeOf(file, block))
+      return code;
   return nullptr;
 }
 
 /// In the text of the program or of one that it may call.
-const Code *modeWithoutGroup(const ProofSubject &subject) {
+const Code *modeSetBy(const ProofSubject &subject) {
   ReachedPrograms reached;
   collectReached(subject.programs, {subject.program.file, subject.program.program}, reached);
   for (FileId id(0); id.index() < subject.programs.size(); id = id.next()) {
     const ProgramFile &file = subject.programs.file(id);
     for (ProgramId program(0); program.index() < file.model->programs.size(); program = program.next())
       if (reached.orAny || reached.programs.contains({id, program}))
-        if (const Code *code = modeWithoutGroup(file, file.model->programs[program]))
+        if (const Code *code = modeSetIn(file, file.model->programs[program]))
           return code;
   }
   return nullptr;
@@ -136,7 +162,7 @@ const Code *modeWithoutGroup(const ProofSubject &subject) {
 } // namespace
 
 std::optional<std::string> modeNotTold(const ExploredProgram &program) {
-  const Code *code = modeWithoutGroup(program.subject);
+  const Code *code = modeSetBy(program.subject);
   if (!code)
     return std::nullopt;
   return code->tenths % 10 == 0 ? fmt::format("the mode of G{:02}", code->tenths / 10)

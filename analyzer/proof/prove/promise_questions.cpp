@@ -45,25 +45,27 @@ std::optional<std::string> brokenOnTheWay(const RunResult &run) {
 }
 
 /// A write of it outlasts the program, or is seen outside of it.
-bool isSeenByOthers(const Dialect &dialect, std::uint32_t variable) {
-  const VariableRange *row = variable < kFirstNamedVariable ? findVariable(dialect, variable) : nullptr;
+bool isSeenByOthers(const ProofSubject &subject, std::uint32_t variable) {
+  if (variable >= kFirstNamedVariable)
+    return subject.programs.isGlobalName(variable);
+  const VariableRange *row = findVariable(subject.dialect(), variable);
   return row && row->kind != VariableKind::Local;
 }
 
-/// The cells of the control behind the numbers that a contract names: a cell may have several.
+/// The cells of the control behind the numbers that a contract names.  Numbers that are one cell on some controls only
+/// are not allowed with each other.
 std::set<std::uint32_t> cellsOf(const Dialect &dialect, const std::vector<Assigns> &clauses) {
   std::set<std::uint32_t> cells;
   for (const Assigns &clause : clauses)
     for (const Assigns::Variables &range : clause.variables)
-      for (std::uint32_t number = range.first; number <= range.last; ++number) {
-        const std::uint32_t cell = cellOf(dialect, number);
-        cells.insert(cell);
-        for (const std::uint32_t other : perhapsSameAs(dialect, cell))
-          cells.insert(other);
-        if (const BitWord *word = findBitWord(dialect, number))
-          for (std::uint32_t bit = 0; bit < word->bits; ++bit)
-            cells.insert(word->firstBit + bit);
-      }
+      for (const VariableRange &row : dialect.variables)
+        for (std::uint32_t number = std::max(range.first, row.first); number <= std::min(range.last, row.last);
+             ++number) {
+          cells.insert(cellOf(dialect, number));
+          if (const BitWord *word = findBitWord(dialect, number))
+            for (std::uint32_t bit = 0; bit < word->bits; ++bit)
+              cells.insert(word->firstBit + bit);
+        }
   return cells;
 }
 
@@ -142,7 +144,7 @@ Questions assignQuestions(const ExploredProgram &program) {
   for (const WriteInstance &write : found.writes) {
     if (!write.variable)
       question.open = "a variable whose number is not known is written";
-    else if (isSeenByOthers(subject.dialect(), *write.variable) && !allowed.contains(*write.variable))
+    else if (isSeenByOthers(subject, *write.variable) && !allowed.contains(*write.variable))
       question.goals.push_back({&write.conditions, write.isKept});
   }
   if (!found.unfollowedCalls.empty())

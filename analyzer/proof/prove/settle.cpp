@@ -56,7 +56,7 @@ private:
       open_ = verdict::Unknown{};
     if (const smt::Model *model = outcome.counterexample()) {
       witness_ = context_.witnesses.fromModel(*model, violation_);
-      open_->reason = "inputs that seem to break it do not do so when they are run";
+      open_->reason = "a possible counterexample was found, but its run does not show the fault";
     } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
       open_->reason = unknown->reason;
     }

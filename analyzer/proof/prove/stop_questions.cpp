@@ -95,20 +95,19 @@ Questions unmetAlarms(const ExploredProgram &program) {
   Questions questions;
   if (!subject.wants(ObligationKind::AlarmUnreachable))
     return questions;
-  const auto isMet = [&subject = subject, &found = found](BlockId block) {
+  const auto isMet = [&subject = subject, &found = found](BlockId block, Span span) {
     return std::any_of(found.checks.begin(), found.checks.end(), [&](const Check &check) {
-      return !check.alarm && check.place.file == subject.program.file &&
+      return !check.alarm && check.place.file == subject.program.file && check.span == span &&
              subject.programs.node(check.place).block == block;
     });
   };
   for (const VariableUse &use : subject.file().model->variablesOf(subject.program.program)) {
     const VariableRange *row = use.write && use.number ? findVariable(subject.dialect(), *use.number) : nullptr;
-    if (!row || row->role != VariableRole::Alarm || isMet(use.block))
+    const Span span = subject.file().tree->expressions[use.expression].span;
+    if (!row || row->role != VariableRole::Alarm || isMet(use.block, span))
       continue;
-    const Check check{.place = {subject.program.file, writeOf(subject.file(), use)},
-                      .span = subject.file().tree->expressions[use.expression].span,
-                      .alarm = {},
-                      .instances = {}};
+    const Check check{
+        .place = {subject.program.file, writeOf(subject.file(), use)}, .span = span, .alarm = {}, .instances = {}};
     questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
                                                    stopClaim(check, foreseenAlarms(subject.contract()))),
                          .goals = {},
