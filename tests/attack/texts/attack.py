@@ -55,6 +55,7 @@ class TextAttack:
         """(program, wrong, start) of what is found."""
         counts = self.tally.counts if counts is None else counts
         found = [(0, Wrong("a row twice", f"{c.id}: {c.text}", c), None) for c in rows_twice(proofs)]
+        found += [(0, Wrong("a verdict withdrawn", what), None) for what in proofs.withdrawn]
         texts = texts_of(files)
         called = {int(n) for t in texts.values() for n in re.findall(r"(?:G65|G66|M98)P(\d+)", "\n".join(t.lines))}
         for number, text in texts.items():
@@ -120,6 +121,8 @@ class TextAttack:
 
     def report(self, seed, files, number, wrong, start):
         def shows(candidate, work):
+            if not all(text.startswith("O") for text in candidate.values()):
+                return None
             write(candidate, work / "p")
             try:
                 only = wrong.claim.kind if wrong.claim else None

@@ -42,25 +42,22 @@ class Judgement:
     def add(self, kind, what, claim=None):
         self.found.append(Wrong(kind, what, claim))
 
-    def breach(self, visit):
-        return contract.broken_at_entry(visit.text, visit.entry, self.again)
-
     def is_good(self, visit) -> bool:
         """Its own claims have to hold; a call against the contract is looked at here."""
         if visit.outer is not None and not self.good[visit.outer]:
             return False
         try:
-            breach = self.breach(visit)
+            broken = contract.broken_at_entry(visit.text, visit.entry, self.again)
         except (Stop, Unsaid):
             return False
         if visit.modal_at_entry:
             return False
-        if breach is None:
+        if not broken:
             return True
         if visit.outer is None:
-            self.guarded(visit, breach)
+            self.guarded(visit, broken)
         else:
-            self.bad_call(visit, breach)
+            self.bad_call(visit, broken[0])
         return False
 
     def kind(self, visit, kind):
@@ -80,11 +77,12 @@ class Judgement:
             self.add("call-meets-contract missing", f"O{visit.text.number} is called at line {visit.from_line} of "
                      f"O{number} against {breach}, and nothing is claimed of it")
 
-    def guarded(self, visit, breach):
+    def guarded(self, visit, broken):
         strokes = len(self.run.tool.strokes) > visit.first_stroke
+        heads = {clause.split()[0][1:] for clause in broken}
         for claim in self.kind(visit, "guarded"):
-            if claim.holds and (strokes or visit.left):
-                self.add("guarded", f"{claim.id} is {claim.verdict}, the start breaks {breach}, and "
+            if claim.holds and (strokes or visit.left) and not heads & set(contract.excepted(claim.text)):
+                self.add("guarded", f"{claim.id} is {claim.verdict}, the start breaks {broken[0]}, and "
                          f"{'it moves' if strokes else 'it ends'}", claim)
 
     # ---- a visit whose contract is kept ----
@@ -145,7 +143,9 @@ class Judgement:
         before, after = visit.entry, visit.exit
         other = [code for group, code in after.modes.items() if before.modes[group] != code]
         other += [f"{k}{after.words[k]}" for k in after.words
-                  if after.words[k] != before.words[k] and "EXCEPT" not in claim.text]
+                  if after.words[k] != before.words[k] and k not in contract.excepted(claim.text)]
+        if after.shifts != before.shifts:
+            other.append("other shifts, mappings or words of a cycle")
         if after.modal != before.modal:
             other.append("G66")
         if other:
@@ -199,7 +199,7 @@ class Judgement:
             self.add(f"{kind} {named[0].verdict}", f"{named[0].id} is {named[0].verdict} ({named[0].text}), and the run "
                      f"stops there: {run.detail}", named[0])
         elif not named and all(c.holds for c in claims) and self.is_complete(number):
-            self.add(f"{kind} missing", f"O{number} stops at line {run.line}: {run.detail}, and nothing is claimed of it")
+            self.add(f"{kind} missing: {run.detail}", f"O{number} stops at line {run.line}: {run.detail}, and nothing is claimed of it")
 
     # ---- space ----
 

@@ -1,4 +1,6 @@
 """Messages of `check` with never, always or stops, against one run of a program that no other calls."""
+import re
+
 from .claims import Wrong
 
 HELD, FAILED, RUN, PAST, OVER, LEFT = "held", "failed", "run", "past", "over", "left"
@@ -24,9 +26,16 @@ def wrong_message(run, messages, counts) -> list:
             continue
         counts["messages judged"] += 1
         for visit in visits:
-            if visit.text.file == file and not visit.modal_at_entry and shows(run, visit, line, saying[2]):
+            if visit.text.file == file and not visit.modal_at_entry and is_about(text, visit) and \
+                    shows(run, visit, line, saying[2]):
                 return [Wrong(f"message {rule}", f"line {line}: {text}; but a run shows otherwise")]
     return []
+
+
+def is_about(text, visit) -> bool:
+    """Of `M99 P` it is said which caller lacks the label."""
+    lacking = re.search(r"`O(\d+)` has no", text)
+    return not lacking or visit.outer is not None and visit.outer.text.number == int(lacking[1])
 
 
 def shows(run, visit, line, how) -> bool:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from fractions import Fraction as F
 
 from .claims import SPACE, judge
+from .contract import places
 from .machine import ARGUMENTS, Run, Start, cell_of, is_common
 from .path import GROUPS, XYZ
 from .switches import every_way
@@ -19,7 +20,7 @@ def start_of(command: str, text):
         if clause.startswith("@MODAL"):
             start.modes.update({GROUPS[c]: c for c in clause.split()[1:] if c in GROUPS})
         if clause.startswith("@START"):
-            start.place.update({w[0]: F(w[1:].rstrip(".") or 0) if w.endswith(".") else F(w[1:]) for w in clause.split()[1:]})
+            start.place.update(places(clause.split()[1:]))
     for option, word in zip(words, words[1:]):
         if option == "--arg":
             letter, value = word.split("=")

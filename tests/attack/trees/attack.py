@@ -86,6 +86,8 @@ class TreeAttack:
     def contradictions(self, project, proofs, messages, seed, counts):
         found = [Contradiction(f"{c.id}: {c.text}", "a row twice", c.program, InputMaker(project, project.programs()[0],
                                random.Random(0)).any(), {}, c) for c in rows_twice(proofs)]
+        found += [Contradiction(what, "a verdict withdrawn", 1, InputMaker(project, project.programs()[0],
+                                random.Random(0)).any(), {}) for what in proofs.withdrawn]
         said = MessageJudge(project, messages, counts)
         for program in project.programs():
             if not proofs.claims.get(program.number):

@@ -35,7 +35,7 @@ class Tool:
         self.modes = {**controls.POWER_ON, **modes}
         self.cells = cells
         self.place = {axis: Fraction(place.get(axis, 0)) for axis in AXES}
-        self.registers = {"F": None, "S": None, "T": None, "H": None, "D": None}
+        self.registers = dict.fromkeys(("F", "S", "T", "H", "D", "spindle"))
         self.moves = []
 
     def coordinate(self, axis: str) -> Fraction:
@@ -44,7 +44,7 @@ class Tool:
 
     def snapshot(self) -> Snapshot:
         return Snapshot(tuple(self.place[a] for a in AXES), tuple(self.coordinate(a) for a in AXES),
-                        tuple(sorted(self.registers.items(), key=lambda each: each[0])), True)
+                        tuple(sorted(self.registers.items())), True)
 
     def key(self):
         return (tuple(self.place.values()), tuple(sorted(self.modes.items())),
@@ -71,7 +71,9 @@ class Tool:
             group = controls.GROUP_OF.get(code)
             if group is not None:
                 self.modes[group] = code
-            elif code not in ("M3", "M5", "M8", "M9", "G67"):
+            elif code in ("M3", "M5"):
+                self.registers["spindle"] = code
+            elif code not in ("M8", "M9", "G67"):
                 raise NotModelled(code)
         for letter in "FSTHD":
             if letter in words:

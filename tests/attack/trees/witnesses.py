@@ -21,6 +21,8 @@ SWITCHES = {
     "m99-p-of-a-main-program": (True, False),
     "nested-modal-calls": ("last-first",),
     "no-distance-is-a-movement": (True, False),
+    "g67-alone-stops": (True, False),
+    "do-without-end-stops-at-do": (True, False),
 }
 
 
