@@ -11,11 +11,13 @@ from .claims import Wrong, judge
 from .compare import of_engine, of_run, unlike
 from .machine import Run, texts_of
 from .messages import wrong_message
+from .ranges import outside_of_ranges, told_of
 from .starts import Starts, as_words, runs_alike
 from .switches import Switches, every_way
 
 RUNS = 14
 COMPARISONS = 3
+RANGE_RUNS = 6
 
 
 class TextAttack:
@@ -80,7 +82,18 @@ class TextAttack:
                         found.append((number, unlike_, start))
                         break
             found += self.refuted(files, dialect, text, proofs, folder, counts)
+            found += self.ranges(files, dialect, text, seed, folder, starts, counts)
         return found
+
+    def ranges(self, files, dialect, text, seed, folder, starts, counts):
+        told = told_of(files, folder, text, dialect, self.engine)
+        for index in range(RANGE_RUNS):
+            start = starts.any()
+            why = outside_of_ranges(files, dialect, told, text.number, start,
+                                    Switches(seed=f"{seed} {index}" if index % 2 else None), counts)
+            if why:
+                return [(text.number, Wrong("ranges", why), start)]
+        return []
 
     def machines(self, files, dialect, folder, text, start, counts):
         answer = self.engine.run([str(folder / text.file), "--program", f"O{text.number}", "--dialect", dialect,

@@ -50,15 +50,11 @@ class Judgement:
             broken = contract.broken_at_entry(visit.text, visit.entry, self.again)
         except (Stop, Unsaid):
             return False
-        if visit.modal_at_entry:
-            return False
-        if not broken:
-            return True
-        if visit.outer is None:
-            self.guarded(visit, broken)
-        else:
+        if broken and visit.outer is not None:
             self.bad_call(visit, broken[0])
-        return False
+        elif broken and not visit.modal_at_entry:
+            self.guarded(visit, broken)
+        return not broken and not visit.modal_at_entry
 
     def kind(self, visit, kind):
         return [c for c in self.claims_of(visit.text.number) if c.kind == kind]

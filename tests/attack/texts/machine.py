@@ -493,17 +493,16 @@ class Run:
         if frame.kind == "start" and label is not None and \
                 self.ask("M99 P of a started program", ("jump", "return")) == "jump":
             return self.go_to(frame, label)
-        if self.dialect == "haas-ngc" and label is not None and frame.kind != "start" and \
-                self.ask("M99 P of a called program", ("return", "jump")) == "jump":
+        if self.dialect == "haas-ngc" and label is not None and frame.kind != "start":
             return self.go_to(frame, label)
         exit_ = self.state()
         if frame.kind == "start":
             frame.visit.left, frame.visit.exit = "return", exit_
             raise Ended("return")
-        outer = self.frames[-2]
+        self.frames.pop()
+        outer = self.frames[-1]
         if label is not None and not outer.visit.text.has(label):
             raise Stop("no label")
-        self.frames.pop()
         if frame.kind != "M97":
             frame.visit.left, frame.visit.exit = "return", exit_
         outer.visit.done.add(outer.visit.text.line(outer.at))

@@ -12,7 +12,7 @@ from .syntax import (Alarm, Assign, Binary, Block, Call, End, Function, Goto, If
 
 FEATURES = ("calls", "repeats", "modal-calls", "modal-in-callee", "indirect", "system", "skip", "jumps", "jumps-into-loops",
             "computed-goto", "return-to-label", "vacant", "functions", "contracts", "guarded", "alarms", "modes", "files",
-            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences")
+            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences", "ranges")
 
 SMALL = [Fraction(n) for n in (0, 0, 1, 1, 2, 3, 4, 5, 7, 10)] + [Fraction(n, 8) for n in (1, 2, 4, 6, 12, 20, -4)]
 LOCALS = (1, 2, 3, 4, 7, 10, 11, 20)
