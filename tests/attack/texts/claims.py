@@ -169,11 +169,10 @@ class Judgement:
     def ended(self, visit):
         run, number = self.run, visit.text.number
         if run.end in ("stop", "alarm") and self.is_open(visit):
-            if run.end == "alarm":
-                clauses = {clause.replace(" ", ""): clause for _, clause in visit.text.clauses()}
-                for claim in self.kind(visit, "alarm-iff"):
-                    if claim.holds and claim.text.replace(" ", "") in clauses:
-                        self.alarm(visit, claim, clauses[claim.text.replace(" ", "")], run.detail)
+            clauses = {clause.replace(" ", ""): clause for _, clause in visit.text.clauses()}
+            for claim in self.kind(visit, "alarm-iff"):
+                if claim.holds and claim.text.replace(" ", "") in clauses:
+                    self.alarm(visit, claim, clauses[claim.text.replace(" ", "")], run.detail if run.end == "alarm" else None)
             if run.where is visit:
                 self.stopped(visit)
         if run.end == "endless" and self.is_open(visit):

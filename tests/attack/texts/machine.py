@@ -490,10 +490,8 @@ class Run:
     def leave(self, frame, target_text):
         target = None if target_text is None else self.value(target_text)
         label = None if target is None else away(target, self.ask)
-        if frame.kind == "start" and label is not None and \
-                self.ask("M99 P of a started program", ("jump", "return")) == "jump":
-            return self.go_to(frame, label)
-        if self.dialect == "haas-ngc" and label is not None and frame.kind != "start":
+        if label is not None and (self.dialect == "haas-ngc" or frame.kind == "start" and
+                                  self.ask("M99 P of a started program", ("jump", "return")) == "jump"):
             return self.go_to(frame, label)
         exit_ = self.state()
         if frame.kind == "start":

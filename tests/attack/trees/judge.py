@@ -245,10 +245,9 @@ class Judge:
         outcome = self.outcome
         if outcome.end not in ("alarm", "user-alarm") or not self.is_open(activation):
             return
-        if outcome.end == "user-alarm":
-            for clause in activation.program.clauses:
-                if isinstance(clause, contracts.AlarmClause):
-                    self.alarm_clause(activation, clause, outcome.alarm)
+        for clause in activation.program.clauses:
+            if isinstance(clause, contracts.AlarmClause):
+                self.alarm_clause(activation, clause, outcome.alarm if outcome.end == "user-alarm" else None)
         if outcome.activation is not activation:
             return
         number, line = activation.program.number, self.line(activation, outcome.block)
