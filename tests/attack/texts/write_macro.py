@@ -265,7 +265,7 @@ class MacroWriter:
         for _ in range(0 if "promises" in self.without else rng.choice((0, 1, 1, 2))):
             found.append(f"({self.promise(text)})")
         found = list(dict.fromkeys(found))
-        if rng.random() < 0.3 and "guarded" not in self.without and self.guard_entry(found):
+        if rng.random() < 0.15 and "guarded" not in self.without and self.guard_entry(found):
             excepted = [word for word in ("MODAL", "START") if any("@" + word in c for c in found) and rng.random() < 0.6]
             found.append(f"(@GUARDED{' EXCEPT ' * bool(excepted)}{' '.join(excepted)})")
         return found
