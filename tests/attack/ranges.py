@@ -45,11 +45,16 @@ class Told:
             self.contexts.setdefault(int(context["program"]["program"][1:]), []).append((chain, blocks))
         self.numbers = sorted(names)
         self.start = None
+        self.is_exact = True  # until a movement ends between two least increments, to which words are rounded
 
     def wrong(self, moment: Moment):
         """Why the state is none that is told; the first moment is the start."""
         if self.start is None:
-            self.start = Kept(moment, self.numbers)
+            self.start, self.is_exact = Kept(moment, self.numbers), True
+        if moment.place and any((c * 1000).denominator != 1 for c in moment.place):
+            self.is_exact = False
+        if not self.is_exact:
+            return None
         contexts = self.contexts.get(moment.program, [])
         exact = [each for chain, each in contexts if chain == moment.chain] or [each for _, each in contexts]
         blocks = [b for each in exact for b in each.get(moment.line, [])] or \

@@ -153,8 +153,8 @@ class TreeAttack:
                 why = program and self.differ(project, program, known.inputs, collections.Counter())
                 return replace(known, what=why) if why else None
             if known.kind == "the machines differ":
-                found = program and difference(project, place, program, known.inputs, self.engine, collections.Counter())
-                return found and replace(known, what=found[0])
+                found = program and is_comparable(program, known.inputs) and difference(project, place, program, known.inputs, self.engine, collections.Counter())
+                return replace(known, what=found[0]) if found else None
             if known.kind == "ranges":
                 why = program and outside_of_ranges(project, told_of(project, place, program, self.engine), program,
                                                     known.inputs, Choices(given=known.choices), collections.Counter())

@@ -201,7 +201,10 @@ class Judge:
         entry_tool = activation.entry_tool
 
         def position(when, axis):
-            return (tool if when == "POS" else entry_tool).coordinates[controls.AXES.index(axis)]
+            coordinates = (tool if when == "POS" else entry_tool).coordinates
+            if coordinates is None:
+                raise NotModelled("another zero point")
+            return coordinates[controls.AXES.index(axis)]
         arithmetic = Arithmetic(Choices(given=self.outcome.choices))
         evaluator = Evaluator(arithmetic, reader(locals_, cells), reader(activation.entry_locals, activation.entry_cells),
                               position)

@@ -405,6 +405,8 @@ class Machine:
                 cell = self.cell_of_offset(number)
             if cell is None:
                 raise NotModelled(f"#{number}")
+        if controls.is_work_offset(cell) and value != number_of(self.cells.get(cell)):
+            self.tool.zero_is_known = False
         self.cells[cell] = value
         for frame in self.frames:
             if value != self.at_entry(frame.activation, cell):

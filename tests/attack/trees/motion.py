@@ -37,13 +37,16 @@ class Tool:
         self.place = {axis: Fraction(place.get(axis, 0)) for axis in AXES}
         self.registers = dict.fromkeys(("F", "S", "T", "H", "D", "spindle"))
         self.moves = []
+        self.zero_is_known = True  # until an offset gets another value
 
     def coordinate(self, axis: str) -> Fraction:
         """In the work coordinate system in force."""
+        if not self.zero_is_known:
+            raise NotModelled("another zero point")
         return self.place[axis]
 
     def snapshot(self) -> Snapshot:
-        return Snapshot(tuple(self.place[a] for a in AXES), tuple(self.coordinate(a) for a in AXES),
+        return Snapshot(tuple(self.place[a] for a in AXES), tuple(self.place[a] for a in AXES) if self.zero_is_known else None,
                         tuple(sorted(self.registers.items())), True)
 
     def key(self):
@@ -88,7 +91,7 @@ class Tool:
         return self.move_to(axes, words, frame, frames)
 
     def move_to(self, axes, words, frame, frames) -> bool:
-        start = dict(self.place)
+        start = {axis: self.coordinate(axis) for axis in AXES}
         for axis in axes:
             self.place[axis] = (self.place[axis] if self.modes[3] == "G91" else 0) + words[axis]
         kind = "rapid" if self.modes[1] == "G0" else "feed"

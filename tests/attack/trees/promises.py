@@ -76,13 +76,16 @@ def is_of_entry(number: int) -> bool:
 def ensure(program, returned, rng):
     states = [(o.root, o.root.exit_state) for o in returned]
     named = sorted(n for n in named_in(program) if controls.is_common(n))
-    if rng.random() < 0.25 or not named:
+    placed = all(s.tool.coordinates and r.entry_tool.coordinates for r, s in states)
+    if placed and (rng.random() < 0.25 or not named):
         axis = rng.choice("XYZ")
         index = controls.AXES.index(axis)
         ends = {s.tool.coordinates[index] for _, s in states}
         if all(s.tool.coordinates[index] == r.entry_tool.coordinates[index] for r, s in states):
             return contracts.Ensure(Relation("EQ", Position("POS", axis), Position("ENTRY", axis)))
         return contracts.Ensure(Relation("LE", Position("POS", axis), short(max(ends))))
+    if not named:
+        return None
     common = rng.choice(named)
     ends = [s.cells.get(common) for _, s in states]
     if all(e == r.entry_cells.get(common) for e, (r, _) in zip(ends, states)):

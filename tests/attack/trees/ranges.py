@@ -50,5 +50,6 @@ def moment_of(project, machine, frame) -> Moment:
         except (ControlAlarm, NotModelled):
             return Unknown
     tool, number = machine.tool, frame.activation.program.number
-    return Moment(chain, number, line_of(project, number, frame.at), read, list(tool.place.values()), tool.modes,
-                  tool.registers, tuple(call.program.number for call in machine.modal_calls))
+    place = list(tool.place.values()) if tool.zero_is_known else None
+    return Moment(chain, number, line_of(project, number, frame.at), read, place, tool.modes, tool.registers,
+                  tuple(call.program.number for call in machine.modal_calls))
