@@ -42,6 +42,16 @@ def attacks_of(options, engine, tally):
     }
 
 
+def one_batch(attack, seeds, tally):
+    with tempfile.TemporaryDirectory(prefix="feedhold-attack-") as work:
+        try:
+            attack.batch(seeds, Path(work))
+        except Exception:  # one batch is lost, and it is a failure
+            tally.counts["batches that broke off"] += 1
+            print(f"batch {seeds[0]}:", file=sys.stderr)
+            traceback.print_exc()
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("feedhold")
@@ -59,17 +69,14 @@ def main() -> int:
     attacks = attacks_of(options, Engine(options.feedhold), tally)
     attacks = [attack for name, attack in attacks.items() if not options.only or name in options.only]
     begin, seed = time.monotonic(), options.first
-    while time.monotonic() - begin < options.seconds if options.seconds else seed < options.first + options.programs:
-        seeds = range(seed, seed + BATCH if options.seconds else min(seed + BATCH, options.first + options.programs))
-        for attack in attacks:
-            with tempfile.TemporaryDirectory(prefix="feedhold-attack-") as work:
-                try:
-                    attack.batch(seeds, Path(work))
-                except Exception:  # one batch is lost, and it is a failure
-                    tally.counts["batches that broke off"] += 1
-                    print(f"batch {seed}:", file=sys.stderr)
-                    traceback.print_exc()
-        seed += BATCH
+    try:
+        while time.monotonic() - begin < options.seconds if options.seconds else seed < options.first + options.programs:
+            seeds = range(seed, seed + BATCH if options.seconds else min(seed + BATCH, options.first + options.programs))
+            for attack in attacks:
+                one_batch(attack, seeds, tally)
+            seed += BATCH
+    except KeyboardInterrupt:  # what there is so far is told
+        print(f"interrupted at {seed}", file=sys.stderr)
     tally.tell(time.monotonic() - begin)
     return 1 if tally.counts["contradictions"] or tally.counts["batches that broke off"] else 0
 

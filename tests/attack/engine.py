@@ -3,10 +3,12 @@ import json
 import os
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Optional
 
+
+DEFECT = re.compile(r"defect of Feedhold: (.*)\n  see it: feedhold run (\S+)")
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,7 @@ class Proofs:
     claims: dict  # program number to claims
     incomplete: dict  # program number to why
     errors: list
+    withdrawn: list = field(default_factory=list)  # verdicts that a run of the engine's own contradicts
 
     def of(self, program: int, kind: str):
         return [c for c in self.claims.get(program, []) if c.kind == kind]
@@ -50,7 +53,7 @@ class Engine:
     def call(self, *arguments: str):
         done = subprocess.run([self.path, *arguments], capture_output=True, text=True, timeout=self.timeout,
                               env=self.environment)
-        if done.returncode < 0 or done.returncode == 4 or not done.stdout:
+        if done.returncode < 0 or not done.stdout:
             raise EngineFailed(arguments, done)
         return done
 
@@ -72,6 +75,8 @@ class Engine:
                 claim = Claim(each["kind"], number_of_name(each["program"]), each["line"], each["claim"],
                               each["verdict"], each["witness"], each["id"], each["reason"] or "", each["column"])
                 found.claims.setdefault(claim.program, []).append(claim)
+        for what, path in DEFECT.findall(done.stderr):
+            of_folder(proofs, path).withdrawn.append(what)
         return proofs
 
     def messages(self, folder: Path, dialect: str) -> dict:

@@ -84,7 +84,7 @@ def fewer_lines(files: dict, shows, until: float):
                 candidate = {**best, name: "\n".join(left) + "\n"}
                 if not left:
                     candidate.pop(name)
-                found = shows(candidate) if candidate and (not left or left[0][:1] in "OoG#") else None
+                found = shows(candidate) if candidate else None
                 if found:
                     best, shown, progress = candidate, found, True
                 else:

@@ -11,11 +11,13 @@ from .claims import Wrong, judge
 from .compare import of_engine, of_run, unlike
 from .machine import Run, texts_of
 from .messages import wrong_message
+from .ranges import outside_of_ranges, told_of
 from .starts import Starts, as_words, runs_alike
 from .switches import Switches, every_way
 
 RUNS = 14
 COMPARISONS = 3
+RANGE_RUNS = 6
 
 
 class TextAttack:
@@ -55,6 +57,7 @@ class TextAttack:
         """(program, wrong, start) of what is found."""
         counts = self.tally.counts if counts is None else counts
         found = [(0, Wrong("a row twice", f"{c.id}: {c.text}", c), None) for c in rows_twice(proofs)]
+        found += [(0, Wrong("a verdict withdrawn", what), None) for what in proofs.withdrawn]
         texts = texts_of(files)
         called = {int(n) for t in texts.values() for n in re.findall(r"(?:G65|G66|M98)P(\d+)", "\n".join(t.lines))}
         for number, text in texts.items():
@@ -79,7 +82,18 @@ class TextAttack:
                         found.append((number, unlike_, start))
                         break
             found += self.refuted(files, dialect, text, proofs, folder, counts)
+            found += self.ranges(files, dialect, text, seed, folder, starts, counts)
         return found
+
+    def ranges(self, files, dialect, text, seed, folder, starts, counts):
+        told = told_of(files, folder, text, dialect, self.engine)
+        for index in range(RANGE_RUNS):
+            start = starts.any()
+            why = outside_of_ranges(files, dialect, told, text.number, start,
+                                    Switches(seed=f"{seed} {index}" if index % 2 else None), counts)
+            if why:
+                return [(text.number, Wrong("ranges", why), start)]
+        return []
 
     def machines(self, files, dialect, folder, text, start, counts):
         answer = self.engine.run([str(folder / text.file), "--program", f"O{text.number}", "--dialect", dialect,
@@ -120,6 +134,8 @@ class TextAttack:
 
     def report(self, seed, files, number, wrong, start):
         def shows(candidate, work):
+            if not all(text.startswith("O") for text in candidate.values()):
+                return None
             write(candidate, work / "p")
             try:
                 only = wrong.claim.kind if wrong.claim else None

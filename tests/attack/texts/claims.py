@@ -42,26 +42,19 @@ class Judgement:
     def add(self, kind, what, claim=None):
         self.found.append(Wrong(kind, what, claim))
 
-    def breach(self, visit):
-        return contract.broken_at_entry(visit.text, visit.entry, self.again)
-
     def is_good(self, visit) -> bool:
         """Its own claims have to hold; a call against the contract is looked at here."""
         if visit.outer is not None and not self.good[visit.outer]:
             return False
         try:
-            breach = self.breach(visit)
+            broken = contract.broken_at_entry(visit.text, visit.entry, self.again)
         except (Stop, Unsaid):
             return False
-        if visit.modal_at_entry:
-            return False
-        if breach is None:
-            return True
-        if visit.outer is None:
-            self.guarded(visit, breach)
-        else:
-            self.bad_call(visit, breach)
-        return False
+        if broken and visit.outer is not None:
+            self.bad_call(visit, broken[0])
+        elif broken and not visit.modal_at_entry:
+            self.guarded(visit, broken)
+        return not broken and not visit.modal_at_entry
 
     def kind(self, visit, kind):
         return [c for c in self.claims_of(visit.text.number) if c.kind == kind]
@@ -80,11 +73,12 @@ class Judgement:
             self.add("call-meets-contract missing", f"O{visit.text.number} is called at line {visit.from_line} of "
                      f"O{number} against {breach}, and nothing is claimed of it")
 
-    def guarded(self, visit, breach):
+    def guarded(self, visit, broken):
         strokes = len(self.run.tool.strokes) > visit.first_stroke
+        heads = {clause.split()[0][1:] for clause in broken}
         for claim in self.kind(visit, "guarded"):
-            if claim.holds and (strokes or visit.left):
-                self.add("guarded", f"{claim.id} is {claim.verdict}, the start breaks {breach}, and "
+            if claim.holds and (strokes or visit.left) and not heads & set(contract.excepted(claim.text)):
+                self.add("guarded", f"{claim.id} is {claim.verdict}, the start breaks {broken[0]}, and "
                          f"{'it moves' if strokes else 'it ends'}", claim)
 
     # ---- a visit whose contract is kept ----
@@ -145,7 +139,9 @@ class Judgement:
         before, after = visit.entry, visit.exit
         other = [code for group, code in after.modes.items() if before.modes[group] != code]
         other += [f"{k}{after.words[k]}" for k in after.words
-                  if after.words[k] != before.words[k] and "EXCEPT" not in claim.text]
+                  if after.words[k] != before.words[k] and k not in contract.excepted(claim.text)]
+        if after.shifts != before.shifts:
+            other.append("other shifts, mappings or words of a cycle")
         if after.modal != before.modal:
             other.append("G66")
         if other:
@@ -173,11 +169,10 @@ class Judgement:
     def ended(self, visit):
         run, number = self.run, visit.text.number
         if run.end in ("stop", "alarm") and self.is_open(visit):
-            if run.end == "alarm":
-                clauses = {clause.replace(" ", ""): clause for _, clause in visit.text.clauses()}
-                for claim in self.kind(visit, "alarm-iff"):
-                    if claim.holds and claim.text.replace(" ", "") in clauses:
-                        self.alarm(visit, claim, clauses[claim.text.replace(" ", "")], run.detail)
+            clauses = {clause.replace(" ", ""): clause for _, clause in visit.text.clauses()}
+            for claim in self.kind(visit, "alarm-iff"):
+                if claim.holds and claim.text.replace(" ", "") in clauses:
+                    self.alarm(visit, claim, clauses[claim.text.replace(" ", "")], run.detail if run.end == "alarm" else None)
             if run.where is visit:
                 self.stopped(visit)
         if run.end == "endless" and self.is_open(visit):
@@ -199,7 +194,7 @@ class Judgement:
             self.add(f"{kind} {named[0].verdict}", f"{named[0].id} is {named[0].verdict} ({named[0].text}), and the run "
                      f"stops there: {run.detail}", named[0])
         elif not named and all(c.holds for c in claims) and self.is_complete(number):
-            self.add(f"{kind} missing", f"O{number} stops at line {run.line}: {run.detail}, and nothing is claimed of it")
+            self.add(f"{kind} missing: {run.detail}", f"O{number} stops at line {run.line}: {run.detail}, and nothing is claimed of it")
 
     # ---- space ----
 

@@ -37,18 +37,28 @@ def reckoner_at(state, ask, entry=None):
     return Reckoner(read, ask, special)
 
 
-def broken_at_entry(text, state, ask):
-    """The clause that does not hold in a state at entry, or None."""
+def broken_at_entry(text, state, ask) -> list:
+    """The clauses that do not hold in a state at entry."""
     reckoner = reckoner_at(state, ask)
+    found = []
     for _, clause in text.clauses():
-        head = clause.split()[0]
+        head, words = clause.split()[0], clause.split()[1:]
         if head in ("@PARAM", "@GLOBAL") and not in_range(clause, reckoner) or \
                 head == "@REQUIRE" and not reckoner.whole(clause[8:]) or \
-                head == "@MODAL" and any(state.modes[GROUPS[c]] != c for c in clause.split()[1:]) or \
-                head == "@START" and any(state.place[XYZ.index(w[0])] != F(w[1:].rstrip(".") or 0) if w[-1] == "."
-                                         else state.place[XYZ.index(w[0])] != F(w[1:]) for w in clause.split()[1:]):
-            return clause
-    return None
+                head == "@MODAL" and any(state.modes[GROUPS[code]] != code for code in words) or \
+                head == "@START" and any(state.place[XYZ.index(axis)] != value for axis, value in places(words)):
+            found.append(clause)
+    return found
+
+
+def places(words):
+    """Of @START."""
+    return [(word[0], F(word[1:].rstrip(".") if word.endswith(".") else word[1:])) for word in words]
+
+
+def excepted(clause: str) -> list:
+    """The words behind EXCEPT."""
+    return clause.split("EXCEPT")[1].split() if "EXCEPT" in clause else []
 
 
 def in_range(clause, reckoner) -> bool:

@@ -83,6 +83,7 @@ class State:
     modes: dict
     place: tuple
     words: dict
+    shifts: tuple
     modal: tuple
 
 
@@ -146,18 +147,21 @@ class Run:
     def state(self) -> State:
         frame = self.frames[-1]
         return State(dict(self.cells), dict(frame.locals), dict(self.tool.modes), tuple(self.tool.work_place()),
-                     dict(self.tool.words), tuple(m.text.number for m in self.modal))
+                     dict(self.tool.words), self.tool.lasting(), tuple(m.text.number for m in self.modal))
 
     def enter(self, text, locals_, kind, passes, arguments, fires=None, begin=0):
         outer = self.frames[-1] if self.frames else None
         if len(self.frames) > 4:
             raise Unsaid("levels")
-        visit = Visit(text, outer and outer.visit, outer and outer.visit.text.line(outer.at), None,
-                      tuple(m.text.number for m in self.modal), first_stroke=len(self.tool.strokes))
+        is_inside = kind == "M97"  # a part of the program that calls it
+        visit = outer.visit if is_inside else \
+            Visit(text, outer and outer.visit, outer and outer.visit.text.line(outer.at), None,
+                  tuple(m.text.number for m in self.modal), first_stroke=len(self.tool.strokes))
         frame = Frame(visit, locals_, begin, kind=kind, passes_left=passes, arguments=arguments, fires=fires, begins=begin)
         self.frames.append(frame)
-        visit.entry = self.state()
-        self.visits.append(visit)
+        if not is_inside:
+            visit.entry = self.state()
+            self.visits.append(visit)
 
     def step(self):
         self.steps += 1
@@ -167,6 +171,8 @@ class Run:
         lines = frame.visit.text.lines
         if frame.at >= len(lines):
             frame.at = len(lines) - 1
+            if self.dialect == "haas-ngc":
+                raise Unsaid("the text ends")
             raise Stop("text ends")
         text = re.sub(r"\([^)]*\)", "", lines[frame.at]).strip()
         if not text or HEAD.match(text):
@@ -224,12 +230,18 @@ class Run:
         return holds, end
 
     def do(self, frame, number, holds):
-        if holds:
-            frame.loops[number] = frame.at
-            frame.at += 1
+        if not holds:
+            frame.loops.pop(number, None)
+            frame.at = self.end_line(frame, frame.at, number) + 1
             return
-        frame.loops.pop(number, None)
-        frame.at = self.end_line(frame, frame.at, number) + 1
+        try:
+            self.end_line(frame, frame.at, number)
+        except Stop:
+            if self.ask("a DO without END", ("stops", "goes on")) == "goes on":
+                raise Unsaid("where a DO without END stops") from None
+            raise
+        frame.loops[number] = frame.at
+        frame.at += 1
 
     def end_line(self, frame, at, number):
         lines = frame.visit.text.lines
@@ -333,7 +345,9 @@ class Run:
         if 5200 < target < 5324:
             self.tool.moved_zero()
         for frame in self.frames:
-            frame.visit.written.setdefault(number, (self.frames[-1].visit, self.line_now()))
+            before = frame.visit.entry.cells.get(target)
+            if value != (before if is_common(target) else before or 0):
+                frame.visit.written.setdefault(number, (self.frames[-1].visit, self.line_now()))
 
     def named(self, number):
         """Some Mitsubishi controls have #400 to #499, and options add others."""
@@ -460,9 +474,10 @@ class Run:
     def cancel(self, frame):
         if frame.fires is not None:
             raise Unsaid("G67 within a modal call")
-        if not self.modal:
+        if self.modal:
+            self.modal.pop()
+        elif self.ask("G67 alone", ("stops", "does nothing")) == "stops":
             raise Stop("G67 alone")
-        self.modal.pop()
 
     def fire(self, frame, level):
         """The block of the movement is the place of the call, until all is done."""
@@ -475,11 +490,8 @@ class Run:
     def leave(self, frame, target_text):
         target = None if target_text is None else self.value(target_text)
         label = None if target is None else away(target, self.ask)
-        if frame.kind == "start" and label is not None and \
-                self.ask("M99 P of a started program", ("jump", "return")) == "jump":
-            return self.go_to(frame, label)
-        if self.dialect == "haas-ngc" and label is not None and frame.kind != "start" and \
-                self.ask("M99 P of a called program", ("return", "jump")) == "jump":
+        if label is not None and (self.dialect == "haas-ngc" or frame.kind == "start" and
+                                  self.ask("M99 P of a started program", ("jump", "return")) == "jump"):
             return self.go_to(frame, label)
         exit_ = self.state()
         if frame.kind == "start":
@@ -489,7 +501,8 @@ class Run:
         outer = self.frames[-1]
         if label is not None and not outer.visit.text.has(label):
             raise Stop("no label")
-        frame.visit.left, frame.visit.exit = "return", exit_
+        if frame.kind != "M97":
+            frame.visit.left, frame.visit.exit = "return", exit_
         outer.visit.done.add(outer.visit.text.line(outer.at))
         if label is not None:
             if frame.passes_left > 1 and self.ask("M99 P within repeats", ("leaves", "unsaid")) == "unsaid" or \
@@ -523,6 +536,8 @@ def cell_of(number: int, dialect: str):
         return 1132, None
     if 1100 <= number <= 1131:
         return 1132, number - 1100
+    if dialect == "mitsubishi-m700" and not 5201 <= number <= 5323:
+        return None, None  # which numbers are one offset is not known
     for low, high, other in ((2001, 2200, 10001), (2201, 2400, 11001), (7001, 7960, 14001)):
         if low <= number <= high:
             number += other - low

@@ -1,5 +1,10 @@
 """Messages of `check` with never, always or stops, against one run of a program that no other calls."""
+import re
+
+from . import contract
 from .claims import Wrong
+from .reckon import Stop, Unsaid
+from .switches import Switches
 
 HELD, FAILED, RUN, PAST, OVER, LEFT = "held", "failed", "run", "past", "over", "left"
 SAYINGS = (("decided-condition", "never holds", HELD), ("decided-condition", "always holds", FAILED),
@@ -10,6 +15,8 @@ SAYINGS = (("decided-condition", "never holds", HELD), ("decided-condition", "al
            ("loop-in-wrong-direction", "never gets past", LEFT), ("alarm-never-fires", "never comes", "alarm"),
            ("division-by-zero", "divides by zero", PAST), ("out-of-domain", "is outside of what", PAST),
            ("goto-missing-label", "has no target", PAST))
+CONDITIONAL = re.compile(r"(WHILE|IF)\[")
+# Of all calls; the others of those that contracts allow.
 ALL_CALLS = ("decided-condition", "alarm-never-fires", "loop-never-entered")
 
 
@@ -24,9 +31,25 @@ def wrong_message(run, messages, counts) -> list:
             continue
         counts["messages judged"] += 1
         for visit in visits:
-            if visit.text.file == file and not visit.modal_at_entry and shows(run, visit, line, saying[2]):
+            if visit.text.file == file and not visit.modal_at_entry and is_about(text, visit) and \
+                    shows(run, visit, line, saying[2]) and (rule in ALL_CALLS or is_allowed(run, visit)):
                 return [Wrong(f"message {rule}", f"line {line}: {text}; but a run shows otherwise")]
     return []
+
+
+def is_about(text, visit) -> bool:
+    """Of `M99 P` it is said which caller lacks the label."""
+    lacking = re.search(r"`O(\d+)` has no", text)
+    return not lacking or visit.outer is not None and visit.outer.text.number == int(lacking[1])
+
+
+def is_allowed(run, visit) -> bool:
+    """By its contract and those of the programs that led to it."""
+    try:
+        return not contract.broken_at_entry(visit.text, visit.entry, Switches(run.ask.answers)) and \
+            (visit.outer is None or is_allowed(run, visit.outer))
+    except (Stop, Unsaid):
+        return False
 
 
 def shows(run, visit, line, how) -> bool:
@@ -46,4 +69,4 @@ def shows(run, visit, line, how) -> bool:
         return run.end == "alarm" and run.where is visit and run.line == line
     ends = ("return", "end") if how == LEFT else ("return", "end", "stop", "alarm")
     return line in visit.lines and run.end in ends and \
-        ("WHILE[" not in text or line in visit.held)
+        (not CONDITIONAL.search(text) or line in visit.held)

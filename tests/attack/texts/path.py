@@ -75,7 +75,7 @@ class Tool:
     def __init__(self, run, modes, place):
         self.run, self.ask = run, run.ask
         self.modes = {**AT_POWER_ON, **modes}
-        self.words = {letter: None for letter in "FSTHD"}
+        self.words = dict.fromkeys(("F", "S", "T", "H", "D", "spindle"))
         self.local, self.preset = [F(0)] * 3, [F(0)] * 3
         self.mapping = Mapping()
         self.unsure = set()  # axes that a change of the mapping left open
@@ -99,7 +99,12 @@ class Tool:
 
     def key(self):
         return (tuple(self.machine), tuple(sorted(self.modes.items())), tuple(self.words.items()), tuple(self.told),
-                tuple(sorted(self.cycle.items())), tuple(self.local), tuple(self.preset), repr(self.mapping.__dict__))
+                tuple(sorted(self.cycle.items())), self.lasting())
+
+    def lasting(self):
+        """Besides codes and words, what a return may leave behind."""
+        return (tuple(self.local), tuple(self.preset), tuple(sorted(self.cycle.items())) if self.modes[9] != "G80" else (),
+                repr(self.mapping.__dict__))
 
     def variable(self, number, modal_calls):
         if 5001 <= number <= 5003:
@@ -155,7 +160,9 @@ class Tool:
                 self.level = self.told[2]
         if group is not None:
             self.modes[group] = code
-        elif code not in SETTERS and code not in ("M3", "M5", "M8", "M9"):
+        elif code in ("M3", "M5"):
+            self.words["spindle"] = code
+        elif code not in SETTERS and code not in ("M8", "M9"):
             raise Unsaid(code)
 
     def target(self, words):

@@ -99,7 +99,7 @@ class Space:
     # ---- tools ----
 
     def radius_at(self, height):
-        kind, radius, corner = self.tool
+        kind, radius, corner = self.tool or ("FLAT", 0.0, 0.0)  # without a tool the tip is looked at
         if kind == "BALL" and height < radius:
             return math.sqrt(max(0.0, radius ** 2 - (radius - height) ** 2))
         if kind == "BULL" and height < corner:
@@ -140,6 +140,18 @@ class Space:
             for k in range(count + 1):
                 yield tuple(p + (q - p) * k / count for p, q in zip(a, b))
 
+    @staticmethod
+    def nearest(stroke, parts):
+        """Of each piece of the way the points that come nearest to what the parts aim at."""
+        points = [tuple(float(c) for c in p) for p in stroke.points]
+        for a, b in zip(points, points[1:]):
+            length = math.dist(a, b) ** 2
+            for aim in {tuple(aim) for part in parts for end in (a, b) for aim in part.aims(end)}:
+                t = sum((q - p) * (c - p) for p, q, c in zip(a, b, aim)) / length if length else 0.0
+                yield tuple(p + (q - p) * min(1.0, max(0.0, t)) for p, q in zip(a, b))
+                if stroke.kind == "rapid":
+                    yield tuple(min(max(c, min(p, q)), max(p, q)) for p, q, c in zip(a, b, aim))
+
     def breaks(self, kind, name, stroke, cut, rng, near=NEAR):
         """What the stroke does wrong against a claim of this kind, or None."""
         if kind == "limit":
@@ -153,7 +165,7 @@ class Space:
         if kind == "clearance":
             return self.too_low(stroke, cut, near)
         if kind == "keep-out":
-            for tip in self.way(stroke, rng):
+            for tip in itertools.chain(self.way(stroke, rng), self.nearest(stroke, self.keep_out[name])):
                 aims = [aim for part in self.keep_out[name] for aim in part.aims(tip)]
                 for point in self.body(tip, rng, aims):
                     if any(part(point) > near for part in self.keep_out[name]):

@@ -9,6 +9,9 @@ from .reckon import Stop, Unsaid
 from .switches import Switches
 
 
+CODES = ("G91", "G91", "G1", "G99", "G18", "G95")
+
+
 class Starts:
     def __init__(self, files: dict, text, rng):
         self.rng, self.text = rng, text
@@ -38,6 +41,8 @@ class Starts:
         start.cells = {n: v for n in self.cells if (v := self.value()) is not None}
         if rng.random() < 0.6:
             start.place = {axis: rng.choice((F(0), rng.choice(self.numbers))) for axis in XYZ}
+        if rng.random() < 0.25:
+            start.modes = {GROUPS[code]: code for code in rng.sample(CODES, 2)}
         for _, clause in self.text.clauses():
             self.keep(clause, start)
         return start
@@ -47,7 +52,7 @@ class Starts:
         if head == "@MODAL":
             start.modes.update({GROUPS[c]: c for c in words[1:] if c in GROUPS})
         elif head == "@START":
-            start.place.update({w[0]: F(w[1:].rstrip(".") or 0) for w in words[1:]})
+            start.place.update(contract.places(words[1:]))
         elif head in ("@PARAM", "@GLOBAL"):
             into, number = (start.locals, int(words[1][1:])) if int(words[1][1:]) < 34 else (start.cells, int(words[1][1:]))
             value = self.inside(clause, start)
@@ -75,7 +80,9 @@ class Starts:
     def outside(self) -> Start:
         """With one clause that may be broken."""
         start = self.any()
-        clauses = [c for _, c in self.text.clauses() if c.split()[0] in ("@PARAM", "@GLOBAL", "@MODAL", "@START")]
+        heads = {"@PARAM", "@GLOBAL", "@MODAL", "@START"} - {"@" + word for _, guard in contract.of(self.text, "@GUARDED")
+                                                            for word in contract.excepted(guard)}
+        clauses = [c for _, c in self.text.clauses() if c.split()[0] in heads]
         if not clauses:
             return start
         words = self.rng.choice(clauses).split()

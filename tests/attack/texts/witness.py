@@ -6,6 +6,7 @@ from dataclasses import replace
 from fractions import Fraction as F
 
 from .claims import SPACE, judge
+from .contract import broken_at_entry, places
 from .machine import ARGUMENTS, Run, Start, cell_of, is_common
 from .path import GROUPS, XYZ
 from .switches import every_way
@@ -19,7 +20,7 @@ def start_of(command: str, text):
         if clause.startswith("@MODAL"):
             start.modes.update({GROUPS[c]: c for c in clause.split()[1:] if c in GROUPS})
         if clause.startswith("@START"):
-            start.place.update({w[0]: F(w[1:].rstrip(".") or 0) if w.endswith(".") else F(w[1:]) for w in clause.split()[1:]})
+            start.place.update(places(clause.split()[1:]))
     for option, word in zip(words, words[1:]):
         if option == "--arg":
             letter, value = word.split("=")
@@ -59,6 +60,14 @@ def typed_in(claim, engine, counts):
     return None
 
 
+def called_there(run, claim) -> bool:
+    """A call against a contract, somewhere within the call that the row is about."""
+    def is_within(visit):
+        return visit.outer is not None and (
+            visit.outer.text.number == claim.program and visit.from_line == claim.line or is_within(visit.outer))
+    return any(is_within(visit) and broken_at_entry(visit.text, visit.entry, run.ask) for visit in run.visits)
+
+
 def idle(files, dialect, text, claim, counts):
     """Why the run that is told breaks nothing; None when it does, or when it cannot be told."""
     start = start_of(claim.witness["run"], text)
@@ -72,6 +81,8 @@ def idle(files, dialect, text, claim, counts):
             return None
         if any(w.claim is believed for w in judge(run, lambda n: [believed] if n == text.number else [],
                                                   lambda n: True, collections.Counter())):
+            return None
+        if claim.kind == "call-meets-contract" and called_there(run, claim):
             return None
         if claim.kind in ("loop-ends", "program-ends") and run.end in ("endless", "fuel"):
             return None

@@ -9,6 +9,7 @@ from fractions import Fraction as F
 LOCALS = (1, 2, 3, 7, 8, 18, 24, 26)
 COMMONS = (100, 101, 105, 501, 510)
 PAIRS = ((2001, 10001), (2202, 11002), (5221, 2501), (5222, 2601), (7001, 14001), (1132, 1100), (1132, 1102))
+OUTPUTS = PAIRS[-2:]
 
 
 def shown(value) -> str:
@@ -88,8 +89,8 @@ class MacroWriter:
             return f"{self.pick('ABS', 'FIX', 'FUP', 'ROUND')}[{self.any()}{self.pick('+', '/')}{self.pick('2', '4', '.5')}]"
         if roll < 0.89:
             return f"#[{self.pick('100', '500')}+{self.local()}]"
-        if roll < 0.91 and self.has_pairs():
-            return f"#{self.pick(*self.pick(*PAIRS))}"
+        if roll < 0.91 and self.pairs():
+            return f"#{self.pick(*self.pick(*self.pairs()))}"
         if roll < 0.93:
             return f"[{self.any()}{self.pick('AND', 'OR', 'XOR', 'MOD')}{self.pick('1', '3', '6')}]"
         return self.pick("#4001", "#4003", "#5001", "#5003", "#4109") if roll < 0.97 else "#0"
@@ -184,17 +185,19 @@ class MacroWriter:
 
     def pair(self):
         """Writes a cell by one number and reads it by the other."""
-        if not self.has_pairs():
+        if not self.pairs():
             return self.plain()
-        one, other = self.rng.sample(self.pick(*PAIRS), 2)
+        one, other = self.rng.sample(self.pick(*self.pairs()), 2)
         bit = one < 1132 and one >= 1100
         self.add(f"#{one}={self.pick('0', '1') if bit or one == 1132 else self.pick(self.number(), self.local())}", False)
         self.add(f"IF[#{other}{self.pick('EQ', 'NE', 'GT')}{self.pick('0', '1', '2')}]THEN{self.common()}={self.number()}", False)
         if self.rng.random() < 0.4:
             self.add(f"IF[#{other}{self.pick('EQ', 'NE')}#{one}]THEN#3000=9(NOT ONE CELL)", False)
 
-    def has_pairs(self):
-        return self.dialect != "haas-ngc" and "system" not in self.without
+    def pairs(self):
+        if self.dialect == "haas-ngc" or "system" in self.without:
+            return ()
+        return OUTPUTS if self.dialect == "mitsubishi-m700" else PAIRS
 
     def table(self):
         self.add(f"#[{self.pick('100', '500')}+{self.pick(self.local(), '1', '[' + self.local() + 'MOD3]')}]={self.value()}")
@@ -210,7 +213,7 @@ class MacroWriter:
         code = self.pick("", "", "G0", "G1", "G91", "G90", "G90G1", "G91G0", "G17", "G98")
         words = "".join(axis + self.pick(point(self.pick(1, 2, F(5, 2), 0)), self.any(), f"[{self.value()}]", f"-{self.local()}")
                         for axis in "XYZ" if self.rng.random() < 0.45)
-        self.add(code + words + self.pick("", "", "F100.", "F50.", "S2", "H1", "T2") or "M8")
+        self.add(code + words + self.pick("", "", "F100.", "F50.", "S2", "H1", "T2", "M3") or "M8")
 
     def call(self):
         number = self.rng.choice(self.callees)
@@ -261,12 +264,38 @@ class MacroWriter:
             found.append(f"(@START X{self.pick(0, 1)} Z5)")
         for _ in range(0 if "promises" in self.without else rng.choice((0, 1, 1, 2))):
             found.append(f"({self.promise(text)})")
-        if found and rng.random() < 0.25 and "guarded" not in self.without and "@PARAM" in found[0]:
-            number = found[0].split()[1]
-            guards = [f"IF[{number}EQ#0]THEN#3000=90(GUARD)", f"IF[{number}LT{self.number()}]THEN#3000=91(GUARD)"]
-            self.lines[:0] = guards[:rng.choice((1, 2))]
-            found.append("(@GUARDED)")
-        return list(dict.fromkeys(found))
+        found = list(dict.fromkeys(found))
+        if rng.random() < 0.15 and "guarded" not in self.without and self.guard_entry(found):
+            excepted = [word for word in ("MODAL", "START") if any("@" + word in c for c in found) and rng.random() < 0.6]
+            found.append(f"(@GUARDED{' EXCEPT ' * bool(excepted)}{' '.join(excepted)})")
+        return found
+
+    def guard_entry(self, clauses) -> bool:
+        """Alarms for the calls that the clauses exclude, most of the time all of them."""
+        conditions = [each for clause in clauses for each in self.excluded(clause.strip("()").split())]
+        conditions = [each for each in conditions if self.rng.random() < 0.96]
+        self.lines[:0] = [f"IF[{each}]THEN#3000={90 + index % 8}(GUARD)" for index, each in enumerate(conditions)]
+        return bool(conditions)
+
+    def excluded(self, words):
+        """Conditions of which one holds where the clause does not."""
+        head, number = words[0], words[1]
+        if head in ("@PARAM", "@GLOBAL"):
+            if "OPTIONAL" not in words:
+                yield f"{number}EQ#0"
+            if words[2] == "IN":
+                yield "[" + "*".join(f"[{number}-{value}]" for value in words[3].split(",")) + "]NE0"
+                return
+            low, high = words[2].split("..")
+            yield from ([f"{number}LT{low}"] if low else []) + ([f"{number}GT{high}"] if high else [])
+            if "INT" in words:
+                yield f"{number}NEFIX[{number}]"
+        elif head == "@REQUIRE":
+            yield number + {"LE": "GT", "NE": "EQ", "LT": "GE"}[words[2]] + words[3]
+        elif head == "@MODAL" and self.rng.random() < 0.5:
+            yield from (f"#400{dict(G0=1, G17=2, G90=3, G91=3)[code]}NE{code[1:]}" for code in words[1:])
+        elif head == "@START" and self.rng.random() < 0.5:
+            yield from (f"#500{'XYZ'.index(place[0]) + 1}NE{place[1:]}" for place in words[1:])
 
     def promise(self, text):
         written = [n for n in COMMONS if f"#{n}=" in text]
@@ -274,7 +303,7 @@ class MacroWriter:
         if roll < 0.25:
             return "@ASSIGNS " + (" ".join(f"#{n}" for n in written) if written and self.rng.random() < 0.7 else "NOTHING")
         if roll < 0.4:
-            return "@ENSURE MODAL PRESERVED"
+            return "@ENSURE MODAL PRESERVED" + self.pick("", "", " EXCEPT F", " EXCEPT F S", " EXCEPT F S T D H")
         if roll < 0.5:
             return f"@ENSURE {self.pick('G90', 'G91', 'G0', 'G17')}"
         if roll < 0.65 and "#3000=" in text:
@@ -287,7 +316,8 @@ class MacroWriter:
                 if not any(c in condition for c in "[]+-*/") and "#4" not in condition and "#5001" not in condition \
                         and "#5003" not in condition and max((len(w) for w in condition.split())) < 5:
                     return f"@ALARM {number} {self.pick('IF', 'IFF')} {condition}"
-        if roll < 0.85:
-            number = self.rng.choice([n for n in COMMONS if f"#{n}" in text] or [100])
+        named = [n for n in COMMONS if f"#{n}" in text]
+        if roll < 0.85 and named:
+            number = self.rng.choice(named)
             return f"@ENSURE #{number} {self.pick('EQ OLD[#%d]' % number, 'EQ OLD[#%d]+1' % number, 'GE 0', 'LE 5', 'NE #0')}"
         return f"@ENSURE POS[{self.pick('X', 'Z')}] {self.pick('EQ ENTRY[Z]', 'GE 0', 'EQ 0')}"

@@ -17,6 +17,7 @@ from .judge import Contradiction, Judge
 from .messages import MessageJudge
 from .observations import add_checks
 from .promises import add_promises
+from .ranges import outside_of_ranges, told_of
 from .random_programs import ProjectMaker
 from .reports import write_report
 from .shrink import shrink
@@ -24,6 +25,7 @@ from .witnesses import idle_witness
 
 RUNS = 14
 COMPARISONS = 3
+RANGE_RUNS = 6
 
 
 class TreeAttack:
@@ -63,6 +65,8 @@ class TreeAttack:
                 self.report(seed, project, contradiction)
             if "differences" in self.features:
                 self.compare(project, place, seed)
+            if "ranges" in self.features:
+                self.ranges(project, place, seed)
 
     def compare(self, project, folder, seed):
         """The machines with each other."""
@@ -83,9 +87,23 @@ class TreeAttack:
                                                          outcome.choices))
                 break
 
+    def ranges(self, project, folder, seed):
+        """States of runs with what is told of them."""
+        rng = random.Random(f"ranges {seed}")
+        for program in rng.sample(project.programs(), min(2, len(project.programs()))):
+            told = told_of(project, folder, program, self.engine)
+            maker = InputMaker(project, program, rng)
+            for number in range(RANGE_RUNS):
+                inputs, choices = maker.any(), Choices(seed=f"{seed} {number}" if number % 2 else None)
+                why = outside_of_ranges(project, told, program, inputs, choices, self.tally.counts)
+                if why:
+                    return self.report(seed, project, Contradiction(why, "ranges", program.number, inputs, choices.asked))
+
     def contradictions(self, project, proofs, messages, seed, counts):
         found = [Contradiction(f"{c.id}: {c.text}", "a row twice", c.program, InputMaker(project, project.programs()[0],
                                random.Random(0)).any(), {}, c) for c in rows_twice(proofs)]
+        found += [Contradiction(what, "a verdict withdrawn", 1, InputMaker(project, project.programs()[0],
+                                random.Random(0)).any(), {}) for what in proofs.withdrawn]
         said = MessageJudge(project, messages, counts)
         for program in project.programs():
             if not proofs.claims.get(program.number):
@@ -135,8 +153,12 @@ class TreeAttack:
                 why = program and self.differ(project, program, known.inputs, collections.Counter())
                 return replace(known, what=why) if why else None
             if known.kind == "the machines differ":
-                found = program and difference(project, place, program, known.inputs, self.engine, collections.Counter())
-                return found and replace(known, what=found[0])
+                found = program and is_comparable(program, known.inputs) and difference(project, place, program, known.inputs, self.engine, collections.Counter())
+                return replace(known, what=found[0]) if found else None
+            if known.kind == "ranges":
+                why = program and outside_of_ranges(project, told_of(project, place, program, self.engine), program,
+                                                    known.inputs, Choices(given=known.choices), collections.Counter())
+                return replace(known, what=why) if why else None
             try:
                 only = known.claim.kind if known.claim else None
                 proofs = self.engine.prove(place, project.dialect, only).get(str(place))

@@ -94,8 +94,10 @@ class Ensure:
 
 @dataclass(frozen=True)
 class EnsurePreserved:
+    excepted: tuple[str, ...] = ()  # letters of words
+
     def text(self) -> str:
-        return "@ENSURE MODAL PRESERVED"
+        return "@ENSURE MODAL PRESERVED" + _except(self.excepted)
 
 
 @dataclass(frozen=True)
@@ -118,8 +120,19 @@ class Assigns:
 
 @dataclass(frozen=True)
 class Guarded:
+    excepted: tuple[str, ...] = ()  # MODAL START
+
     def text(self) -> str:
-        return "@GUARDED"
+        return "@GUARDED" + _except(self.excepted)
+
+    def leaves(self, clause) -> bool:
+        """To the callers: of calls that break the clause nothing is promised."""
+        return isinstance(clause, Modal) and "MODAL" in self.excepted or \
+            isinstance(clause, Start) and "START" in self.excepted
+
+
+def _except(words) -> str:
+    return " EXCEPT " + " ".join(words) if words else ""
 
 
 @dataclass(frozen=True)
@@ -159,23 +172,20 @@ def _side(expression: Expression) -> str:
     return syntax.text(expression)
 
 
-def entry_breach(clauses, evaluator, modes: dict, place) -> Optional[str]:
-    """The clause that a call breaks; `place` tells a coordinate by its axis."""
-    for clause in clauses:
+def broken_at_entry(clauses, evaluator, modes: dict, place) -> tuple:
+    """The clauses that a call breaks; `place` tells a coordinate by its axis."""
+    def is_kept(clause) -> bool:
         match clause:
             case Range():
-                if not clause.allows(evaluator.read(clause.variable), evaluator):
-                    return clause.text()
+                return clause.allows(evaluator.read(clause.variable), evaluator)
             case Require(condition):
-                if not evaluator.holds(condition):
-                    return clause.text()
+                return evaluator.holds(condition)
             case Modal(codes):
-                if any(modes.get(controls.GROUP_OF[code]) != code for code in codes):
-                    return clause.text()
+                return all(modes.get(controls.GROUP_OF[code]) == code for code in codes)
             case Start(places):
-                if any(place(axis) != value for axis, value in places):
-                    return clause.text()
-    return None
+                return all(place(axis) == value for axis, value in places)
+        return True
+    return tuple(clause for clause in clauses if not is_kept(clause))
 
 
 def foresees(clauses, number) -> bool:

@@ -8,17 +8,18 @@ class Control:
     macro_nesting: int  # levels of G65, G66 that are open at once
     total_nesting: int
     has_modal_calls: bool = True
-    modal_cancel_alone: bool = True  # G67 without G66 alarms
     repeats_keep_locals: tuple = (True, False)  # of G65 L: not said by FANUC; Haas keeps
     local_subroutines: bool = False  # M97 P
     last_alarm_number: int = 200
     loop_numbers: int = 3
+    fanuc_offsets: bool = True  # several numbers for one offset
 
 
 CONTROLS = {
     "fanuc-30i": Control("fanuc-30i", 5, 15),
     "fanuc-0i": Control("fanuc-0i", 4, 8),
-    "mitsubishi-m700": Control("mitsubishi-m700", 4, 8, last_alarm_number=9999, loop_numbers=127),
+    "mitsubishi-m700": Control("mitsubishi-m700", 4, 8, last_alarm_number=9999, loop_numbers=127,
+                               fanuc_offsets=False),
     "haas-ngc": Control("haas-ngc", 4, 9, has_modal_calls=False, repeats_keep_locals=(True,), local_subroutines=True,
                         last_alarm_number=999),
 }
@@ -45,6 +46,10 @@ def canonical(number: int) -> int:
 
 def is_bit_of_outputs(number: int) -> bool:
     return 1100 <= number <= 1131
+
+
+def is_work_offset(number: int) -> bool:
+    return 5201 <= number <= 5326
 
 
 ALL_OUTPUTS = 1132

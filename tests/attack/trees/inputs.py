@@ -11,6 +11,7 @@ from .random_programs import ALIASES, expressions_of
 from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled
 
 EIGHTH = Fraction(1, 8)
+START_CODES = ("G91", "G91", "G1", "G18", "G99", "G95")
 
 
 def interesting(project) -> list:
@@ -69,6 +70,8 @@ class InputMaker:
             inputs.cells[number] = self.value(vacant=controls.is_common(number))
         if self.rng.random() < 0.6:
             inputs.place = {axis: self.rng.choice((Fraction(0), self.rng.choice(self.numbers))) for axis in controls.AXES}
+        if self.rng.random() < 0.25:
+            inputs.modes = {controls.GROUP_OF[code]: code for code in self.rng.sample(START_CODES, 2)}
         for clause in self.program.clauses:
             self.draw(clause, inputs)
         return inputs
@@ -107,8 +110,10 @@ class InputMaker:
     def outside(self) -> Inputs:
         """One argument of the contract is off; other clauses may then be broken, too."""
         inputs = self.any()
+        guard = next(c for c in self.program.clauses if isinstance(c, contracts.Guarded))
         clauses = [c for c in self.program.clauses
-                   if isinstance(c, (contracts.Range, contracts.Modal, contracts.Start, contracts.Require))]
+                   if isinstance(c, (contracts.Range, contracts.Modal, contracts.Start, contracts.Require))
+                   and not guard.leaves(c)]
         if not clauses:
             return inputs
         match self.rng.choice(clauses):
@@ -143,7 +148,7 @@ def evaluator_of(inputs: Inputs) -> Evaluator:
 def is_allowed(program: syntax.Program, inputs: Inputs) -> bool:
     modes = {**controls.POWER_ON, **inputs.modes}
     try:
-        return contracts.entry_breach(program.clauses, evaluator_of(inputs), modes,
-                                      lambda axis: inputs.place.get(axis, Fraction(0))) is None
+        return not contracts.broken_at_entry(program.clauses, evaluator_of(inputs), modes,
+                                             lambda axis: inputs.place.get(axis, Fraction(0)))
     except (ControlAlarm, NotModelled):
         return False

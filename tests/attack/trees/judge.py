@@ -64,11 +64,11 @@ class Judge:
 
     def judge(self, activation):
         """Of an activation whose contract is kept; those within it first."""
-        if activation.breach is not None:
+        if activation.broken:
             self.guarded(activation)
             return
         for child in activation.children:
-            if child.breach is None:
+            if not child.broken:
                 if child.is_standard:
                     self.judge(child)
                 else:
@@ -101,13 +101,13 @@ class Judge:
             (caller.parent is None or not caller.entry_modal_calls or self.call_claims_hold(caller.parent, caller))
 
     def broken_call(self, caller, child):
-        number, line = caller.program.number, self.line(caller, child.called_from)
+        number, line, breach = caller.program.number, self.line(caller, child.called_from), child.broken[0].text()
         if not caller.is_standard:
             # What fires here comes from further out: anyone in between may own the open claim.
             if not self.call_claims_hold(caller, child):
                 return
             self.add("assumption of a callee: call-meets-contract",
-                     f"O{child.program.number} is called at line {line} of O{number} against {child.breach}, and every "
+                     f"O{child.program.number} is called at line {line} of O{number} against {breach}, and every "
                      "call is claimed to meet its contract")
             return
         if not self.proofs.is_complete(number):
@@ -116,11 +116,11 @@ class Judge:
         here = [c for c in claims if c.line == line]
         modal = [c for c in claims if not c.holds]
         if here and all(c.holds for c in here) and not self.is_modal(caller, child, modal):
-            self.add("call-meets-contract", f"O{child.program.number} is called at line {line} against {child.breach}, "
+            self.add("call-meets-contract", f"O{child.program.number} is called at line {line} against {breach}, "
                      f"and {here[0].id} is {here[0].verdict}", here[0])
         elif not here and not modal:
             self.add("call-meets-contract missing", f"O{child.program.number} is called at line {line} of O{number} "
-                     f"against {child.breach}, and nothing is claimed of it")
+                     f"against {breach}, and nothing is claimed of it")
 
     def is_modal(self, caller, child, unproved) -> bool:
         """A modal call may be charged to the G66 block."""
@@ -201,7 +201,10 @@ class Judge:
         entry_tool = activation.entry_tool
 
         def position(when, axis):
-            return (tool if when == "POS" else entry_tool).coordinates[controls.AXES.index(axis)]
+            coordinates = (tool if when == "POS" else entry_tool).coordinates
+            if coordinates is None:
+                raise NotModelled("another zero point")
+            return coordinates[controls.AXES.index(axis)]
         arithmetic = Arithmetic(Choices(given=self.outcome.choices))
         evaluator = Evaluator(arithmetic, reader(locals_, cells), reader(activation.entry_locals, activation.entry_cells),
                               position)
@@ -218,8 +221,13 @@ class Judge:
         elif state.modal_calls != activation.entry_modal_calls:
             self.add("modal-preserved (modal call)", f"{claim.id} is {claim.verdict}, and modal calls are "
                      f"{state.modal_calls}, were {activation.entry_modal_calls}", claim)
-        elif state.tool.registers != activation.entry_tool.registers and "EXCEPT" not in claim.text:
-            self.add("modal-preserved (words)", f"{claim.id} is {claim.verdict}, and words in force are other ones", claim)
+        else:
+            clause = self.clause_of(activation.program, claim)
+            words = dict(set(state.tool.registers) - set(activation.entry_tool.registers))
+            words = {letter: value for letter, value in words.items() if letter not in clause.excepted}
+            if words:
+                self.add("modal-preserved (words)", f"{claim.id} is {claim.verdict}, and other words are in force: {words}",
+                         claim)
 
     def alarm_clause(self, activation, clause, alarm):
         """Of a run that ended by `alarm`, or by none."""
@@ -240,10 +248,9 @@ class Judge:
         outcome = self.outcome
         if outcome.end not in ("alarm", "user-alarm") or not self.is_open(activation):
             return
-        if outcome.end == "user-alarm":
-            for clause in activation.program.clauses:
-                if isinstance(clause, contracts.AlarmClause):
-                    self.alarm_clause(activation, clause, outcome.alarm)
+        for clause in activation.program.clauses:
+            if isinstance(clause, contracts.AlarmClause):
+                self.alarm_clause(activation, clause, outcome.alarm if outcome.end == "user-alarm" else None)
         if outcome.activation is not activation:
             return
         number, line = activation.program.number, self.line(activation, outcome.block)
@@ -256,7 +263,7 @@ class Judge:
             self.add(f"{kind} {named[0].verdict}", f"{named[0].id} is {named[0].verdict} ({named[0].text}), and the run "
                      f"stops there: {outcome.alarm}", named[0])
         elif not named and all(c.holds for c in claims) and self.proofs.is_complete(number):
-            self.add(f"{kind} missing", f"O{number} stops at line {line}: {outcome.alarm}, and nothing is claimed of it")
+            self.add(f"{kind} missing: {outcome.alarm}", f"O{number} stops at line {line}: {outcome.alarm}, and nothing is claimed of it")
 
     def is_open(self, activation) -> bool:
         each = self.outcome.activation
@@ -279,11 +286,12 @@ class Judge:
 
     def guarded(self, activation):
         claims = [c for c in self.proofs.of(activation.program.number, "guarded") if c.holds]
-        if not claims or not activation.is_standard:
+        guard = next((c for c in activation.program.clauses if isinstance(c, contracts.Guarded)), None)
+        if not claims or not activation.is_standard or any(guard.leaves(clause) for clause in activation.broken):
             return
         if activation.moves or activation.ended:
-            first = activation.breach.split()[0]
-            self.add(f"guarded ({first})", f"{claims[0].id} is {claims[0].verdict}, the call breaks {activation.breach}, "
+            breach = activation.broken[0].text()
+            self.add(f"guarded ({breach.split()[0]})", f"{claims[0].id} is {claims[0].verdict}, the call breaks {breach}, "
                      f"and {'an axis moves' if activation.moves else 'it ends'}", claims[0])
 
 

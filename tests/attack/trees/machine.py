@@ -55,12 +55,12 @@ class Activation:
     entry_modes: dict
     entry_modal_calls: tuple
     entry_tool: object
-    breach: Optional[str] = None  # the clause of its contract that the call breaks
+    broken: tuple = ()  # the clauses of its contract that the call breaks
     visited: set = field(default_factory=set)  # indices of blocks
     taken: set = field(default_factory=set)  # those of them whose condition held
     refused: set = field(default_factory=set)  # those of them whose condition did not hold
     passed: set = field(default_factory=set)  # those that were executed to their end
-    written: dict = field(default_factory=dict)  # cells that are common or of the control, to the block
+    written: dict = field(default_factory=dict)  # cells that got another value than at entry, to the block
     moves: list = field(default_factory=list)
     ended: str = ""  # "", return, end
     exit_state: object = None
@@ -166,8 +166,8 @@ class Machine:
         frame = Frame(activation, locals_)
         self.frames.append(frame)
         if program.clauses:
-            activation.breach = contracts.entry_breach(program.clauses, self.evaluator, self.tool.modes,
-                                                       self.tool.coordinate)
+            activation.broken = contracts.broken_at_entry(program.clauses, self.evaluator, self.tool.modes,
+                                                          self.tool.coordinate)
         if parent is not None:
             parent.children.append(activation)
         return frame
@@ -246,6 +246,7 @@ class Machine:
                     frame.loops.pop(number, None)
                     frame.at = self.end_of(frame, number)
                 else:
+                    self.look_for_end(frame, number)
                     frame.loops[number] = frame.at
             case syntax.End(number):
                 if number not in frame.loops:
@@ -306,6 +307,15 @@ class Machine:
             raise ControlAlarm("DO without END")
         return index
 
+    def look_for_end(self, frame: Frame, number: int):
+        """Without one the control stops; whether here or later is not said."""
+        try:
+            self.end_of(frame, number)
+        except ControlAlarm:
+            if self.choices.choose("do-without-end-stops-at-do", (True, False)):
+                raise
+            raise NotModelled("where a DO without END stops") from None
+
     def end_index(self, frame: Frame, do: int, number: int) -> int:
         blocks = frame.activation.program.blocks
         for index in range(do + 1, len(blocks)):
@@ -341,8 +351,8 @@ class Machine:
             return self.cells.get(number)
         if number in (1132,) or controls.is_bit_of_outputs(number):
             return self.outputs(number)
-        cell = controls.canonical(number)
-        if controls.is_offset(cell):
+        cell = self.cell_of_offset(number)
+        if cell is not None:
             return number_of(self.cells.get(cell))
         if 4001 <= number <= 4022 or number in (4109,) or 5001 <= number <= 5003:
             return self.tool.system_value(number, len(self.modal_calls))
@@ -355,6 +365,14 @@ class Machine:
             raise NotModelled("a variable by option")
         if 34 <= number <= 99 or 200 <= number <= 499 or number < 0:
             raise ControlAlarm("variable")
+
+    def cell_of_offset(self, number: int):
+        cell = controls.canonical(number)
+        if not controls.is_offset(cell):
+            return None
+        if not self.control.fanuc_offsets and not controls.is_work_offset(number):
+            raise NotModelled("which numbers are one offset")
+        return cell
 
     def outputs(self, number: int):
         whole = int(number_of(self.cells.get(controls.ALL_OUTPUTS)))
@@ -379,16 +397,25 @@ class Machine:
             raise ControlAlarm("write")
         cell = number
         if not controls.is_common(number):
-            cell = controls.canonical(number)
             if value is None:
                 raise NotModelled("a vacant value for the control")
             if number == controls.ALL_OUTPUTS or controls.is_bit_of_outputs(number):
                 cell, value = controls.ALL_OUTPUTS, self.with_outputs(number, value)
-            elif not controls.is_offset(cell):
+            else:
+                cell = self.cell_of_offset(number)
+            if cell is None:
                 raise NotModelled(f"#{number}")
+        if controls.is_work_offset(cell) and value != number_of(self.cells.get(cell)):
+            self.tool.zero_is_known = False
         self.cells[cell] = value
         for frame in self.frames:
-            frame.activation.written.setdefault(number, (self.frames[-1].activation, self.frames[-1].at))
+            if value != self.at_entry(frame.activation, cell):
+                frame.activation.written.setdefault(number, (self.frames[-1].activation, self.frames[-1].at))
+
+    @staticmethod
+    def at_entry(activation, cell: int):
+        value = activation.entry_cells.get(cell)
+        return value if controls.is_common(cell) else number_of(value)
 
     def with_outputs(self, number: int, value):
         if value.denominator != 1 or not 0 <= value < 2 ** 31 or number != controls.ALL_OUTPUTS and value > 1:
@@ -522,7 +549,7 @@ class Machine:
             raise NotModelled("G67 inside of a modal macro")
         if self.modal_calls:
             self.modal_calls.pop()
-        elif self.control.modal_cancel_alone:
+        elif self.choices.choose("g67-alone-stops", (True, False)):
             raise ControlAlarm("G67 without G66")
 
     def fire_modal_calls(self, frame: Frame):

@@ -35,16 +35,19 @@ class Tool:
         self.modes = {**controls.POWER_ON, **modes}
         self.cells = cells
         self.place = {axis: Fraction(place.get(axis, 0)) for axis in AXES}
-        self.registers = {"F": None, "S": None, "T": None, "H": None, "D": None}
+        self.registers = dict.fromkeys(("F", "S", "T", "H", "D", "spindle"))
         self.moves = []
+        self.zero_is_known = True  # until an offset gets another value
 
     def coordinate(self, axis: str) -> Fraction:
         """In the work coordinate system in force."""
+        if not self.zero_is_known:
+            raise NotModelled("another zero point")
         return self.place[axis]
 
     def snapshot(self) -> Snapshot:
-        return Snapshot(tuple(self.place[a] for a in AXES), tuple(self.coordinate(a) for a in AXES),
-                        tuple(sorted(self.registers.items(), key=lambda each: each[0])), True)
+        return Snapshot(tuple(self.place[a] for a in AXES), tuple(self.place[a] for a in AXES) if self.zero_is_known else None,
+                        tuple(sorted(self.registers.items())), True)
 
     def key(self):
         return (tuple(self.place.values()), tuple(sorted(self.modes.items())),
@@ -71,7 +74,9 @@ class Tool:
             group = controls.GROUP_OF.get(code)
             if group is not None:
                 self.modes[group] = code
-            elif code not in ("M3", "M5", "M8", "M9", "G67"):
+            elif code in ("M3", "M5"):
+                self.registers["spindle"] = code
+            elif code not in ("M8", "M9", "G67"):
                 raise NotModelled(code)
         for letter in "FSTHD":
             if letter in words:
@@ -86,7 +91,7 @@ class Tool:
         return self.move_to(axes, words, frame, frames)
 
     def move_to(self, axes, words, frame, frames) -> bool:
-        start = dict(self.place)
+        start = {axis: self.coordinate(axis) for axis in AXES}
         for axis in axes:
             self.place[axis] = (self.place[axis] if self.modes[3] == "G91" else 0) + words[axis]
         kind = "rapid" if self.modes[1] == "G0" else "feed"

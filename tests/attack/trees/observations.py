@@ -7,7 +7,7 @@ from . import syntax
 from .choices import Choices
 from .inputs import InputMaker
 from .machine import Machine
-from .random_programs import COMMONS, LOCALS, expressions_of
+from .random_programs import named_in
 from .syntax import Alarm, Block, IfThen, Number, Relation, Variable
 from .values import ControlAlarm, NotModelled
 
@@ -48,8 +48,7 @@ def observe(project, rng) -> dict:
 
 
 def watched_in(program) -> set:
-    named = {e.index for e in expressions_of(program) if isinstance(e, Variable) and isinstance(e.index, int)}
-    return {n for n in named if n} | {100, 4003, 5001}
+    return {n for n in named_in(program) if n} | {100, 4003, 5001}
 
 
 def condition(variable: int, values: set, rng) -> Relation:

@@ -8,6 +8,7 @@ from . import syntax
 from .choices import Choices
 from .inputs import InputMaker
 from .machine import Machine
+from .random_programs import named_in
 from .syntax import AtEntry, Binary, Number, Position, Relation, Variable
 
 RUNS = 8
@@ -35,15 +36,15 @@ def promise(program, outcomes, returned, rng):
     if roll < 0.25:
         return assigns(outcomes, rng)
     if roll < 0.40:
-        return contracts.EnsurePreserved()
+        return contracts.EnsurePreserved(rng.choice(((), (), ("F",), ("F", "S"), tuple("FSTHD"))))
     if roll < 0.55:
         return alarm_clause(program, rng)
     if not returned:
-        return contracts.Ensure(Relation("EQ", Variable(100), Number(5))) if roll < 0.7 else assigns(outcomes, rng)
+        return contracts.EnsureCodes(("G90",)) if roll < 0.7 else assigns(outcomes, rng)
     if roll < 0.65:
         codes = {o.root.exit_state.modes[3] for o in returned}
         return contracts.EnsureCodes((rng.choice(sorted(codes)),))
-    return ensure(returned, rng)
+    return ensure(program, returned, rng)
 
 
 def assigns(outcomes, rng):
@@ -72,17 +73,20 @@ def is_of_entry(number: int) -> bool:
     return number == 0 or controls.is_local(number) or controls.is_common(number)
 
 
-def ensure(returned, rng):
+def ensure(program, returned, rng):
     states = [(o.root, o.root.exit_state) for o in returned]
-    roll = rng.random()
-    if roll < 0.25:
+    named = sorted(n for n in named_in(program) if controls.is_common(n))
+    placed = all(s.tool.coordinates and r.entry_tool.coordinates for r, s in states)
+    if placed and (rng.random() < 0.25 or not named):
         axis = rng.choice("XYZ")
         index = controls.AXES.index(axis)
         ends = {s.tool.coordinates[index] for _, s in states}
         if all(s.tool.coordinates[index] == r.entry_tool.coordinates[index] for r, s in states):
             return contracts.Ensure(Relation("EQ", Position("POS", axis), Position("ENTRY", axis)))
         return contracts.Ensure(Relation("LE", Position("POS", axis), short(max(ends))))
-    common = rng.choice((100, 101, 102, 500, 501))
+    if not named:
+        return None
+    common = rng.choice(named)
     ends = [s.cells.get(common) for _, s in states]
     if all(e == r.entry_cells.get(common) for e, (r, _) in zip(ends, states)):
         return contracts.Ensure(Relation("EQ", Variable(common), AtEntry(Variable(common))))

@@ -6,18 +6,20 @@ from fractions import Fraction
 
 from . import contracts
 from . import syntax
+from .controls import CONTROLS
 from .syntax import (Alarm, Assign, Binary, Block, Call, End, Function, Goto, IfGoto, IfThen, Minus, Nothing, Number,
                     Program, Project, Relation, Return, SourceFile, Variable, While, Words)
 
 FEATURES = ("calls", "repeats", "modal-calls", "modal-in-callee", "indirect", "system", "skip", "jumps", "jumps-into-loops",
             "computed-goto", "return-to-label", "vacant", "functions", "contracts", "guarded", "alarms", "modes", "files",
-            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences")
+            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences", "ranges")
 
 SMALL = [Fraction(n) for n in (0, 0, 1, 1, 2, 3, 4, 5, 7, 10)] + [Fraction(n, 8) for n in (1, 2, 4, 6, 12, 20, -4)]
 LOCALS = (1, 2, 3, 4, 7, 10, 11, 20)
 COMMONS = (100, 101, 102, 500, 501)
 ALIASES = ((2001, 10001), (2201, 11001), (5221, 2501), (5222, 2601), (5201, 2500), (5241, 2502), (7001, 14001),
-           (1132, 1100), (1132, 1101), (7022, 14022))
+           (7022, 14022), (1132, 1100), (1132, 1101))
+OUTPUTS = ALIASES[-2:]
 
 
 def number(value) -> Number:
@@ -64,7 +66,7 @@ class ProgramMaker:
         if self.has("indirect", 70):
             return Variable(Binary("+", number(self.any((99, 100, 500, 0))), Variable(self.any(LOCALS))))
         if self.has("system", 14):
-            return Variable(self.any(self.any(ALIASES)))
+            return Variable(self.any(self.any(ALIASES if CONTROLS[self.dialect].fanuc_offsets else OUTPUTS)))
         return Variable(self.any(LOCALS if self.rng.random() < 0.65 else COMMONS))
 
     def readable(self) -> syntax.Expression:
@@ -146,6 +148,8 @@ class ProgramMaker:
         codes, words = [], []
         if self.has("modes", 5):
             codes.append(self.any(("G90", "G91", "G0", "G1", "G17", "G18", "G94", "G49", "G98", "G99")))
+        if self.has("modes", 15):
+            codes.append(self.any(("M3", "M5")))
         for axis in "XYZ":
             if self.rng.random() < 0.45:
                 words.append((axis, self.any((self.constant(), self.readable(), Minus(self.readable()),
@@ -378,13 +382,19 @@ class ContractMaker:
                 case contracts.Start(places) if self.rng.random() < 0.7:
                     guards += [Relation("NE", Variable(5001), Number(v)) for _, v in places]
         program.blocks[:0] = [Block(IfThen(guard, Alarm(number(90)))) for guard in guards]
-        program.clauses.append(contracts.Guarded())
+        excepted = tuple(word for word, kind in (("MODAL", contracts.Modal), ("START", contracts.Start))
+                         if any(isinstance(c, kind) for c in program.clauses) and self.rng.random() < 0.5)
+        program.clauses.append(contracts.Guarded(excepted))
 
 
 def expressions_of(program: Program):
     for block in program.blocks:
         for root in roots_of(block.statement):
             yield from syntax.parts(root)
+
+
+def named_in(program: Program) -> set:
+    return {e.index for e in expressions_of(program) if isinstance(e, Variable) and isinstance(e.index, int)}
 
 
 def read_in(program: Program):

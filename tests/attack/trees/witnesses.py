@@ -21,6 +21,8 @@ SWITCHES = {
     "m99-p-of-a-main-program": (True, False),
     "nested-modal-calls": ("last-first",),
     "no-distance-is-a-movement": (True, False),
+    "g67-alone-stops": (True, False),
+    "do-without-end-stops-at-do": (True, False),
 }
 
 
@@ -57,7 +59,8 @@ def idle_witness(project: syntax.Project, claim: Claim, counts):
         asked.update(outcome.choices)
         if outcome.end == "not-modelled" or outcome.inexact or any(c.claim is not None for c in judge.found):
             return None
-        if stops_there(project, claim, outcome):
+        if stops_there(project, claim, outcome) or \
+                claim.kind == "call-meets-contract" and called_there(project, claim, outcome.root):
             return None
         if claim.kind in ("loop-ends", "program-ends") and outcome.end in ("endless", "fuel"):
             return None
@@ -71,6 +74,19 @@ def stops_there(project, claim, outcome) -> bool:
     return claim.kind in ("alarm-unreachable", "no-control-alarm") and outcome.end in ("alarm", "user-alarm") and \
         outcome.activation.program.number == claim.program and \
         line_of(project, claim.program, outcome.block) == claim.line
+
+
+def called_there(project, claim, activation) -> bool:
+    """A call against a contract, somewhere within the call that the row is about."""
+    return any(called_there(project, claim, child) or child.broken and is_within(project, claim, child)
+               for child in activation.children)
+
+
+def is_within(project, claim, activation) -> bool:
+    caller = activation.parent
+    return caller is not None and (
+        caller.program.number == claim.program and line_of(project, claim.program, activation.called_from) == claim.line
+        or is_within(project, claim, caller))
 
 
 def with_modes(program, inputs):
