@@ -10,26 +10,9 @@ from typing import Optional
 from . import contracts
 from . import controls
 from . import syntax
+from .ends import OutOfFuel, ProgramEnd, Repeats, UserAlarm
 from .motion import Tool
 from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled, nearest, number_of
-
-
-class UserAlarm(Exception):
-    def __init__(self, number):
-        super().__init__(number)
-        self.number = number
-
-
-class ProgramEnd(Exception):
-    """M02, M30."""
-
-
-class OutOfFuel(Exception):
-    pass
-
-
-class Repeats(Exception):
-    """A state came back: the run would go on for ever."""
 
 
 @dataclass
