@@ -111,7 +111,7 @@ Questions unmetAlarms(const ExploredProgram &program) {
     questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
                                                    stopClaim(check, foreseenAlarms(subject.contract()))),
                          .goals = {},
-                         .broken = [](const RunResult &, const GivenVariables &) { return std::nullopt; }});
+                         .broken = stopAt(check, foreseenAlarms(subject.contract()))});
   }
   return questions;
 }
