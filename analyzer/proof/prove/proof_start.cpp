@@ -112,7 +112,8 @@ RunOptions ProofStart::runStart() const {
 std::map<Axis, TermId> ProofStart::place() const {
   std::map<Axis, TermId> place;
   for (const Axis axis : kAllAxes)
-    place.emplace(axis, entry_.at(axis).number);
+    if (const TermId at = entry_.at(axis).number; at != anyEntry_.at(axis).number)
+      place.emplace(axis, at);
   return place;
 }
 

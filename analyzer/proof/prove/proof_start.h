@@ -59,7 +59,7 @@ public:
   const SymbolicState &anyEntry() const { return anyEntry_; }
   /// What the contract demands of the inputs.
   const std::vector<smt::TermId> &demands() const { return demands_; }
-  /// Codes and place of the runs of the machine, as the contract says.
+  /// Codes and place of the runs of the machine, as the contract says; no place of an axis that it leaves open.
   RunOptions runStart() const;
   std::map<Axis, smt::TermId> place() const;
 
