@@ -5,14 +5,14 @@
 #endif
 #ifndef VARIABLE
 #define VARIABLE(first, last, kind, access, start, option, role, name, meaning)                                        \
-  VariableRange{first,                                                                                                  \
-                last,                                                                                                   \
-                VariableKind::kind,                                                                                     \
-                VariableAccess::access,                                                                                 \
-                VariableStart::start,                                                                                   \
-                VariableOption::option,                                                                                 \
-                VariableRole::role,                                                                                     \
-                name,                                                                                                   \
+  VariableRange{first,                                                                                                 \
+                last,                                                                                                  \
+                VariableKind::kind,                                                                                    \
+                VariableAccess::access,                                                                                \
+                VariableStart::start,                                                                                  \
+                VariableOption::option,                                                                                \
+                VariableRole::role,                                                                                    \
+                name,                                                                                                  \
                 meaning},
 #endif
 #ifndef ALARM_NUMBER

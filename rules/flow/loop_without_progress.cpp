@@ -60,8 +60,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     done.push_back(exit.test);
     const Span span = context.tree.expressions[exit.condition].span;
     const Span head = context.tree.blocks[facts.node(loop.head).block].span();
-    Diagnostic diagnostic{.message = fmt::format("{} once {} {}", endlessnessOf(loop), context.quoted(span),
-                                                 exit.leavesWhenTrue ? "does not hold" : "holds"),
+    Diagnostic diagnostic{.message = loop.exits.size() > 1
+                                         ? "nothing in this loop changes the variables that its exit conditions read"
+                                         : fmt::format("{} once {} {}", endlessnessOf(loop), context.quoted(span),
+                                                       exit.leavesWhenTrue ? "does not hold" : "holds"),
                           .span = span,
                           .way = wayFromEntry(facts, exit.test),
                           .notes = {loop.mayStop ? "nothing in the loop changes a variable of its condition"

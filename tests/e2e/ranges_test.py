@@ -45,6 +45,15 @@ class Ranges(Scratch):
         self.assertIn("#1  5\n", text)
         self.assertNotIn("O2000, called", text)
 
+    def test_two_calls_that_come_to_find_the_same(self):
+        """In the second iteration both calls find any position: each says so, also the one that is told second."""
+        self.write("O3.nc", "O3\nWHILE[#11LT4]DO1\nG91\nM98P4\nM98P4\nEND1\nM30\nO4\nG1Y3.\nM99\n")
+        contexts = [c for c in self.report("O3.nc")["contexts"] if c["calls"]]
+        self.assertEqual([c["calls"][0]["line"] for c in contexts], [4, 5])
+        for context in contexts:
+            position = {p["name"]: p for p in context["blocks"][0]["positions"]}["Y"]
+            self.assertNotIn("equals", position)
+
     def test_one_line(self):
         text = self.ranges("O1000.nc:7")
         self.assertIn("   7  G90 G00 X#100\n", text)

@@ -5,9 +5,9 @@
 #include "dialects/registry.h"
 #include "findings/session/ranges.h"
 #include "findings/session/session.h"
+#include "findings/session/sidecars.h"
 #include "golden/run_stage.h"
 #include "golden/verdicts_stage.h"
-#include "findings/session/sidecars.h"
 #include "language/lex/lexer.h"
 #include "language/parse/parse.h"
 #include "meaning/cfg/cfg.h"
@@ -130,8 +130,8 @@ std::string contract(const Input &input) {
     const SourceFile source = SourceFile::fromText(file.name, file.text);
     const SyntaxTree syntax = parse(source, *input.dialect);
     const ProgramModel programs = resolve(source, syntax, *input.dialect);
-    return dump(readContracts(source, syntax, programs, *input.dialect, sidecarsOf(file.name, programs, nullptr)), programs,
-                syntax);
+    return dump(readContracts(source, syntax, programs, *input.dialect, sidecarsOf(file.name, programs, nullptr)),
+                programs, syntax);
   });
 }
 

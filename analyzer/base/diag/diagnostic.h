@@ -44,7 +44,7 @@ struct Diagnostic {
   Span span;
   std::string label = {}; // text beside the primary carets; may be empty
   std::vector<Label> labels = {};
-  std::vector<Label> way = {};           // the places that lead to it, in the order in which they are passed
+  std::vector<Label> way = {};         // the places that lead to it, in the order in which they are passed
   std::vector<std::string> notes = {}; // why it matters on the machine, what to do
   std::vector<FixIt> fixes = {};
 };

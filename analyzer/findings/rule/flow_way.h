@@ -7,8 +7,8 @@
 
 namespace feedhold {
 
-/// The shortest way over instructions that are reached, from behind `from` to `to`, not over those that `blocked` names.
-/// Absent when there is none.
+/// The shortest way over instructions that are reached, from behind `from` to `to`, not over those that `blocked`
+/// names. Absent when there is none.
 std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, NodeId to,
                                            const std::function<bool(NodeId)> &blocked);
 
@@ -16,8 +16,8 @@ std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, 
 std::vector<Label> describeWay(const FlowFacts &facts, std::span<const NodeId> way);
 
 /// Both: the way from the head of the program to a node; empty where there is nothing to tell.
-std::vector<Label> wayFromEntry(const FlowFacts &facts, NodeId to,
-                                const std::function<bool(NodeId)> &blocked = [](NodeId) { return false; });
+std::vector<Label> wayFromEntry(
+    const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked = [](NodeId) { return false; });
 
 /// The first node of the program that is of a block and is reached; absent when none is.
 std::optional<NodeId> reachedNode(const FlowFacts &facts, BlockId block);

@@ -44,8 +44,8 @@ struct Job {
   ProvedProgram *result;
 };
 
-/// All programs of a file together have fewer steps than one large program, since each of them costs something before the
-/// first step: a file is given up in 20 seconds.  Each has its share, however they are spread over threads.
+/// All programs of a file together have fewer steps than one large program, since each of them costs something before
+/// the first step: a file is given up in 20 seconds.  Each has its share, however they are spread over threads.
 std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
   return programsInFile <= 1 ? stepsOfOne : stepsOfOne * 4 / 5 / programsInFile;
 }

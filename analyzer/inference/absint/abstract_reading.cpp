@@ -37,27 +37,17 @@ std::optional<Origin> moved(const AbstractValue &value, const Grid &distance,
 
 std::optional<AbstractNumber> functionOf(FunctionKind kind, const AbstractNumber &x) {
   switch (kind) {
-  case FunctionKind::Sin:
-    return sin(x);
-  case FunctionKind::Cos:
-    return cos(x);
-  case FunctionKind::Tan:
-    return tan(x);
-  case FunctionKind::Asin:
-    return asin(x);
-  case FunctionKind::Acos:
-    return acos(x);
-  case FunctionKind::Sqrt:
-    return sqrt(x);
-  case FunctionKind::Abs:
-    return absolute(x);
-  case FunctionKind::Ln:
-    return ln(x);
-  case FunctionKind::Exp:
-    return exp(x);
+  case FunctionKind::Sin: return sin(x);
+  case FunctionKind::Cos: return cos(x);
+  case FunctionKind::Tan: return tan(x);
+  case FunctionKind::Asin: return asin(x);
+  case FunctionKind::Acos: return acos(x);
+  case FunctionKind::Sqrt: return sqrt(x);
+  case FunctionKind::Abs: return absolute(x);
+  case FunctionKind::Ln: return ln(x);
+  case FunctionKind::Exp: return exp(x);
   case FunctionKind::Bin:
-  case FunctionKind::Bcd:
-    return AbstractNumber::integersIn({0, INFINITY});
+  case FunctionKind::Bcd: return AbstractNumber::integersIn({0, INFINITY});
   case FunctionKind::Atan: // the others are not functions of one number; the semantics has its own words for them
   case FunctionKind::Round:
   case FunctionKind::Fix:
@@ -67,8 +57,7 @@ std::optional<AbstractNumber> functionOf(FunctionKind kind, const AbstractNumber
   case FunctionKind::Prm:
   case FunctionKind::Ax:
   case FunctionKind::AxNumber:
-  case FunctionKind::Exists:
-    break;
+  case FunctionKind::Exists: break;
   }
   return AbstractNumber::any();
 }
@@ -137,8 +126,7 @@ AbstractValue AbstractReading::subtract(const Value &a, const Value &b) const {
   if (a.origin() && a.origin() == b.origin() && a.isNumber() && b.isNumber())
     return number(0);
   const AbstractValue difference = valueOf(feedhold::subtract(numberOf(a), numberOf(b)));
-  return difference.origin() ? difference
-                             : difference.withOrigin(moved(a, numberOf(b).grid(), feedhold::subtract));
+  return difference.origin() ? difference : difference.withOrigin(moved(a, numberOf(b).grid(), feedhold::subtract));
 }
 AbstractValue AbstractReading::multiply(const Value &a, const Value &b) const {
   return valueOf(feedhold::multiply(numberOf(a), numberOf(b)));
@@ -205,33 +193,23 @@ Truth AbstractReading::compare(Relation relation, const Value &a, const Value &b
   if (const auto apart = distanceOf(a, b)) {
     const bool above = *apart > 0;
     switch (relation) {
-    case Relation::Equal:
-      return Truth::False;
-    case Relation::NotEqual:
-      return Truth::True;
+    case Relation::Equal: return Truth::False;
+    case Relation::NotEqual: return Truth::True;
     case Relation::Greater:
-    case Relation::GreaterOrEqual:
-      return truthOf(above);
+    case Relation::GreaterOrEqual: return truthOf(above);
     case Relation::Less:
-    case Relation::LessOrEqual:
-      return truthOf(!above);
+    case Relation::LessOrEqual: return truthOf(!above);
     }
   }
   const AbstractNumber &left = numberOf(a);
   const AbstractNumber &right = numberOf(b);
   switch (relation) {
-  case Relation::Equal:
-    return isEqual(left, right);
-  case Relation::NotEqual:
-    return feedhold::negate(isEqual(left, right));
-  case Relation::Greater:
-    return isLess(right, left);
-  case Relation::GreaterOrEqual:
-    return isAtMost(right, left);
-  case Relation::Less:
-    return isLess(left, right);
-  case Relation::LessOrEqual:
-    return isAtMost(left, right);
+  case Relation::Equal: return isEqual(left, right);
+  case Relation::NotEqual: return feedhold::negate(isEqual(left, right));
+  case Relation::Greater: return isLess(right, left);
+  case Relation::GreaterOrEqual: return isAtMost(right, left);
+  case Relation::Less: return isLess(left, right);
+  case Relation::LessOrEqual: return isAtMost(left, right);
   }
   return Truth::Maybe;
 }
@@ -280,7 +258,7 @@ AbstractValue AbstractReading::numberOfCode(ModalCode code, const ModalTable &mo
 }
 
 std::optional<std::pair<std::uint8_t, CodeSet>> AbstractReading::codeFrom(const Value &value,
-                                                                         const ModalTable &modes) const {
+                                                                          const ModalTable &modes) const {
   const auto &origin = value.origin();
   if (origin && origin->offset.isZero() && value.isNumber() && origin->symbol >= kModalSymbols &&
       origin->symbol < kModalSymbols + kModalGroups)

@@ -8,8 +8,8 @@
 
 namespace feedhold {
 
-/// What the control gives to a program that is started: variables, modal state and position are whatever they were, each
-/// a symbol of its own.
+/// What the control gives to a program that is started: variables, modal state and position are whatever they were,
+/// each a symbol of its own.
 AbstractState entryState(AbstractReading &reading);
 
 /// Every run that `a` describes is described by `b`.  Symbols other than those of the entry may have other names.

@@ -22,8 +22,8 @@ struct AnalysisOptions {
 /// How a path through a program ends.
 enum class PathEnd : std::uint8_t { Returns, Ends, Alarm };
 
-/// Told of the states of a program, place by place; of one place several times when states are kept apart, or when it is
-/// reached by several calls.
+/// Told of the states of a program, place by place; of one place several times when states are kept apart, or when it
+/// is reached by several calls.
 class AnalysisVisitor : public StepObserver {
 public:
   /// Before each instruction.  `calls`: the calls that led here, outermost first.
@@ -38,6 +38,11 @@ public:
   /// A program is entered in a way that is not followed (too deep, by itself, by a computed number), and would be gone
   /// through with nothing known: not when the visitor has no use for it.
   virtual bool wantsUnfollowed(const Callee &) { return true; }
+  /// What is known of a program that is called from several places is told with the calls of each; else, where they
+  /// find the same, with those of one.
+  virtual bool tellsCallsApart() const { return false; }
+  /// A call whose states are not told, since there are too many.
+  virtual void leftOut(Place) {}
 };
 
 struct FileContracts;

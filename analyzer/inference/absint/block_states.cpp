@@ -54,6 +54,8 @@ public:
       result_.isCutShort = true;
   }
   void resumed(Place place, std::span<const Place>) override { place_ = place; }
+  bool tellsCallsApart() const override { return true; }
+  void leftOut(Place) override { result_.isCutShort = true; }
   void notModelled(std::string_view reason, Span) override {
     const NotFollowedNote note{reason, place_};
     if (result_.notFollowed.size() < kMostNotes &&

@@ -37,7 +37,7 @@ struct Summary {
   std::vector<Exit> exits;                   // one without target, the others by target
   /// Only modal calls below this one are made inside: this is one itself.  Absent: all.
   std::optional<std::size_t> modalLimit = {};
-  std::set<CallDepth> walkedAt = {}; // alarms of nesting differ by depth
+  std::set<std::pair<CallDepth, std::vector<Place>>> walkedAt = {}; // alarms of nesting differ by depth; calls
 };
 
 class Engine {
@@ -68,7 +68,7 @@ private:
   bool spend(std::uint64_t cost = 1);
 
   static constexpr std::size_t kMostContexts = 12;
-  static constexpr std::uint64_t kCostOfJump = 4; // a search through the program, and a copy of the state
+  static constexpr std::uint64_t kCostOfJump = 4;    // a search through the program, and a copy of the state
   static constexpr std::ptrdiff_t kMostLoops = 5000; // a state takes some 20 KiB
 
   const ProgramSet &programs_;
@@ -81,6 +81,7 @@ private:
   AnalysisVisitor *visitor_ = nullptr;
   std::vector<Place> calls_; // of the walk
   CallDepth depth_;          // of the walk
+  int walkedAgain_ = 0;      // programs, for calls that find the same
   bool depthKnown_ = true;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Callee> unfollowed_; // entered somehow
   std::uint64_t spent_ = 0;

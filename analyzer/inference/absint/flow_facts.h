@@ -78,10 +78,10 @@ public:
   std::optional<Truth> truthOf(NodeId test) const;
   /// Over all evaluations in this program; null when it is never evaluated.
   const AbstractValue *valueOf(ExpressionId expression) const;
-  const std::vector<AlarmFact> &alarms() const { return alarms_; }       // by place
+  const std::vector<AlarmFact> &alarms() const { return alarms_; } // by place
   const std::vector<UserAlarmFact> &userAlarms() const { return userAlarms_; }
-  const std::vector<ExitFact> &exits() const { return exits_; }          // by node
-  const std::vector<CallFact> &calls() const { return calls_; }          // by node
+  const std::vector<ExitFact> &exits() const { return exits_; } // by node
+  const std::vector<CallFact> &calls() const { return calls_; } // by node
   const std::vector<VacantReadInCall> &vacantReads() const { return vacantReads_; }
   const std::vector<NotModelledFact> &notModelled() const { return notModelled_; }
 
@@ -93,7 +93,7 @@ private:
   std::size_t first_;
   std::vector<bool> reached_;
   std::array<CodeSet, kModalGroups> entryCodes_{};
-  std::unordered_map<std::uint32_t, Truth> truths_; // by node
+  std::unordered_map<std::uint32_t, Truth> truths_;         // by node
   std::unordered_map<std::uint32_t, AbstractValue> values_; // by expression
   std::vector<AlarmFact> alarms_;
   std::vector<UserAlarmFact> userAlarms_;
@@ -116,7 +116,7 @@ public:
 
 /// Analyses a program that is started with nothing known, or, with the contracts of its file, as its contract allows.
 /// The watches look on.
-FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program,
-                       std::span<FlowWatch *const> watches, const FileContracts *contracts = nullptr);
+FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId program, std::span<FlowWatch *const> watches,
+                       const FileContracts *contracts = nullptr);
 
 } // namespace feedhold

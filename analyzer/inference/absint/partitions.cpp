@@ -51,8 +51,7 @@ PartitionBy partitionBy(const ProgramFile &file, ProgramId program, const ModalT
     }
   for (const auto &[variable, times] : compared) {
     const auto found = literalOnly.find(variable);
-    if (times >= 2 && found != literalOnly.end() && found->second &&
-        by.variables.size() < PartitionBy::kMostVariables)
+    if (times >= 2 && found != literalOnly.end() && found->second && by.variables.size() < PartitionBy::kMostVariables)
       by.variables.push_back(variable);
   }
   return by;

@@ -148,7 +148,8 @@ bool Propagation::execute(NodeId node, AbstractState &state) {
       [&](const CountDown &counting) { return count(node, counting, state); },
       [&](const CallProgram &calling) { return call(node, calling, state); },
       [&](const ReturnFromProgram &from) { return leave(node, from, state); },
-      [&](const EndProgram &ending) { return end(node, ending, state); }, [&](const auto &) { return straight(node, state); });
+      [&](const EndProgram &ending) { return end(node, ending, state); },
+      [&](const auto &) { return straight(node, state); });
 }
 
 bool Propagation::straight(NodeId node, AbstractState &state) {
@@ -177,8 +178,7 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
   const auto &assign = std::get<Assign>(nodeAt(node).instruction);
   const bool mayHaveDivided = reading_.mayHaveDividedByZero();
   for (std::uint32_t i = 0; i < assign.count; ++i) {
-    const auto *assignment =
-        std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
+    const auto *assignment = std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
     if (!assignment)
       continue;
     const auto target = variableNumber(tree, assignment->target);
@@ -242,8 +242,7 @@ bool Propagation::jump(NodeId node, const JumpTo &target, AbstractState &state) 
       continue;
     if (!engine_.spend(Engine::kCostOfJump))
       return false;
-    const auto place =
-        findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
+    const auto place = findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
     AbstractState there = state;
     AbstractContext arriving = contextAt(node, there);
     if (place && assumeRoundsTo(arriving, target.target, label.number))
@@ -265,7 +264,8 @@ void Propagation::searchAlarms(NodeId node, const AbstractValue &number) {
   reading_.alarm(negate(inRange), {AlarmKind::SequenceOutOfRange, place});
   const auto exists = [&](double value) {
     return value >= lowest && value <= static_cast<double>(dialect.limits.lastSequenceNumber) &&
-           findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, static_cast<std::uint32_t>(value), from);
+           findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, static_cast<std::uint32_t>(value),
+                     from);
   };
   const auto values = number.number().set().values();
   const bool some = values.empty() || std::any_of(values.begin(), values.end(), exists);

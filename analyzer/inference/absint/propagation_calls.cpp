@@ -6,6 +6,7 @@ namespace feedhold {
 namespace {
 
 constexpr double kMostUnrolled = 4;
+constexpr int kMostWalksAgain = 1000; // of programs that find the same in several calls
 
 } // namespace
 
@@ -18,13 +19,9 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
     engine_.visitor_->called(placeOf(node), request);
   switch (request.action) {
   case CallAction::SetModal:
-  case CallAction::EndModal:
-    return true;
-  case CallAction::Operation:
-    reading_.havoc(state, "an operation of Macro A", context.place());
-    return true;
-  case CallAction::Enter:
-    break;
+  case CallAction::EndModal: return true;
+  case CallAction::Operation: reading_.havoc(state, "an operation of Macro A", context.place()); return true;
+  case CallAction::Enter: break;
   }
   auto after = enter(node, request, state);
   if (!after)
@@ -61,8 +58,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
   const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
   if (!tooDeep && !engine_.isOpen(*request.callee))
     return repeated(node, request, std::move(state));
-  engine_.unfollowed_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()},
-                              *request.callee);
+  engine_.unfollowed_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()}, *request.callee);
   return enterUnfollowed(node, request, std::move(state));
 }
 
@@ -167,8 +163,19 @@ void Propagation::walkInto(NodeId node, const Frame<AbstractReading> &frame, Sum
   CallDepth inside = before.inside(frame.ownLocals);
   if (!engine_.depthKnown_)
     inside = {facts_.file->dialect->limits.totalCallDepth, 0};
-  if (!summary.walkedAt.insert(inside).second)
+  std::pair<CallDepth, std::vector<Place>> walk{inside, {}};
+  if (engine_.visitor_->tellsCallsApart()) {
+    walk.second = engine_.calls_;
+    walk.second.push_back(placeOf(node));
+  }
+  if (summary.walkedAt.contains(walk))
     return;
+  // Calls that double at each level would be told for ever.
+  if (!walk.second.empty() && !summary.walkedAt.empty() && ++engine_.walkedAgain_ > kMostWalksAgain) {
+    engine_.visitor_->leftOut(placeOf(node));
+    return;
+  }
+  summary.walkedAt.insert(std::move(walk));
   engine_.depth_ = inside;
   engine_.calls_.push_back(placeOf(node));
   engine_.open_.push_back(frame.callee);

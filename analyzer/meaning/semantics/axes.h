@@ -12,7 +12,8 @@ namespace feedhold {
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
 inline constexpr std::size_t kAxisCount = 9;
 inline constexpr std::array<char, kAxisCount> kAxisLetters = {'X', 'Y', 'Z', 'A', 'B', 'C', 'U', 'V', 'W'};
-inline constexpr std::array kAllAxes = {Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C, Axis::U, Axis::V, Axis::W};
+inline constexpr std::array kAllAxes = {Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B,
+                                        Axis::C, Axis::U, Axis::V, Axis::W};
 
 constexpr std::size_t indexOf(Axis axis) { return static_cast<std::size_t>(axis); }
 constexpr char letterOf(Axis axis) { return kAxisLetters[indexOf(axis)]; }

@@ -15,8 +15,8 @@ enum class MoveKind : std::uint8_t {
   ArcClockwise, // seen from the positive end of the plane's normal
   ArcCounterclockwise,
   Dwell,
-  Probe,       // towards a signal: may end anywhere on the way
-  Unfollowed,  // on a way that is not known; nor need it lead from `start` to `end`
+  Probe,      // towards a signal: may end anywhere on the way
+  Unfollowed, // on a way that is not known; nor need it lead from `start` to `end`
 };
 std::string_view nameOf(MoveKind kind);
 
@@ -25,11 +25,11 @@ template <typename Value> struct Move {
   MoveKind kind = MoveKind::Rapid;
   std::array<Value, kAxisCount> start{};
   std::array<Value, kAxisCount> end{};
-  Plane plane = kPlaneXY;   // of an arc
-  Value firstCentre{};      // of an arc: coordinates in its plane
+  Plane plane = kPlaneXY; // of an arc
+  Value firstCentre{};    // of an arc: coordinates in its plane
   Value secondCentre{};
-  std::uint32_t turns = 1;  // of an arc: a full circle more for each above 1
-  Value feed{};             // F in force; of Dwell: the time as programmed
+  std::uint32_t turns = 1; // of an arc: a full circle more for each above 1
+  Value feed{};            // F in force; of Dwell: the time as programmed
 };
 
 } // namespace feedhold

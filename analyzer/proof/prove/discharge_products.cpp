@@ -176,8 +176,7 @@ void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypo
       if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)
         continue;
       const Known &pair = product(factors[i], factors[j]);
-      offer(rows, {{factors[i].index, factors[j].index}, {}, {}}, pair,
-            relationOf(isStrict(left) && isStrict(right)));
+      offer(rows, {{factors[i].index, factors[j].index}, {}, {}}, pair, relationOf(isStrict(left) && isStrict(right)));
     }
   }
 }
@@ -197,9 +196,9 @@ void Products::triples(const Rows &rows, const std::vector<ActiveHypothesis> &hy
             isStrict(*factors[i].constraint) && isStrict(*factors[j].constraint) && isStrict(*factors[k].constraint);
         work_ += pair.size() * third.size() * 4;
         Polynomial product = check::multiply(pair, third);
-        offer(rows, {{{factors[i].index, factors[j].index, factors[k].index}, {}, {}},
-                     std::move(product),
-                     relationOf(strict)});
+        offer(
+            rows,
+            {{{factors[i].index, factors[j].index, factors[k].index}, {}, {}}, std::move(product), relationOf(strict)});
       }
     }
   }

@@ -414,7 +414,8 @@ class Run:
         for letter, text in words:
             if letter + text in head:
                 continue
-            value = self.value(text)
+            with self.reckoner.in_word():
+                value = self.value(text)
             if value is not None:
                 values[letter] = value
         moved = self.tool.block([code for code in head if code != "G67"], values)

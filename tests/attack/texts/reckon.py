@@ -2,6 +2,7 @@
 
 Numbers are fractions and None is vacant.  Shares nothing with the interpreter of trees.
 """
+import contextlib
 import math
 import re
 from fractions import Fraction as F
@@ -39,6 +40,7 @@ class Reckoner:
 
     def __init__(self, read, ask, special=None):
         self.read, self.ask, self.special = read, ask, special
+        self.step = F(1)  # to which ROUND rounds
         self.rounded = False  # a double would not do
         self.guessed = False  # by a function that has no exact value
 
@@ -49,6 +51,13 @@ class Reckoner:
         if text[end:].strip():
             raise Unsaid(f"text behind an expression: {text[end:]}")
         return value
+
+    @contextlib.contextmanager
+    def in_word(self):
+        """ROUND rounds to the least increment of the address there; not in arguments."""
+        self.step = F(1, 1000)
+        yield
+        self.step = F(1)
 
     def bracket(self, text: str, at: int):
         """From `[` on: the value and the place behind `]`."""
@@ -153,7 +162,7 @@ class Reckoner:
         if name == "FUP":
             return F(-math.floor(-x) if x > 0 else math.floor(x))
         if name == "ROUND":
-            return F(away(x, self.ask))
+            return self.step * away(x / self.step, self.ask)
         if name == "SQRT":
             if x < 0:
                 raise Stop("domain")

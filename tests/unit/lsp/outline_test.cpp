@@ -5,18 +5,18 @@ namespace feedhold::lsp {
 namespace {
 
 constexpr std::string_view kTwoOutlines = "%\n"
-                                  "(ONE)\n"
-                                  "(TWO)\n"
-                                  "O1(\xF0\x9F\x98\x80 PART)\n"
-                                  "N10#1=0\n"
-                                  "WHILE[#1LT3]DO1\n"
-                                  "N20#1=#1+1\n"
-                                  "END1\n"
-                                  "M98P2\n"
-                                  "M30\n"
-                                  "O2\n"
-                                  "M99\n"
-                                  "%\n";
+                                          "(ONE)\n"
+                                          "(TWO)\n"
+                                          "O1(\xF0\x9F\x98\x80 PART)\n"
+                                          "N10#1=0\n"
+                                          "WHILE[#1LT3]DO1\n"
+                                          "N20#1=#1+1\n"
+                                          "END1\n"
+                                          "M98P2\n"
+                                          "M30\n"
+                                          "O2\n"
+                                          "M99\n"
+                                          "%\n";
 
 class LspOutline : public FeatureTest {
 protected:

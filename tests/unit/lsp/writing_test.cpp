@@ -5,16 +5,16 @@ namespace feedhold::lsp {
 namespace {
 
 constexpr std::string_view kWritingSlot = "%\n"
-                                   "O9100(SLOT)\n"
-                                   "(@PARAM #21 DEPTH 0.5..50. MM)\n"
-                                   "(@PARAM #22 STEP 0.1..#21 MM)\n"
-                                   "#10=0\n"
-                                   "WHILE[#10LT#21]DO1\n"
-                                   "#10=#10+#22\n"
-                                   "END1\n"
-                                   "G91\n"
-                                   "M99\n"
-                                   "%\n";
+                                          "O9100(SLOT)\n"
+                                          "(@PARAM #21 DEPTH 0.5..50. MM)\n"
+                                          "(@PARAM #22 STEP 0.1..#21 MM)\n"
+                                          "#10=0\n"
+                                          "WHILE[#10LT#21]DO1\n"
+                                          "#10=#10+#22\n"
+                                          "END1\n"
+                                          "G91\n"
+                                          "M99\n"
+                                          "%\n";
 
 class LspWriting : public FeatureTest {
 protected:
