@@ -4,7 +4,7 @@
 //     simulation_bench PROGRAM.nc...
 #include "dialects/registry.h"
 #include "findings/session/programs.h"
-#include "proof/prove/plain_space.h"
+#include "proof/space/plain_space.h"
 #include "proof/prove/prove.h"
 #include "rules/registry.h"
 

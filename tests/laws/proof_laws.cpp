@@ -1,7 +1,7 @@
 // Laws of proofs: what is proved has no counterexample, what is refuted has one, and the facts about functions are
 // true.
 #include "proof/check/certificate.h"
-#include "proof/prove/discharge.h"
+#include "proof/decide/discharge.h"
 #include "proof/smt/exact_angles.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/simplex.h"

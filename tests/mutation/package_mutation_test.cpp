@@ -4,7 +4,7 @@
 #include "mutation/mutants.h"
 #include "mutation/packages.h"
 #include "mutation/replay.h"
-#include "proof/prove/exact_run.h"
+#include "proof/replay/exact_run.h"
 #include "proof/prove/prove.h"
 
 #include <gtest/gtest.h>

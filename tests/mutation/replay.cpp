@@ -2,7 +2,7 @@
 
 #include "base/support/match.h"
 #include "meaning/semantics/evaluate.h"
-#include "proof/prove/plain_space.h"
+#include "proof/space/plain_space.h"
 
 #include <algorithm>
 #include <cmath>

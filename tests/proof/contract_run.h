@@ -2,7 +2,7 @@
 #pragma once
 
 #include "language/contract/contract.h"
-#include "proof/prove/obligation.h"
+#include "proof/obligation/obligation.h"
 #include "soundness/sample_start.h"
 
 namespace feedhold::proof_tests {

@@ -4,7 +4,7 @@
 #include "language/parse/parse.h"
 #include "meaning/machine/concrete_reading.h"
 #include "meaning/semantics/frames.h"
-#include "proof/prove/symbolic_reading.h"
+#include "proof/symbolic/symbolic_interpretation.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "inference/absint/kept_state.h"
 #include "meaning/machine/concrete_reading.h"
 #include "meaning/semantics/parts.h"
-#include "proof/prove/symbolic_reading.h"
+#include "proof/symbolic/symbolic_interpretation.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kObligationKinds = 0
 #define OBLIGATION(kind, name) +1
-#include "proof/prove/obligation_kinds.def"
+#include "proof/obligation/obligation_kinds.def"
     ;
 constexpr std::uint64_t kAlarmKinds = 0
 #define ALARM(kind, meaning) +1

@@ -3,7 +3,7 @@
 
 #include "base/support/parallel.h"
 #include "base/support/process.h"
-#include "proof/prove/stop.h"
+#include "proof/decide/cancel.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // and call.
 #pragma once
 
-#include "proof/prove/proof_context.h"
+#include "proof/context/proof_context.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "proof/prove/prove.h"
 
-#include "proof/prove/guard_inference.h"
+#include "proof/guards/guard_inference.h"
 #include "proof/prove/judge.h"
-#include "proof/prove/obligations.h"
+#include "proof/families/families.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Stage {
 class Work {
 public:
   explicit Work(const ProofSubject &subject)
-      : subject_(subject), start_(subject), promises_(subject), stage_(std::make_unique<Stage>()) {
+      : subject_(subject), start_(subject), promises_(subject, promiseQuestions), stage_(std::make_unique<Stage>()) {
     const ExploreOptions options = start_.exploreOptions(subject);
     stage_->found = explore(start_.reading(), subject.programs, subject.program, start_.entry(), options);
     witnesses_.emplace(sampledRuns(subject, start_, start_.demands()));

@@ -1,21 +1,9 @@
 // prove: the obligations of one program and a verdict on each.
 #pragma once
 
-#include "language/contract/contract.h"
-#include "proof/prove/exploration.h"
-#include "proof/prove/obligation.h"
+#include "proof/context/prove_options.h"
 
 namespace feedhold::prove {
-
-enum class InferGuards : std::uint8_t { No, Yes };
-
-struct ProveOptions {
-  std::vector<ObligationKind> only = {}; // empty: all
-  Budget budget = {};
-  std::uint64_t steps = kStepsOfProgram; // of all that is done for the program (smt/steps.h)
-  InferGuards guards = InferGuards::Yes;
-  std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
-};
 
 /// A run did what a verdict denies.  The verdict has been withdrawn.
 struct Contradiction {

@@ -1,6 +1,6 @@
 #include "surface/cli/kind_options.h"
 
-#include "proof/prove/obligation_kinds.h"
+#include "proof/obligation/obligation_kinds.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // `--only KIND`: which obligations `prove` and `certify` look at.
 #pragma once
 
-#include "proof/prove/obligation.h"
+#include "proof/obligation/obligation.h"
 
 #include <CLI/CLI.hpp>
 

@@ -3,7 +3,7 @@
 #include "base/support/text.h"
 #include "dialects/registry.h"
 #include "language/syntax/tree.h"
-#include "proof/prove/plain_space.h"
+#include "proof/space/plain_space.h"
 #include "rules/registry.h"
 #include "surface/cli/terminal.h"
 

@@ -3,7 +3,7 @@
 
 #include "findings/session/programs.h"
 #include "meaning/machine/machine.h"
-#include "proof/prove/example_run.h"
+#include "proof/replay/example_run.h"
 
 #include <CLI/CLI.hpp>
 

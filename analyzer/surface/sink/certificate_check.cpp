@@ -1,6 +1,6 @@
 // What has become of a report: whether it fits together, and whether the same programs give the same one now.
 #include "base/support/sha256.h"
-#include "proof/prove/obligation_kinds.h"
+#include "proof/obligation/obligation_kinds.h"
 #include "surface/sink/certificate_parts.h"
 
 #include <fmt/format.h>

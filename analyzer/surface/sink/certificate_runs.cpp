@@ -1,6 +1,6 @@
 // The runs that a certificate draws.
-#include "proof/prove/example_run.h"
-#include "proof/prove/plain_space.h"
+#include "proof/replay/example_run.h"
+#include "proof/space/plain_space.h"
 #include "surface/sink/certificate_parts.h"
 #include "surface/sink/run_picture.h"
 

@@ -1,7 +1,7 @@
 // Evidence checked: every certificate of a bundle is followed, and solvers are asked every question again.
 #pragma once
 
-#include "proof/prove/discharge.h"
+#include "proof/decide/discharge.h"
 #include "surface/sink/proof_bundle.h"
 
 namespace feedhold {

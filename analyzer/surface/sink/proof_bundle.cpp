@@ -3,7 +3,7 @@
 
 #include "base/support/match.h"
 #include "base/support/sha256.h"
-#include "proof/prove/obligation_kinds.h"
+#include "proof/obligation/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Verdicts as SARIF 2.1.0: what is refuted is an error, what is unknown a warning, what holds without any margin a
 // note; each kind of obligation is a rule.  What else is proved is left out: services show every result as something to
 // do.
-#include "proof/prove/obligation_kinds.h"
+#include "proof/obligation/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 #include "surface/sink/sarif_parts.h"
 

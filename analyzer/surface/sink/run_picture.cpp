@@ -2,8 +2,8 @@
 
 #include "base/support/text.h"
 #include "language/syntax/tree.h"
-#include "proof/prove/example_run.h"
-#include "proof/prove/plain_space.h"
+#include "proof/replay/example_run.h"
+#include "proof/space/plain_space.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

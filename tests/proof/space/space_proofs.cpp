@@ -1,7 +1,7 @@
 #include "proof/space/space_proofs.h"
 
 #include "proof/contract_run.h"
-#include "proof/prove/plain_space.h"
+#include "proof/space/plain_space.h"
 #include "proof/space/space_clauses.h"
 #include "proof/space/space_points.h"
 

@@ -1,5 +1,5 @@
 // Each assumption of a proof has a row in docs/soundness.md, and the obligation that shows it exists.
-#include "proof/prove/obligation_kinds.h"
+#include "proof/obligation/obligation_kinds.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Assumption {
 };
 constexpr Assumption kAssumptions[] = {
 #define ASSUMPTION(name, obligation) {name, obligation},
-#include "proof/prove/assumptions.def"
+#include "proof/obligation/assumptions.def"
 };
 
 std::string soundnessPage() {

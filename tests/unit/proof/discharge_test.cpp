@@ -1,4 +1,4 @@
-#include "proof/prove/discharge.h"
+#include "proof/decide/discharge.h"
 
 #include "proof/check/certificate.h"
 #include "proof/smt/smtlib.h"

@@ -3,7 +3,7 @@
 
 #include "dialects/registry.h"
 #include "language/parse/parse.h"
-#include "proof/prove/proof_context.h"
+#include "proof/context/proof_context.h"
 
 #include <memory>
 #include <string>

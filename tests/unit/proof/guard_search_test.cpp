@@ -1,5 +1,5 @@
 // Guard search: conditions that fit what runs have shown, weak ones before strong ones.
-#include "proof/prove/guard_search.h"
+#include "proof/guards/guard_search.h"
 
 #include <gtest/gtest.h>
 

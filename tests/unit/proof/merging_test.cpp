@@ -1,7 +1,7 @@
 // Merging: what is true on each of two paths, and nothing else, is true on the one that they make.
-#include "proof/prove/merging.h"
+#include "proof/explore/merging.h"
 
-#include "proof/prove/discharge.h"
+#include "proof/decide/discharge.h"
 #include "unit/proof/explored.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Obligations from a folder of SMT-LIB files, each with its known answer in a line `; expect: sat` or `; expect:
 // unsat`. Runs where FEEDHOLD_OBLIGATIONS names such a folder.
-#include "proof/prove/discharge.h"
+#include "proof/decide/discharge.h"
 #include "proof/smt/smtlib.h"
 
 #include <fmt/format.h>

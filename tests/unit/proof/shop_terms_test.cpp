@@ -1,4 +1,4 @@
-#include "proof/prove/shop_terms.h"
+#include "proof/symbolic/shop_terms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Loops by their passes: what ends them, and from where they go on for ever.
-#include "proof/prove/termination.h"
+#include "proof/termination/termination.h"
 
 #include "dialects/registry.h"
-#include "proof/prove/recurrence.h"
+#include "proof/termination/recurrence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Witnesses: inputs are taken for what they show, and for nothing else.
-#include "proof/prove/witness.h"
+#include "proof/replay/witness.h"
 
 #include "unit/proof/explored.h"
 

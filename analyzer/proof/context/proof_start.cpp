@@ -1,0 +1,167 @@
+#include "proof/context/proof_start.h"
+
+#include "meaning/semantics/mappings.h"
+#include "proof/replay/exact_run.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+std::vector<double> ProofSubject::constants() const {
+  std::set<double> constants;
+  const auto collect = [&](const SyntaxTree &tree) {
+    for (const Expression &expression : tree.expressions)
+      if (const auto *literal = std::get_if<NumberLiteral>(&expression.node); literal && constants.size() < 24)
+        constants.insert(literal->value.toDouble());
+  };
+  if (contracts)
+    collect(contracts->tree);
+  collect(*file().tree);
+  return {constants.begin(), constants.end()};
+}
+
+bool ProofSubject::wants(ObligationKind kind) const {
+  return options.only.empty() || std::find(options.only.begin(), options.only.end(), kind) != options.only.end();
+}
+
+const FileContracts *ProofSubject::contractsOf(const Callee &callee) const {
+  const std::size_t index = callee.file.index();
+  const FileContracts *of = index < options.contractsOf.size() ? options.contractsOf[index] : nullptr;
+  return of && of->of(callee.program) ? of : nullptr;
+}
+
+std::string ProofSubject::nameOf(const Callee &callee) const {
+  return toString(programs.file(callee.file).model->programs[callee.program].name);
+}
+
+bool ProofSubject::isOwn(Place place) const {
+  return place.file == program.file && file().model->programOf(programs.node(place).block) == program.program;
+}
+
+/// Its name is `O9100.loop-ends.N20`: by the sequence number of the block, or by its line.
+Obligation ProofSubject::obligation(ObligationKind kind, Place place, Span span, std::string claim) const {
+  const BlockId block = programs.node(place).block;
+  std::string at = fmt::format("L{}", file().source->lineOf(span.begin));
+  for (const SequenceNumber &number : file().model->sequenceNumbersOf(program.program))
+    if (number.block == block) {
+      at = fmt::format("N{}", number.number);
+      break;
+    }
+  return {.kind = kind,
+          .id = fmt::format("{}.{}.{}", name(), prove::nameOf(kind), at),
+          .place = place,
+          .span = span,
+          .claim = std::move(claim)};
+}
+
+ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given) : reading_(store_, subject.dialect()) {
+  if (given)
+    startExactly(reading_, *given);
+  entry_ = symbolicEntry(reading_);
+  keepPolar(subject.dialect());
+  anyEntry_ = entry_;
+  codes_ = entry_.codes;
+  if (subject.contract())
+    readContract(subject);
+}
+
+void ProofStart::keepPolar(const Dialect &dialect) {
+  const ModalTable modes(dialect);
+  const auto polar = modes.groupOf(ModalKind::Polar);
+  if (!polar)
+    return;
+  reading_.keepPolar(*polar);
+  const CodeMask off = modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff});
+  if (off != 0)
+    entry_.codes[*polar] = reading_.code(static_cast<std::uint8_t>(std::countr_zero(off)));
+}
+
+void ProofStart::readContract(const ProofSubject &subject) {
+  const Contract &contract = *subject.contract();
+  terms_ = std::make_unique<ContractTerms>(reading_, subject.programs, subject.program.file, *subject.contracts);
+  terms_->prepare(contract, entry_);
+  codes_ = entry_.codes;
+  leaveMappingsOpen(subject);
+  demands_ = terms_->demands(contract, entry_);
+  space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_);
+}
+
+/// A mapping whose code is certain is taken to be the program's own; one of the caller ends with what was known of the
+/// position, so that its code is left open.
+void ProofStart::leaveMappingsOpen(const ProofSubject &subject) {
+  for (const ModalCode &code : subject.contract()->modal) {
+    const Code *row = code.address == 'G' ? findGCode(subject.dialect(), code.tenths) : nullptr;
+    if (row && beginsMapping(row->action))
+      entry_.codes[row->group] = anyEntry_.codes[row->group];
+  }
+}
+
+RunOptions ProofStart::runStart() const {
+  RunOptions options;
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    if (const TermId code = codes_[group].index; store_.isNumber(code))
+      options.codes.emplace_back(static_cast<std::uint8_t>(group),
+                                 static_cast<std::uint8_t>(store_[code].number.toDouble()));
+  return options;
+}
+
+std::map<Axis, TermId> ProofStart::place() const {
+  std::map<Axis, TermId> place;
+  for (const Axis axis : kAllAxes)
+    if (const TermId at = entry_.at(axis).number; at != anyEntry_.at(axis).number)
+      place.emplace(axis, at);
+  return place;
+}
+
+Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
+  const std::vector<TermId> &facts = reading_.facts();
+  facts_.add(facts);
+  Query query = relevantQuery(store_, facts_, facts, conditions, goal);
+  for (const TermId condition : conditions) { // the path itself may be what is impossible
+    const Query part = relevantQuery(store_, facts_, facts, {}, condition);
+    query.assumptions.insert(query.assumptions.end(), part.assumptions.begin(), part.assumptions.end());
+    query.assumptions.push_back(condition);
+  }
+  std::sort(query.assumptions.begin(), query.assumptions.end());
+  query.assumptions.erase(std::unique(query.assumptions.begin(), query.assumptions.end()), query.assumptions.end());
+  return query;
+}
+
+/// Hints are tried, never believed: an invariant has to hold before each pass, a measure has to fall.
+ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
+  options.assumptions = demands_;
+  options.demands = [&subject](const Callee &callee) { return subject.contractsOf(callee) != nullptr; };
+  const Contract *contract = subject.contract();
+  if (!contract)
+    return options;
+  options.keepWrites = !contract->assigns.empty();
+  options.moves = contract->clearance         ? KeepMoves::WithColumn
+                  : hasSpaceClause(*contract) ? KeepMoves::Yes
+                                              : KeepMoves::No;
+  const auto hintsOf = [&subject](const std::vector<LoopHint> &hints, HintTerm termOf) {
+    return [&subject, &hints, termOf = std::move(termOf)](Place head, const SymbolicState &state) {
+      std::vector<TermId> terms;
+      for (const LoopHint &hint : hints)
+        if (head.file == subject.program.file && subject.programs.node(head).block == hint.block)
+          terms.push_back(termOf(hint.expression, state));
+      return terms;
+    };
+  };
+  options.invariants = [this, hints = hintsOf(contract->invariants, [this](ExpressionId hint, const auto &state) {
+                                return terms_->condition(hint, entry_, state);
+                              })](Place head, const SymbolicState &state) {
+    std::vector<TermId> all = hints(head, state);
+    const std::vector<TermId> inSpace = space_->hints(state);
+    all.insert(all.end(), inSpace.begin(), inSpace.end());
+    return all;
+  };
+  options.measures = hintsOf(
+      contract->variants, [this](ExpressionId hint, const auto &state) { return terms_->number(hint, entry_, state); });
+  return options;
+}
+
+} // namespace feedhold::prove

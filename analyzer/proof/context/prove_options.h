@@ -1,0 +1,20 @@
+// What a proof of one program is asked for.
+#pragma once
+
+#include "language/contract/contract.h"
+#include "proof/explore/exploration.h"
+#include "proof/obligation/obligation.h"
+
+namespace feedhold::prove {
+
+enum class InferGuards : std::uint8_t { No, Yes };
+
+struct ProveOptions {
+  std::vector<ObligationKind> only = {}; // empty: all
+  Budget budget = {};
+  std::uint64_t steps = kStepsOfProgram; // of all that is done for the program (smt/steps.h)
+  InferGuards guards = InferGuards::Yes;
+  std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,126 @@
+// How a question is answered: by a sampled run, by proofs of all its goals, by the replay of a counterexample.
+#include "proof/context/proof_context.h"
+
+namespace feedhold::prove {
+
+namespace {
+
+Violation violationOf(const ProofContext &context, const Question &question) {
+  if (!question.isJudgedExactly)
+    return {question.broken};
+  return {question.broken, [&promises = context.promises, row = question.row](const GivenVariables &given) {
+            return promises.breaks(given, row);
+          }};
+}
+
+Denial denialOf(const Question &question) {
+  const Question claim{
+      .row = question.row, .goals = {}, .broken = question.broken, .isJudgedExactly = question.isJudgedExactly};
+  return {question.row, [claim](const ProofContext &context) { return violationOf(context, claim); }};
+}
+
+Query queryOf(ProofStart &start, const PathGoal &goal) {
+  if (!goal.stops)
+    return start.onPath(*goal.conditions, goal.goal);
+  std::vector<smt::TermId> conditions = *goal.conditions;
+  conditions.push_back(*goal.stops);
+  return start.onPath(conditions, goal.goal);
+}
+
+/// One goal after another: what the proofs have come to, or why one failed.
+class Answer {
+public:
+  Answer(const ProofContext &context, const Violation &violation, std::uint64_t &effort)
+      : context_(context), violation_(violation), effort_(effort) {}
+
+  Verdict of(const std::vector<PathGoal> &goals) {
+    for (const PathGoal &goal : goals) {
+      const Budget left = context_.budget.without(effort_);
+      take(discharge(context_.start.store(), queryOf(context_.start, goal), left));
+      if (witness_ || left.search == 0)
+        break;
+    }
+    if (witness_)
+      return *std::move(witness_);
+    if (open_)
+      return *std::move(open_);
+    return verdict::Proved{.proof = std::move(proof_)};
+  }
+
+private:
+  void take(Outcome outcome) {
+    effort_ += outcome.effort;
+    if (outcome.proved())
+      return proof_.add(std::move(outcome));
+    if (!open_)
+      open_ = verdict::Unknown{};
+    if (const smt::Model *model = outcome.counterexample()) {
+      witness_ = context_.witnesses.fromModel(*model, violation_);
+      open_->reason = "a possible counterexample was found, but its run does not show the fault";
+    } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
+      open_->reason = unknown->reason;
+    }
+  }
+
+  const ProofContext &context_;
+  const Violation &violation_;
+  std::uint64_t &effort_;
+  Proof proof_;
+  std::optional<verdict::Unknown> open_;
+  std::optional<Witness> witness_;
+};
+
+} // namespace
+
+WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::vector<smt::TermId> demands) {
+  WitnessSearch runs(start.reading(), subject.programs, subject.program, std::move(demands), subject.constants());
+  runs.startFrom(start.runStart(), start.place());
+  runs.sample();
+  return runs;
+}
+
+std::optional<Verdict> decidedBefore(const ProofContext &context, const Violation &violation) {
+  if (auto witness = context.witnesses.amongSamples(violation))
+    return Verdict(*std::move(witness));
+  if (context.found.incomplete)
+    return Verdict::unknown(std::string(*context.found.incomplete));
+  return std::nullopt;
+}
+
+std::vector<Query> queriesOf(ProofStart &start, const Question &question) {
+  std::vector<Query> queries;
+  for (const PathGoal &goal : question.goals)
+    queries.push_back(queryOf(start, goal));
+  return queries;
+}
+
+Obligation settle(const ProofContext &context, const Question &question) {
+  Obligation row = question.row;
+  if (!question.open.empty()) {
+    row.verdict = Verdict::unknown(question.open);
+    return row;
+  }
+  const Violation violation = violationOf(context, question);
+  if (auto decided = decidedBefore(context, violation))
+    row.verdict = *std::move(decided);
+  else if (question.goals.empty())
+    row.verdict = verdict::Unreachable{};
+  else
+    row.verdict = Answer(context, violation, row.effort).of(question.goals);
+  if (row.verdict == Verdict::Unknown && !question.whyOpen.empty())
+    row.verdict = Verdict::unknown(question.whyOpen);
+  return row;
+}
+
+void settleAll(const ProofContext &context, Questions questions, SettledRows &into) {
+  for (Question &question : questions) {
+    into.denials.push_back(denialOf(question));
+    into.rows.push_back(settle(context, question));
+    if (!into.rows.back().verdict.holds()) {
+      question.row = into.rows.back();
+      into.open.push_back(std::move(question));
+    }
+  }
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,56 @@
+// Entailment on a path: a question to discharge, with what has to do with it.
+#pragma once
+
+#include "proof/decide/discharge.h"
+
+#include <map>
+#include <span>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// The facts and conditions that speak of a variable of the goal, or of one that such a condition speaks of, and so on.
+/// Leaving others out loses proofs and never makes one.
+Query relevantQuery(const smt::TermStore &store, std::span<const smt::TermId> facts,
+                    std::span<const smt::TermId> conditions, smt::TermId goal);
+
+/// Which facts speak of a variable; the facts only ever grow.
+class FactIndex {
+public:
+  explicit FactIndex(const smt::TermStore &store) : store_(store) {}
+  /// All facts, those that are known already included.
+  void add(std::span<const smt::TermId> facts);
+  /// By number; null: none.
+  const std::vector<std::size_t> *factsOn(smt::TermId variable) const;
+
+private:
+  const smt::TermStore &store_;
+  std::size_t indexed_ = 0;
+  std::map<smt::TermId, std::vector<std::size_t>> users_;
+};
+
+/// The same, with an index that has all the facts.
+Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::span<const smt::TermId> facts,
+                    std::span<const smt::TermId> conditions, smt::TermId goal);
+
+/// Quick answers for whoever follows paths, each given once.
+class Entailment {
+public:
+  explicit Entailment(smt::TermStore &store) : store_(store), index_(store) {}
+  /// The facts are those of the question before, and perhaps more.
+  /// False when there is no work left to find out.
+  bool operator()(std::span<const smt::TermId> facts, std::span<const smt::TermId> conditions, smt::TermId goal);
+
+  /// How much work all questions together may still take; Outcome::effort and what putting a question takes.
+  void allow(std::uint64_t work) { allowed_ = work; }
+  std::uint64_t work() const { return work_; }
+
+private:
+  smt::TermStore &store_;
+  FactIndex index_;
+  std::map<std::vector<smt::TermId>, bool> known_; // by assumptions, the goal last
+  std::uint64_t work_ = 0;
+  std::uint64_t allowed_ = ~std::uint64_t{0};
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,480 @@
+#include "proof/explore/explorer.h"
+
+#include "proof/decide/entails.h"
+#include "proof/explore/loops.h"
+#include "proof/symbolic/path_memory.h"
+#include "proof/decide/cancel.h"
+#include "proof/smt/steps.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+constexpr std::string_view kTooMany = "there are too many ways through the program";
+constexpr std::string_view kTooLarge = "gave up: following the ways through the program takes too many steps";
+constexpr std::uint32_t kLongestPath = 20'000; // instructions
+constexpr std::string_view kValueTooLarge = "a value that is too large to reason about is taken as any number";
+
+/// Of going one instruction further, and of the copy of a state.
+std::uint64_t stepsOf(const Path &path) {
+  constexpr std::uint64_t kOfInstruction = 200;
+  return kOfInstruction + 2 * path.conditions.size() + 4 * path.state.variables.entries().size();
+}
+} // namespace
+
+std::optional<std::string> Exploration::notFollowedAt(Place place) const {
+  for (const Unfollowed &each : unfollowed)
+    if (each.place == place)
+      return fmt::format("where this block leads is not known: \"{}\" is not followed", each.reason);
+  return std::nullopt;
+}
+
+// ---- Path ----
+
+bool Path::says(const smt::TermStore &store, TermId condition) const {
+  smt::spend(2 + conditions.size() / 8);
+  if (condition == store.yes() || std::find(conditions.begin(), conditions.end(), condition) != conditions.end())
+    return true;
+  const smt::Term &term = store[condition];
+  const auto isSaid = [&](TermId part) { return says(store, part); };
+  if (term.kind == TermKind::Or)
+    return std::any_of(term.arguments.begin(), term.arguments.end(), isSaid);
+  if (term.kind == TermKind::And)
+    return std::all_of(term.arguments.begin(), term.arguments.end(), isSaid);
+  return term.kind == TermKind::Not && denies(store, term.arguments.front());
+}
+
+bool Path::denies(const smt::TermStore &store, TermId condition) const {
+  smt::spend(2 + conditions.size() / 2);
+  const smt::Term &term = store[condition];
+  const auto isDenied = [&](TermId part) { return denies(store, part); };
+  if (term.kind == TermKind::And)
+    return std::any_of(term.arguments.begin(), term.arguments.end(), isDenied);
+  if (term.kind == TermKind::Or)
+    return std::all_of(term.arguments.begin(), term.arguments.end(), isDenied);
+  return std::any_of(conditions.begin(), conditions.end(), [&](TermId each) {
+    return store[each].kind == TermKind::Not && store[each].arguments.front() == condition;
+  });
+}
+
+bool Path::assume(const smt::TermStore &store, TermId condition) {
+  if (condition == store.no())
+    return false;
+  if (says(store, condition))
+    return true;
+  if (store[condition].kind == TermKind::And) {
+    const std::vector<TermId> parts = store[condition].arguments;
+    return std::all_of(parts.begin(), parts.end(), [&](TermId part) { return assume(store, part); });
+  }
+  conditions.push_back(condition);
+  return true;
+}
+
+// ---- LoopInstance ----
+
+bool LoopInstance::isConstant(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+  const auto terms = smt::variablesOf(store, term);
+  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) { return isFixed(reading, variable); });
+}
+
+bool LoopInstance::isOfState(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+  const auto terms = smt::variablesOf(store, term);
+  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) {
+    return isFixed(reading, variable) || (!transitions.empty() && transitions.front().next.contains(variable));
+  });
+}
+
+// ---- Explorer ----
+
+Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options,
+                   PathMerging merging)
+    : reading_(reading), store_(reading.store()), programs_(programs), options_(options), merging_(merging),
+      termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
+  reading_.usePath(this);
+  entails_.allow(options.mostWork);
+}
+
+Exploration Explorer::run(Callee entry, const SymbolicState &start) {
+  result_.treatment = options_.loops;
+  entry_ = start;
+  reading_.start();
+  Path path{.at = {entry.file, entry.entry},
+            .state = start,
+            .conditions = {},
+            .frames = {{.callee = entry, .call = {entry.file, entry.entry}}},
+            .loops = {},
+            .moved = store_.no()};
+  if (options_.moves != KeepMoves::No) {
+    path.state.variables.set(kBesidePath, reading_.number(0));
+    takeMoves(path);
+  }
+  const bool isWithin = smt::within(options_.mostWork * kStepsOfWork, [&] {
+                          bool possible = true;
+                          for (const TermId assumption : options_.assumptions)
+                            possible = possible && path.assume(store_, assumption);
+                          if (possible)
+                            follow(std::move(path), Purpose::Record, nullptr);
+                          return true;
+                        }).has_value();
+  if (!isWithin)
+    giveUp(smt::areStepsUsedUp() ? kProgramStepsUsedUp : kTooLarge);
+  for (const UnfollowedCall &call : result_.unfollowedCalls)
+    for (const std::size_t loop : call.loops)
+      result_.loops[loop].callsUnknown = true;
+  std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
+  result_.facts = reading_.facts();
+  result_.work = entails_.work();
+  reading_.usePath(nullptr);
+  return std::move(result_);
+}
+
+void Explorer::giveUp(std::string_view reason) {
+  if (!result_.incomplete)
+    result_.incomplete = reason;
+}
+
+bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
+
+bool Explorer::proves(TermId condition) {
+  if (const auto known = byEnclosure(condition))
+    return *known;
+  return path_ && entails_(reading_.facts(), path_->conditions, condition);
+}
+
+std::optional<bool> Explorer::byEnclosure(TermId condition) {
+  return options_.mayEnclose ? groundTruth_.of(condition) : std::nullopt;
+}
+
+bool Explorer::isPossible(const Path &path, TermId condition) {
+  if (const auto known = byEnclosure(condition))
+    return *known;
+  const TermId opposite = store_.logicalNot(condition);
+  if (condition == store_.no() || path.says(store_, opposite))
+    return false;
+  return !entails_(reading_.facts(), path.conditions, opposite);
+}
+
+StepContext<SymbolicReading> Explorer::contextOf(Path &path) {
+  const ProgramFile &file = fileOf(path);
+  reading_.useDialect(*file.dialect);
+  path_ = &path;
+  return {reading_, path.state, programs_, file, modesOf(path.at.file), nodeOf(path).block};
+}
+
+const ModalTable &Explorer::modesOf(FileId file) {
+  auto &modes = modes_[file.index()];
+  if (!modes)
+    modes = std::make_unique<ModalTable>(*programs_.file(file).dialect);
+  return *modes;
+}
+
+const Wto &Explorer::wtoOf(const Callee &callee) {
+  auto &wto = wtos_[{callee.file.index(), callee.entry.index()}];
+  if (!wto) {
+    const ProgramFile &file = programs_.file(callee.file);
+    wto = std::make_unique<Wto>(file.cfg, *file.model, callee.entry);
+  }
+  return *wto;
+}
+
+Path Explorer::to(Path path, NodeId node) const {
+  path.at.node = node;
+  return path;
+}
+
+// ---- the paths ----
+
+void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
+  Worklist work;
+  work.add({}, std::move(start));
+  while (!work.empty() && !result_.incomplete)
+    for (Path &path : merged(work.takeFirst(), trial)) {
+      throwIfStopped();
+      smt::spend(stepsOf(path));
+      if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
+        return giveUp(kTooMany);
+      purpose_ = purpose; // opening a loop tries it
+      if (!arrive(path, purpose, trial))
+        continue;
+      purpose_ = purpose;
+      for (Path &next : execute(std::move(path))) {
+        Worklist::Position position = positionOf(next);
+        work.add(std::move(position), std::move(next));
+      }
+      path_ = nullptr;
+    }
+}
+
+bool Explorer::isTooMuch(std::size_t waiting) {
+  return ++result_.steps > options_.mostSteps || waiting > options_.mostPaths || entails_.work() >= options_.mostWork ||
+         store_.size() - termsBefore_ > options_.mostTerms;
+}
+
+Worklist::Position Explorer::positionOf(const Path &path) {
+  Worklist::Position position;
+  for (std::size_t depth = 1; depth < path.frames.size(); ++depth)
+    position.push_back(wtoOf(path.frames[depth - 1].callee).positionOf(path.frames[depth].call.node));
+  position.push_back(wtoOf(path.frames.back().callee).positionOf(path.at.node));
+  return position;
+}
+
+/// Those that can go on together; without those that have left the loop that is tried.
+std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) {
+  if (merging_ == PathMerging::No)
+    return paths;
+  std::vector<Path> left;
+  for (Path &path : paths) {
+    if (!path.atOpenedHead && !closeLeftLoops(path, trial))
+      continue;
+    const auto same = std::find_if(left.begin(), left.end(), [&](const Path &other) { return canMerge(other, path); });
+    if (same == left.end())
+      left.push_back(std::move(path));
+    else
+      mergeInto(reading_, *same, std::move(path));
+  }
+  return left;
+}
+
+/// A loop is left when the path leaves its program, or stands outside of its nodes.
+bool Explorer::closeLeftLoops(Path &path, const Trial *trial) {
+  while (!path.loops.empty()) {
+    const OpenLoop &loop = path.loops.back();
+    if (path.frames.size() > loop.depth)
+      return true;
+    if (path.frames.size() == loop.depth) {
+      const Wto &wto = wtoOf(path.frames.back().callee);
+      const std::uint32_t at = wto.positionOf(path.at.node);
+      if (wto.positionOf(loop.head) <= at && at < wto.endOf(loop.head))
+        return true;
+    }
+    if (trial && trial->instance == loop.instance)
+      return false;
+    path.loops.pop_back();
+  }
+  return true;
+}
+
+bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
+  if (path.atOpenedHead) {
+    path.atOpenedHead = false;
+    return true;
+  }
+  if (!closeLeftLoops(path, trial))
+    return false;
+  if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
+    return true;
+  if (options_.loops == LoopTreatment::EachPass)
+    return !comesBack(path);
+  const bool isOpen =
+      !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
+  if (isOpen) {
+    if (trial && trial->instance == path.loops.back().instance)
+      trial->passes.push_back(std::move(path));
+    else if (purpose == Purpose::Record)
+      recordPass(path);
+    return false;
+  }
+  return LoopOpener(*this).open(path);
+}
+
+/// In the state of an earlier visit: whatever comes has been followed from there.
+bool Explorer::comesBack(Path &path) {
+  smt::spend(stepsOf(path));
+  result_.heads.insert(path.at);
+  const auto &known = path.landmark;
+  if (known && known->at == path.at && known->moved == path.moved && known->frames == path.frames &&
+      known->state == path.state) {
+    result_.repeats.push_back(path.at);
+    return true;
+  }
+  if (!known || ++path.visits >= path.mostVisits) {
+    path.landmark = std::make_shared<const Landmark>(Landmark{path.at, path.state, path.frames, path.moved});
+    path.visits = 0;
+    path.mostVisits *= 2;
+  }
+  return false;
+}
+
+void Explorer::recordPass(const Path &path) {
+  const std::size_t instance = path.loops.back().instance;
+  if (!LoopOpener(*this).record(instance, path))
+    giveUp("what a loop leaves unchanged could not be told");
+}
+
+// ---- what a step may have stopped at ----
+
+bool Explorer::takeChecks(Path &path) {
+  if (const auto reason = reading_.abandoned())
+    giveUp(*reason);
+  if (reading_.takeTooLarge())
+    reading_.notModelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
+  for (const auto &[reason, span] : reading_.takeNotes())
+    if (purpose_ == Purpose::Record)
+      result_.unfollowed.push_back({reason, path.at, span});
+  for (const StopCheck &check : reading_.checks()) {
+    if (purpose_ == Purpose::Record) {
+      const auto same = [&](const Check &known) {
+        return known.place == path.at && known.span == check.place && known.alarm == check.alarm;
+      };
+      auto found = std::find_if(result_.checks.begin(), result_.checks.end(), same);
+      if (found == result_.checks.end())
+        found = result_.checks.insert(result_.checks.end(), Check{path.at, check.place, check.alarm, {}});
+      smt::spend(path.conditions.size());
+      found->instances.push_back({path.conditions, check.when.term, check.number, path.moved});
+    }
+    if (!path.assume(store_, store_.logicalNot(check.when.term)))
+      return false;
+  }
+  if (reading_.moved())
+    path.moved = store_.yes();
+  if (options_.moves != KeepMoves::No)
+    takeMoves(path);
+  reading_.start();
+  return true;
+}
+
+void Explorer::stopsWhen(Path &path, Condition when, AlarmKind alarm) {
+  reading_.alarm(when, {alarm, fileOf(path).tree->blocks[nodeOf(path).block].span()});
+}
+
+void Explorer::exit(const Path &path, ExitKind kind) {
+  ++result_.paths;
+  if (purpose_ == Purpose::Record)
+    result_.exits.push_back({kind, path.at, path.conditions, path.state, path.moved});
+}
+
+// ---- instructions ----
+
+std::vector<Path> Explorer::execute(Path path) {
+  reading_.start();
+  const Instruction &instruction = nodeOf(path).instruction;
+  return match(
+      instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },
+      [&](const Test &test) { return follow(std::move(path), test); },
+      [&](const JumpTo &jump) { return follow(std::move(path), jump); },
+      [&](const CountDown &count) { return follow(std::move(path), count); },
+      [&](const CallProgram &call) { return follow(std::move(path), call); },
+      [&](const ReturnFromProgram &from) { return follow(std::move(path), from); },
+      [&](const EndProgram &end) { return follow(std::move(path), end); },
+      [&](const auto &) { return straight(std::move(path)); });
+}
+
+std::vector<Path> Explorer::straight(Path path) {
+  const Node &node = nodeOf(path);
+  auto context = contextOf(path);
+  auto writes = beginWrites(path);
+  step(context, node.instruction, words_);
+  if (writes)
+    writes->unkept = reading_.unkeptWrites();
+  const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
+  const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
+  if (!takeChecks(path))
+    return {};
+  if (writes)
+    takeWrites(path, *writes);
+  if (moves.term != store_.no())
+    return modalCall(std::move(path), moves);
+  return {to(std::move(path), node.next)};
+}
+
+std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken) {
+  std::vector<Path> paths;
+  const NodeId next = nodeOf(path).next;
+  if (!takeChecks(path))
+    return paths;
+  const TermId opposite = store_.logicalNot(condition.term);
+  if (isPossible(path, opposite)) {
+    smt::spend(stepsOf(path));
+    Path straightOn = to(path, next);
+    if (straightOn.assume(store_, opposite))
+      paths.push_back(std::move(straightOn));
+  }
+  if (isPossible(path, condition.term)) {
+    Path other = to(std::move(path), taken);
+    if (other.assume(store_, condition.term))
+      paths.push_back(std::move(other));
+  }
+  return paths;
+}
+
+std::vector<Path> Explorer::follow(Path path, const BlockSkip &skip) {
+  return branch(std::move(path), reading_.unknownTruth(), skip.skipped);
+}
+std::vector<Path> Explorer::follow(Path path, const Test &test) {
+  auto context = contextOf(path);
+  const Condition condition = conditionOf(context, test);
+  return branch(std::move(path), condition, test.taken);
+}
+std::vector<Path> Explorer::follow(Path path, const CountDown &count) {
+  auto context = contextOf(path);
+  const Condition goesOn = countDown(context, count);
+  return branch(std::move(path), goesOn, count.taken);
+}
+std::vector<Path> Explorer::follow(Path path, const JumpTo &jump) {
+  auto context = contextOf(path);
+  const SymbolicValue number = jumpTarget(context, jump);
+  const BlockId from = nodeOf(path).block;
+  return search(std::move(path), number, from);
+}
+
+/// A way for each sequence number of the program that the number may be.
+std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, BlockId from) {
+  const ProgramFile &file = fileOf(path);
+  const auto constant = [&](double value) { return reading_.number(value).number; };
+  const TermId inRange = store_.logicalAnd(
+      store_.lessOrEqual(constant(file.dialect->grammar.sequenceZero ? 0 : 1), number.number),
+      store_.lessOrEqual(number.number, constant(static_cast<double>(file.dialect->limits.lastSequenceNumber))));
+  std::map<std::uint32_t, NodeId> places;
+  std::vector<TermId> found;
+  for (const LabelNode &label : labelsOf(file.cfg, *file.model, from))
+    if (const auto place = findLabel(file.cfg, *file.model, path.frames.back().callee.program, label.number, from))
+      if (places.emplace(label.number, *place).second)
+        found.push_back(store_.equal(number.number, constant(label.number)));
+  stopsWhen(path, {store_.logicalNot(inRange)}, AlarmKind::SequenceOutOfRange);
+  stopsWhen(path, {store_.logicalNot(store_.logicalOr(found))}, AlarmKind::SequenceNotFound);
+  std::vector<Path> paths;
+  if (!takeChecks(path))
+    return paths;
+  for (const auto &[label, place] : places) {
+    const TermId isLabel = store_.equal(number.number, constant(label));
+    if (!isPossible(path, isLabel))
+      continue;
+    Path there = to(path, place);
+    if (there.assume(store_, isLabel))
+      paths.push_back(std::move(there));
+  }
+  return paths;
+}
+
+std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
+  const ProgramFile &file = fileOf(path);
+  if (end.end == ProgramEnd::EndOfFile && alarmNumber(*file.dialect, AlarmKind::EndOfRecord)) {
+    stopsWhen(path, reading_.truth(true), AlarmKind::EndOfRecord);
+    takeChecks(path);
+    return {};
+  }
+  exit(path, ExitKind::Ends);
+  return {};
+}
+
+Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
+                    const ExploreOptions &options) {
+  if (options.loops == LoopTreatment::EachPass)
+    return Explorer(reading, programs, options, PathMerging::No).run(entry, start);
+  ExploreOptions first = options;
+  first.mostSteps /= 4;
+  first.mostPaths /= 4;
+  first.mostWork /= 2;
+  first.mostTerms /= 2;
+  Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
+  if (found.incomplete != kTooMany && found.incomplete != kTooLarge)
+    return found;
+  return Explorer(reading, programs, options, PathMerging::Yes).run(entry, start);
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,116 @@
+// Explorer: follows the paths of a program through its graph and into the programs it calls.
+#pragma once
+
+#include "meaning/cfg/wto.h"
+#include "proof/decide/entails.h"
+#include "proof/explore/exploration.h"
+#include "proof/explore/loops.h"
+#include "proof/explore/merging.h"
+#include "proof/smt/ground_truth.h"
+
+#include <memory>
+
+namespace feedhold::prove {
+
+class Explorer : public PathKnowledge {
+public:
+  Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options, PathMerging merging);
+
+  Exploration run(Callee entry, const SymbolicState &start);
+
+  // ---- PathKnowledge ----
+  bool says(smt::TermId condition) const override;
+  bool proves(smt::TermId condition) override;
+
+private:
+  friend class LoopOpener;
+
+  /// Checks, passes and exits are kept only when the paths are those that count: loops are tried before.
+  enum class Purpose : std::uint8_t { Trial, Record };
+  /// Of a trial: the loop whose passes are looked for, and the paths that come back to its head.
+  struct Trial {
+    std::size_t instance;
+    std::vector<Path> passes;
+  };
+  void follow(Path start, Purpose purpose, Trial *trial);
+  /// False: the path has ended here.
+  bool arrive(Path &path, Purpose purpose, Trial *trial);
+  bool closeLeftLoops(Path &path, const Trial *trial);
+  bool comesBack(Path &path);
+  void recordPass(const Path &path);
+
+  // ---- one instruction: the paths that go on ----
+  std::vector<Path> execute(Path path);
+  std::vector<Path> straight(Path path);
+  std::vector<Path> branch(Path path, Condition condition, NodeId taken);
+  std::vector<Path> follow(Path path, const BlockSkip &skip);
+  std::vector<Path> follow(Path path, const Test &test);
+  std::vector<Path> follow(Path path, const CountDown &count);
+  std::vector<Path> follow(Path path, const JumpTo &jump);
+  std::vector<Path> follow(Path path, const CallProgram &call);
+  std::vector<Path> follow(Path path, const ReturnFromProgram &from);
+  std::vector<Path> follow(Path path, const EndProgram &end);
+  std::vector<Path> search(Path path, const SymbolicValue &number, BlockId from);
+
+  // ---- calls ----
+  std::vector<Path> enter(Path path, const CallRequest<SymbolicReading> &request, std::optional<std::size_t> modal);
+  std::vector<Path> modalCall(Path path, Condition moves);
+  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request,
+                                std::optional<std::size_t> modal, std::string_view reason);
+  bool mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const;
+  void recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame, const SymbolicState &state);
+  void recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request, std::optional<std::size_t> modal);
+  std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
+
+  /// Keeps what the step may have stopped at; false when it always stops.
+  bool takeChecks(Path &path);
+  // ---- movements (explorer_moves.cpp) ----
+  void takeMoves(Path &path);
+  // ---- writes (explorer_writes.cpp) ----
+  struct StepWrites {
+    SymbolicState before;                   // the step
+    std::vector<std::uint32_t> unkept = {}; // variables that it wrote, of which the state keeps nothing
+  };
+  /// Absent: writes are not asked for.
+  std::optional<StepWrites> beginWrites(const Path &path) const;
+  /// What a step that has not stopped has written.
+  void takeWrites(const Path &path, const StepWrites &step);
+  void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point);
+  std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
+  smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
+  static Place ownPlace(const Path &path) { return path.frames.size() > 1 ? path.frames[1].call : path.at; }
+  void stopsWhen(Path &path, Condition when, AlarmKind alarm);
+  void exit(const Path &path, ExitKind kind);
+  void giveUp(std::string_view reason);
+  bool isTooMuch(std::size_t waiting);
+  Worklist::Position positionOf(const Path &path);
+  std::vector<Path> merged(std::vector<Path> paths, const Trial *trial);
+  bool isPossible(const Path &path, smt::TermId condition);
+  std::optional<bool> byEnclosure(smt::TermId condition);
+
+  StepContext<SymbolicReading> contextOf(Path &path);
+  const Node &nodeOf(const Path &path) const { return programs_.node(path.at); }
+  const ProgramFile &fileOf(const Path &path) const { return programs_.file(path.at.file); }
+  const Wto &wtoOf(const Callee &callee);
+  const ModalTable &modesOf(FileId file);
+  Path to(Path path, NodeId node) const;
+
+  SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const ProgramSet &programs_;
+  const ExploreOptions &options_;
+  PathMerging merging_;
+  std::size_t termsBefore_;
+  Entailment entails_;
+  smt::GroundTruth groundTruth_;
+  const Path *path_ = nullptr; // on which the present step is made
+  Purpose purpose_ = Purpose::Record;
+  Exploration result_;
+  SymbolicState entry_;                                                          // as it was at the start
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Wto>> wtos_; // by file and entry
+  std::map<std::uint32_t, std::unique_ptr<ModalTable>> modes_;
+  ExecutedWords<SymbolicReading> words_;
+  std::vector<LoopShape> shapes_; // by Exploration::loops
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,219 @@
+// Calls: the programs that a block calls, or that a modal call calls after a movement.
+#include "meaning/cfg/reached_programs.h"
+#include "proof/explore/explorer.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+constexpr double kMostRepeats = 100;
+
+} // namespace
+
+std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
+  auto context = contextOf(path);
+  auto writes = beginWrites(path);
+  const CallRequest<SymbolicReading> request = prepareCall(context, call.call);
+  const NodeId next = nodeOf(path).next;
+  if (!takeChecks(path))
+    return {};
+  if (writes) // a call by T hands it over in a variable
+    takeWrites(path, *writes);
+  switch (request.action) {
+  case CallAction::SetModal:
+  case CallAction::EndModal: return {to(std::move(path), next)};
+  case CallAction::Operation: return unknownCall(std::move(path), request, std::nullopt, "an operation of Macro A");
+  case CallAction::Enter: break;
+  }
+  return enter(std::move(path), request, std::nullopt);
+}
+
+/// After a movement: the innermost modal call that applies here, if any.
+std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
+  const NodeId next = nodeOf(path).next;
+  const auto modal = modalCallOf(path.state, path.frames.back().modalLimit);
+  const bool unknown = path.state.modalCallsUnknown.term != store_.no();
+  if (!modal && !unknown)
+    return {to(std::move(path), next)};
+  std::vector<Path> paths;
+  if (isPossible(path, store_.logicalNot(moves.term))) {
+    Path still = to(path, next);
+    if (still.assume(store_, store_.logicalNot(moves.term)))
+      paths.push_back(std::move(still));
+  }
+  if (!isPossible(path, moves.term) || !path.assume(store_, moves.term))
+    return paths;
+  auto context = contextOf(path);
+  std::vector<Path> called;
+  if (unknown) {
+    CallRequest<SymbolicReading> request;
+    request.freshLocals = true;
+    request.repeats = reading_.number(1);
+    called = unknownCall(std::move(path), request, std::nullopt, "a modal call that is not known");
+  } else {
+    const auto request = prepareModalCall(context, path.state.modalCalls[*modal]);
+    called = enter(std::move(path), request, modal);
+  }
+  std::move(called.begin(), called.end(), std::back_inserter(paths));
+  return paths;
+}
+
+/// Of what is not known, or not followed: it may do anything to what the called program sees, and comes back.
+std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicReading> &request,
+                                        std::optional<std::size_t> modal, std::string_view reason) {
+  if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
+    giveUp("a call that is not followed may lead back to the program");
+  if (purpose_ == Purpose::Record) {
+    UnfollowedCall &call = result_.unfollowedCalls.emplace_back(UnfollowedCall{ownPlace(path), path.conditions, {}});
+    for (const OpenLoop &loop : path.loops)
+      call.loops.push_back(loop.instance);
+  }
+  recordUnfollowedEntries(path, request, modal);
+  auto context = contextOf(path);
+  havocCall(context, request, reason);
+  // It may stop with an alarm of its own, and it may come back to any number that some M99 P names.
+  const NodeId next = nodeOf(path).next;
+  const ReturnTargets &returns = programs_.returns();
+  if (returns.any || !returns.numbers.empty())
+    giveUp("an unknown program may return to any sequence number");
+  if (!takeChecks(path))
+    return {};
+  return {to(std::move(path), next)};
+}
+
+/// A program that is in none of the files is taken to call none of them.
+bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const {
+  ReachedPrograms reached;
+  for (const Callee &each : request.possible)
+    collectReached(programs_, {each.file, each.program}, reached);
+  if (request.callee)
+    collectReached(programs_, {request.callee->file, request.callee->program}, reached);
+  return reached.orAny || reached.programs.contains({program.file, program.program});
+}
+
+/// A call in the text of another program is an obligation of that program's own proof.  A modal call that a movement of
+/// another program makes is not: that proof assumes that none is in force.
+void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame,
+                           const SymbolicState &state) {
+  if (purpose_ != Purpose::Record || !options_.demands || (callerDepth > 1 && !frame.modal))
+    return;
+  const TermId modalCall =
+      programs_.hasModalCalls() ? mayCallModally(reading_, state, frame.modalLimit).term : store_.no();
+  const Callee &callee = frame.callee;
+  const Callee &own = path.frames.front().callee;
+  const bool isInside = callee.entry != programs_.file(callee.file).cfg.entryOf(callee.program);
+  if (isInside && callee.file == own.file && callee.program == own.program)
+    return; // M97: a part of the program that is proved
+  if (modalCall != store_.no() || isInside || options_.demands(callee))
+    result_.calls.push_back({ownPlace(path), frame.callee, path.conditions, state, modalCall});
+}
+
+/// Whatever program the call enters, however often, and whatever modal calls are made in it: each entry is asked about
+/// as if it were followed.
+void Explorer::recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request,
+                                       std::optional<std::size_t> modal) {
+  if (purpose_ != Purpose::Record || !options_.demands)
+    return;
+  const auto limit = path.frames.back().modalLimit;
+  const auto record = [&](const SymbolicFrame &frame, const SymbolicState &state) {
+    recordEntry(path, path.frames.size(), frame, state);
+  };
+  std::vector<Callee> callees = request.possible;
+  if (request.callee)
+    callees.push_back(*request.callee);
+  for (const Callee &callee : callees) {
+    request.callee = callee;
+    SymbolicState state = path.state;
+    SymbolicFrame frame = enterCall(programs_, state, request, {path.at, modal, limit}, 1, reading_, record);
+    if (repeatsOf(reading_, request) == 1.0)
+      continue;
+    havocParts(reading_, state, std::nullopt); // by the repetitions before
+    repeatCall(programs_, state, frame, reading_, record);
+  }
+  const auto innermost = modalCallOf(path.state, modal ? modal : limit);
+  if (!innermost)
+    return;
+  SymbolicState inside = path.state;
+  havocParts(reading_, inside, std::nullopt);
+  for (std::size_t i = 0; i <= *innermost; ++i) {
+    auto context = contextOf(path);
+    const auto modalRequest = prepareModalCall(context, inside.modalCalls[i]);
+    SymbolicState state = inside;
+    if (modalRequest.callee)
+      enterCall(programs_, state, modalRequest, {path.at, i, limit}, 1, reading_, record);
+  }
+}
+
+std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> &request,
+                                  std::optional<std::size_t> modal) {
+  const NodeId next = nodeOf(path).next;
+  if (!request.callee) {
+    stopsWhen(path, reading_.unknownTruth(), AlarmKind::ProgramNotFound);
+    return unknownCall(std::move(path), request, modal, "a program that is not among these files");
+  }
+  const auto repeats = repeatsOf(reading_, request);
+  if (repeats && callsNothing(*repeats))
+    return {to(std::move(path), next)};
+  if (!repeats || *repeats > kMostRepeats)
+    return unknownCall(std::move(path), request, modal, "a call that is repeated a number of times that is not known");
+  const Limits &limits = fileOf(path).dialect->limits;
+  if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
+    stopsWhen(path, reading_.truth(true), *alarm);
+    takeChecks(path);
+    return {};
+  }
+  const CallSite site{path.at, modal, path.frames.back().modalLimit};
+  SymbolicFrame frame = enterCall(programs_, path.state, request, site, *repeats, reading_,
+                                  [&](const SymbolicFrame &entered, const SymbolicState &state) {
+                                    recordEntry(path, path.frames.size(), entered, state);
+                                  });
+  path.frames.push_back(std::move(frame));
+  path.at = {request.callee->file, request.callee->entry};
+  return {std::move(path)};
+}
+
+std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
+  auto context = contextOf(path);
+  auto writes = beginWrites(path);
+  const auto target = returnTarget(context, from);
+  if (!takeChecks(path))
+    return {};
+  if (writes) // the value that is returned
+    takeWrites(path, *writes);
+  SymbolicFrame &frame = path.frames.back();
+  if (path.frames.size() == 1) {
+    if (target) {
+      if (options_.mayBeCalled)
+        exit(path, ExitKind::Returns);
+      const BlockId block = nodeOf(path).block;
+      return search(std::move(path), *target, block);
+    }
+    exit(path, ExitKind::Returns);
+    return {};
+  }
+  if (!target && isCalledAgain(frame)) {
+    repeatCall(programs_, path.state, frame, reading_, [&](const SymbolicFrame &entered, const SymbolicState &state) {
+      recordEntry(path, path.frames.size() - 1, entered, state);
+    });
+    path.at = {frame.callee.file, frame.callee.entry};
+    return {std::move(path)};
+  }
+  return leave(std::move(path), target);
+}
+
+std::vector<Path> Explorer::leave(Path path, const std::optional<SymbolicValue> &target) {
+  const SymbolicFrame frame = std::move(path.frames.back());
+  path.frames.pop_back();
+  leaveCall(programs_, path.state, frame);
+  path.at = frame.call;
+  const Node &caller = nodeOf(path);
+  if (target)
+    return search(std::move(path), *target, caller.block);
+  return {to(std::move(path), caller.next)};
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,203 @@
+#include "proof/explore/invariant_candidates.h"
+
+#include "proof/decide/linear_algebra.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::LinearSum;
+using smt::Number;
+using smt::Sort;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+/// Relations between parts are looked for among so many: their number grows with the square.
+constexpr std::size_t kMostRelated = 12;
+
+class CandidateSearch {
+public:
+  CandidateSearch(smt::TermStore &store, const LoopTrial &trial)
+      : store_(store), trial_(trial), zero_(store.number(Number(0))) {
+    for (std::size_t i = 0; i < parts().size(); ++i)
+      if (parts()[i].kind == PartKind::Free)
+        (store.sort(parts()[i].symbol) == Sort::Bool ? flags_ : numbers_).push_back(i);
+  }
+
+  std::vector<TermId> run() {
+    for (const std::size_t flag : flags_)
+      offer(store_.logicalNot(parts()[flag].symbol));
+    for (const std::size_t number : numbers_)
+      bounds(parts()[number]);
+    keptSums();
+    growingSums();
+    for (const std::size_t number : numbers_)
+      secondOrder(number);
+    arrivalConditions();
+    for (const TermId condition : trial_.conditions)
+      passCondition(condition);
+    std::sort(all_.begin(), all_.end());
+    all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+    return std::move(all_);
+  }
+
+private:
+  const std::vector<LoopPart> &parts() const { return trial_.shape.parts; }
+  void offer(TermId candidate) { all_.push_back(candidate); }
+  TermId change(std::size_t pass, std::size_t part) {
+    return store_.subtract(trial_.left[pass][part], parts()[part].symbol);
+  }
+
+  void bounds(const LoopPart &part) {
+    offer(store_.lessOrEqual(part.arrival, part.symbol));
+    offer(store_.lessOrEqual(part.symbol, part.arrival));
+    offer(store_.lessOrEqual(zero_, part.symbol));
+    offer(store_.lessOrEqual(part.symbol, zero_));
+    offer(store_.less(zero_, part.symbol));
+    offer(store_.less(part.symbol, zero_));
+  }
+
+  /// The parts that relations are looked for between, and the number of passes behind them.
+  std::size_t related() const { return std::min(numbers_.size(), kMostRelated); }
+
+  /// Sums of parts that no pass changes (Karr, "Affine relationships among variables of a program", 1976).
+  void keptSums() {
+    std::map<std::pair<std::size_t, TermId>, std::vector<Number>> rows; // by pass and term: its factor in each change
+    const TermId one = store_.number(Number(1));
+    const auto add = [&](std::size_t pass, TermId term, std::size_t column, const Number &factor) {
+      auto &row = rows[{pass, term}];
+      row.resize(related() + 1);
+      row[column] += factor;
+    };
+    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
+      for (std::size_t column = 0; column < related(); ++column) {
+        const LinearSum sum = store_.linear(change(pass, numbers_[column]));
+        for (const auto &[term, factor] : sum.terms)
+          add(pass, term, column, factor);
+        add(pass, one, column, sum.constant);
+      }
+      add(pass, one, related(), Number(1));
+    }
+    std::vector<std::vector<Number>> matrix;
+    for (auto &[key, row] : rows)
+      matrix.push_back(std::move(row));
+    for (const std::vector<Number> &factors : nullSpace(std::move(matrix), related() + 1)) {
+      const auto [before, now] = sums(factors);
+      offer(store_.equal(before, now));
+    }
+  }
+  /// A sum of parts and of the number of passes at the arrival, and before any pass.
+  std::pair<TermId, TermId> sums(const std::vector<Number> &factors) {
+    TermId before = zero_;
+    TermId now = store_.scale(factors.back(), trial_.passes);
+    for (std::size_t column = 0; column < related(); ++column) {
+      const LoopPart &part = parts()[numbers_[column]];
+      before = store_.add(before, store_.scale(factors[column], part.arrival));
+      now = store_.add(now, store_.scale(factors[column], part.symbol));
+    }
+    return {before, now};
+  }
+
+  /// Sums of two that some pass keeps and no pass lowers, where every pass changes both by a number.
+  void growingSums() {
+    std::vector<std::vector<Number>> changes(trial_.left.size());
+    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
+      for (std::size_t column = 0; column < related(); ++column) {
+        const TermId by = change(pass, numbers_[column]);
+        if (!store_.isNumber(by))
+          return;
+        changes[pass].push_back(store_[by].number);
+      }
+      changes[pass].emplace_back(1);
+    }
+    for (std::size_t i = 0; i < related() + 1; ++i)
+      for (std::size_t j = i + 1; j < related() + 1; ++j)
+        for (const auto &kept : changes)
+          for (const int sign : {1, -1}) {
+            const Number first = Number(sign) * kept[j];
+            const Number second = Number(-sign) * kept[i];
+            const bool grows = std::all_of(changes.begin(), changes.end(), [&](const auto &by) {
+              return (first * by[i] + second * by[j]).sign() >= 0;
+            });
+            if (!grows || (first.isZero() && second.isZero()))
+              continue;
+            std::vector<Number> factors(related() + 1);
+            factors[i] = first;
+            factors[j] = second;
+            const auto [before, now] = sums(factors);
+            offer(store_.lessOrEqual(before, now));
+          }
+  }
+
+  /// A part that every pass changes by a + b * passes: the sum of an arithmetic series.
+  void secondOrder(std::size_t part) {
+    std::optional<TermId> by;
+    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
+      if (by && *by != change(pass, part))
+        return;
+      by = change(pass, part);
+    }
+    if (!by)
+      return;
+    smt::Substitution spelled, first{{trial_.passes, zero_}}, second{{trial_.passes, store_.number(Number(1))}};
+    for (const Travel &travel : trial_.shape.travels) {
+      spelled.emplace(travel.distance, store_.multiply(trial_.passes, travel.step));
+      first.emplace(travel.distance, zero_);
+      second.emplace(travel.distance, travel.step);
+    }
+    const TermId a = smt::substitute(store_, *by, first);
+    const TermId b = store_.subtract(smt::substitute(store_, *by, second), a);
+    if (smt::substitute(store_, *by, spelled) != store_.add(a, store_.multiply(b, trial_.passes)))
+      return;
+    const TermId pairs = store_.scale(Number(1) / Number(2),
+                                      store_.subtract(store_.multiply(trial_.passes, trial_.passes), trial_.passes));
+    offer(store_.equal(
+        parts()[part].symbol,
+        store_.add(parts()[part].arrival, store_.add(store_.multiply(a, trial_.passes), store_.multiply(b, pairs)))));
+  }
+
+  /// What held of a variable at the arrival may hold of what becomes of it.
+  void arrivalConditions() {
+    smt::Substitution present;
+    for (const std::size_t i : numbers_)
+      if (store_[parts()[i].arrival].kind == TermKind::Variable)
+        present.emplace(parts()[i].arrival, parts()[i].symbol);
+    for (const TermId condition : trial_.arrival) {
+      offer(smt::substitute(store_, condition, present));
+      for (const auto &[arrival, symbol] : present)
+        offer(smt::substitute(store_, condition, {{arrival, symbol}}));
+    }
+  }
+
+  void passCondition(TermId condition) {
+    const TermKind kind = store_[condition].kind;
+    if (kind == TermKind::Not && store_[store_[condition].arguments[0]].kind == TermKind::Equal) {
+      const auto sides = store_[store_[condition].arguments[0]].arguments; // a loop that ends at one value
+      offer(store_.lessOrEqual(sides[0], sides[1]));
+      offer(store_.lessOrEqual(sides[1], sides[0]));
+    }
+    if ((numbers_.empty() && flags_.empty()) || (kind != TermKind::Less && kind != TermKind::LessOrEqual))
+      return;
+    offer(condition);
+    offer(store_.logicalNot(condition));
+    const auto sides = store_[condition].arguments;
+    offer(store_.lessOrEqual(sides[0], sides[1]));
+  }
+
+  smt::TermStore &store_;
+  const LoopTrial &trial_;
+  TermId zero_;
+  std::vector<std::size_t> flags_;   // parts that are free: Bools
+  std::vector<std::size_t> numbers_; // and numbers
+  std::vector<TermId> all_;
+};
+
+} // namespace
+
+std::vector<TermId> invariantCandidates(smt::TermStore &store, const LoopTrial &trial) {
+  return CandidateSearch(store, trial).run();
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,21 @@
+// Invariant candidates: relations that may hold before every pass of a loop, guessed from its trial passes.  A guess
+// costs time and nothing else: loops.h keeps those that are proved.
+#pragma once
+
+#include "proof/explore/loops.h"
+
+namespace feedhold::prove {
+
+/// What trial passes of a loop have shown.
+struct LoopTrial {
+  smt::TermId passes;
+  const LoopShape &shape;
+  const std::vector<std::vector<smt::TermId>> &left; // by pass: what it leaves in each part
+  std::vector<smt::TermId> arrival;                  // conditions of the path that met the loop
+  std::vector<smt::TermId> conditions;               // of all passes
+};
+
+/// Each once, in ascending order.
+std::vector<smt::TermId> invariantCandidates(smt::TermStore &store, const LoopTrial &trial);
+
+} // namespace feedhold::prove

@@ -1,0 +1,519 @@
+#include "proof/explore/loops.h"
+
+#include "proof/decide/entails.h"
+#include "proof/explore/explorer.h"
+#include "proof/explore/invariant_candidates.h"
+#include "proof/symbolic/path_memory.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::Sort;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+constexpr int kMostRounds = 12;
+constexpr int kErrorOfSums = 1'000'000'000; // its reciprocal: more than doubles are off after a million additions
+
+/// The terms of the state, then whether an axis has moved.
+std::vector<TermId> termsOf(const SymbolicState &state, TermId moved) {
+  std::vector<TermId> terms;
+  forEachTerm(state, [&](TermId term) { terms.push_back(term); });
+  terms.push_back(moved);
+  return terms;
+}
+
+/// Where among the terms of the state the vacancies stand; the number of each follows it.
+std::vector<std::size_t> vacanciesIn(const SymbolicState &state) {
+  std::vector<std::size_t> vacancies;
+  std::size_t at = 0;
+  forEachPart(Overloaded{[&](PartId, const SymbolicValue &) {
+                           vacancies.push_back(at);
+                           at += 2;
+                         },
+                         [&](PartId, const auto &) { ++at; }},
+              state);
+  return vacancies;
+}
+
+std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const SymbolicState &generic) {
+  std::vector<LoopInstance::Value> values;
+  for (std::uint32_t local = 1; local < arrival.locals.size(); ++local)
+    values.push_back({local, arrival.locals[local].number, generic.locals[local].number});
+  for (const auto &[variable, value] : arrival.variables.entries())
+    if (const SymbolicValue *before = isPathMemory(variable) ? nullptr : generic.variables.find(variable))
+      values.push_back({variable, value.number, before->number});
+  return values;
+}
+
+} // namespace
+
+// ---- LoopShape ----
+
+smt::Substitution LoopShape::closedParts() const {
+  smt::Substitution closed;
+  for (const LoopPart &part : parts)
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, part.generic);
+  return closed;
+}
+
+bool LoopShape::isKeptBy(smt::TermStore &store, const LoopPart &part, TermId left,
+                         const smt::Substitution &closed) const {
+  switch (part.kind) {
+  case PartKind::Kept: return left == part.arrival;
+  case PartKind::Free: return store.sort(part.symbol) != Sort::Int || store.sort(left) == Sort::Int;
+  case PartKind::Closed: return store.subtract(left, part.generic) == part.step;
+  case PartKind::Derived: return left == smt::substitute(store, part.step, closed);
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every kind of part");
+}
+
+struct LoopOpener::Work {
+  Path arrival;
+  std::size_t instance;
+  TermId passes;
+  LoopShape shape = {};
+  TermId moved{0};
+  std::vector<TermId> facts = {};
+  std::size_t before = 0; // conditions of the last trial's start
+  std::vector<Path> found = {};
+  std::vector<std::vector<TermId>> left = {}; // by pass: its parts
+
+  std::vector<LoopPart> &parts() { return shape.parts; }
+  const std::vector<LoopPart> &parts() const { return shape.parts; }
+};
+
+// ---- trying ----
+
+/// The state before any pass, from the parts.
+void LoopOpener::build(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId zero = store.number(Number(0));
+  const TermId isFirst = store.equal(work.passes, zero);
+  for (LoopPart &part : work.parts())
+    if (part.kind == PartKind::Kept)
+      part.generic = part.arrival;
+    else if (part.kind == PartKind::Free)
+      part.generic = part.symbol;
+    else if (part.kind == PartKind::Closed)
+      part.generic = store.add(store.add(part.arrival, travelled(work, part.step)), part.error.value_or(zero));
+  for (LoopPart &part : work.parts()) // from the closed ones
+    if (part.kind == PartKind::Derived)
+      part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step));
+  work.shape.state = work.arrival.state;
+  auto part = work.parts().begin();
+  forEachTerm(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
+  work.moved = part->generic;
+}
+
+/// passes * step
+TermId LoopOpener::travelled(Work &work, TermId step) {
+  smt::TermStore &store = explorer_.store_;
+  if (store.isNumber(step))
+    return store.multiply(work.passes, step);
+  for (const Travel &travel : work.shape.travels)
+    if (travel.step == step)
+      return travel.distance;
+  return work.shape.travels.emplace_back(Travel{step, explorer_.reading_.fresh("travel", Sort::Real)}).distance;
+}
+
+/// What a distance is, and on which side of 0, if that is known of its step.
+void LoopOpener::addTravels(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId zero = store.number(Number(0));
+  const auto known = [&](TermId condition) {
+    return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, condition);
+  };
+  for (const Travel &travel : work.shape.travels) {
+    work.facts.push_back(store.equal(travel.distance, store.multiply(work.passes, travel.step)));
+    if (known(store.lessOrEqual(zero, travel.step)))
+      work.facts.push_back(store.lessOrEqual(zero, travel.distance));
+    else if (known(store.lessOrEqual(travel.step, zero)))
+      work.facts.push_back(store.lessOrEqual(travel.distance, zero));
+  }
+}
+
+/// Sums of numbers that doubles do not hold are off by a little.
+void LoopOpener::addErrors(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const TermId most = store.number(Number(1) / Number(kErrorOfSums));
+  for (LoopPart &part : work.parts()) {
+    if (part.kind != PartKind::Closed || isSummedExactly(part))
+      continue;
+    if (!part.error)
+      part.error = explorer_.reading_.fresh("rounding", Sort::Real);
+    work.facts.push_back(store.lessOrEqual(store.negate(most), *part.error));
+    work.facts.push_back(store.lessOrEqual(*part.error, most));
+  }
+}
+bool LoopOpener::isSummedExactly(const LoopPart &part) const {
+  const smt::TermStore &store = explorer_.store_;
+  return explorer_.options_.sums == Sums::Exact ||
+         (store.sort(part.arrival) == Sort::Int && store.sort(part.step) == Sort::Int);
+}
+
+/// From the passes before now to those before a pass that comes so much later.
+smt::Substitution LoopOpener::atPass(const Work &work, int later) const {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution other{{work.passes, store.add(work.passes, store.number(Number(later)))}};
+  for (const Travel &travel : work.shape.travels)
+    other.emplace(travel.distance, store.add(travel.distance, store.scale(Number(later), travel.step)));
+  return other;
+}
+
+/// Over the symbols of closed parts: what it was at the last pass.
+TermId LoopOpener::lastPass(const Work &work, TermId term) const {
+  smt::TermStore &store = explorer_.store_;
+  const smt::Substitution earlier = atPass(work, -1);
+  smt::Substitution closed;
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Closed)
+      closed.emplace(part.symbol, smt::substitute(store, part.generic, earlier));
+  return smt::substitute(store, term, closed);
+}
+
+/// Follows the passes from the state that the parts say.
+bool LoopOpener::tryPasses(Work &work) {
+  build(work);
+  Path start = work.arrival;
+  start.state = work.shape.state;
+  start.moved = work.moved;
+  for (const TermId fact : work.facts)
+    if (!start.assume(explorer_.store_, fact)) {
+      work.found.clear();
+      return true;
+    }
+  work.before = start.conditions.size();
+  start.loops.push_back({start.at.node, start.frames.size(), work.instance});
+  start.atOpenedHead = true;
+  Explorer::Trial trial{work.instance, {}};
+  explorer_.follow(std::move(start), Explorer::Purpose::Trial, &trial);
+  work.found = std::move(trial.passes);
+  return !explorer_.result_.incomplete;
+}
+
+/// Gives the arrival the parts that a pass has made; and takes down what the passes leave.
+bool LoopOpener::relayout(Work &work, bool &grew) {
+  grew = false;
+  SymbolicState &arrival = work.arrival.state;
+  const auto size = [&] { return termsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
+  const std::size_t before = size();
+  for (Path &pass : work.found)
+    if (!alignAll(explorer_.reading_, arrival, pass.state)) {
+      explorer_.giveUp("a modal call begins or ends in a loop");
+      return false;
+    }
+  grew = size() != before;
+  work.left.clear();
+  for (Path &pass : work.found) {
+    alignAll(explorer_.reading_, arrival, pass.state); // what a later pass has made
+    work.left.push_back(termsOf(pass.state, pass.moved));
+  }
+  return true;
+}
+
+// ---- which parts change, and how ----
+
+bool LoopOpener::findChanged(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  work.parts().clear();
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (work.parts().empty())
+      for (const TermId part : termsOf(work.arrival.state, work.arrival.moved))
+        work.parts().push_back({PartKind::Kept, part, part, part, part});
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew))
+      return false;
+    if (grew) {
+      work.parts().clear();
+      continue;
+    }
+    bool changed = false;
+    for (const std::vector<TermId> &left : work.left)
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        LoopPart &part = work.parts()[i];
+        if (left[i] == part.generic)
+          continue;
+        const bool widens =
+            part.kind == PartKind::Free && store.sort(part.symbol) == Sort::Int && store.sort(left[i]) == Sort::Real;
+        if (part.kind == PartKind::Free && !widens)
+          continue;
+        const Sort sort = store.sort(part.arrival) == Sort::Int ? store.sort(left[i]) : store.sort(part.arrival);
+        part.kind = PartKind::Free;
+        part.symbol = explorer_.reading_.fresh("part", sort);
+        changed = true;
+      }
+    if (!changed)
+      return true;
+  }
+  explorer_.giveUp("what a loop changes could not be told");
+  return false;
+}
+
+bool LoopOpener::isConstant(const Work &work, TermId term) const {
+  return explorer_.result_.loops[work.instance].isConstant(explorer_.reading_, explorer_.store_, term);
+}
+
+void LoopOpener::classify(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  if (work.left.empty())
+    return;
+  const auto sameInAll = [&](auto &&termOf) -> std::optional<TermId> {
+    const TermId first = termOf(work.left.front());
+    for (const auto &left : work.left)
+      if (termOf(left) != first)
+        return std::nullopt;
+    return first;
+  };
+  smt::Substitution closed;
+  for (std::size_t i = 0; i < work.parts().size(); ++i) {
+    LoopPart &part = work.parts()[i];
+    if (part.kind != PartKind::Free || store.sort(part.symbol) == Sort::Bool)
+      continue;
+    const auto step = sameInAll([&](const auto &left) { return store.subtract(left[i], part.symbol); });
+    if (step && isConstant(work, *step)) {
+      part.kind = PartKind::Closed;
+      part.step = *step;
+      closed.emplace(part.symbol, part.symbol);
+    }
+  }
+  for (std::size_t i = 0; i < work.parts().size(); ++i) {
+    LoopPart &part = work.parts()[i];
+    if (part.kind != PartKind::Free)
+      continue;
+    const auto value = sameInAll([&](const auto &left) { return left[i]; });
+    if (!value)
+      continue;
+    const auto variables = smt::variablesOf(store, *value);
+    if (std::all_of(variables.begin(), variables.end(),
+                    [&](TermId variable) { return closed.contains(variable) || isConstant(work, variable); })) {
+      part.kind = PartKind::Derived;
+      part.step = *value;
+    }
+  }
+}
+
+/// What a pass leaves is what was thought; other parts become free.
+bool LoopOpener::verify(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const smt::Substitution closed = work.shape.closedParts();
+  bool holds = true;
+  for (std::size_t pass = 0; pass < work.left.size(); ++pass)
+    for (std::size_t i = 0; i < work.parts().size(); ++i) {
+      LoopPart &part = work.parts()[i];
+      const TermId left = work.left[pass][i];
+      if (work.shape.isKeptBy(store, part, left, closed))
+        continue;
+      if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
+        part.symbol = explorer_.reading_.fresh(
+            "part", store.sort(part.arrival) == Sort::Int ? store.sort(left) : store.sort(part.arrival));
+      part.kind = PartKind::Free;
+      holds = false;
+    }
+  return holds;
+}
+
+bool LoopOpener::findKinds(Work &work) {
+  classify(work);
+  smt::TermStore &store = explorer_.store_;
+  for (int round = 0; round < kMostRounds; ++round) {
+    // Derived parts speak of closed ones: when one of those has become free, so do they.
+    for (LoopPart &part : work.parts())
+      if (part.kind == PartKind::Derived)
+        for (const TermId variable : smt::variablesOf(store, part.step))
+          if (!isConstant(work, variable) &&
+              std::none_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &other) {
+                return other.kind == PartKind::Closed && other.symbol == variable;
+              }))
+            part.kind = PartKind::Free;
+    work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
+    addErrors(work);
+    build(work);
+    addTravels(work);
+    for (const std::size_t i : vacanciesIn(work.arrival.state)) // vacant counts as 0
+      if (work.parts()[i].kind == PartKind::Free || work.parts()[i + 1].kind == PartKind::Free)
+        work.facts.push_back(
+            store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew))
+      return false;
+    if (grew)
+      break;
+    if (verify(work))
+      return true;
+  }
+  explorer_.giveUp("what a loop changes could not be told");
+  return false;
+}
+
+// ---- invariants ----
+
+/// Before the first pass, or some pass has come before: what let it come back to the head held then.
+void LoopOpener::addLastPass(Work &work) {
+  smt::TermStore &store = explorer_.store_;
+  const smt::Substitution earlier = atPass(work, -1);
+  std::vector<TermId> cases{store.equal(work.passes, store.number(Number(0)))};
+  for (const Path &pass : work.found) {
+    std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.passes)};
+    for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
+      const auto variables = smt::variablesOf(store, pass.conditions[i]);
+      if (std::all_of(variables.begin(), variables.end(),
+                      [&](TermId variable) { return earlier.contains(variable) || isConstant(work, variable); }))
+        held.push_back(smt::substitute(store, pass.conditions[i], earlier));
+    }
+    cases.push_back(store.logicalAnd(held));
+  }
+  work.facts.push_back(store.logicalOr(cases));
+}
+
+std::vector<TermId> LoopOpener::candidates(const Work &work) const {
+  LoopTrial trial{work.passes, work.shape, work.left, work.arrival.conditions, {}};
+  for (const Path &pass : work.found)
+    trial.conditions.insert(trial.conditions.end(), pass.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
+                            pass.conditions.end());
+  std::vector<TermId> all = invariantCandidates(explorer_.store_, trial);
+  if (explorer_.options_.invariants)
+    for (const TermId hint : explorer_.options_.invariants(work.arrival.at, work.shape.state))
+      all.push_back(hint);
+  return all;
+}
+
+smt::Substitution LoopOpener::atArrival(const Work &work) const {
+  const TermId zero = explorer_.store_.number(Number(0));
+  smt::Substitution first{{work.passes, zero}};
+  for (const Travel &travel : work.shape.travels)
+    first.emplace(travel.distance, zero);
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Free)
+      first.emplace(part.symbol, part.arrival);
+    else if (part.error)
+      first.emplace(*part.error, zero);
+  return first;
+}
+
+bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
+  smt::TermStore &store = explorer_.store_;
+  const smt::Substitution first = atArrival(work);
+  return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions,
+                            smt::substitute(store, candidate, first));
+}
+
+bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
+  smt::TermStore &store = explorer_.store_;
+  smt::Substitution next = atPass(work, 1);
+  const auto &left = work.left[static_cast<std::size_t>(&pass - work.found.data())];
+  for (std::size_t i = 0; i < work.parts().size(); ++i)
+    if (work.parts()[i].kind == PartKind::Free)
+      next.emplace(work.parts()[i].symbol, left[i]);
+  return explorer_.entails_(explorer_.reading_.facts(), pass.conditions, smt::substitute(store, candidate, next));
+}
+
+/// Houdini: candidates that do not hold are dropped until all that are left hold together.
+void LoopOpener::addInvariants(Work &work) {
+  const std::vector<TermId> always = work.facts;
+  std::vector<TermId> left = candidates(work);
+  const smt::Substitution counted = atPass(work, 1);
+  std::erase_if(left, [&](TermId candidate) {
+    const auto variables = smt::variablesOf(explorer_.store_, candidate);
+    const auto changes = [&](TermId variable) {
+      return counted.contains(variable) ||
+             std::any_of(work.parts().begin(), work.parts().end(),
+                         [&](const LoopPart &part) { return part.kind == PartKind::Free && part.symbol == variable; });
+    };
+    return std::none_of(variables.begin(), variables.end(), changes) ||
+           !std::all_of(variables.begin(), variables.end(),
+                        [&](TermId variable) { return changes(variable) || isConstant(work, variable); }) ||
+           !holdsAtArrival(work, candidate);
+  });
+  for (int round = 0; round < kMostRounds && !left.empty(); ++round) {
+    work.facts = always;
+    work.facts.insert(work.facts.end(), left.begin(), left.end());
+    bool grew = false;
+    if (!tryPasses(work) || !relayout(work, grew) || grew)
+      break;
+    const auto dropped = std::erase_if(left, [&](TermId candidate) {
+      return !std::all_of(work.found.begin(), work.found.end(),
+                          [&](const Path &pass) { return holdsAfter(work, pass, candidate); });
+    });
+    if (dropped == 0)
+      return;
+  }
+  work.facts = always;
+}
+
+// ---- LoopOpener ----
+
+bool LoopOpener::open(Path &path) {
+  smt::TermStore &store = explorer_.store_;
+  const std::size_t instance = explorer_.result_.loops.size();
+  std::vector<Place> calls;
+  for (std::size_t i = 1; i < path.frames.size(); ++i)
+    calls.push_back(path.frames[i].call);
+  const auto purpose = explorer_.purpose_;
+  const std::size_t mark = store.size();
+  Work work{.arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int)};
+  explorer_.result_.loops.push_back(
+      {.head = path.at, .calls = calls, .passes = work.passes, .mark = mark, .arrival = path.conditions});
+  explorer_.shapes_.emplace_back();
+  if (!findChanged(work) || !findKinds(work))
+    return false;
+  addInvariants(work);
+  bool grew = false;
+  if (!tryPasses(work) || !relayout(work, grew) || grew)
+    return explorer_.giveUp("what a loop changes could not be told"), false;
+  addLastPass(work);
+  build(work);
+
+  LoopInstance &loop = explorer_.result_.loops[instance];
+  loop.isRecorded = purpose == Explorer::Purpose::Record;
+  loop.facts = work.facts;
+  if (explorer_.options_.measures)
+    loop.measures = explorer_.options_.measures(path.at, work.shape.state);
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Free)
+      loop.variables.push_back(part.symbol);
+  loop.first = atArrival(work);
+  loop.values = valuesOf(work.arrival.state, work.shape.state);
+  path.state = work.shape.state;
+  path.moved = work.moved;
+  path.loops.push_back({path.at.node, path.frames.size(), instance});
+  explorer_.shapes_[instance] = std::move(work.shape);
+  for (const TermId fact : work.facts)
+    if (!path.assume(store, fact))
+      return false;
+  return true;
+}
+
+bool LoopOpener::record(std::size_t instance, const Path &path) {
+  smt::TermStore &store = explorer_.store_;
+  const LoopShape &shape = explorer_.shapes_[instance];
+  LoopInstance &loop = explorer_.result_.loops[instance];
+  SymbolicState before = shape.state;
+  SymbolicState after = path.state;
+  const std::size_t ranges = before.forgotten.size();
+  if (!alignAll(explorer_.reading_, before, after) || before.forgotten.size() != ranges)
+    return false;
+  const std::vector<TermId> left = termsOf(after, path.moved);
+  if (left.size() != shape.parts.size())
+    return false;
+  Transition transition{path.conditions, {{loop.passes, store.add(loop.passes, store.number(Number(1)))}}};
+  for (const Travel &travel : shape.travels)
+    transition.next.emplace(travel.distance, store.add(travel.distance, travel.step));
+  const smt::Substitution closed = shape.closedParts();
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const LoopPart &part = shape.parts[i];
+    if (!shape.isKeptBy(store, part, left[i], closed))
+      return false;
+    if (part.kind == PartKind::Free)
+      transition.next.emplace(part.symbol, left[i]);
+  }
+  loop.transitions.push_back(std::move(transition));
+  return true;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,71 @@
+#include "proof/explore/merging.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+/// Those of the first that the second lacks.
+std::vector<TermId> without(const std::vector<TermId> &first, const std::vector<TermId> &second) {
+  std::vector<TermId> sorted = second;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<TermId> rest;
+  std::copy_if(first.begin(), first.end(), std::back_inserter(rest),
+               [&](TermId condition) { return !std::binary_search(sorted.begin(), sorted.end(), condition); });
+  return rest;
+}
+
+/// True on the second path and false on the first.
+TermId selectorOf(SymbolicReading &reading, const std::vector<TermId> &onlyFirst,
+                  const std::vector<TermId> &onlySecond) {
+  for (const TermId condition : onlySecond) {
+    const TermId opposite = reading.store().logicalNot(condition);
+    if (std::find(onlyFirst.begin(), onlyFirst.end(), opposite) != onlyFirst.end())
+      return condition;
+  }
+  return reading.unknownTruth().term;
+}
+
+} // namespace
+
+bool canMerge(const Path &a, const Path &b) {
+  return a.at == b.at && a.frames == b.frames && a.loops == b.loops && !a.atOpenedHead && !b.atOpenedHead &&
+         haveSameModalCalls(a.state, b.state);
+}
+
+void mergeInto(SymbolicReading &reading, Path &path, Path other) {
+  smt::TermStore &store = reading.store();
+  const std::vector<TermId> onlyFirst = without(path.conditions, other.conditions);
+  const std::vector<TermId> onlySecond = without(other.conditions, path.conditions);
+  const TermId second = selectorOf(reading, onlyFirst, onlySecond);
+  const TermId first = store.logicalNot(second);
+  path.conditions = without(path.conditions, onlyFirst);
+  for (const TermId condition : onlyFirst)
+    if (condition != first)
+      path.conditions.push_back(store.implies(first, condition));
+  for (const TermId condition : onlySecond)
+    if (condition != second)
+      path.conditions.push_back(store.implies(second, condition));
+  reading.join(path.state, {second}, other.state);
+  path.moved = store.ite(second, other.moved, path.moved);
+  path.steps = std::max(path.steps, other.steps);
+}
+
+// ---- Worklist ----
+
+void Worklist::add(Position position, Path path) {
+  position.push_back(~std::uint32_t{0}); // who is deeper in a call comes first
+  paths_[std::move(position)].push_back(std::move(path));
+  ++size_;
+}
+
+std::vector<Path> Worklist::takeFirst() {
+  auto node = paths_.extract(paths_.begin());
+  size_ -= node.mapped().size();
+  return std::move(node.mapped());
+}
+
+} // namespace feedhold::prove

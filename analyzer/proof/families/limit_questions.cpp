@@ -1,0 +1,123 @@
+// `@LIMIT`: feed and speed of cutting movements.
+#include "proof/families/families.h"
+#include "proof/space/plain_space.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+namespace feedhold::prove {
+
+namespace {
+
+/// A movement of a run that cuts.  A run does not tell the S of its movements: that is asked of the exact one alone.
+bool breaks(const ProofSubject &subject, const WordLimit &limit, const RecordedMove &recorded,
+            const GivenVariables &given) {
+  const Move<ConcreteValue> &move = recorded.move;
+  if (!isCutting(move.kind))
+    return false;
+  if (limit.address != 'F' || move.feed.vacant)
+    return true;
+  RunOptions options;
+  options.variables = given;
+  options = startedAsSaid(subject.programs, subject.program, *subject.contracts, std::move(options));
+  const auto bound = [&](ExpressionId end) {
+    return numberOf(subject.programs, subject.program, *subject.contracts, options, end);
+  };
+  return (limit.range.low && move.feed.number < bound(*limit.range.low)) ||
+         (limit.range.high && move.feed.number > bound(*limit.range.high));
+}
+
+Violation::Happened cutsAt(const ProofSubject &subject, const WordLimit &limit, Place own) {
+  return [&subject, &limit, own](const RunResult &run, const GivenVariables &given) -> std::optional<std::string> {
+    const bool isBroken = std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) {
+      return move.own == own && breaks(subject, limit, move, given);
+    });
+    return isBroken ? std::optional(fmt::format("{} in force here is not within its limit", limit.address))
+                    : std::nullopt;
+  };
+}
+
+/// What an F means depends on the units and on what it is counted by, an S on whether it is a speed of cutting.
+smt::TermId hasSameMeaning(ProofStart &start, const WordLimit &limit, const MoveInstance &move) {
+  return limit.address == 'F' ? start.store().logicalAnd(move.point.sameUnits.term, move.point.sameFeedMode.term)
+                              : move.point.sameSpindleMode.term;
+}
+
+class LimitQuestions {
+public:
+  LimitQuestions(const ExploredProgram &program, const WordLimit &limit)
+      : subject_(program.subject), start_(program.start), found_(program.found), limit_(limit) {}
+
+  Questions collect() {
+    const SpaceRule rule{.kind = ObligationKind::Limit, .clause = limit_.clause};
+    for (const MoveInstance &move : found_.moves)
+      if (start_.space().concerns(rule, move))
+        add(move);
+    for (const UnfollowedCall &call : found_.unfollowedCalls)
+      addUnfollowed(call.own, call.conditions);
+    if (questions_.empty() && found_.incomplete)
+      at(subject_.head());
+    Questions all;
+    for (auto &[own, question] : questions_)
+      all.push_back(std::move(question));
+    return all;
+  }
+
+private:
+  void add(const MoveInstance &move) {
+    if (move.move.kind == MoveKind::Unfollowed)
+      return addUnfollowed(move.own, move.conditions);
+    Question &question = at(move.own);
+    question.goals.push_back({&move.conditions, start_.space().keepsLimit(limit_, move)});
+    if (question.open.empty() && !isProved(move.conditions, hasSameMeaning(start_, limit_, move)))
+      question.open =
+          fmt::format("{} may be in other units than at the start ({}), and those are the units of the limit",
+                      limit_.address, limit_.address == 'F' ? "G20, G21, G93 to G95" : "G96, G97");
+  }
+
+  /// What is not followed neither keeps the limit nor breaks it.
+  void addUnfollowed(Place own, const std::vector<smt::TermId> &conditions) {
+    Question &question = at(own);
+    question.goals.push_back({&conditions, start_.store().no()});
+    if (question.open.empty() && !isProved(conditions, start_.store().no()))
+      question.open = found_.notFollowedAt(own).value_or("a movement here is not followed, and may cut");
+  }
+
+  bool isProved(const std::vector<smt::TermId> &conditions, smt::TermId goal) {
+    return discharge(start_.store(), start_.onPath(conditions, goal), subject_.options.budget).proved();
+  }
+
+  Question &at(Place own) {
+    const auto known = questions_.find(own);
+    if (known != questions_.end())
+      return known->second;
+    Question question{
+        .row = subject_.obligation(ObligationKind::Limit, own, subject_.spanOf(own), subject_.textOf(limit_.clause)),
+        .goals = {},
+        .broken = cutsAt(subject_, limit_, own),
+        .isJudgedExactly = true};
+    question.row.id.insert(question.row.id.rfind('.'), fmt::format(".{}", limit_.address));
+    return questions_.emplace(own, std::move(question)).first->second;
+  }
+
+  const ProofSubject &subject_;
+  ProofStart &start_;
+  const Exploration &found_;
+  const WordLimit &limit_;
+  std::map<Place, Question> questions_; // by block
+};
+
+} // namespace
+
+Questions limitQuestions(const ExploredProgram &program) {
+  Questions all;
+  if (!program.subject.wants(ObligationKind::Limit))
+    return all;
+  for (const WordLimit &limit : program.subject.contract()->limits)
+    std::ranges::move(LimitQuestions(program, limit).collect(), std::back_inserter(all));
+  return all;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,106 @@
+#include "proof/families/loop_ends.h"
+
+#include "proof/termination/recurrence.h"
+#include "proof/decide/cancel.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+namespace {
+
+/// Leaves out what need not be given, many at once where that will do.
+template <typename Suffices> GivenVariables fewest(GivenVariables given, const Suffices &suffices) {
+  for (std::size_t size = given.entries().size(); size > 0; size /= 2)
+    for (std::size_t first = 0; first < given.entries().size();) {
+      GivenVariables fewer;
+      for (std::size_t i = 0; i < given.entries().size(); ++i)
+        if (i < first || i >= first + size)
+          fewer.set(given.entries()[i].first, given.entries()[i].second);
+      if (suffices(fewer))
+        given = std::move(fewer);
+      else
+        first += size;
+    }
+  return given;
+}
+
+/// The run did not come out of the loop; doubles that have grown too large come to rest in it.
+bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunResult &run) {
+  return (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats) &&
+         endsInside(subject.programs, subject.program, loop.head, run);
+}
+
+/// The loop goes on for ever with these inputs.
+bool goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
+  return recurrenceFrom(context.start.reading(), context.start.store(), context.found, loop,
+                        context.witnesses.modelOf(given))
+      .has_value();
+}
+
+/// Inputs of a sampled run that did not come out of the loop, with which it goes on for ever; as few as will do.
+std::optional<Witness> endless(const ProofContext &context, const LoopInstance &loop) {
+  constexpr std::size_t kMostTried = 3;
+  const WitnessSearch &witnesses = context.witnesses;
+  std::vector<WitnessSearch::Sample> runs;
+  for (const WitnessSearch::Sample &sample : witnesses.samples())
+    if (staysIn(context.subject, loop, sample.result))
+      runs.push_back(sample);
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
+  const auto isEndless = [&](const GivenVariables &given) {
+    throwIfStopped();
+    return witnesses.allowed(given) && staysIn(context.subject, loop, witnesses.runOf(given)) &&
+           goesOn(context, loop, given);
+  };
+  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
+    if (isEndless(runs[i].given))
+      return Witness{fewest(runs[i].given, isEndless), runs[i].result.end,
+                     "each pass of the loop leads to another one, for ever"};
+  return std::nullopt;
+}
+
+/// Inputs with which the loop is met in a state whose pass always leads to one like it.
+std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopInstance &loop) {
+  smt::TermStore &store = context.start.store();
+  const auto pass = recurrentPass(context.start.reading(), store, loop);
+  if (!pass)
+    return std::nullopt;
+  std::vector<smt::TermId> conditions;
+  for (const smt::TermId condition : loop.transitions[*pass].conditions)
+    conditions.push_back(smt::substitute(store, condition, loop.first));
+  const Outcome outcome =
+      discharge(store, context.start.onPath(conditions, store.no()), context.subject.options.budget);
+  const smt::Model *model = outcome.counterexample();
+  if (model == nullptr)
+    return std::nullopt;
+  auto witness = context.witnesses.fromModel(*model, [&](const RunResult &run) -> std::optional<std::string> {
+    if (staysIn(context.subject, loop, run))
+      return "each pass of the loop leads to another one like it, for ever";
+    return std::nullopt;
+  });
+  if (witness && witness->end == RunEnd::Fuel && !goesOn(context, loop, witness->variables))
+    return std::nullopt; // made plainer, it may only be long
+  return witness;
+}
+
+Termination foundEnd(const ProofContext &context, const LoopInstance &loop) {
+  Termination end;
+  end.endless = endless(context, loop);
+  if (end.endless)
+    return end;
+  end = provesEnd(context.start.reading(), context.start.store(), loop);
+  if (!end.proved)
+    end.endless = endlessFromStart(context, loop);
+  return end;
+}
+
+} // namespace
+
+const Termination &endOf(const ProofContext &context, const LoopInstance &loop) {
+  const auto known = context.ends.find(&loop);
+  return known != context.ends.end() ? known->second
+                                     : context.ends.emplace(&loop, foundEnd(context, loop)).first->second;
+}
+
+} // namespace feedhold::prove

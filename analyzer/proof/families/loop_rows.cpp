@@ -1,0 +1,194 @@
+// Loops, and so the program, come to an end.
+#include "meaning/cfg/wto.h"
+#include "proof/termination/termination_explanation.h"
+#include "proof/families/loop_ends.h"
+#include "proof/families/families.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+namespace {
+
+constexpr std::string_view kComesBack = "a path comes back to a state in which it has been";
+
+bool isInside(const Wto &wto, Place head, Place at) {
+  const std::uint32_t position = at.file == head.file ? wto.positionOf(at.node) : Wto::kUnreachable;
+  return wto.positionOf(head.node) <= position && position < wto.endOf(head.node);
+}
+
+/// All paths have been followed to their end.
+Verdict endsByPasses(const ProofContext &context, const Obligation &obligation) {
+  if (!context.found.repeats.empty())
+    return Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
+  const bool isMet = obligation.kind != ObligationKind::LoopEnds || context.found.heads.contains(obligation.place);
+  if (!isMet)
+    return verdict::Unreachable{.method = "each pass"};
+  return verdict::Proved{.proof = {.method = "each pass"}};
+}
+
+using Instances = std::vector<const LoopInstance *>;
+
+/// Each of them ends.
+Verdict endOfAll(const ProofContext &context, const Instances &instances, std::uint64_t &effort) {
+  if (instances.empty())
+    return verdict::Unreachable{};
+  Proof proof;
+  std::optional<Verdict> open;
+  for (const LoopInstance *instance : instances) {
+    if (instance->callsUnknown) {
+      open = Verdict::unknown("a pass calls a program that is not followed, which need not come back", instance->head);
+      continue;
+    }
+    const Termination &end = endOf(context, *instance);
+    if (end.endless)
+      return *end.endless;
+    for (const Outcome &outcome : end.evidence)
+      if (end.proved) {
+        effort += outcome.effort;
+        proof.add(outcome);
+      }
+    if (!end.proved)
+      open = Verdict::unknown(end.reason, instance->head);
+  }
+  return open ? *std::move(open) : Verdict(verdict::Proved{.proof = std::move(proof)});
+}
+
+void settleLoop(const ProofContext &context, Obligation &obligation, const Instances &instances,
+                const Violation &violation) {
+  if (auto decided = decidedBefore(context, violation))
+    obligation.verdict = *std::move(decided);
+  else if (context.found.treatment == LoopTreatment::EachPass)
+    obligation.verdict = endsByPasses(context, obligation);
+  else
+    obligation.verdict = endOfAll(context, instances, obligation.effort);
+}
+
+/// When all that lead to the loop say the same.
+void explainEnd(const ProofContext &context, verdict::Proved &proved, const Instances &instances) {
+  std::optional<LoopAccount> account;
+  for (const LoopInstance *instance : instances) {
+    const auto end = context.ends.find(instance);
+    if (end == context.ends.end())
+      continue;
+    LoopAccount next = accountOf(context.start.reading(), context.subject.programs, *instance, end->second);
+    if (account && account->why != next.why)
+      return;
+    if (account && account->bound != next.bound)
+      next.bound.clear();
+    account = std::move(next);
+  }
+  if (account) {
+    proved.why = account->why;
+    proved.bound = account->bound;
+  }
+}
+
+/// `@CYCLIC`: the program goes round as a whole, in a loop that no other is around.
+bool isMeantToGoOn(const ProofSubject &subject, const Wto &wto, NodeId head) {
+  if (!subject.contract() || !subject.contract()->cyclic)
+    return false;
+  return std::none_of(wto.order().begin(), wto.order().end(), [&](NodeId other) {
+    return other != head && wto.isHead(other) && wto.positionOf(other) < wto.positionOf(head) &&
+           wto.positionOf(head) < wto.endOf(other);
+  });
+}
+
+constexpr std::string_view kRepeats = "the run comes back to the same state and goes on for ever";
+
+std::optional<std::string> comesBack(const RunResult &run) {
+  return run.end == RunEnd::Repeats ? std::optional(std::string(kRepeats)) : std::nullopt;
+}
+
+Violation staysInside(std::shared_ptr<const Wto> wto, Place place) {
+  return [wto = std::move(wto), place](const RunResult &run) -> std::optional<std::string> {
+    const bool stays = !run.circle.empty() && std::all_of(run.circle.begin(), run.circle.end(),
+                                                          [&](Place at) { return isInside(*wto, place, at); });
+    return stays ? comesBack(run) : std::nullopt;
+  };
+}
+
+Obligation rowOfLoop(const ProofContext &context, const std::shared_ptr<const Wto> &wto, Place place) {
+  Instances instances;
+  Instances within; // a pass that stays in one of these for ever does not end
+  for (const LoopInstance &loop : context.found.loops) {
+    if (loop.head == place)
+      instances.push_back(&loop);
+    if (isInside(*wto, place, loop.calls.empty() ? loop.head : loop.calls.front()))
+      within.push_back(&loop);
+  }
+  Obligation row =
+      context.subject.obligation(ObligationKind::LoopEnds, place, context.subject.spanOf(place), "this loop ends");
+  settleLoop(context, row, within, staysInside(wto, place));
+  if (verdict::Proved *proved = row.verdict.proved())
+    explainEnd(context, *proved, instances);
+  return row;
+}
+
+std::shared_ptr<const Wto> loopsOf(const ProofSubject &subject) {
+  return std::make_shared<const Wto>(subject.file().cfg, *subject.file().model, subject.program.entry);
+}
+
+} // namespace
+
+void settleLoops(const ProofContext &context, SettledRows &into) {
+  if (!context.subject.wants(ObligationKind::LoopEnds))
+    return;
+  const auto wto = loopsOf(context.subject);
+  for (const NodeId head : wto->order()) {
+    if (!wto->isHead(head) || isMeantToGoOn(context.subject, *wto, head))
+      continue;
+    const Place place{context.subject.program.file, head};
+    into.rows.push_back(rowOfLoop(context, wto, place));
+    into.denials.push_back({into.rows.back(), [wto, place](const ProofContext &) { return staysInside(wto, place); }});
+  }
+}
+
+Obligation loopRow(const ProofContext &context, Place head) {
+  return rowOfLoop(context, loopsOf(context.subject), head);
+}
+
+void settleEnd(const ProofContext &context, SettledRows &into) {
+  auto row = programEndRow(context);
+  if (!row)
+    return;
+  into.denials.push_back({*row, [](const ProofContext &) { return Violation(comesBack); }});
+  into.rows.push_back(*std::move(row));
+}
+
+std::optional<Obligation> programEndRow(const ProofContext &context) {
+  const ProofSubject &subject = context.subject;
+  if (!subject.wants(ObligationKind::ProgramEnds) || (subject.contract() && subject.contract()->cyclic))
+    return std::nullopt;
+  Instances instances;
+  for (const LoopInstance &loop : context.found.loops)
+    instances.push_back(&loop);
+  Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
+  row.id = fmt::format("{}.program-ends", subject.name());
+  settleLoop(context, row, instances, comesBack);
+  if (!context.found.unfollowedCalls.empty() && row.verdict.kind() != Verdict::Refuted)
+    row.verdict = Verdict::unknown("a program that is called is not followed and need not come back",
+                                   context.found.unfollowedCalls.front().own);
+  else if (row.verdict == Verdict::Unreachable)
+    row.verdict = verdict::Proved{.proof = {.method = "no loop"}};
+  return row;
+}
+
+void requireEnds(const ProofContext &context, Obligation &obligation) {
+  if (!obligation.verdict.holds())
+    return;
+  if (!context.found.repeats.empty()) {
+    obligation.verdict = Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
+    return;
+  }
+  if (context.found.treatment == LoopTreatment::EachPass)
+    return;
+  for (const LoopInstance &loop : context.found.loops)
+    if (!(endOfAll(context, {&loop}, obligation.effort) == Verdict::Proved)) {
+      obligation.verdict = Verdict::unknown("it is not known whether a loop ends", loop.head);
+      return;
+    }
+}
+
+} // namespace feedhold::prove

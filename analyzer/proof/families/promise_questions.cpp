@@ -1,0 +1,187 @@
+// What the contract of a program promises for its return, and for the calls that raise alarms.
+#include "proof/families/modal_state.h"
+#include "proof/families/families.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+void append(Questions &all, Questions more) { std::move(more.begin(), more.end(), std::back_inserter(all)); }
+
+std::optional<std::string> howItEnded(const RunResult &run) {
+  switch (run.end) {
+  case RunEnd::M02:
+  case RunEnd::M30:
+  case RunEnd::Returned:
+  case RunEnd::EndOfFile: return "the program ends without an alarm";
+  case RunEnd::UserAlarm: return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
+  case RunEnd::Alarm: return "the control stops the program";
+  case RunEnd::Fuel:
+  case RunEnd::Repeats:
+  case RunEnd::NotModelled: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Promised of runs that come to their end.
+std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariables &) {
+  const auto end = howItEnded(run);
+  if (!end || run.end == RunEnd::UserAlarm || run.end == RunEnd::Alarm)
+    return std::nullopt;
+  return *end + ", and what was promised does not hold";
+}
+
+/// Broken as soon as something happens, however the run ends.
+std::optional<std::string> brokenOnTheWay(const RunResult &run) {
+  if (run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
+    return std::nullopt;
+  return "a variable that the clause does not name gets another value on the way";
+}
+
+/// A write of it outlasts the program, or is seen outside of it.
+bool isSeenByOthers(const ProofSubject &subject, std::uint32_t variable) {
+  if (variable >= kFirstNamedVariable)
+    return subject.programs.isGlobalName(variable);
+  const VariableRange *row = findVariable(subject.dialect(), variable);
+  return row && row->kind != VariableKind::Local;
+}
+
+/// The cells of the control behind the numbers that a contract names.  Numbers that are one cell on some controls only
+/// are not allowed with each other.
+std::set<std::uint32_t> cellsOf(const Dialect &dialect, const std::vector<Assigns> &clauses) {
+  std::set<std::uint32_t> cells;
+  for (const Assigns &clause : clauses)
+    for (const Assigns::Variables &range : clause.variables)
+      for (const VariableRange &row : dialect.variables)
+        for (std::uint32_t number = std::max(range.first, row.first); number <= std::min(range.last, row.last);
+             ++number) {
+          cells.insert(cellOf(dialect, number));
+          if (const BitWord *word = findBitWord(dialect, number))
+            for (std::uint32_t bit = 0; bit < word->bits; ++bit)
+              cells.insert(word->firstBit + bit);
+        }
+  return cells;
+}
+
+Question promise(const ProofSubject &subject, ObligationKind kind, ClauseId clause) {
+  return {.row = subject.obligation(kind, subject.textOf(clause)),
+          .goals = {},
+          .broken = brokenAtEnd,
+          .isJudgedExactly = true};
+}
+
+TermId codesHold(const ExploredProgram &program, const std::vector<ModalCode> &codes, const SymbolicState &state) {
+  smt::TermStore &store = program.start.store();
+  const Dialect &dialect = program.subject.dialect();
+  const ModalTable modes(dialect);
+  TermId all = store.yes();
+  for (const ModalCode &code : codes) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    const auto index = row ? modes.indexOf(*row) : std::nullopt;
+    all = index ? store.logicalAnd(
+                      all, store.equal(state.codes[row->group].index, program.start.reading().code(*index).index))
+                : store.no();
+  }
+  return all;
+}
+
+TermId promisedAt(const ExploredProgram &program, const Ensure &ensure, const SymbolicState &state) {
+  if (const auto *expression = std::get_if<ExpressionId>(&ensure.promise))
+    return program.start.terms().condition(*expression, program.start.entry(), state);
+  if (const auto *codes = std::get_if<std::vector<ModalCode>>(&ensure.promise))
+    return codesHold(program, *codes, state);
+  return modalStateKept(program, std::get<ModalPreserved>(ensure.promise), state);
+}
+
+} // namespace
+
+Questions promiseQuestions(const ExploredProgram &program) {
+  Questions all = callQuestions(program);
+  if (!program.subject.contract())
+    return all;
+  append(all, ensureQuestions(program));
+  append(all, assignQuestions(program));
+  append(all, alarmQuestions(program));
+  append(all, limitQuestions(program));
+  return all;
+}
+
+Questions ensureQuestions(const ExploredProgram &program) {
+  const auto &[subject, start, found] = program;
+  Questions questions;
+  for (const Ensure &ensure : subject.contract()->ensures) {
+    const ObligationKind kind = std::holds_alternative<ModalPreserved>(ensure.promise) ? ObligationKind::ModalPreserved
+                                                                                       : ObligationKind::Ensures;
+    if (!subject.wants(kind))
+      continue;
+    Question question = promise(subject, kind, ensure.clause);
+    for (const PathExit &exit : found.exits)
+      question.goals.push_back({&exit.conditions, promisedAt(program, ensure, exit.state)});
+    if (const auto *kept = std::get_if<ModalPreserved>(&ensure.promise)) {
+      question.whyOpen = whyNotKept(program, *kept);
+      if (modeNotTold(program))
+        question.open = question.whyOpen;
+    }
+    questions.push_back(std::move(question));
+  }
+  return questions;
+}
+
+Questions assignQuestions(const ExploredProgram &program) {
+  const auto &[subject, start, found] = program;
+  const Contract &contract = *subject.contract();
+  if (contract.assigns.empty() || !subject.wants(ObligationKind::Assigns))
+    return {};
+  const std::set<std::uint32_t> allowed = cellsOf(subject.dialect(), contract.assigns);
+  Question question = promise(subject, ObligationKind::Assigns, contract.assigns.front().clause);
+  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenOnTheWay(run); };
+  for (const WriteInstance &write : found.writes) {
+    if (!write.variable)
+      question.open = "a variable whose number is not known is written";
+    else if (isSeenByOthers(subject, *write.variable) && !allowed.contains(*write.variable))
+      question.goals.push_back({&write.conditions, write.isKept});
+  }
+  if (!found.unfollowedCalls.empty())
+    question.open = "a program that is called is not followed, and may write any variable";
+  if (question.goals.empty() && !found.incomplete) // there is nothing to break it
+    question.goals.push_back({&start.demands(), start.store().yes()});
+  return {std::move(question)};
+}
+
+/// IF: a call for which the condition holds ends with this alarm and no other way.  IFF: no other call raises it.
+Questions alarmQuestions(const ExploredProgram &program) {
+  const auto &[subject, start, found] = program;
+  Questions questions;
+  if (!subject.wants(ObligationKind::AlarmIff))
+    return questions;
+  smt::TermStore &store = start.store();
+  for (const AlarmPromise &alarm : subject.contract()->alarms) {
+    const TermId condition = start.terms().condition(alarm.condition, start.entry(), start.entry());
+    const TermId number = start.reading().number(alarm.number).number;
+    const bool isIff = alarm.claim == AlarmClaim::IfAndOnlyIf;
+    Question question = promise(subject, ObligationKind::AlarmIff, alarm.clause);
+    question.row.id = fmt::format("{}.alarm-iff.{}", subject.name(), alarm.number);
+    question.broken = [](const RunResult &run, const GivenVariables &) { return howItEnded(run); };
+    for (const PathExit &exit : found.exits)
+      question.goals.push_back({&exit.conditions, store.logicalNot(condition)});
+    for (const Check &check : found.checks)
+      for (const CheckInstance &instance : check.instances) {
+        const TermId isThis = check.alarm ? store.no() : store.equal(instance.number.number, number);
+        question.goals.push_back({&instance.conditions, store.implies(condition, isThis), instance.stops});
+        if (isIff)
+          question.goals.push_back({&instance.conditions, store.implies(isThis, condition), instance.stops});
+      }
+    for (const UnfollowedCall &call : found.unfollowedCalls) // which may end with any alarm
+      question.goals.push_back({&call.conditions, isIff ? store.no() : store.logicalNot(condition)});
+    questions.push_back(std::move(question));
+  }
+  return questions;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,271 @@
+// Claims about space: where the tool may go (docs/geometry.md).
+#include "proof/families/input_signs.h"
+#include "proof/families/families.h"
+#include "proof/families/space_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+using Moves = std::vector<const MoveInstance *>;
+
+/// Answers the questions of all rules.
+class SpaceProver {
+public:
+  explicit SpaceProver(const ProofContext &context)
+      : context_(context), start_(context.start), space_(context.start.space()),
+        signs_(signsOfInputs(context.start, context.found)) {}
+
+  /// Of one block and what it calls.
+  Obligation row(const SpaceRule &rule, Place own, const Moves &moves);
+
+private:
+  Verdict decide(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
+  std::optional<Verdict> notAsked(const SpaceRule &rule, Place own);
+  std::optional<Verdict> missingPremise(std::uint64_t &effort, Proof &proof, const SpaceRule &rule, const Moves &moves);
+  void addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs);
+  bool keepsAway(const SpaceRule &rule, const Moves &moves);
+  struct Try {
+    const std::vector<TermId> &conditions;
+    const SpaceQuestion &question;
+    const Budget &budget;
+  };
+  bool isProved(const Try &asked, std::uint64_t &effort, Proof &proof, std::optional<smt::Model> *model = nullptr);
+  bool isProved(const Try &asked, const SpaceQuestion::Way &way, std::uint64_t &effort, Proof &proof,
+                std::optional<smt::Model> *model);
+  const Outcome &answered(const Query &query, const Budget &budget);
+  bool isGivenAtStart(Axis axis) const;
+  std::string whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question);
+
+  const ProofContext &context_;
+  ProofStart &start_;
+  const SpaceClaims &space_;
+  std::vector<TermId> signs_; // facts about the inputs that the contract allows
+  std::map<std::pair<std::vector<TermId>, std::uint64_t>, Outcome> answers_; // by assumptions with the goal, budget
+};
+
+Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves) {
+  const ProofSubject &subject = context_.subject;
+  Obligation row = subject.obligation(rule.kind, own, subject.spanOf(own), subject.textOf(rule.clause));
+  if (!rule.name.empty())
+    row.id.insert(row.id.rfind('.'), "." + rule.name);
+  const SpaceRuns runs(context_, rule, own);
+  if (auto decided = decidedBefore(context_, runs.violation()))
+    row.verdict = *std::move(decided);
+  else
+    row.verdict = decide(row, rule, moves, runs);
+  if (verdict::Proved *proved = row.verdict.proved()) {
+    if (auto rounded = runs.roundedAway()) {
+      proved->exactOnly = true;
+      proved->why = *std::move(rounded);
+    }
+    addMargin(row, rule, moves, runs);
+  }
+  if (const Witness *witness = row.verdict.witness())
+    row.verdict = runs.located(*witness);
+  return row;
+}
+
+/// How far the sampled runs keep away, if that can be proved; 0 where one comes as near as it may.
+void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs) {
+  constexpr std::uint64_t kCheap = 100'000; // effort of the proof
+  if (!rule.spacesFor || row.effort > kCheap)
+    return;
+  const std::optional<double> nearest = runs.nearest();
+  if (!nearest)
+    return;
+  std::optional<double> &margin = row.verdict.proved()->margin;
+  if (*nearest < SpaceRuns::kTouches) {
+    margin = 0;
+    return;
+  }
+  for (const double part : {1.0, 0.5, 0.1}) {
+    const double size = std::pow(10, std::floor(std::log10(*nearest * part)) - 1);
+    const double guess = std::floor(*nearest * part / size + SpaceRuns::kTouches) * size; // two digits
+    if (keepsAway(space_.withMargin(rule, guess), moves)) {
+      margin = guess;
+      return;
+    }
+  }
+}
+
+bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves) {
+  const Budget quick{.search = 30'000, .z3 = 0, .cvc5 = 0};
+  std::uint64_t effort = 0;
+  Proof proof;
+  return std::all_of(moves.begin(), moves.end(), [&](const MoveInstance *move) {
+    const std::vector<SpaceQuestion> questions = space_.questions(rule, *move);
+    return std::all_of(questions.begin(), questions.end(), [&](const SpaceQuestion &question) {
+      return isProved({move->conditions, question, quick}, effort, proof);
+    });
+  });
+}
+
+std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
+  if (context_.subject.dialect().machine == MachineKind::Turning)
+    return Verdict::unknown("regions are followed on machining centres alone");
+  if (rule.missing)
+    return Verdict::unknown(*rule.missing);
+  for (const UnfollowedCall &call : context_.found.unfollowedCalls)
+    if (call.own == own)
+      return Verdict::unknown(context_.found.notFollowedAt(own).value_or(
+                                  "a program that is called here is not followed, and may move the tool"),
+                              own);
+  const Query sound = start_.onPath(start_.demands(), rule.isSound);
+  if (!discharge(start_.store(), sound, context_.subject.options.budget).proved())
+    return Verdict::unknown("the tool or the region may be empty or turned inside out (a radius below 0, a range from "
+                            "high to low, a polygon whose sides cross): `@REQUIRE` has to exclude it");
+  return std::nullopt;
+}
+
+/// Coordinates are those of the tool.
+std::optional<Verdict> SpaceProver::missingPremise(std::uint64_t &effort, Proof &proof, const SpaceRule &rule,
+                                                   const Moves &moves) {
+  for (const MoveInstance *move : moves) {
+    if (const auto reason = space_.whyNotTold(*move))
+      return Verdict::unknown(context_.found.notFollowedAt(move->place).value_or(*reason), move->place);
+    for (const auto &[premise, reason] : space_.premises(rule, *move))
+      if (!isProved({move->conditions, {{{{}, premise}}}, context_.budget}, effort, proof))
+        return Verdict::unknown(reason, move->place);
+  }
+  return std::nullopt;
+}
+
+Verdict SpaceProver::decide(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs) {
+  if (auto open = notAsked(rule, row.place))
+    return *std::move(open);
+  verdict::Proved proved;
+  if (auto open = missingPremise(row.effort, proved.proof, rule, moves))
+    return *std::move(open);
+  for (const MoveInstance *move : moves)
+    for (const SpaceQuestion &question : space_.questions(rule, *move)) {
+      std::optional<smt::Model> model;
+      if (isProved({move->conditions, question, context_.budget}, row.effort, proved.proof, &model))
+        continue;
+      if (model)
+        if (auto witness = context_.witnesses.fromModel(*model, runs.violation()))
+          return *std::move(witness);
+      return Verdict::unknown(whyOpen(move->conditions, question), move->place);
+    }
+  return proved;
+}
+
+/// Movements on one level ask the same of it.
+const Outcome &SpaceProver::answered(const Query &query, const Budget &budget) {
+  std::vector<TermId> key = query.assumptions;
+  key.push_back(query.goal);
+  auto [known, isNew] = answers_.try_emplace({std::move(key), budget.search});
+  if (isNew)
+    known->second = discharge(start_.store(), query, budget);
+  return known->second;
+}
+
+/// By one of its ways: the model is that of the last one.
+bool SpaceProver::isProved(const Try &asked, std::uint64_t &effort, Proof &proof, std::optional<smt::Model> *model) {
+  return std::any_of(asked.question.ways.begin(), asked.question.ways.end(),
+                     [&](const SpaceQuestion::Way &way) { return isProved(asked, way, effort, proof, model); });
+}
+
+bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Way &way, std::uint64_t &effort, Proof &proof,
+                           std::optional<smt::Model> *model) {
+  constexpr std::uint64_t kCorners = 40'000; // where corners will do, they do so at once
+  std::vector<TermId> all = asked.conditions;
+  all.insert(all.end(), way.conditions.begin(), way.conditions.end());
+  all.insert(all.end(), signs_.begin(), signs_.end());
+  const bool isLast = &way == &asked.question.ways.back();
+  const Budget quick{.search = std::min(asked.budget.search, kCorners), .z3 = 0, .cvc5 = 0};
+  const smt::TermStore &store = start_.store();
+  const std::vector<TermId> parts =
+      store[way.goal].kind == smt::TermKind::And ? store[way.goal].arguments : std::vector{way.goal};
+  std::vector<Outcome> proofs;
+  for (const TermId part : parts) {
+    Outcome outcome = answered(start_.onPath(all, part), isLast ? asked.budget : quick);
+    if (!outcome.proved()) {
+      effort += outcome.effort;
+      if (isLast && model != nullptr && outcome.counterexample() != nullptr)
+        *model = *outcome.counterexample();
+      return false;
+    }
+    proofs.push_back(std::move(outcome));
+  }
+  for (Outcome &each : proofs) {
+    effort += each.effort;
+    proof.add(std::move(each));
+  }
+  return true;
+}
+
+bool SpaceProver::isGivenAtStart(Axis axis) const {
+  const auto &start = context_.subject.contract()->start;
+  return start && std::any_of(start->axes.begin(), start->axes.end(),
+                              [&](const AxisValue &value) { return value.axis == letterOf(axis); });
+}
+
+/// What the start leaves open, if the claim speaks of it.
+std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question) {
+  const Query query = start_.onPath(conditions, question.ways.back().goal);
+  const std::vector<TermId> &named = smt::variablesOf(start_.store(), query.goal);
+  const std::set<TermId> variables(named.begin(), named.end());
+  std::string axes;
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+    if (variables.contains(start_.entry().at(axis).number) && !isGivenAtStart(axis))
+      axes += fmt::format("{}{}..", axes.empty() ? "" : " ", letterOf(axis));
+  if (!axes.empty())
+    return fmt::format("where the tool stands at the start is not known: `@START {}` would say", axes);
+  const Dialect &dialect = context_.subject.dialect();
+  const ModalTable modes(dialect);
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    if (variables.contains(start_.entry().codes[group].index) && !modes.group(group).codes.empty()) {
+      const Code &code = *modes.group(group).codes.front();
+      return fmt::format("the code of the group of G{:02} in force at the start is not known: `@MODAL` would say",
+                         code.tenths / 10);
+    }
+  for (const auto &[variable, value] : start_.reading().entryValues())
+    if (const VariableRange *range = findVariable(dialect, variable);
+        range && range->role == VariableRole::WorkOffset && variables.contains(value.number))
+      return fmt::format("how far the zero point is moved is not known: `@GLOBAL #{} ..` says what the work offset is",
+                         variable);
+  return "no proof was found, and no call that breaks it";
+}
+
+/// The movements that a rule speaks of, by block, in the order in which they are met.
+std::vector<std::pair<Place, Moves>> groupsOf(const ProofContext &context, const SpaceRule &rule) {
+  std::vector<std::pair<Place, Moves>> groups;
+  const auto groupOf = [&](Place own) -> Moves & {
+    const auto known = std::find_if(groups.begin(), groups.end(), [&](const auto &each) { return each.first == own; });
+    return known != groups.end() ? known->second : groups.emplace_back(own, Moves{}).second;
+  };
+  for (const MoveInstance &move : context.found.moves)
+    if (context.start.space().concerns(rule, move))
+      groupOf(move.own).push_back(&move);
+  for (const UnfollowedCall &call : context.found.unfollowedCalls)
+    groupOf(call.own);
+  if (groups.empty() && context.found.incomplete)
+    groupOf(context.subject.head());
+  return groups;
+}
+
+} // namespace
+
+void settleSpace(const ProofContext &context, SettledRows &into) {
+  if (!context.subject.contract() || !hasSpaceClause(*context.subject.contract()))
+    return;
+  SpaceProver prover(context);
+  for (const SpaceRule &rule : context.start.space().rules())
+    if (context.subject.wants(rule.kind))
+      for (const auto &[own, moves] : groupsOf(context, rule)) {
+        into.rows.push_back(prover.row(rule, own, moves));
+        into.denials.push_back({into.rows.back(), [&rule, own = own](const ProofContext &judged) {
+                                  return SpaceRuns(judged, rule, own).violation();
+                                }});
+      }
+}
+
+} // namespace feedhold::prove

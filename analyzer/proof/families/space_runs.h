@@ -1,0 +1,31 @@
+// What runs of the machine do in space: where they break a claim about it, and how far they keep away.
+#pragma once
+
+#include "proof/context/proof_context.h"
+
+namespace feedhold::prove {
+
+class SpaceRuns {
+public:
+  /// Of one rule, and of the movements of one block and what it calls.
+  SpaceRuns(const ProofContext &context, const SpaceRule &rule, Place own)
+      : context_(context), rule_(rule), own_(own) {}
+
+  std::optional<GougeAt> gougeIn(const RunResult &run, const GivenVariables &given) const;
+  /// Proofs take words as they are written: what only their rounding to the least increment makes is no witness.
+  Violation violation() const;
+  /// The same run as the witness of a refuted claim.
+  Witness located(Witness witness) const;
+  /// How near the sampled runs come; absent: none of them moves there.
+  static constexpr double kTouches = 1e-6; // nearer than that is no distance
+  std::optional<double> nearest() const;
+  /// What the rounded words of a sampled run lead to, where that is further than proofs over exact numbers know.
+  std::optional<std::string> roundedAway() const;
+
+private:
+  const ProofContext &context_;
+  const SpaceRule &rule_;
+  Place own_;
+};
+
+} // namespace feedhold::prove

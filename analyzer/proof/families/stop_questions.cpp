@@ -1,0 +1,119 @@
+// Places where a run may stop by itself.
+#include "proof/families/families.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+/// Those that the contract foresees: for which calls they come, and whether for others too, its clauses say, which are
+/// claims of their own (alarmQuestions).
+std::vector<std::uint32_t> foreseenAlarms(const Contract *contract) {
+  std::vector<std::uint32_t> numbers;
+  if (contract != nullptr)
+    for (const AlarmPromise &promise : contract->alarms)
+      numbers.push_back(promise.number);
+  return numbers;
+}
+
+/// What a run that breaks the claim on this place does.
+auto stopAt(const Check &check, const std::vector<std::uint32_t> &foreseen) {
+  return [place = check.place, span = check.span, alarm = check.alarm,
+          foreseen](const RunResult &run, const GivenVariables &) -> std::optional<std::string> {
+    const bool here = run.place == place && run.alarmSpan == span;
+    const bool isForeseen = std::any_of(foreseen.begin(), foreseen.end(), [&](std::uint32_t number) {
+      return static_cast<double>(number) == run.alarmNumber;
+    });
+    if (!alarm && here && run.end == RunEnd::UserAlarm && !isForeseen)
+      return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
+    if (alarm && here && run.end == RunEnd::Alarm && run.alarm == *alarm)
+      return "the control stops here";
+    return std::nullopt;
+  };
+}
+
+std::string stopClaim(const Check &check, const std::vector<std::uint32_t> &foreseen) {
+  if (check.alarm)
+    return fmt::format("no {} here", meaningOf(*check.alarm));
+  if (foreseen.empty())
+    return "this alarm is never raised";
+  return "no alarm comes from here that the contract does not foresee";
+}
+
+TermId isOneOf(SymbolicReading &reading, const SymbolicValue &value, const std::vector<std::uint32_t> &numbers) {
+  smt::TermStore &store = reading.store();
+  std::vector<TermId> any;
+  for (const std::uint32_t number : numbers)
+    any.push_back(store.equal(value.number, reading.number(number).number));
+  return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
+}
+
+/// The node that assigns: the same as where a path meets it, so that it is the same claim.
+NodeId writeOf(const ProgramFile &file, const VariableUse &use) {
+  NodeId node = file.cfg.nodeOf(use.block);
+  for (NodeId at = node; at.index() < file.cfg.nodes.size() && file.cfg.nodes[at].block == use.block; at = at.next())
+    if (const auto *assign = std::get_if<Assign>(&file.cfg.nodes[at].instruction))
+      for (std::uint32_t i = 0; i < assign->count; ++i) {
+        const Statement &statement = file.tree->statements[StatementId(assign->first.index() + i)];
+        if (const auto *assignment = std::get_if<Assignment>(&statement.node);
+            assignment && assignment->target == use.expression)
+          node = at;
+      }
+  return node;
+}
+
+} // namespace
+
+Questions stopQuestions(const ExploredProgram &program) {
+  const auto &[subject, start, found] = program;
+  smt::TermStore &store = start.store();
+  const std::vector<std::uint32_t> foreseen = foreseenAlarms(subject.contract());
+  Questions questions;
+  for (const Check &check : found.checks) {
+    const ObligationKind kind = check.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
+    if (!subject.isOwn(check.place) || !subject.wants(kind))
+      continue;
+    Question question{.row = subject.obligation(kind, check.place, check.span, stopClaim(check, foreseen)),
+                      .goals = {},
+                      .broken = stopAt(check, foreseen)};
+    question.row.alarm = check.alarm;
+    for (const CheckInstance &instance : check.instances) {
+      const TermId isForeseen = check.alarm ? store.no() : isOneOf(start.reading(), instance.number, foreseen);
+      question.goals.push_back({&instance.conditions, store.implies(instance.stops, isForeseen)});
+    }
+    questions.push_back(std::move(question));
+  }
+  return questions;
+}
+
+Questions unmetAlarms(const ExploredProgram &program) {
+  const auto &[subject, start, found] = program;
+  Questions questions;
+  if (!subject.wants(ObligationKind::AlarmUnreachable))
+    return questions;
+  const auto isMet = [&subject = subject, &found = found](BlockId block, Span span) {
+    return std::any_of(found.checks.begin(), found.checks.end(), [&](const Check &check) {
+      return !check.alarm && check.place.file == subject.program.file && check.span == span &&
+             subject.programs.node(check.place).block == block;
+    });
+  };
+  for (const VariableUse &use : subject.file().model->variablesOf(subject.program.program)) {
+    const VariableRange *row = use.write && use.number ? findVariable(subject.dialect(), *use.number) : nullptr;
+    const Span span = subject.file().tree->expressions[use.expression].span;
+    if (!row || row->role != VariableRole::Alarm || isMet(use.block, span))
+      continue;
+    const Check check{
+        .place = {subject.program.file, writeOf(subject.file(), use)}, .span = span, .alarm = {}, .instances = {}};
+    questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
+                                                   stopClaim(check, foreseenAlarms(subject.contract()))),
+                         .goals = {},
+                         .broken = stopAt(check, foreseenAlarms(subject.contract()))});
+  }
+  return questions;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,11 @@
+// Guard inference: conditions with which a claim is proved that is not proved without.
+#pragma once
+
+#include "proof/context/proof_context.h"
+
+namespace feedhold::prove {
+
+/// To the verdicts on claims that are not proved.  `open`: their questions, where they have any.
+void addGuards(const ProofContext &context, const std::vector<Question> &open, std::vector<Obligation> &rows);
+
+} // namespace feedhold::prove

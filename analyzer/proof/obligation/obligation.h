@@ -1,0 +1,34 @@
+// Obligation: something that must hold of a program for every input its contract allows, and the verdict on it.
+#pragma once
+
+#include "proof/obligation/verdict.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace feedhold::prove {
+
+enum class ObligationKind : std::uint8_t {
+#define OBLIGATION(kind, name) kind,
+#include "proof/obligation/obligation_kinds.def"
+};
+std::string_view nameOf(ObligationKind kind);
+
+struct Obligation {
+  ObligationKind kind;
+  std::string id; // `O9100.loop-ends.N20`, the same from run to run
+  Place place;
+  Span span;
+  std::string claim;                   // what is claimed, in shop words
+  std::optional<AlarmKind> alarm = {}; // of NoControlAlarm
+  Verdict verdict = {};
+  std::uint64_t effort = 0; // units spent on it, of all kinds together
+};
+
+/// Of one program, found in one way or another.
+inline bool isSameClaim(const Obligation &a, const Obligation &b) {
+  return a.kind == b.kind && a.place == b.place && a.span == b.span && a.claim == b.claim;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,84 @@
+#include "proof/replay/exact_run.h"
+
+#include "proof/explore/exploration.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+/// Runs are single paths: a few thousand steps of one, and a few branches where something is not known.
+ExploreOptions exactOptions() {
+  ExploreOptions options;
+  options.loops = LoopTreatment::EachPass;
+  options.mayEnclose = true;
+  options.mayBeCalled = false;
+  options.mostSteps = 6'000;
+  options.mostPaths = 20;
+  options.mostWork = 1'000'000;
+  options.mostTerms = 200'000;
+  return options;
+}
+
+void startExactly(SymbolicReading &reading, const GivenVariables &given) {
+  smt::TermStore &store = reading.store();
+  std::map<std::uint32_t, SymbolicValue> values;
+  for (const auto &[variable, value] : given.entries())
+    values.emplace(variable, value.vacant
+                                 ? reading.vacant()
+                                 : SymbolicValue{store.no(), store.number(smt::Number::fromTyped(value.number))});
+  reading.startFrom(std::move(values));
+}
+
+InputsKey keyOf(const GivenVariables &given) {
+  InputsKey key;
+  for (const auto &[variable, value] : given.entries())
+    key.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+  return key;
+}
+
+bool ExactRuns::has(const Ends &ends, const RunResult &run) {
+  const auto stopsAt = [&](std::optional<AlarmKind> alarm) {
+    return std::find(ends.stops.begin(), ends.stops.end(), std::pair(run.place, alarm)) != ends.stops.end();
+  };
+  switch (run.end) {
+  case RunEnd::Alarm: return stopsAt(run.alarm);
+  case RunEnd::UserAlarm: return stopsAt(std::nullopt);
+  case RunEnd::Fuel:
+  case RunEnd::Repeats: return ends.repeats;
+  case RunEnd::NotModelled: return false;
+  case RunEnd::M02:
+  case RunEnd::M30:
+  case RunEnd::EndOfFile:
+  case RunEnd::Returned: return std::find(ends.exits.begin(), ends.exits.end(), run.place) != ends.exits.end();
+  }
+  return false;
+}
+
+ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
+  smt::TermStore store;
+  const Dialect &dialect = *programs_.file(entry_.file).dialect;
+  SymbolicReading reading(store, dialect);
+  startExactly(reading, given);
+  const ModalTable modes(dialect);
+  reading.keepPolar(modes.groupOf(ModalKind::Polar));
+  const Exploration found = explore(reading, programs_, entry_, symbolicEntry(reading), exactOptions());
+  Ends ends;
+  ends.repeats = !found.repeats.empty();
+  ends.isIncomplete = found.incomplete.has_value();
+  for (const Check &check : found.checks)
+    ends.stops.emplace_back(check.place, check.alarm);
+  for (const PathExit &exit : found.exits)
+    ends.exits.push_back(exit.place);
+  return ends;
+}
+
+Agreement ExactRuns::agrees(const GivenVariables &given, const RunResult &run) {
+  const auto [known, isNew] = known_.try_emplace(keyOf(given));
+  if (isNew)
+    known->second = follow(given);
+  if (has(known->second, run))
+    return Agreement::Same;
+  return known->second.isIncomplete ? Agreement::NotKnown : Agreement::Different;
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,52 @@
+// Exact runs: what a run on given inputs comes to in exact numbers, where the machine computes with doubles.
+#pragma once
+
+#include "meaning/machine/machine.h"
+#include "proof/explore/exploration.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace feedhold::prove {
+
+enum class Agreement : std::uint8_t {
+  Same,      // the exact run ends there, too
+  Different, // it does not
+  NotKnown,  // it was too long to follow, or something in it has no exact value
+};
+
+/// To follow single runs.
+ExploreOptions exactOptions();
+/// The reading starts from these inputs.
+void startExactly(SymbolicReading &reading, const GivenVariables &given);
+
+/// Each input by its number; no value: vacant.
+using InputsKey = std::vector<std::pair<std::uint32_t, std::optional<double>>>;
+InputsKey keyOf(const GivenVariables &given);
+
+/// The exact runs of one program, each followed once.
+class ExactRuns {
+public:
+  ExactRuns(const ProgramSet &programs, Callee entry) : programs_(programs), entry_(entry) {}
+  /// Whether the run on these inputs also ends in exact numbers as the machine's run ended.
+  Agreement agrees(const GivenVariables &given, const RunResult &run);
+
+private:
+  /// Where the paths of one run may end: one path, but where something is not known.
+  struct Ends {
+    std::vector<std::pair<Place, std::optional<AlarmKind>>> stops; ///< no kind: the program's own alarm
+    std::vector<Place> exits;
+    bool repeats = false;
+    bool isIncomplete = false;
+  };
+  static bool has(const Ends &ends, const RunResult &run);
+  Ends follow(const GivenVariables &given) const;
+
+  const ProgramSet &programs_;
+  Callee entry_;
+  std::map<InputsKey, Ends> known_;
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,292 @@
+#include "proof/replay/witness.h"
+
+#include "proof/decide/cancel.h"
+#include "proof/smt/steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace feedhold::prove {
+
+namespace {
+
+constexpr int kSamples = 150;
+constexpr std::size_t kFewSamples = 30;
+constexpr int kSamplesOfEnds = 50;
+constexpr std::uint64_t kSampleFuel = 4'000;
+constexpr std::uint64_t kStepsOfInstruction = 30;
+constexpr std::uint64_t kStepsOfInput = 20; // of a model
+constexpr std::uint64_t kStepsOfLook = 10;  // at a run, and at a movement of it
+constexpr std::size_t kMostReplays = 200;   // that are kept for the judge
+constexpr int kMostInexact = 5;             // samples that break a claim by rounding, before the others are left alone
+
+/// A third that has to be met exactly is met by no double: the same inputs with three places.
+GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
+  GivenVariables near = given;
+  for (const auto &[variable, value] : given.entries())
+    if (!value.vacant)
+      near.set(variable, ConcreteValue::of(whole(value.number * 1000) / 1000));
+  return near;
+}
+
+double rounded(double value, double step) { return std::round(value / step) * step + 0.0; } // no -0
+
+} // namespace
+
+WitnessSearch::WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry,
+                             std::vector<smt::TermId> demands, std::vector<double> constants)
+    : reading_(reading), programs_(programs), entry_(entry), demands_(std::move(demands)),
+      constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)) {}
+
+std::vector<std::uint32_t> WitnessSearch::inputs() const {
+  std::vector<std::uint32_t> inputs;
+  for (const auto &[variable, value] : reading_.entryValues())
+    inputs.push_back(variable);
+  return inputs;
+}
+
+smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
+  smt::Model model;
+  const smt::TermStore &store = reading_.store();
+  smt::spend(kStepsOfInput * reading_.entryValues().size());
+  for (const auto &[variable, value] : reading_.entryValues()) {
+    const ConcreteValue *held = given.find(variable);
+    const bool vacant = !held || held->vacant;
+    model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromTyped(held->number);
+    if (store[value.vacant].kind == smt::TermKind::Variable)
+      model[store[value.vacant].name] = vacant;
+  }
+  return model;
+}
+
+bool WitnessSearch::allowed(const GivenVariables &given) const {
+  if (demands_.empty())
+    return true;
+  const smt::Model model = modelOf(given);
+  return std::all_of(demands_.begin(), demands_.end(),
+                     [&](smt::TermId demand) { return smt::isTrue(reading_.store(), demand, model); });
+}
+
+WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {
+  WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
+  narrowed.startFrom(start_, place_);
+  narrowed.others_ = others_;
+  narrowed.exactRuns_ = exactRuns_;
+  narrowed.replays_ = replays_;
+  narrowed.demands_.push_back(demand);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (smt::isTrue(reading_.store(), demand, inputs[i]))
+      narrowed.samples_.push_back(samples_[i]);
+  return narrowed;
+}
+
+RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
+  RunOptions options = start_;
+  options.variables = given;
+  const smt::Model model = place_.empty() ? smt::Model() : modelOf(given);
+  for (const auto &[axis, place] : place_)
+    if (const auto value = smt::evaluate(reading_.store(), place, model))
+      if (const auto *number = std::get_if<smt::Number>(&*value))
+        options.start[indexOf(axis)] = number->toDouble();
+  return options;
+}
+
+RunResult WitnessSearch::runOf(const GivenVariables &given, WordRounding words) const {
+  RunOptions options = runOptions(given);
+  options.fuel = kFuel;
+  options.words = words;
+  return run(programs_, entry_, options);
+}
+
+std::vector<double> WitnessSearch::plainNumbers() const {
+  std::vector<double> plain{0, 1, -1, 2, 5, 10, 0.5, -10, 100};
+  for (const double constant : constants_)
+    plain.insert(plain.end(), {constant, constant + 1, constant - 1, 0.0 - constant}); // no -0
+  return plain;
+}
+
+void WitnessSearch::sample() {
+  const std::vector<double> pool = plainNumbers();
+  std::mt19937 random(1);
+  const std::vector<std::uint32_t> names = inputs();
+  for (int i = 0; i < kSamples; ++i) {
+    GivenVariables given;
+    for (const std::uint32_t variable : names) {
+      const auto choice = random() % (pool.size() + pool.size() / 4 + 1);
+      if (i > 0 && choice < pool.size())
+        given.set(variable, ConcreteValue::of(pool[choice]));
+    }
+    keepSample(std::move(given));
+  }
+}
+
+void WitnessSearch::sampleAround(const smt::Model &allowed) {
+  others_ = allowed;
+  const std::vector<std::uint32_t> names = inputs();
+  if (samples_.size() >= kFewSamples || names.empty())
+    return;
+  const std::vector<double> pool = plainNumbers();
+  std::mt19937 random(1);
+  GivenVariables given = inputsOf(allowed);
+  keepSample(given);
+  for (int i = 0; i < kSamples; ++i) {
+    GivenVariables other = given;
+    const std::uint32_t variable = names[random() % names.size()];
+    const auto choice = random() % (pool.size() + pool.size() / 4 + 1);
+    if (choice < pool.size())
+      other.set(variable, ConcreteValue::of(pool[choice]));
+    else
+      other.erase(variable);
+    if (!this->allowed(other))
+      continue;
+    keepSample(other);
+    given = std::move(other);
+  }
+}
+
+void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
+  const smt::TermStore &store = reading_.store();
+  std::mt19937 random(1);
+  for (int i = 0; i < kSamplesOfEnds; ++i) {
+    GivenVariables given = inputsOf(others_);
+    for (const auto &[variable, low, high] : ends) {
+      const smt::Model model = modelOf(given); // an end may depend on the inputs before
+      const auto valueOf = [&](const std::optional<smt::TermId> &end) {
+        const auto exact = end ? smt::evaluate(store, *end, model) : std::nullopt;
+        const double value = exact ? std::get<smt::Number>(*exact).toDouble() : std::nan("");
+        return std::isfinite(value) ? std::optional(value) : std::nullopt;
+      };
+      const auto least = valueOf(low), most = valueOf(high);
+      const auto choice = i < 2 ? static_cast<unsigned>(i) : random() % 5;
+      if (choice <= 1) {
+        if (const auto end = choice == 0 ? least : most)
+          given.set(variable, ConcreteValue::of(*end));
+      } else if (choice == 2 && least && most) {
+        given.set(variable, ConcreteValue::of(rounded((*least + *most) / 2, 1)));
+      }
+    }
+    keepSample(std::move(given));
+  }
+}
+
+void WitnessSearch::keepSample(GivenVariables given) {
+  if (smt::areStepsUsedUp() || !allowed(given))
+    return;
+  throwIfStopped();
+  RunOptions options = runOptions(given);
+  options.fuel = kSampleFuel;
+  RunResult result = run(programs_, entry_, options);
+  smt::spend(kStepsOfInstruction * result.steps);
+  samples_.push_back({std::move(given), std::move(result)});
+}
+
+std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
+  int inexact = 0;
+  for (const Sample &sample : samples_) {
+    if (smt::areStepsUsedUp())
+      return std::nullopt;
+    smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
+    const auto happened = violation.happened(sample.result, sample.given);
+    if (!happened)
+      continue;
+    if (isExact(sample.given, sample.result, violation))
+      return plainest({sample.given, sample.result.end, *happened}, violation, kSampleFuel);
+    if (++inexact == kMostInexact)
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &violation) const {
+  const auto happened = violation.happened(run.result, run.given);
+  if (!happened || !allowed(run.given) || !isExact(run.given, run.result, violation))
+    return std::nullopt;
+  return Witness{run.given, run.result.end, *happened};
+}
+
+/// What happens only because the machine rounds is no witness: proofs are over exact numbers.
+bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const {
+  return violation.breaksExactly ? violation.breaksExactly(given) : isExact(given, run);
+}
+
+bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) const {
+  switch (agreesExactly(given, run)) {
+  case Agreement::Same: return true;
+  case Agreement::Different: return false;
+  case Agreement::NotKnown: return run.end != RunEnd::Repeats; // doubles that grow or shrink come to rest
+  }
+  return false;
+}
+
+std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
+                                            std::uint64_t fuel) const {
+  throwIfStopped();
+  if (smt::areStepsUsedUp() || !allowed(given))
+    return std::nullopt;
+  RunOptions options = runOptions(given);
+  options.fuel = fuel;
+  const Sample replay{given, run(programs_, entry_, options)};
+  smt::spend(kStepsOfInstruction * replay.result.steps);
+  if (replays_->size() < kMostReplays)
+    replays_->push_back(replay);
+  return shown(replay, violation);
+}
+
+/// An input without a number, or with one beyond all doubles, is left out.
+GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
+  const smt::TermStore &store = reading_.store();
+  GivenVariables given;
+  for (const auto &[variable, value] : reading_.entryValues()) {
+    const auto number = model.find(store[value.number].name);
+    const auto vacant =
+        store[value.vacant].kind == smt::TermKind::Variable ? model.find(store[value.vacant].name) : model.end();
+    if (vacant != model.end() && std::get<bool>(vacant->second))
+      continue;
+    const double nearest = number == model.end() ? 0 : std::get<smt::Number>(number->second).toDouble();
+    if (number != model.end() && std::isfinite(nearest))
+      given.set(variable, ConcreteValue::of(nearest));
+    else if (vacant != model.end())
+      given.set(variable, ConcreteValue::of(0));
+  }
+  return given;
+}
+
+std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
+                                                std::uint64_t fuel) const {
+  smt::Model whole = model;
+  whole.insert(others_.begin(), others_.end());
+  const GivenVariables given = inputsOf(whole);
+  for (const GivenVariables &each : {given, shortened(given, std::floor), shortened(given, std::ceil)})
+    if (const auto found = tried(each, violation, fuel))
+      return plainest(*found, violation, fuel);
+  return std::nullopt;
+}
+
+/// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.
+Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const {
+  for (const std::uint32_t variable : inputs()) {
+    const ConcreteValue *held = witness.variables.find(variable);
+    if (!held)
+      continue;
+    const double value = held->number;
+    GivenVariables without = witness.variables;
+    without.erase(variable);
+    std::vector<GivenVariables> plainer{without};
+    for (const double plain : {0.0, 1.0, rounded(value, 10), rounded(value, 1), rounded(value, 0.1),
+                               rounded(value, 0.01), rounded(value, 0.001)}) {
+      if (plain == value)
+        break;
+      plainer.push_back(without);
+      plainer.back().set(variable, ConcreteValue::of(plain));
+    }
+    for (const GivenVariables &given : plainer)
+      if (auto found = tried(given, violation, fuel)) {
+        witness = std::move(*found);
+        break;
+      }
+  }
+  return witness;
+}
+
+} // namespace feedhold::prove

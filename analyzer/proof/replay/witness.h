@@ -1,0 +1,108 @@
+// Witnesses: inputs that the concrete machine runs to the violation of a claim.
+#pragma once
+
+#include "proof/symbolic/contract_terms.h"
+#include "proof/replay/exact_run.h"
+#include "proof/obligation/obligation.h"
+#include "proof/symbolic/symbolic_interpretation.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// Whether a run breaks a claim.
+struct Violation {
+  using Happened = std::function<std::optional<std::string>(const RunResult &, const GivenVariables &)>;
+
+  template <typename Says>
+  Violation(Says says, std::function<bool(const GivenVariables &)> exactly = {}) : breaksExactly(std::move(exactly)) {
+    if constexpr (std::is_invocable_v<Says, const RunResult &>)
+      happened = [says = std::move(says)](const RunResult &run, const GivenVariables &) { return says(run); };
+    else
+      happened = std::move(says);
+  }
+
+  /// Says what happened in the run on these inputs if it may break the claim.
+  Happened happened;
+  /// Where the run alone does not tell: whether it does, in exact numbers.
+  std::function<bool(const GivenVariables &)> breaksExactly;
+};
+
+class WitnessSearch {
+public:
+  /// `demands`: what the inputs have to satisfy.
+  WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry, std::vector<smt::TermId> demands,
+                std::vector<double> constants);
+
+  /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
+  /// one starts at 0.
+  void startFrom(RunOptions start, std::map<Axis, smt::TermId> place) {
+    start_ = std::move(start);
+    place_ = std::move(place);
+  }
+  RunOptions runOptions(const GivenVariables &given) const;
+  RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
+  /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
+  void sample();
+  /// Where plain numbers seldom satisfy what they have to: the same, around inputs that do.  A model that names some
+  /// inputs is completed by these.
+  void sampleAround(const smt::Model &allowed);
+  /// At the ends of what the inputs may be, and midway: where claims break first.
+  void sampleEnds(const std::vector<InputEnds> &ends);
+  /// Among the sampled runs.
+  std::optional<Witness> amongSamples(const Violation &violation) const;
+  /// The inputs that a model of the solver names, then made as plain as they can be.
+  std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation,
+                                   std::uint64_t fuel = kFuel) const;
+
+  struct Sample {
+    GivenVariables given;
+    RunResult result;
+  };
+  const std::vector<Sample> &samples() const { return samples_; }
+  /// Runs on counterexamples, of narrowed searches too.
+  const std::vector<Sample> &replays() const { return *replays_; }
+  /// The run, if it breaks the claim on inputs that are allowed, and not by the rounding of the machine alone.
+  std::optional<Witness> shown(const Sample &run, const Violation &violation) const;
+  /// The inputs in exact numbers.
+  smt::Model modelOf(const GivenVariables &given) const;
+  /// They satisfy what the inputs have to.
+  bool allowed(const GivenVariables &given) const;
+  /// Whether the run ends so in exact numbers, too.
+  Agreement agreesExactly(const GivenVariables &given, const RunResult &run) const {
+    return exactRuns_->agrees(given, run);
+  }
+  /// With one more condition on the inputs, and those of the samples that satisfy it.  `inputs`: modelOf each sample;
+  /// empty: without samples.
+  WitnessSearch narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const;
+
+  static constexpr std::uint64_t kFuel = 20'000;
+
+private:
+  std::vector<std::uint32_t> inputs() const;
+  std::vector<double> plainNumbers() const;
+  GivenVariables inputsOf(const smt::Model &model) const;
+  void keepSample(GivenVariables given);
+  bool isExact(const GivenVariables &given, const RunResult &run) const;
+  bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
+  std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
+  Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
+
+  SymbolicReading &reading_;
+  const ProgramSet &programs_;
+  Callee entry_;
+  std::vector<smt::TermId> demands_;
+  std::vector<double> constants_; // that the program and its contract write
+  RunOptions start_;
+  std::map<Axis, smt::TermId> place_;
+  std::vector<Sample> samples_;
+  std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
+  std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
+  smt::Model others_; // inputs that satisfy what they have to
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,115 @@
+#include "proof/space/plain_space.h"
+
+#include "proof/space/region_shapes.h"
+
+#include <memory>
+
+namespace feedhold::prove {
+
+namespace {
+
+using State = MachineState<ConcreteReading>;
+
+/// Reads the expressions of a contract with the values of one call.
+class ContractNumbers {
+public:
+  ContractNumbers(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run)
+      : programs_(programs), file_(programs.file(program.file)), contracts_(contracts), modes_(*file_.dialect),
+        reading_(*file_.dialect, run.variables), state_(startState(reading_, modes_, run.start)) {
+    for (const auto &[group, code] : run.codes)
+      state_.codes[group] = code;
+    for (const Axis axis : kAllAxes) {
+      state_.variables.set(positionVariable(letterOf(axis)), state_.at(axis));
+      state_.variables.set(entryVariable(letterOf(axis)), state_.at(axis));
+    }
+  }
+
+  double number(ExpressionId expression) {
+    return within<double>(state_, [&](auto &context) { return evaluate(context, expression).number; });
+  }
+  bool holds(ExpressionId condition, const geometry::Point<double> &point) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+      state_.variables.set(pointVariable(letterOf(axis)), ConcreteValue::of(point[indexOf(axis)]));
+    return within<bool>(state_, [&](auto &context) { return evaluateCondition(context, condition); });
+  }
+
+private:
+  template <typename Result, typename Evaluate> Result within(State &state, Evaluate &&evaluateIt) {
+    const ProgramFile contract{.file = file_.file,
+                               .source = file_.source,
+                               .tree = &contracts_.tree,
+                               .model = file_.model,
+                               .dialect = file_.dialect};
+    StepContext<ConcreteReading> context{reading_, state, programs_, contract, modes_, BlockId(0)};
+    return evaluateIt(context);
+  }
+
+  const ProgramSet &programs_;
+  const ProgramFile &file_;
+  const FileContracts &contracts_;
+  ModalTable modes_;
+  ConcreteReading reading_;
+  State state_;
+};
+
+std::vector<geometry::PlainRegion> named(const RegionShapes<double, bool> &shapes, const std::vector<Region> &regions) {
+  std::vector<geometry::PlainRegion> result;
+  for (const std::string &name : namesOf(regions)) {
+    geometry::PlainRegion region{name, {}};
+    for (const Region &part : regions)
+      if (part.name == name)
+        region.parts.push_back(shapes.shape(part));
+    result.push_back(std::move(region));
+  }
+  return result;
+}
+
+} // namespace
+
+geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
+                                const RunOptions &run) {
+  geometry::PlainSpace space;
+  const Contract *contract = contracts.of(program.program);
+  if (contract == nullptr)
+    return space;
+  const auto numbers = std::make_shared<ContractNumbers>(programs, program, contracts, run);
+  const RegionShapes<double, bool> shapes{[numbers](ExpressionId expression) { return numbers->number(expression); },
+                                          [numbers](ExpressionId condition, const geometry::Point<double> &point) {
+                                            return numbers->holds(condition, point);
+                                          }};
+  if (contract->tool)
+    space.tool = shapes.tool(*contract->tool, 0);
+  space.keepIn = named(shapes, contract->keepIn);
+  space.keepOut = named(shapes, contract->keepOut);
+  if (contract->clearance)
+    space.clearance = numbers->number(contract->clearance->height.value);
+  if (contract->travel)
+    space.travel = shapes.sides(contract->travel->box);
+  return space;
+}
+
+double numberOf(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run,
+                ExpressionId expression) {
+  return ContractNumbers(programs, program, contracts, run).number(expression);
+}
+
+RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileContracts &contracts, RunOptions run) {
+  const Contract *contract = contracts.of(program.program);
+  if (contract == nullptr)
+    return run;
+  const Dialect &dialect = *programs.file(program.file).dialect;
+  const ModalTable modes(dialect);
+  for (const ModalCode &code : contract->modal) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    if (const auto index = row ? modes.indexOf(*row) : std::nullopt)
+      run.codes.emplace_back(row->group, *index);
+  }
+  ContractNumbers numbers(programs, program, contracts, run);
+  if (contract->start)
+    for (const AxisValue &axis : contract->start->axes)
+      if (const auto known = axisOf(axis.axis))
+        run.start[indexOf(*known)] = numbers.number(axis.value);
+  return run;
+}
+
+} // namespace feedhold::prove

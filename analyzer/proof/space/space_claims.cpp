@@ -1,0 +1,326 @@
+#include "proof/space/space_claims.h"
+
+#include "base/support/match.h"
+#include "proof/space/region_shapes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace feedhold::prove {
+
+using geometry::FreeSpace;
+using geometry::TermPoint;
+using geometry::TermShape;
+using smt::TermId;
+
+namespace {
+
+TermPoint inSpace(smt::TermStore &store, const std::array<SymbolicValue, kAxisCount> &point,
+                  const ToolPoint<SymbolicReading> &tool) {
+  const auto at = [&](std::size_t i) { return store.add(point[i].number, tool.zero[i].number); };
+  return {at(0), at(1), at(2)};
+}
+
+geometry::TermMove termMove(smt::TermStore &store, const MoveInstance &instance) {
+  const Move<SymbolicValue> &move = instance.move;
+  geometry::TermMove result{move.kind, inSpace(store, move.start, instance.point),
+                            inSpace(store, move.end, instance.point), move.plane};
+  if (move.kind != MoveKind::ArcClockwise && move.kind != MoveKind::ArcCounterclockwise)
+    return result;
+  const auto zero = [&](Axis axis) { return instance.point.zero[indexOf(axis)].number; };
+  result.firstCentre = store.add(move.firstCentre.number, zero(move.plane.first));
+  result.secondCentre = store.add(move.secondCentre.number, zero(move.plane.second));
+  result.turns = move.turns;
+  result.radius = instance.radius;
+  return result;
+}
+
+bool isCondition(const TermShape &part) { return std::holds_alternative<geometry::Condition<TermId, TermId>>(part); }
+
+std::vector<FreeSpace> spacesOf(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
+                                const std::vector<TermShape> &parts) {
+  if (kind == ObligationKind::KeepIn)
+    return {geometry::inside(store, tool, parts)};
+  std::vector<FreeSpace> spaces;
+  for (const TermShape &part : parts)
+    spaces.push_back(geometry::outside(store, tool, part));
+  return spaces;
+}
+
+/// What is so far from the border, or further; of a polygon only its height becomes less.
+TermShape shrunk(smt::TermStore &store, const TermShape &part, TermId margin) {
+  const auto within = [&](geometry::Interval<TermId> interval) {
+    if (interval.low)
+      interval.low = store.add(*interval.low, margin);
+    if (interval.high)
+      interval.high = store.subtract(*interval.high, margin);
+    return interval;
+  };
+  TermShape result = part;
+  match(
+      result,
+      [&](geometry::Box<TermId> &box) {
+        for (geometry::Interval<TermId> &side : box.sides)
+          side = within(side);
+      },
+      [&](geometry::Cylinder<TermId> &cylinder) {
+        cylinder.radius = store.subtract(cylinder.radius, margin);
+        cylinder.along = within(cylinder.along);
+      },
+      [&](geometry::Sphere<TermId> &sphere) { sphere.radius = store.subtract(sphere.radius, margin); },
+      [&](geometry::Prism<TermId> &prism) { prism.height = within(prism.height); },
+      [](geometry::Condition<TermId, TermId> &) {});
+  return result;
+}
+
+/// Also of its upper border, to which a larger tool comes no nearer.
+std::vector<FreeSpace> insideWithMargin(smt::TermStore &store, geometry::Tool<TermId> tool,
+                                        std::vector<TermShape> parts, TermId margin) {
+  for (TermShape &part : parts)
+    part = shrunk(store, part, margin);
+  if (std::any_of(parts.begin(), parts.end(),
+                  [](const TermShape &part) { return std::holds_alternative<geometry::Prism<TermId>>(part); }))
+    tool.radius = store.add(tool.radius, margin);
+  return spacesOf(store, ObligationKind::KeepIn, tool, parts);
+}
+
+/// By a tool that is larger, whose point lies lower by as much.
+std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::Tool<TermId> &tool,
+                                         const std::vector<TermShape> &parts, TermId margin) {
+  const auto lower = [&store, margin](geometry::Formula &formula) {
+    formula = [&store, margin, inner = std::move(formula)](const TermPoint &point) {
+      return inner({point[0], point[1], store.subtract(point[2], margin)});
+    };
+  };
+  const geometry::Tool<TermId> larger{store.add(tool.radius, margin), store.add(tool.corner, margin)};
+  std::vector<FreeSpace> spaces = spacesOf(store, ObligationKind::KeepOut, larger, parts);
+  for (FreeSpace &space : spaces) {
+    lower(space.all);
+    for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
+      for (geometry::Formula &formula : *formulas)
+        lower(formula);
+    space.beyond.clear(); // margins are found without
+  }
+  return spaces;
+}
+
+} // namespace
+
+bool hasSpaceClause(const Contract &contract) {
+  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel ||
+         !contract.limits.empty();
+}
+
+bool isCutting(MoveKind kind) {
+  return kind == MoveKind::Feed || kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise;
+}
+
+SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
+                         const SymbolicState &entry)
+    : store_(store), terms_(terms), contract_(contract), entry_(entry) {
+  addRegions(contract.keepIn, ObligationKind::KeepIn);
+  addRegions(contract.keepOut, ObligationKind::KeepOut);
+  const auto number = [&](ExpressionId expression) { return terms_.number(expression, entry_, entry_); };
+  if (contract.clearance)
+    rules_.push_back({.kind = ObligationKind::Clearance,
+                      .clause = contract.clearance->clause,
+                      .height = number(contract.clearance->height.value)});
+  if (contract.travel) {
+    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(contract.travel->box);
+    rules_.push_back({.kind = ObligationKind::Travel,
+                      .clause = contract.travel->clause,
+                      .spaces = {geometry::inside(store_, box)},
+                      .isSound = geometry::isNotEmpty(store_, TermShape(box))});
+  }
+}
+
+void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind kind) {
+  const RegionShapes<TermId, TermId> shapes{
+      [this](ExpressionId expression) { return terms_.number(expression, entry_, entry_); },
+      [this](ExpressionId condition, const TermPoint &point) { return terms_.conditionAt(condition, entry_, point); }};
+  const std::vector<std::string> names = namesOf(regions);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    SpaceRule rule{.kind = kind, .clause = regions.front().clause, .region = i, .name = names[i]};
+    std::vector<TermShape> parts;
+    for (const Region &region : regions)
+      if (region.name == names[i]) {
+        if (parts.empty())
+          rule.clause = region.clause;
+        parts.push_back(shapes.shape(region));
+      }
+    if (!contract_.tool) {
+      rule.missing = "the contract does not say what the tool is: `@TOOL FLAT RADIUS #7`, for instance, would";
+      rules_.push_back(std::move(rule));
+      continue;
+    }
+    const geometry::Tool<TermId> tool = shapes.tool(*contract_.tool, store_.number(smt::Number(0)));
+    rule.isSound = geometry::isTool(store_, tool);
+    for (const TermShape &part : parts)
+      rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
+    rule.spaces = spacesOf(store_, kind, tool, parts);
+    const bool hasDistances = std::none_of(parts.begin(), parts.end(), isCondition);
+    if (kind == ObligationKind::KeepOut || hasDistances)
+      rule.spacesFor = [this, tool, parts, kind](TermId margin) {
+        return kind == ObligationKind::KeepIn ? insideWithMargin(store_, tool, parts, margin)
+                                              : outsideWithMargin(store_, tool, parts, margin);
+      };
+    rules_.push_back(std::move(rule));
+  }
+}
+
+SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
+  SpaceRule wider = rule;
+  wider.spaces = rule.spacesFor(store_.number(smt::Number::fromTyped(margin)));
+  return wider;
+}
+
+bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
+  const MoveKind kind = instance.move.kind;
+  if (kind == MoveKind::Unfollowed)
+    return true;
+  if (rule.kind == ObligationKind::KeepIn || rule.kind == ObligationKind::Limit)
+    return isCutting(kind);
+  return rule.kind != ObligationKind::Clearance || kind == MoveKind::Rapid;
+}
+
+std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
+  if (instance.move.kind == MoveKind::Unfollowed)
+    return "where this block leads is not known: it could not be read, its code is not followed, or `@MODAL` has to "
+           "say which of G00, G01, G02 and which plane is in force at the start";
+  for (const Axis axis : kAllAxes)
+    if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
+      return fmt::format("axis {} moves, and regions are those of X, Y and Z alone", letterOf(axis));
+  return std::nullopt;
+}
+
+std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRule &rule,
+                                                                  const MoveInstance &instance) const {
+  std::vector<std::pair<TermId, std::string>> premises;
+  if (rule.kind != ObligationKind::Travel)
+    premises.emplace_back(instance.point.withoutCompensation.term,
+                          "cutter compensation (G41, G42) may be in force or end here, and the path that it makes is "
+                          "not followed; `@MODAL G40` says that there is none at the start");
+  premises.emplace_back(instance.point.lengthKnown.term,
+                        "the tool length has been taken away (G49): how high the tip is, is not known; `@MODAL G49` "
+                        "says that there was none at the start either");
+  if (rule.kind != ObligationKind::Travel)
+    premises.emplace_back(instance.point.sameSide.term,
+                          "another axis than X, Y and Z has moved since the start, and may have turned the part");
+  premises.emplace_back(instance.point.sameUnits.term,
+                        "the units may be others than at the start (G20, G21): `@MODAL G21`, for instance, says which "
+                        "those are");
+  return premises;
+}
+
+/// All corners lie in one convex part, or beyond one of the ends.
+std::vector<TermId> SpaceClaims::simpleWays(const FreeSpace &space, const std::vector<TermPoint> &corners) const {
+  const auto atAll = [&](const auto &formula) {
+    std::set<TermId> parts;
+    for (const TermPoint &corner : corners)
+      parts.insert(formula(corner));
+    return store_.logicalAnd(std::vector(parts.begin(), parts.end()));
+  };
+  std::vector<TermId> ways;
+  for (const geometry::Formula &part : space.convexParts)
+    ways.push_back(atAll(part));
+  for (const FreeSpace::Beyond &beyond : space.beyond)
+    for (const TermPoint &anchor : {corners.front(), corners.back()})
+      ways.push_back(atAll([&](const TermPoint &corner) { return beyond(anchor, corner); }));
+  return ways;
+}
+
+std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
+  if (rule.kind == ObligationKind::Clearance)
+    return {clearanceOf(rule, instance)};
+  const geometry::TermMove move = termMove(store_, instance);
+  geometry::ToolPath path(store_, move);
+  std::vector<SpaceQuestion> questions;
+  const geometry::ToolPath::Hull hull = path.hull();
+  const auto atCorners = [&](const geometry::Formula &part) {
+    std::set<TermId> corners;
+    for (const TermPoint &corner : hull.corners)
+      corners.insert(part(corner));
+    return corners;
+  };
+  const auto together = [&](const std::set<TermId> &terms) {
+    return store_.logicalAnd(std::vector(terms.begin(), terms.end()));
+  };
+  const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Way {
+    const geometry::PointOnWay any = path.anyPoint();
+    return {any.conditions, all(any.point)};
+  };
+  const auto isOfLevel = [&](const geometry::Formula &bound) { // speaks of the axis of the helix alone
+    return std::all_of(hull.corners.begin(), hull.corners.end(),
+                       [&](const TermPoint &corner) { return bound(corner) == bound(path.atCentre(corner)); });
+  };
+  for (const FreeSpace &space : rule.spaces) {
+    for (const geometry::Formula &bound : space.bounds) {
+      const std::set<TermId> corners = atCorners(bound);
+      SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
+      if (!path.isHull() && !isOfLevel(bound))
+        question.ways.push_back(anyPoint(bound));
+    }
+    if (space.isConvex())
+      continue;
+    SpaceQuestion &question = questions.emplace_back();
+    if (space.isOpenUpwards && path.isVertical()) { // all of it lies above its lower end
+      question.ways.push_back({{}, together(atCorners(space.all))});
+      continue;
+    }
+    const std::vector<TermId> simple = simpleWays(space, hull.corners);
+    for (const TermId way : simple)
+      question.ways.push_back({hull.conditions, way});
+    if (simple.size() > 1) // one or the other, as the case may be
+      question.ways.push_back({hull.conditions, store_.logicalOr(simple)});
+    if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
+      for (const TermId level : std::set{move.start[2], move.end[2]}) {
+        const geometry::PointOnWay any = path.anyPoint();
+        const TermId isAbove = store_.lessOrEqual(level, any.point[2]);
+        question.ways.push_back(
+            {any.conditions, store_.logicalAnd(isAbove, space.all({any.point[0], any.point[1], level}))});
+      }
+    question.ways.push_back(anyPoint(space.all));
+  }
+  return questions;
+}
+
+/// Not below the height; or straight up, or straight down to where the tool has been.
+SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance &instance) const {
+  const TermPoint start = inSpace(store_, instance.move.start, instance.point);
+  const TermPoint end = inSpace(store_, instance.move.end, instance.point);
+  const TermId above =
+      store_.logicalAnd(store_.lessOrEqual(*rule.height, start[2]), store_.lessOrEqual(*rule.height, end[2]));
+  const TermId cleared =
+      store_.logicalOr(store_.lessOrEqual(start[2], end[2]), store_.lessOrEqual(instance.column, end[2]));
+  const std::array vertical{store_.equal(start[0], end[0]), store_.equal(start[1], end[1]), cleared};
+  return {{{{}, store_.logicalOr(above, store_.logicalAnd(vertical))}}};
+}
+
+TermId SpaceClaims::keepsLimit(const WordLimit &limit, const MoveInstance &instance) const {
+  const SymbolicValue &word = limit.address == 'F' ? instance.move.feed : instance.spindleSpeed;
+  TermId kept = store_.logicalNot(word.vacant);
+  if (limit.range.low)
+    kept = store_.logicalAnd(kept, store_.lessOrEqual(terms_.number(*limit.range.low, entry_, entry_), word.number));
+  if (limit.range.high)
+    kept = store_.logicalAnd(kept, store_.lessOrEqual(word.number, terms_.number(*limit.range.high, entry_, entry_)));
+  return kept;
+}
+
+std::vector<TermId> SpaceClaims::hints(const SymbolicState &state) const {
+  const TermPoint point{state.at(Axis::X).number, state.at(Axis::Y).number, state.at(Axis::Z).number};
+  std::vector<TermId> hints;
+  for (const SpaceRule &rule : rules_)
+    for (const FreeSpace &space : rule.spaces)
+      for (const geometry::Formula &bound : space.bounds) {
+        const TermId holds = bound(point);
+        const smt::Term &term = store_[holds];
+        if (term.kind == smt::TermKind::And)
+          hints.insert(hints.end(), term.arguments.begin(), term.arguments.end());
+        else
+          hints.push_back(holds);
+      }
+  return hints;
+}
+
+} // namespace feedhold::prove

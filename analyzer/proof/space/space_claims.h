@@ -1,0 +1,72 @@
+// Space claims: what the geometry clauses of a contract ask of each movement (docs/geometry.md).
+#pragma once
+
+#include "proof/geometry/gouge.h"
+#include "proof/geometry/tool_path.h"
+#include "proof/symbolic/contract_terms.h"
+#include "proof/explore/exploration.h"
+#include "proof/obligation/obligation.h"
+
+namespace feedhold::prove {
+
+/// One clause, or all clauses of one name.
+struct SpaceRule {
+  ObligationKind kind; // KeepIn, KeepOut, Clearance, Travel
+  ClauseId clause;
+  std::size_t region = 0;                       // of KeepIn and KeepOut: of namesOf
+  std::string name = {};                        // of the region
+  std::vector<geometry::FreeSpace> spaces = {}; // the point of the tool is in all of them
+  /// Of KeepIn and KeepOut: the same where the tool keeps so far away; empty where a region knows no distances.
+  std::function<std::vector<geometry::FreeSpace>(smt::TermId margin)> spacesFor = {};
+  std::optional<smt::TermId> height = {};  // of Clearance
+  smt::TermId isSound = smt::TermId(1);    // without that the claim means nothing
+  std::optional<std::string> missing = {}; // why nothing can be told of it
+};
+
+/// It holds if one of the ways to say it does: the cheap one first, the exact one last.
+struct SpaceQuestion {
+  struct Way {
+    std::vector<smt::TermId> conditions; // of new variables of the goal
+    smt::TermId goal;
+  };
+  std::vector<Way> ways;
+};
+
+class SpaceClaims {
+public:
+  SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract, const SymbolicState &entry);
+
+  const std::vector<SpaceRule> &rules() const { return rules_; }
+  bool concerns(const SpaceRule &rule, const MoveInstance &move) const;
+  /// Why nothing can be told of the movement; absent: questions tell it.
+  std::optional<std::string> whyNotTold(const MoveInstance &move) const;
+  /// What has to hold on the way there so that coordinates are those of the tool, and what is missing otherwise.
+  std::vector<std::pair<smt::TermId, std::string>> premises(const SpaceRule &rule, const MoveInstance &move) const;
+  std::vector<SpaceQuestion> questions(const SpaceRule &rule, const MoveInstance &move) const;
+  /// The rule for a tool that has to keep so far away; there is SpaceRule::spacesFor.
+  SpaceRule withMargin(const SpaceRule &rule, double margin) const;
+  /// The feed or the speed in force; of a cutting movement.
+  smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;
+  /// What may hold of the position before each pass of a loop.
+  std::vector<smt::TermId> hints(const SymbolicState &state) const;
+
+private:
+  void addRegions(const std::vector<Region> &regions, ObligationKind kind);
+  std::vector<smt::TermId> simpleWays(const geometry::FreeSpace &space,
+                                      const std::vector<geometry::TermPoint> &corners) const;
+  SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
+
+  smt::TermStore &store_;
+  ContractTerms &terms_;
+  const Contract &contract_;
+  const SymbolicState &entry_;
+  std::vector<SpaceRule> rules_;
+};
+
+/// A movement that takes material away.
+bool isCutting(MoveKind kind);
+
+/// Whether the contract has a clause on movements.
+bool hasSpaceClause(const Contract &contract);
+
+} // namespace feedhold::prove

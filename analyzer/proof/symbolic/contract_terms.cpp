@@ -1,0 +1,191 @@
+#include "proof/symbolic/contract_terms.h"
+
+#include "base/support/match.h"
+#include "proof/smt/steps.h"
+
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over which a clause is read
+
+/// The expressions of a contract are read as those of the program, in a tree of their own.
+template <typename Evaluate>
+auto inContract(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
+                SymbolicState &state, Evaluate &&evaluate) {
+  const ProgramFile &program = programs.file(file);
+  const ProgramFile within{.file = file,
+                           .source = program.source,
+                           .tree = &contracts.tree,
+                           .model = program.model,
+                           .dialect = program.dialect};
+  const ModalTable modes(*program.dialect);
+  reading.useDialect(*program.dialect);
+  StepContext<SymbolicReading> context{reading, state, programs, within, modes, BlockId(0)};
+  auto result = evaluate(context);
+  reading.start(); // what a condition of a contract would stop at is no alarm of the program
+  return result;
+}
+
+} // namespace
+
+SymbolicValue ContractTerms::value(ExpressionId expression, const SymbolicState &state) {
+  SymbolicState copy = state;
+  return inContract(reading_, programs_, file_, contracts_, copy,
+                    [&](auto &context) { return evaluate(context, expression); });
+}
+
+SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const SymbolicState &now) const {
+  SymbolicState state = now;
+  for (const Axis axis : kAllAxes) {
+    state.variables.set(positionVariable(letterOf(axis)), now.at(axis));
+    state.variables.set(entryVariable(letterOf(axis)), entry.at(axis));
+  }
+  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
+    state.variables.set(oldVariable(local), entry.locals[local]);
+  for (const std::uint32_t variable : oldVariables_)
+    state.variables.set(oldVariable(variable),
+                        reading_.unwritten(entry, cellOf(*programs_.file(file_).dialect, variable)));
+  smt::spend(kStepsOfTerm);
+  return state;
+}
+
+std::vector<std::uint32_t> ContractTerms::oldOf(const FileContracts &contracts) {
+  std::set<std::uint32_t> found;
+  for (const Expression &expression : contracts.tree.expressions) {
+    const auto *variable = std::get_if<NumberedVariable>(&expression.node);
+    const auto number = variable ? variable->number.asInteger() : std::nullopt;
+    if (!number || *number >= 0)
+      continue;
+    const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
+    const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr;
+    if (of && of->variable > kLocalVariables)
+      found.insert(of->variable);
+  }
+  return {found.begin(), found.end()};
+}
+
+TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
+  SymbolicState state = withReserved(entry, now);
+  return inContract(reading_, programs_, file_, contracts_, state,
+                    [&](auto &context) { return evaluateCondition(context, expression); })
+      .term;
+}
+
+TermId ContractTerms::conditionAt(ExpressionId expression, const SymbolicState &entry,
+                                  const std::array<TermId, 3> &point) {
+  SymbolicState state = withReserved(entry, entry);
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+    state.variables.set(pointVariable(letterOf(axis)), {reading_.store().no(), point[indexOf(axis)]});
+  return inContract(reading_, programs_, file_, contracts_, state,
+                    [&](auto &context) { return evaluateCondition(context, expression); })
+      .term;
+}
+
+TermId ContractTerms::number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
+  return value(expression, withReserved(entry, now)).number;
+}
+
+SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState &state) const {
+  if (variable <= kLocalVariables)
+    return state.locals[variable];
+  const std::uint32_t cell = cellOf(*programs_.file(file_).dialect, variable);
+  const SymbolicValue *written = state.variables.find(cell);
+  return written ? *written : reading_.unwritten(state, cell);
+}
+
+TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {
+  smt::TermStore &store = reading_.store();
+  const SymbolicValue held = valueOf(given.variable, entry);
+  std::vector<TermId> demands;
+  match(
+      given.values, [](const AnyNumber &) {},
+      [&](const Range &range) {
+        if (range.low)
+          demands.push_back(store.lessOrEqual(value(*range.low, entry).number, held.number));
+        if (range.high)
+          demands.push_back(store.lessOrEqual(held.number, value(*range.high, entry).number));
+      },
+      [&](const ValueList &list) {
+        std::vector<TermId> cases;
+        for (const ExpressionId each : list.values)
+          cases.push_back(store.equal(held.number, value(each, entry).number));
+        demands.push_back(store.logicalOr(cases));
+      });
+  if (given.unit == Unit::Integer)
+    demands.push_back(store.equal(store.floor(held.number), held.number));
+  const TermId within = store.logicalAnd(demands);
+  if (given.vacancy == Vacancy::Possible)
+    return store.logicalOr(held.vacant, within);
+  return store.logicalAnd(store.logicalNot(held.vacant), within);
+}
+
+std::vector<TermId> ContractTerms::demands(const Contract &contract, const SymbolicState &entry) {
+  std::vector<TermId> demands;
+  for (const EntryValue &param : contract.params)
+    demands.push_back(demandOf(param, entry));
+  for (const EntryValue &global : contract.globals)
+    demands.push_back(demandOf(global, entry));
+  for (const ContractCondition &requirement : contract.requirements)
+    demands.push_back(condition(requirement.condition, entry, entry));
+  return demands;
+}
+
+std::vector<InputEnds> ContractTerms::inputEnds(const Contract &contract, const SymbolicState &entry) {
+  const auto number = [&](std::optional<ExpressionId> end) {
+    return end ? std::optional(value(*end, entry).number) : std::nullopt;
+  };
+  std::vector<InputEnds> ends;
+  for (const auto *inputs : {&contract.params, &contract.globals})
+    for (const EntryValue &input : *inputs)
+      if (const auto *range = std::get_if<Range>(&input.values))
+        ends.push_back({input.variable, number(range->low), number(range->high)});
+  return ends;
+}
+
+std::vector<TermId> ContractTerms::modesOfStart(const Contract &contract, const SymbolicState &started) {
+  SymbolicState prepared = started;
+  prepare(contract, prepared);
+  std::vector<TermId> all;
+  for (std::size_t group = 0; group < kModalGroups; ++group)
+    all.push_back(reading_.store().equal(started.codes[group].index, prepared.codes[group].index));
+  return all;
+}
+
+std::vector<TermId> ContractTerms::placeOfStart(const Contract &contract, const SymbolicState &started) {
+  SymbolicState prepared = started;
+  prepare(contract, prepared);
+  std::vector<TermId> all;
+  for (const Axis axis : kAllAxes)
+    all.push_back(reading_.store().equal(started.at(axis).number, prepared.at(axis).number));
+  return all;
+}
+
+std::vector<TermId> ContractTerms::assumptions(const Contract &contract, const SymbolicState &started) {
+  std::vector<TermId> all = demands(contract, started);
+  for (const auto &more : {modesOfStart(contract, started), placeOfStart(contract, started)})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
+  const Dialect &dialect = *programs_.file(file_).dialect;
+  const ModalTable modes(dialect);
+  for (const ModalCode &code : contract.modal) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    const auto index = row ? modes.indexOf(*row) : std::nullopt;
+    if (index)
+      entry.codes[row->group] = reading_.code(*index);
+  }
+  if (contract.start)
+    for (const AxisValue &axis : contract.start->axes)
+      if (const auto known = axisOf(axis.axis))
+        entry.at(*known) = reading_.asNumber(value(axis.value, entry));
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,58 @@
+// Contract terms: what the clauses of a contract say of an entry state and of a state at the return.
+#pragma once
+
+#include "language/contract/contract.h"
+#include "proof/symbolic/symbolic_interpretation.h"
+
+#include <optional>
+#include <vector>
+
+namespace feedhold::prove {
+
+/// Numbers over the inputs; an absent end is no bound.
+struct InputEnds {
+  std::uint32_t variable;
+  std::optional<smt::TermId> low, high;
+};
+
+class ContractTerms {
+public:
+  ContractTerms(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts)
+      : reading_(reading), programs_(programs), file_(file), contracts_(contracts), oldVariables_(oldOf(contracts)) {}
+
+  /// The modal codes and the start position of the contract are put into the state.
+  void prepare(const Contract &contract, SymbolicState &entry);
+  /// `@PARAM`, `@GLOBAL` and `@REQUIRE`: what a caller has to see to.
+  std::vector<smt::TermId> demands(const Contract &contract, const SymbolicState &entry);
+  /// The modal codes and the start position of the contract are those of the state.
+  std::vector<smt::TermId> modesOfStart(const Contract &contract, const SymbolicState &started);
+  std::vector<smt::TermId> placeOfStart(const Contract &contract, const SymbolicState &started);
+  /// All that a proof of the program assumes of the state in which it is started: the same, the modal codes and the
+  /// start position.  Whoever calls the program answers for each of them, and a call that breaks one of them is a call
+  /// outside of the contract.
+  std::vector<smt::TermId> assumptions(const Contract &contract, const SymbolicState &started);
+  /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
+  smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+  /// A condition over a point of the space, and the values on entry.
+  smt::TermId conditionAt(ExpressionId expression, const SymbolicState &entry, const std::array<smt::TermId, 3> &point);
+  /// A number of the contract over a state, as condition().
+  smt::TermId number(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+
+  /// Between which ends the contract has the inputs, in its order; those it bounds.
+  std::vector<InputEnds> inputEnds(const Contract &contract, const SymbolicState &entry);
+
+private:
+  SymbolicValue valueOf(std::uint32_t variable, const SymbolicState &state) const;
+  smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
+  SymbolicValue value(ExpressionId expression, const SymbolicState &state);
+  SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
+  static std::vector<std::uint32_t> oldOf(const FileContracts &contracts);
+
+  SymbolicReading &reading_;
+  const ProgramSet &programs_;
+  FileId file_;
+  const FileContracts &contracts_;
+  std::vector<std::uint32_t> oldVariables_; // whose values on entry some clause asks for; no locals
+};
+
+} // namespace feedhold::prove

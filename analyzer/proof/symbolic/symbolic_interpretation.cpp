@@ -1,0 +1,301 @@
+#include "proof/symbolic/symbolic_interpretation.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::Function;
+using smt::Number;
+using smt::Sort;
+using smt::Term;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+constexpr std::size_t kMostArguments = 64;
+// Behind these, no certificate can speak of the value (check/claim.cpp), and each further operation makes it larger.
+constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64}; // 4096 bits
+
+Number numberOf(Decimal value) {
+  Number number(static_cast<std::int64_t>(value.mantissa()));
+  for (int i = 0; i < value.scale(); ++i)
+    number /= Number(10);
+  return number;
+}
+
+std::optional<Function> functionOf(FunctionKind kind) {
+  if (kind == FunctionKind::Sin)
+    return Function::Sin;
+  if (kind == FunctionKind::Cos)
+    return Function::Cos;
+  if (kind == FunctionKind::Tan)
+    return Function::Tan;
+  if (kind == FunctionKind::Asin)
+    return Function::Asin;
+  if (kind == FunctionKind::Acos)
+    return Function::Acos;
+  if (kind == FunctionKind::Sqrt)
+    return Function::Sqrt;
+  if (kind == FunctionKind::Ln)
+    return Function::Ln;
+  if (kind == FunctionKind::Exp)
+    return Function::Exp;
+  return std::nullopt;
+}
+
+} // namespace
+
+void SymbolicReading::start() {
+  checks_.clear();
+  moves_.clear();
+  unkeptWrites_.clear();
+  stopped_ = moved_ = false;
+}
+
+TermId SymbolicReading::fresh(std::string_view what, Sort sort) {
+  return store_.variable(fmt::format("{} {}", what, nextFresh_++), sort);
+}
+
+SymbolicValue SymbolicReading::named(const std::string &name, MayBeVacant mayBeVacant) {
+  const auto known = named_.find(name);
+  if (known != named_.end())
+    return known->second;
+  Value value{store_.no(), store_.variable(name, Sort::Real)};
+  if (mayBeVacant == MayBeVacant::Yes) {
+    value.vacant = store_.variable(name + " vacant", Sort::Bool);
+    facts_.push_back(store_.implies(value.vacant, store_.equal(value.number, store_.number(Number(0)))));
+  }
+  named_.emplace(name, value);
+  return value;
+}
+
+SymbolicValue SymbolicReading::freshValue(MayBeVacant mayBeVacant) {
+  return named(fmt::format("any {}", nextFresh_++), mayBeVacant);
+}
+
+SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
+  const bool isNumber = range && range->kind == VariableKind::System;
+  if (given_) {
+    if (const auto value = given_->find(variable); value != given_->end())
+      return value->second;
+    if (!isNumber)
+      return vacant();
+  }
+  const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
+  entryValues_.emplace(variable, value);
+  entry_.insert(value.number);
+  entry_.insert(value.vacant);
+  return value;
+}
+
+// ---- values ----
+
+/// A number that grows without end (`#1=#1*#1` in a loop) is taken as any number at some size.
+SymbolicValue SymbolicReading::of(TermId number) {
+  const smt::Term &term = store_[number];
+  const smt::TermShape &shape = store_.shape(number);
+  const bool isHuge = term.arguments.size() > kMostArguments || shape.monomials > kLargest.monomials ||
+                      shape.degree > kLargest.degree || shape.depth > kLargest.depth || shape.words > kLargest.words;
+  if (!isHuge)
+    return {store_.no(), number};
+  tooLarge_ = true;
+  return anyNumber();
+}
+
+SymbolicValue SymbolicReading::literal(Decimal value) { return of(store_.number(numberOf(value))); }
+SymbolicValue SymbolicReading::number(double value) { return of(store_.number(Number::fromDouble(value))); }
+SymbolicValue SymbolicReading::vacant() { return {store_.yes(), store_.number(Number(0))}; }
+
+/// Only what a double holds exactly: the semantics computes on with it.
+std::optional<double> SymbolicReading::constantOf(const Value &value) const {
+  if (value.vacant != store_.no() || !store_.isNumber(value.number))
+    return std::nullopt;
+  const Number &exact = store_[value.number].number;
+  const double nearest = exact.toDouble();
+  return Number::fromDouble(nearest) == exact ? std::optional(nearest) : std::nullopt;
+}
+
+SymbolicValue SymbolicReading::select(Truth truth, const Value &first, const Value &second) {
+  return {store_.ite(truth.term, first.vacant, second.vacant), store_.ite(truth.term, first.number, second.number)};
+}
+
+SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
+  const Value stop = anyNumber();
+  const auto within = [&](TermId low, TermId high) {
+    return store_.logicalAnd(store_.lessOrEqual(low, stop.number), store_.lessOrEqual(stop.number, high));
+  };
+  facts_.push_back(store_.logicalOr(within(start.number, end.number), within(end.number, start.number)));
+  return stop;
+}
+
+// ---- arithmetic ----
+
+/// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a
+/// rounding has its argument several times, and nested roundings would be walked through without an end.
+bool SymbolicReading::isNeverNegative(TermId id) {
+  const auto known = neverNegative_.find(id);
+  return known != neverNegative_.end() ? known->second
+                                       : neverNegative_.emplace(id, hasFormNeverNegative(id)).first->second;
+}
+
+bool SymbolicReading::hasFormNeverNegative(TermId id) {
+  const Term term = store_[id]; // a copy: telling absolute values makes terms
+  const auto allNeverNegative = [&](const auto &terms) {
+    return std::all_of(terms.begin(), terms.end(), [&](TermId each) { return isNeverNegative(each); });
+  };
+  switch (term.kind) {
+  case TermKind::Number: return term.number.sign() >= 0;
+  case TermKind::Add:
+  case TermKind::Divide: return allNeverNegative(term.arguments);
+  case TermKind::Multiply:
+    return allNeverNegative(term.arguments) || (term.arguments.size() == 2 && term.arguments[0] == term.arguments[1]);
+  case TermKind::Ite: {
+    const TermId first = term.arguments[1];
+    const TermId second = term.arguments[2];
+    const bool isAbsolute = store_.absolute(first) == id || store_.absolute(second) == id;
+    return isAbsolute || (isNeverNegative(first) && isNeverNegative(second));
+  }
+  case TermKind::Apply:
+    if (term.function == Function::Floor)
+      return isNeverNegative(term.arguments[0]);
+    return term.function == Function::Sqrt || term.function == Function::Exp;
+  case TermKind::True:
+  case TermKind::False:
+  case TermKind::Variable:
+  case TermKind::Less:
+  case TermKind::LessOrEqual:
+  case TermKind::Equal:
+  case TermKind::And:
+  case TermKind::Or:
+  case TermKind::Not: return false;
+  }
+  return false;
+}
+
+SymbolicValue SymbolicReading::fix(const Value &a) {
+  return of(isNeverNegative(a.number) ? store_.floor(a.number) : store_.truncate(a.number));
+}
+SymbolicValue SymbolicReading::fup(const Value &a) {
+  const TermId up = store_.ceiling(a.number);
+  if (isNeverNegative(a.number))
+    return of(up);
+  const TermId zero = store_.number(Number(0));
+  return of(store_.ite(store_.lessOrEqual(zero, a.number), up, store_.floor(a.number)));
+}
+SymbolicValue SymbolicReading::remainder(const Value &a, const Value &b) {
+  return subtract(a, multiply(b, fix(divide(a, b))));
+}
+
+/// Halves go away from zero.  Finer steps are the increment of the control, which exact reals do not have.
+SymbolicValue SymbolicReading::roundTo(const Value &value, Decimal step) {
+  if (step.scale() != 0 || step.mantissa() != 1 || store_.sort(value.number) == Sort::Int)
+    return asNumber(value);
+  const TermId half = store_.number(Number(1) / Number(2));
+  const TermId up = store_.floor(store_.add(value.number, half));
+  if (isNeverNegative(value.number))
+    return of(up);
+  const TermId down = store_.ceiling(store_.subtract(value.number, half));
+  return of(store_.ite(store_.lessOrEqual(store_.number(Number(0)), value.number), up, down));
+}
+
+SymbolicValue SymbolicReading::function(FunctionKind kind, const Value &argument) {
+  if (kind == FunctionKind::Abs)
+    return of(isNeverNegative(argument.number) ? argument.number : store_.absolute(argument.number));
+  const auto function = functionOf(kind);
+  return function ? of(store_.apply(*function, argument.number)) : anyNumber();
+}
+SymbolicValue SymbolicReading::atan2(const Value &y, const Value &x) {
+  const std::array arguments{y.number, x.number};
+  return of(store_.apply(Function::Atan2, arguments));
+}
+SymbolicValue SymbolicReading::power(const Value &base, const Value &exponent) {
+  const auto constant = constantOf(exponent);
+  if (constant == 2.0)
+    return multiply(base, base);
+  const std::array arguments{base.number, exponent.number};
+  return of(store_.apply(Function::Power, arguments));
+}
+SymbolicValue SymbolicReading::bitwise(OperatorKind op, const Value &a, const Value &b) {
+  const Function function = op == OperatorKind::And  ? Function::BitAnd
+                            : op == OperatorKind::Or ? Function::BitOr
+                                                     : Function::BitXor;
+  const std::array arguments{a.number, b.number};
+  return of(store_.apply(function, arguments));
+}
+
+Condition SymbolicReading::compare(Relation relation, const Value &a, const Value &b) {
+  switch (relation) {
+  case Relation::Equal: return {store_.equal(a.number, b.number)};
+  case Relation::NotEqual: return {store_.notEqual(a.number, b.number)};
+  case Relation::Greater: return {store_.greater(a.number, b.number)};
+  case Relation::GreaterOrEqual: return {store_.greaterOrEqual(a.number, b.number)};
+  case Relation::Less: return {store_.less(a.number, b.number)};
+  case Relation::LessOrEqual: return {store_.lessOrEqual(a.number, b.number)};
+  }
+  return unknownTruth();
+}
+
+bool SymbolicReading::mayBe(Truth a) {
+  return a.term != store_.no() && !(path_ && path_->says(store_.logicalNot(a.term)));
+}
+
+// ---- modal codes ----
+
+Condition SymbolicReading::isOneOf(ModalCode code, CodeMask mask) {
+  if (const auto only = onlyCode(code))
+    return truth(((mask >> *only) & 1) != 0);
+  std::vector<TermId> cases;
+  for (CodeMask rest = mask; rest != 0; rest &= rest - 1)
+    cases.push_back(store_.equal(code.index, store_.number(Number(std::countr_zero(rest)))));
+  return {store_.logicalOr(cases)};
+}
+std::optional<std::uint8_t> SymbolicReading::onlyCode(ModalCode code) {
+  if (!store_.isNumber(code.index))
+    return std::nullopt;
+  return static_cast<std::uint8_t>(store_[code.index].number.toDouble());
+}
+SymbolicCode SymbolicReading::selectCode(Truth truth, ModalCode first, ModalCode second) {
+  return {store_.ite(truth.term, first.index, second.index)};
+}
+SymbolicValue SymbolicReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) {
+  const auto only = onlyCode(code);
+  if (only && *only < modes.group(group).codes.size())
+    return literal(Decimal(modes.group(group).codes[*only]->tenths, 1));
+  const Value number = named(fmt::format("number of code {} of group {}", code.index.index(), group), MayBeVacant::No);
+  codeNumbers_.insert_or_assign(number.number, std::pair{group, code});
+  return number;
+}
+std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicReading::codeFrom(const Value &value,
+                                                                               const ModalTable &) const {
+  const auto known = codeNumbers_.find(value.number);
+  if (known == codeNumbers_.end() || value.vacant != store_.no())
+    return std::nullopt;
+  return known->second;
+}
+
+// ---- what happens ----
+
+void SymbolicReading::alarm(Truth truth, const AlarmReport &report) {
+  if (!mayBe(truth) || stopped_)
+    return;
+  checks_.push_back({truth, report.kind, {}, report.place});
+  stopped_ = truth.term == store_.yes();
+}
+
+void SymbolicReading::userAlarm(const Value &number, Span place) {
+  if (stopped_)
+    return;
+  checks_.push_back({truth(true), std::nullopt, number, place});
+  stopped_ = true;
+}
+
+void SymbolicReading::move(const Move<Value> &move) {
+  if (stopped_ || move.kind == MoveKind::Dwell)
+    return;
+  moved_ = true;
+  moves_.push_back(move);
+}
+
+} // namespace feedhold::prove

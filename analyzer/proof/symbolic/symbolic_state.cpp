@@ -1,0 +1,162 @@
+// The reading's operations on whole states: what is there at the start, what becomes unknown, two states in one.
+#include "proof/symbolic/symbolic_interpretation.h"
+
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::Sort;
+using smt::TermId;
+
+namespace {
+
+template <typename Values, typename Make> void fillWith(Values &values, Make &&make) {
+  for (auto &value : values)
+    value = make();
+}
+
+bool isForgotten(const SymbolicState &state, std::uint32_t variable) {
+  return std::any_of(state.forgotten.begin(), state.forgotten.end(),
+                     [&](const auto &range) { return range.first <= variable && variable <= range.second; });
+}
+
+void shareForgotten(SymbolicState &to, const SymbolicState &from) {
+  for (const auto &range : from.forgotten)
+    if (std::find(to.forgotten.begin(), to.forgotten.end(), range) == to.forgotten.end())
+      to.forgotten.push_back(range);
+}
+
+} // namespace
+
+SymbolicState symbolicEntry(SymbolicReading &reading) {
+  using Vacancy = SymbolicReading::MayBeVacant;
+  const auto nameOf = [](PartId id) {
+    return id.part == Part::Position ? fmt::format("{} at the start", kAxisLetters[id.key])
+                                     : fmt::format("{} in force", kModalWords[id.key]);
+  };
+  const auto value = [&](PartId id, SymbolicValue &input) {
+    const bool isNumber = domainOf(id) == PartDomain::Number;
+    if (domainOf(id) == PartDomain::Vacancy)
+      input = reading.vacant();
+    else if (id.part == Part::LocalVariable)
+      input = reading.atEntry(id.key);
+    else
+      input = reading.named(nameOf(id), isNumber ? Vacancy::No : Vacancy::Yes);
+  };
+  const auto code = [&](PartId id, SymbolicCode &input) {
+    const std::string name = id.part == Part::Spindle ? "spindle" : fmt::format("code of group {}", id.key);
+    input = {reading.store().variable(name, Sort::Int)};
+  };
+  const auto truth = [&](PartId, Condition &input) { input = reading.unknownTruth(); };
+  return entryParts<SymbolicReading>(reading, Overloaded{value, code, truth},
+                                     [&](PartId id, auto &part) { setAnything(reading, id, part); });
+}
+
+bool alignAll(SymbolicReading &reading, SymbolicState &a, SymbolicState &b) {
+  const bool haveSameCalls = align(reading, a, b);
+  shareForgotten(a, b);
+  shareForgotten(b, a);
+  return haveSameCalls;
+}
+
+SymbolicValue SymbolicReading::unwritten(const State &state, std::uint32_t variable) {
+  if (!isForgotten(state, variable))
+    return atEntry(variable);
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
+  return range && range->kind == VariableKind::System ? anyNumber() : anything();
+}
+
+SymbolicValue SymbolicReading::volatileRead(std::uint32_t variable) {
+  return of(fresh(fmt::format("read of #{}", variable), Sort::Real));
+}
+SymbolicValue SymbolicReading::toolLength(const State &, const Value &) { return anyNumber(); }
+
+void SymbolicReading::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {
+  state.forgotten.emplace_back(first, last);
+  std::erase_if(state.variables.entries(),
+                [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
+}
+
+void SymbolicReading::join(State &state, Truth truth, const State &second) {
+  if (truth.term == store_.no())
+    return;
+  State other = second;
+  if (truth.term == store_.yes()) {
+    state = std::move(other);
+    return;
+  }
+  alignToJoin(*this, state, other);
+  shareForgotten(state, other);
+  forEachPart(Overloaded{[&](PartId, Value &mine, Value &theirs) { mine = select(truth, theirs, mine); },
+                         [&](PartId, ModalCode &mine, ModalCode &theirs) { mine = selectCode(truth, theirs, mine); },
+                         [&](PartId, Truth &mine, Truth &theirs) {
+                           mine.term = store_.ite(truth.term, theirs.term, mine.term);
+                         }},
+              state, other);
+}
+
+// ---- variables whose number is not one constant ----
+
+TermId SymbolicReading::isVariable(const Value &index, std::uint32_t first, std::uint32_t last) {
+  const TermId half = store_.number(Number(1) / Number(2));
+  const TermId low = store_.subtract(store_.number(Number(static_cast<std::int64_t>(first))), half);
+  const TermId high = store_.add(store_.number(Number(static_cast<std::int64_t>(last))), half);
+  return store_.logicalAnd(store_.lessOrEqual(low, index.number), store_.lessOrEqual(index.number, high));
+}
+
+void SymbolicReading::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
+  std::vector<TermId> rows;
+  std::vector<TermId> guarded;
+  TermId stops = store_.no();
+  for (const VariableRange &row : dialect_->variables) {
+    rows.push_back(isVariable(index, row.first, row.last));
+    if (row.access == (use == Use::Read ? VariableAccess::WriteOnly : VariableAccess::ReadOnly))
+      guarded.push_back(rows.back());
+    if (use == Use::Write && row.role == VariableRole::Alarm)
+      stops = store_.logicalOr(stops, rows.back());
+  }
+  alarm({store_.logicalNot(store_.logicalOr(rows))}, {AlarmKind::VariableNotAvailable, place});
+  alarm({store_.logicalOr(guarded)}, {use == Use::Read ? AlarmKind::ReadProtected : AlarmKind::WriteProtected, place});
+  if (mayBe({stops}) && !stopped_)
+    checks_.push_back({{stops}, std::nullopt, value, place});
+}
+
+SymbolicValue SymbolicReading::readAnyOf(State &, const Value &index, Span place) {
+  alarmsOfAnyOf(index, Use::Read, index, place);
+  return anything();
+}
+
+bool SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+  alarmsOfAnyOf(index, Use::Write, value, place);
+  bool mayMoveZero = false;
+  for (const VariableRange &row : dialect_->variables) {
+    if (row.access == VariableAccess::ReadOnly)
+      continue;
+    if (path_ && path_->proves(store_.logicalNot(isVariable(index, row.first, row.last))))
+      continue;
+    if (row.kind == VariableKind::Local) {
+      fillWith(state.locals, [&] { return anything(); });
+      state.locals[0] = vacant();
+      continue;
+    }
+    forgetVariables(state, row.first, row.last);
+    const std::vector<VariableSpan> beside = cellsBeside(*dialect_, row.first, row.last);
+    for (const VariableSpan &other : beside)
+      forgetVariables(state, other.first, other.last);
+    mayMoveZero |= (row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty();
+  }
+  return mayMoveZero;
+}
+
+// ---- what is not followed ----
+
+void SymbolicReading::havoc(State &state, std::string_view reason, Span place) {
+  notModelled(reason, place);
+  Move<Value> anywhere{.kind = MoveKind::Unfollowed, .start = state.position};
+  havocParts(*this, state, polarGroup_);
+  anywhere.end = state.position;
+  move(anywhere);
+}
+
+} // namespace feedhold::prove

@@ -1,0 +1,54 @@
+// Lasting facts: what holds before every pass of a loop from some time on, found by trial over the passes that have
+// been recorded.
+//
+// A fact that one of the passes leaves behind it, and that every pass keeps where it holds before, holds from then on.
+// From the arrival at the loop it holds before every pass.
+#pragma once
+
+#include "proof/decide/discharge.h"
+#include "proof/explore/exploration.h"
+
+#include <set>
+#include <span>
+
+namespace feedhold::prove {
+
+class LastingFacts {
+public:
+  LastingFacts(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop)
+      : reading_(reading), store_(store), loop_(loop) {}
+
+  struct Found {
+    std::vector<smt::TermId> facts;
+    std::vector<Outcome> evidence;
+    std::uint64_t work = 0;
+  };
+  Found fromArrival(std::uint64_t mostWork) const;
+  /// Behind one of the passes, while no other passes are made than these; `known`: holds before and behind all of them.
+  Found behind(std::size_t pass, std::span<const std::size_t> passes, std::span<const smt::TermId> known,
+               std::uint64_t mostWork) const;
+
+private:
+  struct Start {
+    std::vector<smt::TermId> conditions;
+    smt::Substitution state;
+  };
+  struct Trial;
+  Found found(const Start &start, std::span<const std::size_t> passes, std::span<const smt::TermId> known,
+              std::set<smt::TermId> candidates, std::uint64_t mostWork) const;
+  bool holds(Trial &trial, std::span<const smt::TermId> conditions, const smt::Substitution &state,
+             smt::TermId candidate) const;
+
+  std::vector<smt::TermId> numbers() const;
+  std::vector<smt::TermId> forms() const;
+  std::set<smt::TermId> candidates(std::span<const std::size_t> passes) const;
+  void addComparison(smt::TermId condition, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
+  void addIntervals(const Start &start, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
+  bool isOfTheLoop(smt::TermId term) const;
+
+  const SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const LoopInstance &loop_;
+};
+
+} // namespace feedhold::prove

@@ -1,0 +1,467 @@
+#include "proof/termination/termination.h"
+
+#include "proof/decide/entails.h"
+#include "proof/termination/eventual_invariants.h"
+#include "proof/termination/ranking_synthesis.h"
+#include "proof/smt/steps.h"
+
+#include <algorithm>
+#include <set>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+using smt::TermKind;
+
+namespace {
+
+constexpr std::size_t kMostMeasures = 60;
+constexpr std::size_t kMostPhases = 3;
+constexpr std::size_t kMostSinking = 16;
+constexpr std::size_t kLikely = 4;      // measures, the first of them
+constexpr std::size_t kMostModels = 24; // of a pass, the latest
+/// A measure that needs more is seldom the right one; what is linear takes less.
+constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
+/// Of one that is only tried.
+constexpr Budget kLittle{.search = 8'000, .z3 = 0, .cvc5 = 0};
+/// For all questions about one loop.
+constexpr std::uint64_t kMostWork = 1'500'000;
+constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
+
+class RankingSearch {
+public:
+  RankingSearch(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop)
+      : reading_(reading), store_(store), loop_(loop) {}
+
+  Termination run() {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < loop_.transitions.size(); ++i)
+      all.push_back(i);
+    models_.resize(all.size());
+    candidates_ = measures();
+    result_.proved = attempt([&] { return rank(all); }) || rankWithSupport(all);
+    if (!result_.proved)
+      result_.reason = "no measure was found that every pass lowers";
+    return std::move(result_);
+  }
+
+private:
+  /// What comes to nothing leaves nothing behind.
+  template <typename Rank> bool attempt(Rank &&rankIt) {
+    const std::size_t measures = result_.measures.size();
+    const std::size_t evidence = result_.evidence.size();
+    if (rankIt())
+      return true;
+    result_.measures.erase(result_.measures.begin() + static_cast<std::ptrdiff_t>(measures), result_.measures.end());
+    result_.evidence.erase(result_.evidence.begin() + static_cast<std::ptrdiff_t>(evidence), result_.evidence.end());
+    return false;
+  }
+
+  /// Passes that can follow one another in a circle are ranked together.
+  bool rank(std::vector<std::size_t> passes) {
+    if (!phases_.empty())
+      std::erase_if(passes, [&](std::size_t pass) { return holds(pass, store_.no(), result_.evidence); });
+    if (passes.empty())
+      return true;
+    if (withLittle([&] { return lower(passes, candidates_); }) || lowerByProgram(passes) ||
+        withLittle([&] { return lower(passes, choices()); }))
+      return rank(passes);
+    if (passes.size() > 12 || work_ > kMostWork)
+      return false;
+    const auto circles = circlesOf(passes);
+    if (circles.size() == 1 && circles.front().size() == passes.size())
+      return inPhases(passes) || (lower(passes, likely()) && rank(passes)) || afterPass(passes) ||
+             (lower(passes, candidates_) && rank(passes)) || afterPhase(passes);
+    return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+  }
+  std::vector<TermId> likely() const {
+    return {candidates_.begin(),
+            candidates_.begin() + static_cast<std::ptrdiff_t>(std::min(kLikely, candidates_.size()))};
+  }
+  template <typename Try> bool withLittle(Try &&tried) {
+    const Budget before = std::exchange(effort_, kLittle);
+    const bool found = tried();
+    effort_ = before;
+    return found;
+  }
+
+  /// With more facts that hold before every pass.
+  bool rankWithSupport(const std::vector<std::size_t> &passes) {
+    const LastingFacts lasting(reading_, store_, loop_);
+    const LastingFacts::Found found = lasting.fromArrival(kMostWork / 4);
+    work_ = 0;
+    if (found.facts.empty())
+      return false;
+    return within(found, [&] { return rank(passes); });
+  }
+
+  /// A pass that is made again and again is made once: what it leaves, and every pass keeps, holds from then on.  So
+  /// all passes are ranked where that holds, and the others without this one.
+  bool afterPass(const std::vector<std::size_t> &passes) {
+    if (phases_.size() >= kMostPhases)
+      return false;
+    const LastingFacts lasting(reading_, store_, loop_);
+    for (const std::size_t pass : passes) {
+      if (work_ > kMostWork)
+        return false;
+      const LastingFacts::Found found = lasting.behind(pass, passes, phases_, kMostWork / 8);
+      work_ += found.work;
+      if (found.facts.empty())
+        continue;
+      std::vector<std::size_t> others = passes;
+      std::erase(others, pass);
+      if (within(found, [&] { return rank(passes); }) && rank(others))
+        return true;
+    }
+    return false;
+  }
+  template <typename Rank> bool within(const LastingFacts::Found &found, Rank &&rankIt) {
+    const std::size_t before = phases_.size();
+    phases_.insert(phases_.end(), found.facts.begin(), found.facts.end());
+    const bool ranked = attempt(rankIt);
+    phases_.erase(phases_.begin() + static_cast<std::ptrdiff_t>(before), phases_.end());
+    if (ranked)
+      result_.evidence.insert(result_.evidence.end(), found.evidence.begin(), found.evidence.end());
+    return ranked;
+  }
+
+  /// Measures of which each sinks when the one before it is negative.
+  bool inPhases(const std::vector<std::size_t> &passes) {
+    for (const std::size_t depth : {2u, 3u}) {
+      RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+      const auto nested = synthesis.nested(depth);
+      work_ += synthesis.work();
+      if (!nested)
+        continue;
+      candidates_.insert(candidates_.begin(), nested->back());
+      if (sinks(*nested, 0, passes))
+        return true;
+    }
+    return false;
+  }
+  bool sinks(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &passes) {
+    if (at + 1 == nested.size())
+      return rank(passes);
+    return sinks(nested[at], passes, [&] { return sinks(nested, at + 1, passes); });
+  }
+  /// Every pass lowers it, without a bound: it is below -1 after some passes and from then on, and there they are
+  /// ranked.
+  template <typename Rank> bool sinks(TermId sinking, const std::vector<std::size_t> &passes, Rank &&rankIt) {
+    std::vector<Outcome> evidence;
+    if (!std::all_of(passes.begin(), passes.end(),
+                     [&](std::size_t pass) { return falls(fallOf(sinking, pass), pass, evidence); }))
+      return false;
+    phases_.push_back(store_.less(sinking, store_.number(Number(-1))));
+    const bool ranked = attempt(rankIt);
+    phases_.pop_back();
+    if (ranked)
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+    return ranked;
+  }
+
+  /// What every pass lowers, without a bound, is below -1 after some passes and from then on: there the passes are
+  /// ranked again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking templates for
+  /// linear loops", 2015: multiphase).
+  bool afterPhase(const std::vector<std::size_t> &passes) {
+    if (phases_.size() >= kMostPhases)
+      return false;
+    std::vector<TermId> sinking = sinkingMeasures(passes);
+    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+    if (const auto found = synthesis.sinking())
+      sinking.insert(sinking.begin(), *found);
+    work_ += synthesis.work();
+    return std::any_of(sinking.begin(), sinking.end(),
+                       [&](TermId each) { return sinks(each, passes, [&] { return rank(passes); }); });
+  }
+  /// By how much a measure rises may be what sinks.
+  std::vector<TermId> sinkingMeasures(const std::vector<std::size_t> &passes) {
+    std::set<TermId> seen;
+    for (const TermId measure : candidates_)
+      for (const std::size_t pass : passes) {
+        const TermId rise = store_.negate(fallOf(measure, pass));
+        if (!isConstant(rise) && seen.size() < kMostSinking)
+          seen.insert(rise);
+      }
+    return {seen.begin(), seen.end()};
+  }
+
+  /// By a linear measure, if there is one.
+  bool lowerByProgram(std::vector<std::size_t> &passes) {
+    if (passes.size() > kMostSinking || work_ > kMostWork)
+      return false;
+    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+    bool lowered = false;
+    for (const std::size_t pass : passes) {
+      const auto measure = synthesis.loweredBy(pass);
+      if (measure && lower(passes, {*measure})) {
+        lowered = true;
+        break;
+      }
+    }
+    work_ += synthesis.work();
+    return lowered;
+  }
+
+  /// Takes away the passes that lower a measure which no other pass raises.
+  bool lower(std::vector<std::size_t> &passes, const std::vector<TermId> &candidates) {
+    for (const TermId measure : candidates) {
+      std::vector<Outcome> evidence;
+      std::vector<std::size_t> lowering;
+      std::optional<TermId> decrease;
+      bool raised = false;
+      for (const std::size_t pass : passes) {
+        const TermId fall = fallOf(measure, pass);
+        if (lowers(measure, fall, pass, evidence)) {
+          lowering.push_back(pass);
+          decrease = decrease.value_or(fall);
+        } else if (!holds(pass, store_.lessOrEqual(zero(), fall), evidence)) {
+          raised = true;
+          break;
+        }
+      }
+      if (raised || lowering.empty())
+        continue;
+      std::erase_if(passes, [&](std::size_t pass) {
+        return std::find(lowering.begin(), lowering.end(), pass) != lowering.end();
+      });
+      result_.measures.push_back({measure, *decrease, std::move(lowering), !phases_.empty()});
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+      return true;
+    }
+    return false;
+  }
+  TermId fallOf(TermId measure, std::size_t pass) {
+    return store_.subtract(measure, smt::substitute(store_, measure, loop_.transitions[pass].next));
+  }
+  /// By an amount that no pass changes and that is positive, or by a fixed one.
+  bool lowers(TermId measure, TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
+    return mayLower(fall) && holds(pass, store_.lessOrEqual(zero(), measure), evidence) && falls(fall, pass, evidence);
+  }
+  bool falls(TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
+    if (!mayLower(fall))
+      return false;
+    if (isConstant(fall))
+      return holds(pass, store_.less(zero(), fall), evidence);
+    for (const int parts : {1, 10, 1000, 1'000'000}) {
+      if (holds(pass, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
+        return true;
+      if (store_.sort(fall) == smt::Sort::Int)
+        return false;
+    }
+    return false;
+  }
+  bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
+
+  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
+  bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
+    if (goal == store_.yes())
+      return true;
+    if (work_ > kMostWork || isBroken(pass, goal))
+      return false;
+    std::vector<TermId> conditions = loop_.transitions[pass].conditions;
+    conditions.insert(conditions.end(), phases_.begin(), phases_.end());
+    Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), effort_);
+    const bool proved = outcome.proved();
+    work_ += outcome.effort;
+    if (proved)
+      evidence.push_back(std::move(outcome));
+    else if (const smt::Model *model = outcome.counterexample()) {
+      if (models_[pass].size() == kMostModels)
+        models_[pass].erase(models_[pass].begin());
+      models_[pass].push_back(*model);
+    }
+    return proved;
+  }
+  /// By a state before the pass that has been met in the search.
+  bool isBroken(std::size_t pass, TermId goal) const {
+    const auto is = [&](TermId formula, const smt::Model &model, bool truth) {
+      const auto value = smt::evaluate(store_, formula, model);
+      return value && std::get<bool>(*value) == truth;
+    };
+    return std::any_of(models_[pass].begin(), models_[pass].end(), [&](const smt::Model &model) {
+      return is(goal, model, false) &&
+             std::all_of(phases_.begin(), phases_.end(), [&](TermId phase) { return is(phase, model, true); });
+    });
+  }
+  TermId zero() { return store_.number(Number(0)); }
+
+  /// What the conditions of the passes keep from below, the number of passes apart.
+  std::vector<TermId> measures() {
+    std::set<TermId> seen;
+    std::vector<TermId> all;
+    const auto offer = [&](TermId measure) {
+      if (all.size() < kMostMeasures && !isConstant(measure) && seen.insert(measure).second)
+        all.push_back(measure);
+    };
+    for (const TermId hint : loop_.measures)
+      offer(hint);
+    for (const Transition &transition : loop_.transitions)
+      for (const TermId condition : transition.conditions)
+        offerSides(condition, offer);
+    for (const TermId variable : loop_.variables)
+      if (store_.sort(variable) != smt::Sort::Bool) {
+        offer(variable);
+        offer(store_.negate(variable));
+      }
+    const std::vector<TermId> single = all;
+    for (std::size_t i = 0; i < single.size() && i < 8; ++i)
+      for (std::size_t j = i + 1; j < single.size() && j < 8; ++j)
+        offer(store_.add(single[i], single[j]));
+    return all;
+  }
+  /// Distances without their sign, and the larger of two measures.
+  std::vector<TermId> choices() {
+    std::set<TermId> found;
+    for (const Transition &transition : loop_.transitions)
+      for (const TermId part : smt::reachable(store_, transition.conditions)) {
+        if (const auto distance = distanceOf(part); distance && found.size() < kMostSinking)
+          found.insert(store_.absolute(*distance));
+        if (store_[part].kind == TermKind::Or || store_[part].kind == TermKind::And)
+          for (const TermId measure : largerOf(part))
+            found.insert(measure);
+      }
+    std::vector<TermId> numbers = loop_.variables;
+    std::erase_if(numbers, [&](TermId each) { return store_.sort(each) == smt::Sort::Bool; });
+    for (const TermId each : numbers)
+      found.insert(store_.absolute(each));
+    for (const TermId a : numbers)
+      for (const TermId b : numbers)
+        if (a < b && found.size() < kMostSinking)
+          found.insert(larger(a, b));
+    return {found.begin(), found.end()};
+  }
+  TermId larger(TermId a, TermId b) { return store_.ite(store_.lessOrEqual(a, b), b, a); }
+  /// Of how far each of the cases is from being over.
+  std::vector<TermId> largerOf(TermId junction) {
+    std::vector<TermId> distances;
+    for (const TermId part : std::vector<TermId>(store_[junction].arguments))
+      if (const auto distance = distanceOf(part)) // a conjunction is denied: what it says from below ends the loop
+        distances.push_back(store_[junction].kind == TermKind::Or ? *distance : store_.negate(*distance));
+    std::vector<TermId> found;
+    for (std::size_t i = 0; i < distances.size() && i < 4; ++i)
+      for (std::size_t j = i + 1; j < distances.size() && j < 4; ++j)
+        found.push_back(larger(distances[i], distances[j]));
+    return found;
+  }
+  /// Between the sides of a comparison; absent where no pass changes it.
+  std::optional<TermId> distanceOf(TermId compared) {
+    const TermKind kind = store_[compared].kind;
+    if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
+      return std::nullopt;
+    const std::vector<TermId> sides = store_[compared].arguments;
+    if (store_.sort(sides[0]) == smt::Sort::Bool)
+      return std::nullopt;
+    const TermId distance = store_.subtract(sides[1], sides[0]);
+    return isConstant(distance) ? std::nullopt : std::optional(distance);
+  }
+  template <typename Offer> void offerSides(TermId condition, Offer &&offer) {
+    const TermKind kind = store_[condition].kind;
+    if (kind == TermKind::Not)
+      return offerSides(store_[condition].arguments[0], offer);
+    if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
+      return;
+    const TermId left = store_[condition].arguments[0];
+    const TermId right = store_[condition].arguments[1];
+    offer(store_.subtract(right, left));
+    if (kind == TermKind::Equal)
+      offer(store_.subtract(left, right));
+  }
+
+  // ---- which pass can follow which ----
+
+  std::vector<std::vector<std::size_t>> circlesOf(const std::vector<std::size_t> &passes) {
+    const std::size_t count = passes.size();
+    std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j)
+        reaches[i][j] = canFollow(passes[i], passes[j]);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
+    std::vector<std::vector<std::size_t>> circles;
+    std::vector<bool> placed(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (placed[i] || !reaches[i][i])
+        continue; // happens once at most
+      circles.emplace_back();
+      for (std::size_t j = i; j < count; ++j)
+        if (!placed[j] && reaches[i][j] && reaches[j][i]) {
+          placed[j] = true;
+          circles.back().push_back(passes[j]);
+        }
+    }
+    return circles;
+  }
+  /// What is not of the loop itself is read anew in the second pass: other variables stand for it.
+  bool canFollow(std::size_t first, std::size_t second) {
+    const Transition &before = loop_.transitions[first];
+    smt::Substitution next = before.next;
+    std::vector<TermId> conditions = before.conditions;
+    conditions.insert(conditions.end(), phases_.begin(), phases_.end());
+    std::vector<TermId> goals;
+    for (const TermId phase : phases_)
+      goals.push_back(smt::substitute(store_, phase, next));
+    for (const TermId condition : loop_.transitions[second].conditions) {
+      for (const TermId variable : smt::variablesOf(store_, condition))
+        if (!loop_.isFixed(reading_, variable) && !next.contains(variable))
+          next.emplace(variable, store_.variable("again " + store_[variable].name, store_.sort(variable)));
+      goals.push_back(smt::substitute(store_, condition, next));
+    }
+    const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
+    Outcome outcome =
+        discharge(store_, relevantQuery(store_, reading_.facts(), conditions, impossible), Budget::quick());
+    work_ += outcome.effort;
+    if (!outcome.proved())
+      return true;
+    result_.evidence.push_back(std::move(outcome));
+    return false;
+  }
+
+  const SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const LoopInstance &loop_;
+  std::vector<TermId> candidates_;
+  std::vector<TermId> phases_;                  // hold from some pass on
+  std::vector<std::vector<smt::Model>> models_; // by pass: states before it
+  Budget effort_ = kEffort;                     // of one question
+  std::uint64_t work_ = 0;
+  Termination result_;
+};
+
+std::optional<std::size_t> recurrentPassOf(const SymbolicReading &reading, smt::TermStore &store,
+                                           const LoopInstance &loop) {
+  Entailment entails(store);
+  for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
+    const Transition &pass = loop.transitions[i];
+    const bool holdsAgain = std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](TermId condition) {
+      return loop.isOfState(reading, store, condition) &&
+             entails(reading.facts(), pass.conditions, smt::substitute(store, condition, pass.next));
+    });
+    if (holdsAgain)
+      return i;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop) {
+  auto found = smt::within(kMostSteps, [&] { return RankingSearch(reading, store, loop).run(); });
+  if (found)
+    return std::move(*found);
+  Termination given;
+  given.reason = smt::areStepsUsedUp()
+                     ? kProgramStepsUsedUp
+                     : "gave up: the search for what each pass of the loop lowers takes too many steps";
+  return given;
+}
+
+std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
+                                         const LoopInstance &loop) {
+  const auto found = smt::within(kMostSteps, [&] { return recurrentPassOf(reading, store, loop); });
+  return found.value_or(std::nullopt);
+}
+
+} // namespace feedhold::prove

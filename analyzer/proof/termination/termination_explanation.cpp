@@ -1,0 +1,209 @@
+#include "proof/termination/termination_explanation.h"
+
+#include "proof/decide/entails.h"
+#include "proof/symbolic/shop_terms.h"
+#include "proof/smt/steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+class Account {
+public:
+  Account(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop)
+      : reading_(reading), store_(reading.store()), programs_(programs), loop_(loop) {
+    for (const auto &[variable, value] : reading.entryValues())
+      atCall_.emplace(value.number, programs.nameOfVariable(variable));
+    for (const LoopInstance::Value &value : loop.values)
+      if (value.generic != value.arrival && !store_.isNumber(value.generic))
+        beforePass_.emplace(value.generic, programs.nameOfVariable(value.variable));
+  }
+
+  LoopAccount of(const Termination &end) {
+    if (end.measures.empty())
+      return {"no pass comes back to its start", ""};
+    if (std::any_of(end.measures.begin(), end.measures.end(), [](const Measure &measure) { return measure.isLate; }))
+      return {late(end), ""};
+    if (end.measures.size() > 1)
+      return {inTurn(end), ""};
+    const Measure &measure = end.measures.front();
+    const bool isSteady = isConstant(measure.decrease) &&
+                          std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
+                            return store_.subtract(measure.measure, smt::substitute(store_, measure.measure,
+                                                                                    pass.next)) == measure.decrease;
+                          });
+    return isSteady ? LoopAccount{steady(measure), bound(measure)} : LoopAccount{unsteady(measure), ""};
+  }
+
+private:
+  /// Passes are made while the measure is not negative; or positive, where that is so before each of them.
+  std::string bound(const Measure &measure) {
+    const TermId quotient = inSteps(smt::substitute(store_, measure.measure, loop_.first), measure.decrease);
+    const TermId one = store_.number(Number(1));
+    TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
+    if (!testsFirst()) {
+      most = store_.add(most, one); // what comes back to the start begins one pass more
+      if (!isMetWith(store_.lessOrEqual(one, most)))
+        return ""; // such a loop has one pass at least, however small the number is
+    }
+    return roundedText(most).value_or("");
+  }
+  /// It holds whenever the loop is met.
+  bool isMetWith(TermId goal) {
+    return discharge(store_, relevantQuery(store_, reading_.facts(), loop_.arrival, goal), Budget::quick()).proved();
+  }
+  /// FUP and FIX go by the sign of what they round: whole numbers beside it come into its brackets, where the sum is
+  /// not negative if there are passes.
+  std::optional<std::string> roundedText(TermId most) {
+    smt::LinearSum sum = store_.linear(most);
+    const auto isRounded = [&](const auto &part) {
+      const smt::Term &term = store_[part.first];
+      return term.kind == smt::TermKind::Apply && term.function == smt::Function::Floor;
+    };
+    const auto rounded = std::find_if(sum.terms.begin(), sum.terms.end(), isRounded);
+    if (rounded == sum.terms.end())
+      return shopText(store_, most, atCall_);
+    const auto [floor, factor] = *rounded;
+    sum.terms.erase(rounded);
+    const bool isWhole = sum.constant.isInteger() && std::all_of(sum.terms.begin(), sum.terms.end(), [&](auto &part) {
+                           return part.second.isInteger() && store_.sort(part.first) == smt::Sort::Int;
+                         });
+    if (!isWhole || abs(factor) != Number(1) || std::any_of(sum.terms.begin(), sum.terms.end(), isRounded))
+      return std::nullopt;
+    const TermId inside = store_.add(store_.fromLinear(sum), store_.scale(factor, store_[floor].arguments[0]));
+    const auto text = shopText(store_, inside, atCall_);
+    return text ? std::optional(fmt::format("{}[{}]", factor.sign() > 0 ? "FIX" : "FUP", *text)) : std::nullopt;
+  }
+  bool isPositive(const Measure &measure) {
+    const TermId goal = store_.less(store_.number(Number(0)), measure.measure);
+    return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
+      return discharge(store_, relevantQuery(store_, reading_.facts(), pass.conditions, goal), Budget::quick())
+          .proved();
+    });
+  }
+  bool testsFirst() const { return std::holds_alternative<Test>(programs_.node(loop_.head).instruction); }
+  /// distance / step, with whole steps taken out of it.
+  TermId inSteps(TermId distance, TermId step) {
+    const smt::LinearSum unit = store_.linear(step);
+    if (unit.terms.size() != 1 || !unit.constant.isZero())
+      return store_.divide(distance, step);
+    smt::LinearSum rest = store_.linear(distance);
+    Number steps;
+    std::erase_if(rest.terms, [&](const auto &term) {
+      const bool isStep = term.first == unit.terms[0].first;
+      if (isStep)
+        steps = term.second / unit.terms[0].second;
+      return isStep;
+    });
+    return store_.add(store_.divide(store_.fromLinear(rest), step), store_.number(steps));
+  }
+
+  /// The measure is a variable over or under a limit, mostly.
+  std::string steady(const Measure &measure) {
+    for (const LoopInstance::Value &value : loop_.values)
+      if (const auto ratio = ratioOf(value.generic, measure.measure))
+        if (std::string text = steady(value, *ratio, measure); !text.empty())
+          return text;
+    const auto step = shown(measure.decrease);
+    const auto text = shopText(store_, measure.measure, namesBeforePass());
+    return step && text ? fmt::format("`{}` falls by `{}` each pass and is never below 0 before one", *text, *step)
+                        : "";
+  }
+  /// value = ratio * measure + a limit.  What a loop tests at its end is the value behind the pass.
+  std::string steady(const LoopInstance::Value &value, const Number &ratio, const Measure &measure) {
+    const TermId step = store_.scale(ratio.sign() < 0 ? -ratio : ratio, measure.decrease);
+    const TermId tested =
+        testsFirst() ? value.generic : store_.subtract(value.generic, store_.scale(ratio, measure.decrease));
+    TermId limit = store_.subtract(tested, store_.scale(ratio, measure.measure));
+    bool isReached = isPositive(measure);
+    if (!isReached && store_.sort(measure.measure) == smt::Sort::Int) { // not negative: above -1
+      limit = store_.subtract(limit, store_.number(ratio));
+      isReached = true;
+    }
+    const auto stepText = shown(step);
+    const auto limitText = isConstant(limit) ? shown(limit) : std::nullopt;
+    if (!stepText || !limitText)
+      return "";
+    const bool falls = ratio.sign() > 0;
+    const std::string_view where = isReached ? "at" : falls ? "below" : "above";
+    return fmt::format("`{}` {} by `{}` each pass and the loop stops {} `{}`", programs_.nameOfVariable(value.variable),
+                       falls ? "falls" : "rises", *stepText, where, *limitText);
+  }
+  /// How much of the measure a value holds, when no pass changes the rest of it.
+  std::optional<Number> ratioOf(TermId value, TermId measure) {
+    const smt::LinearSum whole = store_.linear(value);
+    for (const auto &[term, factor] : store_.linear(measure).terms) {
+      if (isConstant(term))
+        continue;
+      for (const auto &[other, times] : whole.terms)
+        if (other == term)
+          return times / factor;
+      return std::nullopt;
+    }
+    return std::nullopt;
+  }
+  std::string unsteady(const Measure &measure) {
+    const auto text = shopText(store_, measure.measure, namesBeforePass());
+    return text ? fmt::format("`{}` falls each pass and is never below 0 before one", *text) : "";
+  }
+  /// Of a loop with phases: what ends the last one.
+  std::string late(const Termination &end) {
+    const auto text = shopText(store_, end.measures.back().measure, namesBeforePass());
+    return text ? fmt::format("from some pass on `{}` falls each pass, and it is not below 0 before one", *text) : "";
+  }
+  std::string inTurn(const Termination &end) {
+    std::string text;
+    for (const Measure &measure : end.measures) {
+      const auto name = shopText(store_, measure.measure, namesBeforePass());
+      if (!name)
+        return "";
+      text += fmt::format("{}`{}`", text.empty() ? "every pass lowers " : ", or leaves it and lowers ", *name);
+    }
+    return text + "; each is at least 0 before the passes that lower it";
+  }
+
+  /// With the values at the call where nothing has written them since.
+  TermNames namesBeforePass() const {
+    TermNames names = beforePass_;
+    for (const LoopInstance::Value &value : loop_.values)
+      if (value.generic == value.arrival && atCall_.contains(value.arrival))
+        names.emplace(value.arrival, programs_.nameOfVariable(value.variable));
+    return names;
+  }
+  /// A value that no pass changes: from the values at the call, or by the variable that holds it.
+  std::optional<std::string> shown(TermId term) {
+    if (auto text = shopText(store_, term, atCall_))
+      return text;
+    TermNames names;
+    for (const LoopInstance::Value &value : loop_.values)
+      if (value.generic == value.arrival && !store_.isNumber(value.arrival))
+        names.emplace(value.arrival, programs_.nameOfVariable(value.variable));
+    return shopText(store_, term, names);
+  }
+
+  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
+
+  SymbolicReading &reading_;
+  smt::TermStore &store_;
+  const ProgramSet &programs_;
+  const LoopInstance &loop_;
+  TermNames atCall_;
+  TermNames beforePass_;
+};
+
+} // namespace
+
+LoopAccount accountOf(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop,
+                      const Termination &end) {
+  constexpr std::uint64_t kStepsOfAccount = 200'000'000;
+  return smt::within(kStepsOfAccount, [&] { return Account(reading, programs, loop).of(end); }).value_or(LoopAccount());
+}
+
+} // namespace feedhold::prove
