@@ -4,8 +4,8 @@
 //     simulation_bench PROGRAM.nc...
 #include "dialects/registry.h"
 #include "findings/session/programs.h"
-#include "proof/space/plain_space.h"
 #include "proof/prove/prove.h"
+#include "proof/space/plain_space.h"
 #include "rules/registry.h"
 
 #include <fmt/format.h>

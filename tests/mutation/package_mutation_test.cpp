@@ -4,8 +4,8 @@
 #include "mutation/mutants.h"
 #include "mutation/packages.h"
 #include "mutation/replay.h"
-#include "proof/replay/exact_run.h"
 #include "proof/prove/prove.h"
+#include "proof/replay/exact_run.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 namespace feedhold {
 namespace {
 
-using prove::SymbolicReading;
+using prove::SymbolicInterpretation;
 
 const Dialect &dialect() { return *findDialect(allDialects(), "linuxcnc"); }
 
@@ -32,7 +32,7 @@ struct Abstract {
 };
 struct Symbolic {
   smt::TermStore store;
-  SymbolicReading reading{store, dialect()};
+  SymbolicInterpretation reading{store, dialect()};
   static constexpr bool followsOne = false;
   /// One of the cases of the value.
   bool mayBe(const prove::SymbolicValue &value, double number) {

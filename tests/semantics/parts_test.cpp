@@ -15,7 +15,7 @@ namespace {
 
 using prove::Condition;
 using prove::SymbolicCode;
-using prove::SymbolicReading;
+using prove::SymbolicInterpretation;
 using prove::SymbolicState;
 using prove::SymbolicValue;
 
@@ -241,7 +241,7 @@ TEST(Parts, EntryHasEachPart) {
 class SymbolicParts : public ::testing::Test {
 protected:
   smt::TermStore store;
-  SymbolicReading reading{store, dialect()};
+  SymbolicInterpretation reading{store, dialect()};
   SymbolicState plain = plainState(reading);
 
   std::vector<smt::TermId> terms(const SymbolicState &state) {

@@ -88,9 +88,9 @@ void proveOrRecall(const Job &job, const ProofsWish &wish) {
 void proveUnlessStopped(const Job &job, const ProofsWish &wish) {
   const prove::StopScope scope(wish.stop);
   try {
-    prove::throwIfStopped();
+    prove::throwIfCancelled();
     proveOrRecall(job, wish);
-  } catch (const prove::Stopped &) {
+  } catch (const prove::Cancelled &) {
     // proveAll sees it, too.
   }
 }

@@ -1,7 +1,7 @@
 // Certificate: why a claim is contradictory, in steps that exact arithmetic can follow.  No solver is needed.
 #pragma once
 
-#include "proof/check/claim.h"
+#include "proof/check/problem.h"
 
 #include <variant>
 
@@ -59,17 +59,17 @@ struct Certificate {
 };
 
 /// Present when the certificate does not show that the claim is contradictory: the first step that fails.
-std::optional<Error> verify(const Claim &claim, const Certificate &certificate);
+std::optional<Error> verify(const UnsatProblem &claim, const Certificate &certificate);
 
 /// With p = g * q + c, where q has whole coprime coefficients and no constant, and g > 0: q + floor(c / g) >= 0 follows
 /// from p >= 0 and from p = 0, and q + ceiling(c / g) - 1 >= 0 from p > 0.  Absent when a variable is no integer or p
 /// is a constant.
-std::optional<Constraint> tightened(const Claim &claim, const Constraint &constraint);
+std::optional<Constraint> tightened(const UnsatProblem &claim, const Constraint &constraint);
 /// The two sides of each split.
 Constraint atMost(const Polynomial &polynomial, const Number &bound);
 Constraint atLeast(const Polynomial &polynomial, const Number &bound);
 
-std::string writeCertificate(const Claim &claim, const Certificate &certificate);
-Result<Certificate> readCertificate(const Claim &claim, std::string_view text);
+std::string writeCertificate(const UnsatProblem &claim, const Certificate &certificate);
+Result<Certificate> readCertificate(const UnsatProblem &claim, std::string_view text);
 
 } // namespace feedhold::check

@@ -11,7 +11,7 @@ using smt::SExpression;
 std::string indented(std::size_t depth) { return "\n" + std::string(2 * depth, ' '); }
 
 /// ` (3/4 x y) (-2)`: each monomial as its coefficient and its variables.
-std::string terms(const Claim &claim, const Polynomial &polynomial) {
+std::string terms(const UnsatProblem &claim, const Polynomial &polynomial) {
   std::string text;
   for (const auto &[monomial, coefficient] : polynomial) {
     text += " (" + coefficient.toString();
@@ -22,7 +22,7 @@ std::string terms(const Claim &claim, const Polynomial &polynomial) {
   return text;
 }
 
-std::string write(const Claim &claim, const Combination &use, std::size_t depth) {
+std::string write(const UnsatProblem &claim, const Combination &use, std::size_t depth) {
   std::string text = "combination";
   for (const Product &product : use.products) {
     text += indented(depth) + "(product " + product.multiplier.toString();
@@ -37,7 +37,7 @@ std::string write(const Claim &claim, const Combination &use, std::size_t depth)
   return text;
 }
 
-std::string write(const Claim &claim, const Certificate &certificate, std::size_t depth) {
+std::string write(const UnsatProblem &claim, const Certificate &certificate, std::size_t depth) {
   std::string text = "(";
   text += match(
       certificate.step, [&](const Combination &use) { return write(claim, use, depth + 1); },
@@ -54,7 +54,7 @@ std::string write(const Claim &claim, const Certificate &certificate, std::size_
 
 class CertificateReader {
 public:
-  explicit CertificateReader(const Claim &claim) : names_(claim.variables) {}
+  explicit CertificateReader(const UnsatProblem &claim) : names_(claim.variables) {}
 
   Certificate certificate(const SExpression &item) const {
     if (item.isCall("combination"))
@@ -135,11 +135,11 @@ private:
 
 } // namespace
 
-std::string writeCertificate(const Claim &claim, const Certificate &certificate) {
+std::string writeCertificate(const UnsatProblem &claim, const Certificate &certificate) {
   return write(claim, certificate, 0) + "\n";
 }
 
-Result<Certificate> readCertificate(const Claim &claim, std::string_view text) {
+Result<Certificate> readCertificate(const UnsatProblem &claim, std::string_view text) {
   Result<std::vector<SExpression>> items = smt::readSExpressions(text);
   if (!items)
     return items.error();

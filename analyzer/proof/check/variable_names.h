@@ -1,7 +1,7 @@
 // VariableNames: the variables of a claim by name, for those who read texts about it.
 #pragma once
 
-#include "proof/check/claim.h"
+#include "proof/check/problem.h"
 #include "proof/smt/s_expression.h"
 
 #include <map>

@@ -9,7 +9,7 @@ namespace {
 
 class Verifier {
 public:
-  explicit Verifier(const Claim &claim) : claim_(claim) {}
+  explicit Verifier(const UnsatProblem &claim) : claim_(claim) {}
 
   std::optional<Error> verify(const Certificate &certificate) { return under(claim_.conjunction, certificate); }
 
@@ -121,25 +121,25 @@ private:
   }
 
 public:
-  static bool isInteger(const Claim &claim, const Monomial &monomial) {
+  static bool isInteger(const UnsatProblem &claim, const Monomial &monomial) {
     return std::all_of(monomial.begin(), monomial.end(), [&](std::uint32_t index) {
       return index < claim.variables.size() && claim.variables[index].range == Range::Integer;
     });
   }
 
 private:
-  const Claim &claim_;
+  const UnsatProblem &claim_;
   std::vector<Constraint> hypotheses_;
   std::vector<const Clause *> clauses_;
 };
 
 } // namespace
 
-std::optional<Error> verify(const Claim &claim, const Certificate &certificate) {
+std::optional<Error> verify(const UnsatProblem &claim, const Certificate &certificate) {
   return Verifier(claim).verify(certificate);
 }
 
-std::optional<Constraint> tightened(const Claim &claim, const Constraint &constraint) {
+std::optional<Constraint> tightened(const UnsatProblem &claim, const Constraint &constraint) {
   Number denominators(1), numerators(0);
   for (const auto &[monomial, coefficient] : constraint.polynomial) {
     if (monomial.empty())

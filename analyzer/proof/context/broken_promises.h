@@ -2,9 +2,9 @@
 // followed in exact numbers instead.
 #pragma once
 
-#include "proof/replay/exact_run.h"
-#include "proof/obligation/obligation.h"
 #include "proof/context/proof_start.h"
+#include "proof/obligation/obligation.h"
+#include "proof/replay/exact_run.h"
 
 #include <functional>
 #include <map>

@@ -4,8 +4,8 @@
 
 #include "proof/context/broken_promises.h"
 #include "proof/context/proof_start.h"
-#include "proof/termination/termination.h"
 #include "proof/replay/witness.h"
+#include "proof/termination/termination.h"
 
 #include <map>
 

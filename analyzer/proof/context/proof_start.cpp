@@ -131,7 +131,7 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
   return query;
 }
 
-/// Hints are tried, never believed: an invariant has to hold before each pass, a measure has to fall.
+/// Hints are tried, never believed: an invariant has to hold before each iteration, a measure has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
   options.demands = [&subject](const Callee &callee) { return subject.contractsOf(callee) != nullptr; };

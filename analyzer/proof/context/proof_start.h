@@ -1,10 +1,10 @@
 // ProofStart: the inputs of one program as terms, and what its contract says of its start.
 #pragma once
 
-#include "proof/symbolic/contract_terms.h"
-#include "proof/decide/entails.h"
 #include "proof/context/prove_options.h"
+#include "proof/decide/entails.h"
 #include "proof/space/space_claims.h"
+#include "proof/symbolic/contract_terms.h"
 
 #include <memory>
 #include <optional>
@@ -51,7 +51,7 @@ public:
   ProofStart &operator=(const ProofStart &) = delete;
 
   smt::TermStore &store() { return store_; }
-  SymbolicReading &reading() { return reading_; }
+  SymbolicInterpretation &reading() { return reading_; }
   ContractTerms &terms() { return *terms_; }
   const SpaceClaims &space() const { return *space_; }
   const SymbolicState &entry() const { return entry_; }
@@ -75,7 +75,7 @@ private:
   void leaveMappingsOpen(const ProofSubject &subject);
 
   smt::TermStore store_;
-  SymbolicReading reading_;
+  SymbolicInterpretation reading_;
   SymbolicState anyEntry_;
   SymbolicState entry_;                  // as the contract says
   decltype(SymbolicState::codes) codes_; // as the contract says

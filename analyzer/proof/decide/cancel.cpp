@@ -11,9 +11,9 @@ thread_local const std::stop_token *current = nullptr;
 StopScope::StopScope(const std::stop_token &stop) : outer_(current), children_(stop) { current = &stop; }
 StopScope::~StopScope() { current = outer_; }
 
-void throwIfStopped() {
+void throwIfCancelled() {
   if (current != nullptr && current->stop_requested())
-    throw Stopped{};
+    throw Cancelled{};
 }
 
 } // namespace feedhold::prove

@@ -8,7 +8,7 @@
 namespace feedhold::prove {
 
 /// Thrown out of prove() on a thread with a StopScope, soon after its stop was requested.
-struct Stopped {};
+struct Cancelled {};
 
 /// Lets the proofs of this thread end early while it lives.
 class StopScope {
@@ -24,6 +24,6 @@ private:
 };
 
 /// Called wherever work that takes long begins.
-void throwIfStopped();
+void throwIfCancelled();
 
 } // namespace feedhold::prove

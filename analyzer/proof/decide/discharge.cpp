@@ -4,9 +4,9 @@
 #include "base/support/check.h"
 #include "base/support/match.h"
 #include "proof/check/certificate.h"
+#include "proof/decide/cancel.h"
 #include "proof/decide/discharge_eliminate.h"
 #include "proof/decide/discharge_memo.h"
-#include "proof/decide/cancel.h"
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
 #include "proof/smt/steps.h"
@@ -27,7 +27,7 @@ constexpr std::uint64_t kShareOfAnswer = 20;
 thread_local CertificateLog *openLog = nullptr;
 
 /// Absent when the certificate does not hold: the search is not to be believed.
-std::optional<Proved> certified(const check::Claim &claim, const check::Certificate &certificate) {
+std::optional<Proved> certified(const check::UnsatProblem &claim, const check::Certificate &certificate) {
   if (check::verify(claim, certificate))
     return std::nullopt;
   CertificateEvidence evidence{check::writeClaim(claim), check::writeCertificate(claim, certificate)};
@@ -40,7 +40,7 @@ std::optional<Proved> certified(const check::Claim &claim, const check::Certific
 
 /// Of formulas that are plainly false.
 Outcome byFolding() {
-  const check::Claim claim{{}, {{{check::constant(-1), check::Relation::NonNegative}}, {}}};
+  const check::UnsatProblem claim{{}, {{{check::constant(-1), check::Relation::NonNegative}}, {}}};
   const check::Certificate certificate{check::Combination{{{check::Number(1), {0}, {}}}, {}}, {}};
   std::optional<Proved> proved = certified(claim, certificate);
   FEEDHOLD_CHECK(proved.has_value(), "-1 >= 0 is no contradiction");
@@ -57,7 +57,8 @@ std::vector<TermId> refutable(smt::TermStore &store, const Query &query) {
   return {whole};
 }
 
-smt::Model modelOf(const smt::TermStore &store, const check::Claim &claim, const std::vector<check::Number> &values) {
+smt::Model modelOf(const smt::TermStore &store, const check::UnsatProblem &claim,
+                   const std::vector<check::Number> &values) {
   smt::Model model;
   for (std::size_t index = 0; index < values.size(); ++index) {
     const std::string &name = claim.variables[index].name;
@@ -101,7 +102,7 @@ public:
 
 private:
   std::optional<Outcome> byCertificate(std::uint64_t work) {
-    Result<check::Claim> claim = check::claimOf(store_, pure_);
+    Result<check::UnsatProblem> claim = check::claimOf(store_, pure_);
     if (!claim) {
       reason_ = claim.error().message;
       return std::nullopt;
@@ -239,7 +240,7 @@ Outcome tryToDischarge(smt::TermStore &store, const Query &query, const Budget &
 } // namespace
 
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
-  throwIfStopped();
+  throwIfCancelled();
   const std::uint64_t most = mostSteps(budget);
   if (auto outcome = smt::within(most, [&] { return tryToDischarge(store, query, budget); }))
     return std::move(*outcome);

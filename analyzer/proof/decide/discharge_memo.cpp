@@ -14,7 +14,7 @@ constexpr std::size_t kMostBytes = 48 << 20;
 /// The claim, with its variables by number.
 class Key {
 public:
-  Key(const check::Claim &claim, std::uint64_t workLimit) {
+  Key(const check::UnsatProblem &claim, std::uint64_t workLimit) {
     add(std::to_string(workLimit));
     for (const check::ClaimVariable &variable : claim.variables)
       text_ += variable.range == check::Range::Integer ? 'i' : 'r';
@@ -63,7 +63,7 @@ template <typename Ask> smt::Answer askOnce(Memo<smt::Answer> &memo, std::string
 
 } // namespace
 
-SearchResult searchOnce(const check::Claim &claim, std::uint64_t workLimit) {
+SearchResult searchOnce(const check::UnsatProblem &claim, std::uint64_t workLimit) {
   static Memo<SearchResult> memo(kMostBytes);
   std::string key = Key(claim, workLimit).take();
   smt::spend(key.size());

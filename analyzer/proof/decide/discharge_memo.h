@@ -8,7 +8,7 @@
 namespace feedhold::prove {
 
 /// As searchCertificate.  The names of variables do not matter.
-SearchResult searchOnce(const check::Claim &claim, std::uint64_t workLimit);
+SearchResult searchOnce(const check::UnsatProblem &claim, std::uint64_t workLimit);
 /// As smt::askZ3 and smt::askCvc5.
 smt::Answer askZ3Once(const std::string &smtlib, smt::Arithmetic arithmetic, std::uint64_t resources);
 smt::Answer askCvc5Once(const std::string &smtlib, std::uint64_t resources);

@@ -2,9 +2,9 @@
 // and signs.  A branch whose refutation does not use what the branch assumed refutes its parent at once.
 #include "proof/decide/discharge_search.h"
 
+#include "proof/decide/cancel.h"
 #include "proof/decide/discharge_products.h"
 #include "proof/decide/discharge_tree.h"
-#include "proof/decide/cancel.h"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +71,7 @@ bool holds(const Conjunction &conjunction, const std::vector<Number> &values) {
 
 class Search {
 public:
-  Search(const check::Claim &claim, const Strategy &strategy, std::uint64_t workLimit)
+  Search(const check::UnsatProblem &claim, const Strategy &strategy, std::uint64_t workLimit)
       : claim_(claim), workLimit_(workLimit), rows_(claim.variables.size()), products_(strategy) {}
 
   SearchResult run() {
@@ -173,7 +173,7 @@ private:
       return giveUp("too many cases");
     std::array<std::size_t, std::size(kProductLevels)> roundsOfSquares{};
     for (std::size_t round = 0; round < kMostRounds; ++round) {
-      throwIfStopped();
+      throwIfCancelled();
       const smt::Simplex::Status status = rows_.check(rows_.work() + remaining());
       if (status == smt::Simplex::Status::Infeasible)
         return leaf(rows_.contradiction());
@@ -251,7 +251,7 @@ private:
 
   /// Linear arithmetic alone does not exclude it.
   bool isOpen(const Conjunction &alternative) {
-    throwIfStopped();
+    throwIfCancelled();
     const Scope scope = enter(alternative);
     const bool open = rows_.check(rows_.work() + remaining()) != smt::Simplex::Status::Infeasible;
     leave(scope);
@@ -287,7 +287,7 @@ private:
             clauses + static_cast<std::uint32_t>(more.clauses.size())};
   }
 
-  Tree splitTwoWays(Step step, const Constraint &first, const Constraint &second, const Depth &depth) {
+  Tree splitInTwo(Step step, const Constraint &first, const Constraint &second, const Depth &depth) {
     std::vector<Branch> branches;
     for (const Constraint *side : {&first, &second}) {
       ownedConjunctions_.push_back(std::make_unique<Conjunction>(Conjunction{{*side}, {}}));
@@ -327,8 +327,8 @@ private:
   }
 
   Tree splitSign(const Polynomial &border, const Depth &depth) {
-    return splitTwoWays(check::SignSplit{border}, {border, Relation::NonNegative},
-                        {check::scaled(border, -1), Relation::Positive}, depth);
+    return splitInTwo(check::SignSplit{border}, {border, Relation::NonNegative},
+                      {check::scaled(border, -1), Relation::Positive}, depth);
   }
 
   /// A factor of a product that is not what its factors say: knowing its sign helps most.
@@ -353,8 +353,8 @@ private:
   Tree splitInteger(const Polynomial &polynomial, const Number &bound, Depth depth) {
     if (++depth.integerSplits > kMostIntegerSplits)
       return giveUp("too many integers to try");
-    return splitTwoWays(check::IntegerSplit{polynomial, bound}, check::atMost(polynomial, bound),
-                        check::atLeast(polynomial, bound + 1), depth);
+    return splitInTwo(check::IntegerSplit{polynomial, bound}, check::atMost(polynomial, bound),
+                      check::atLeast(polynomial, bound + 1), depth);
   }
 
   /// k - q of integers that stand beside the same real (k*h and q*h): at most 0 or at least 1 decides k*h against q*h.
@@ -397,7 +397,7 @@ private:
     return border;
   }
 
-  const check::Claim &claim_;
+  const check::UnsatProblem &claim_;
   const std::uint64_t workLimit_;
   Rows rows_;
   Products products_;
@@ -416,14 +416,14 @@ private:
 
 } // namespace
 
-bool satisfies(const check::Claim &claim, const std::vector<Number> &values) {
+bool satisfies(const check::UnsatProblem &claim, const std::vector<Number> &values) {
   for (std::size_t index = 0; index < values.size(); ++index)
     if (claim.variables[index].range == check::Range::Integer && !values[index].isInteger())
       return false;
   return holds(claim.conjunction, values);
 }
 
-SearchResult searchCertificate(const check::Claim &claim, std::uint64_t workLimit) {
+SearchResult searchCertificate(const check::UnsatProblem &claim, std::uint64_t workLimit) {
   SearchResult result{NotFound{"no budget"}};
   std::uint64_t spent = 0;
   // All of them for a short while, then all for longer.

@@ -27,9 +27,9 @@ struct SearchResult {
   enum class Reasoning : std::uint8_t { Linear, Products } reasoning = Reasoning::Linear;
 };
 
-SearchResult searchCertificate(const check::Claim &claim, std::uint64_t workLimit);
+SearchResult searchCertificate(const check::UnsatProblem &claim, std::uint64_t workLimit);
 
 /// Exactly.
-bool satisfies(const check::Claim &claim, const std::vector<check::Number> &values);
+bool satisfies(const check::UnsatProblem &claim, const std::vector<check::Number> &values);
 
 } // namespace feedhold::prove

@@ -90,7 +90,7 @@ Tree tightenTree(std::uint32_t hypothesis, std::uint32_t stronger, Tree tree) {
   return splitTree(check::Tighten{hypothesis}, {{range, std::move(tree)}});
 }
 
-check::Certificate numbered(const TreeNode &tree, const check::Claim &claim) {
+check::Certificate numbered(const TreeNode &tree, const check::UnsatProblem &claim) {
   Places places;
   places.enter({0, static_cast<std::uint32_t>(claim.conjunction.constraints.size()), 0,
                 static_cast<std::uint32_t>(claim.conjunction.clauses.size())});

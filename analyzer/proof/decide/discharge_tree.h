@@ -39,6 +39,6 @@ Tree splitTree(Step step, std::vector<Branch> branches);
 Tree tightenTree(std::uint32_t hypothesis, std::uint32_t stronger, Tree tree);
 
 /// With hypotheses and clauses numbered as the checker does.
-check::Certificate numbered(const TreeNode &tree, const check::Claim &claim);
+check::Certificate numbered(const TreeNode &tree, const check::UnsatProblem &claim);
 
 } // namespace feedhold::prove

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "meaning/semantics/tool_point.h"
-#include "proof/geometry/tool_path.h"
 #include "proof/explore/path.h"
+#include "proof/geometry/tool_path.h"
 
 #include <functional>
 #include <map>
@@ -13,7 +13,7 @@
 namespace feedhold::prove {
 
 /// One way to a place: the run stops there when `conditions` and `stops` hold.
-struct CheckInstance {
+struct StopInstance {
   std::vector<smt::TermId> conditions;
   smt::TermId stops;
   SymbolicValue number; // of `#3000=`
@@ -21,32 +21,33 @@ struct CheckInstance {
 };
 
 /// A place where a run may stop by itself.
-struct Check {
+struct StopSite {
   Place place;
   Span span;
   std::optional<AlarmKind> alarm; // absent: `#3000=`
-  std::vector<CheckInstance> instances;
+  std::vector<StopInstance> instances;
 };
 
-/// What one pass of a loop does.
+/// What one iteration of a loop does.
 struct Transition {
-  std::vector<smt::TermId> conditions; // of the pass, those of the arrival included
-  smt::Substitution next;              // from the loop's variables to their values after the pass
+  std::vector<smt::TermId> conditions; // of the iteration, those of the arrival included
+  smt::Substitution next;              // from the loop's variables to their values after the iteration
 };
 
-/// A loop as one of the paths meets it.  `variables` stand for the state before any pass; `passes` counts them.
+/// A loop as one of the paths meets it.  `variables` stand for the state before any iteration; `iterations` counts
+/// them.
 struct LoopInstance {
   Place head;
   std::vector<Place> calls; // that led there
-  smt::TermId passes;
+  smt::TermId iterations;
   std::size_t mark;                        // terms below it were made before the loop was met
   std::vector<smt::TermId> arrival;        // conditions of the path that met it
   std::vector<smt::TermId> variables = {}; // of the parts of the state of which no closed form is known
-  std::vector<smt::TermId> facts = {};     // that hold before each pass
+  std::vector<smt::TermId> facts = {};     // that hold before each iteration
   std::vector<Transition> transitions = {};
-  smt::Substitution first = {};           // from `passes` and all that goes with them to what the arrival found
+  smt::Substitution first = {};           // from `iterations` and all that goes with them to what the arrival found
   std::vector<smt::TermId> measures = {}; // that the contract suggests
-  /// Of the variables of programs: their numbers at the arrival, and those before any pass.
+  /// Of the variables of programs: their numbers at the arrival, and those before any iteration.
   struct Value {
     std::uint32_t variable;
     smt::TermId arrival;
@@ -54,16 +55,17 @@ struct LoopInstance {
   };
   std::vector<Value> values = {};
   bool isRecorded = false;   // false: met only in a trial
-  bool callsUnknown = false; // a pass may stay in a program that is not followed
+  bool callsUnknown = false; // an iteration may stay in a program that is not followed
 
-  /// What the variable stands for was there before the loop was met, or at the start of the run: no pass changes it.
-  bool isFixed(const SymbolicReading &reading, smt::TermId variable) const {
+  /// What the variable stands for was there before the loop was met, or at the start of the run: no iteration changes
+  /// it.
+  bool isFixed(const SymbolicInterpretation &reading, smt::TermId variable) const {
     return variable.index() < mark || reading.isFromEntry(variable);
   }
-  /// No pass changes the value of the term.
-  bool isConstant(const SymbolicReading &reading, const smt::TermStore &store, smt::TermId term) const;
-  /// The term speaks of nothing but the state before a pass: of what is fixed, and of what the passes change.
-  bool isOfState(const SymbolicReading &reading, const smt::TermStore &store, smt::TermId term) const;
+  /// No iteration changes the value of the term.
+  bool isConstant(const SymbolicInterpretation &reading, const smt::TermStore &store, smt::TermId term) const;
+  /// The term speaks of nothing but the state before an iteration: of what is fixed, and of what the iterations change.
+  bool isOfState(const SymbolicInterpretation &reading, const smt::TermStore &store, smt::TermId term) const;
 };
 
 enum class ExitKind : std::uint8_t { Returns, Ends };
@@ -101,7 +103,7 @@ struct MoveInstance {
   std::vector<smt::TermId> conditions;
   Move<SymbolicValue> move;
   std::optional<geometry::ArcRadius> radius; // of an arc that is given by R, unmapped
-  ToolPoint<SymbolicReading> point;
+  ToolPoint<SymbolicInterpretation> point;
   SymbolicValue spindleSpeed;
   smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (path_memory.h)
 };
@@ -114,28 +116,28 @@ struct Unfollowed {
 };
 
 /// A call that is not followed: the run may stop in it with any alarm, behind any movement, or never come back.
-struct UnfollowedCall {
+struct UnmodelledCall {
   Place own;                           // of the block of the started program
   std::vector<smt::TermId> conditions; // of the way there
   std::vector<std::size_t> loops;      // that the call is in: their instances
 };
 
-/// A loop is met once, in the midst of any of its passes; or its passes are followed one after the other, which ends
-/// only where their number is known, or where a path comes back to a state in which it has been.
-enum class LoopTreatment : std::uint8_t { AnyPass, EachPass };
+/// A loop is met once, in the midst of any of its iterations; or its iterations are followed one after the other, which
+/// ends only where their number is known, or where a path comes back to a state in which it has been.
+enum class LoopTreatment : std::uint8_t { AnyIteration, EachIteration };
 
 struct Exploration {
-  std::vector<Check> checks;
+  std::vector<StopSite> stopSites;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
   std::vector<CallInstance> calls;   // for which the started program has to answer
   std::vector<MoveInstance> moves;   // of ExploreOptions::moves
   std::vector<WriteInstance> writes; // of ExploreOptions::keepWrites
-  LoopTreatment treatment = LoopTreatment::AnyPass;
-  std::vector<Place> repeats; // of EachPass: heads to which a path came back in the same state
-  std::set<Place> heads;      // of EachPass: those that were met
+  LoopTreatment treatment = LoopTreatment::AnyIteration;
+  std::vector<Place> repeats; // of EachIteration: heads to which a path came back in the same state
+  std::set<Place> heads;      // of EachIteration: those that were met
   std::vector<Unfollowed> unfollowed;
-  std::vector<UnfollowedCall> unfollowedCalls;
+  std::vector<UnmodelledCall> unmodelledCalls;
   std::vector<smt::TermId> facts;             // about all variables
   std::optional<std::string_view> incomplete; // why paths are missing; then nothing is proved
   std::size_t paths = 0;
@@ -156,12 +158,12 @@ enum class Sums : std::uint8_t { Exact, Rounded };
 /// Whether movements are kept, and how deep the tool has cut where it stands.
 enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };
 
-/// What a contract suggests of the loop at a place: terms over the state before any pass.
+/// What a contract suggests of the loop at a place: terms over the state before any iteration.
 using LoopHints = std::function<std::vector<smt::TermId>(Place head, const SymbolicState &state)>;
 
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
-  LoopTreatment loops = LoopTreatment::AnyPass;
+  LoopTreatment loops = LoopTreatment::AnyIteration;
   Sums sums = Sums::Exact;
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
@@ -181,8 +183,8 @@ struct ExploreOptions {
 };
 
 /// Follows every path of the program.  Paths are merged where there are too many of them for a part of the work, unless
-/// each pass is followed: programs that call large macros one after another are long, but have few paths.
-Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
-                    const ExploreOptions &options);
+/// each iteration is followed: programs that call large macros one after another are long, but have few paths.
+Exploration explore(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+                    const SymbolicState &start, const ExploreOptions &options);
 
 } // namespace feedhold::prove

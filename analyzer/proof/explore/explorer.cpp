@@ -1,10 +1,10 @@
 #include "proof/explore/explorer.h"
 
+#include "proof/decide/cancel.h"
 #include "proof/decide/entails.h"
 #include "proof/explore/loops.h"
-#include "proof/symbolic/path_memory.h"
-#include "proof/decide/cancel.h"
 #include "proof/smt/steps.h"
+#include "proof/symbolic/path_memory.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -77,12 +77,12 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 
 // ---- LoopInstance ----
 
-bool LoopInstance::isConstant(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+bool LoopInstance::isConstant(const SymbolicInterpretation &reading, const smt::TermStore &store, TermId term) const {
   const auto terms = smt::variablesOf(store, term);
   return std::all_of(terms.begin(), terms.end(), [&](TermId variable) { return isFixed(reading, variable); });
 }
 
-bool LoopInstance::isOfState(const SymbolicReading &reading, const smt::TermStore &store, TermId term) const {
+bool LoopInstance::isOfState(const SymbolicInterpretation &reading, const smt::TermStore &store, TermId term) const {
   const auto terms = smt::variablesOf(store, term);
   return std::all_of(terms.begin(), terms.end(), [&](TermId variable) {
     return isFixed(reading, variable) || (!transitions.empty() && transitions.front().next.contains(variable));
@@ -91,7 +91,7 @@ bool LoopInstance::isOfState(const SymbolicReading &reading, const smt::TermStor
 
 // ---- Explorer ----
 
-Explorer::Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options,
+Explorer::Explorer(SymbolicInterpretation &reading, const ProgramSet &programs, const ExploreOptions &options,
                    PathMerging merging)
     : reading_(reading), store_(reading.store()), programs_(programs), options_(options), merging_(merging),
       termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
@@ -123,7 +123,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
                         }).has_value();
   if (!isWithin)
     giveUp(smt::areStepsUsedUp() ? kProgramStepsUsedUp : kTooLarge);
-  for (const UnfollowedCall &call : result_.unfollowedCalls)
+  for (const UnmodelledCall &call : result_.unmodelledCalls)
     for (const std::size_t loop : call.loops)
       result_.loops[loop].callsUnknown = true;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
@@ -159,7 +159,7 @@ bool Explorer::isPossible(const Path &path, TermId condition) {
   return !entails_(reading_.facts(), path.conditions, opposite);
 }
 
-StepContext<SymbolicReading> Explorer::contextOf(Path &path) {
+StepContext<SymbolicInterpretation> Explorer::contextOf(Path &path) {
   const ProgramFile &file = fileOf(path);
   reading_.useDialect(*file.dialect);
   path_ = &path;
@@ -194,7 +194,7 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
   work.add({}, std::move(start));
   while (!work.empty() && !result_.incomplete)
     for (Path &path : merged(work.takeFirst(), trial)) {
-      throwIfStopped();
+      throwIfCancelled();
       smt::spend(stepsOf(path));
       if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
         return giveUp(kTooMany);
@@ -268,18 +268,18 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
     return false;
   if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
     return true;
-  if (options_.loops == LoopTreatment::EachPass)
+  if (options_.loops == LoopTreatment::EachIteration)
     return !comesBack(path);
   const bool isOpen =
       !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
   if (isOpen) {
     if (trial && trial->instance == path.loops.back().instance)
-      trial->passes.push_back(std::move(path));
+      trial->iterations.push_back(std::move(path));
     else if (purpose == Purpose::Record)
-      recordPass(path);
+      recordIteration(path);
     return false;
   }
-  return LoopOpener(*this).open(path);
+  return LoopSummarizer(*this).open(path);
 }
 
 /// In the state of an earlier visit: whatever comes has been followed from there.
@@ -300,15 +300,15 @@ bool Explorer::comesBack(Path &path) {
   return false;
 }
 
-void Explorer::recordPass(const Path &path) {
+void Explorer::recordIteration(const Path &path) {
   const std::size_t instance = path.loops.back().instance;
-  if (!LoopOpener(*this).record(instance, path))
+  if (!LoopSummarizer(*this).record(instance, path))
     giveUp("what a loop leaves unchanged could not be told");
 }
 
 // ---- what a step may have stopped at ----
 
-bool Explorer::takeChecks(Path &path) {
+bool Explorer::takeStops(Path &path) {
   if (const auto reason = reading_.abandoned())
     giveUp(*reason);
   if (reading_.takeTooLarge())
@@ -316,18 +316,18 @@ bool Explorer::takeChecks(Path &path) {
   for (const auto &[reason, span] : reading_.takeNotes())
     if (purpose_ == Purpose::Record)
       result_.unfollowed.push_back({reason, path.at, span});
-  for (const StopCheck &check : reading_.checks()) {
+  for (const PossibleStop &stop : reading_.possibleStops()) {
     if (purpose_ == Purpose::Record) {
-      const auto same = [&](const Check &known) {
-        return known.place == path.at && known.span == check.place && known.alarm == check.alarm;
+      const auto same = [&](const StopSite &known) {
+        return known.place == path.at && known.span == stop.place && known.alarm == stop.alarm;
       };
-      auto found = std::find_if(result_.checks.begin(), result_.checks.end(), same);
-      if (found == result_.checks.end())
-        found = result_.checks.insert(result_.checks.end(), Check{path.at, check.place, check.alarm, {}});
+      auto found = std::find_if(result_.stopSites.begin(), result_.stopSites.end(), same);
+      if (found == result_.stopSites.end())
+        found = result_.stopSites.insert(result_.stopSites.end(), StopSite{path.at, stop.place, stop.alarm, {}});
       smt::spend(path.conditions.size());
-      found->instances.push_back({path.conditions, check.when.term, check.number, path.moved});
+      found->instances.push_back({path.conditions, stop.when.term, stop.number, path.moved});
     }
-    if (!path.assume(store_, store_.logicalNot(check.when.term)))
+    if (!path.assume(store_, store_.logicalNot(stop.when.term)))
       return false;
   }
   if (reading_.moved())
@@ -373,7 +373,7 @@ std::vector<Path> Explorer::straight(Path path) {
     writes->unkept = reading_.unkeptWrites();
   const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
   const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return {};
   if (writes)
     takeWrites(path, *writes);
@@ -385,7 +385,7 @@ std::vector<Path> Explorer::straight(Path path) {
 std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken) {
   std::vector<Path> paths;
   const NodeId next = nodeOf(path).next;
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return paths;
   const TermId opposite = store_.logicalNot(condition.term);
   if (isPossible(path, opposite)) {
@@ -438,7 +438,7 @@ std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, Block
   stopsWhen(path, {store_.logicalNot(inRange)}, AlarmKind::SequenceOutOfRange);
   stopsWhen(path, {store_.logicalNot(store_.logicalOr(found))}, AlarmKind::SequenceNotFound);
   std::vector<Path> paths;
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return paths;
   for (const auto &[label, place] : places) {
     const TermId isLabel = store_.equal(number.number, constant(label));
@@ -455,16 +455,16 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
   const ProgramFile &file = fileOf(path);
   if (end.end == ProgramEnd::EndOfFile && alarmNumber(*file.dialect, AlarmKind::EndOfRecord)) {
     stopsWhen(path, reading_.truth(true), AlarmKind::EndOfRecord);
-    takeChecks(path);
+    takeStops(path);
     return {};
   }
   exit(path, ExitKind::Ends);
   return {};
 }
 
-Exploration explore(SymbolicReading &reading, const ProgramSet &programs, Callee entry, const SymbolicState &start,
-                    const ExploreOptions &options) {
-  if (options.loops == LoopTreatment::EachPass)
+Exploration explore(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+                    const SymbolicState &start, const ExploreOptions &options) {
+  if (options.loops == LoopTreatment::EachIteration)
     return Explorer(reading, programs, options, PathMerging::No).run(entry, start);
   ExploreOptions first = options;
   first.mostSteps /= 4;

@@ -14,7 +14,8 @@ namespace feedhold::prove {
 
 class Explorer : public PathKnowledge {
 public:
-  Explorer(SymbolicReading &reading, const ProgramSet &programs, const ExploreOptions &options, PathMerging merging);
+  Explorer(SymbolicInterpretation &reading, const ProgramSet &programs, const ExploreOptions &options,
+           PathMerging merging);
 
   Exploration run(Callee entry, const SymbolicState &start);
 
@@ -23,21 +24,21 @@ public:
   bool proves(smt::TermId condition) override;
 
 private:
-  friend class LoopOpener;
+  friend class LoopSummarizer;
 
-  /// Checks, passes and exits are kept only when the paths are those that count: loops are tried before.
+  /// Checks, iterations and exits are kept only when the paths are those that count: loops are tried before.
   enum class Purpose : std::uint8_t { Trial, Record };
-  /// Of a trial: the loop whose passes are looked for, and the paths that come back to its head.
+  /// Of a trial: the loop whose iterations are looked for, and the paths that come back to its head.
   struct Trial {
     std::size_t instance;
-    std::vector<Path> passes;
+    std::vector<Path> iterations;
   };
   void follow(Path start, Purpose purpose, Trial *trial);
   /// False: the path has ended here.
   bool arrive(Path &path, Purpose purpose, Trial *trial);
   bool closeLeftLoops(Path &path, const Trial *trial);
   bool comesBack(Path &path);
-  void recordPass(const Path &path);
+  void recordIteration(const Path &path);
 
   // ---- one instruction: the paths that go on ----
   std::vector<Path> execute(Path path);
@@ -53,17 +54,19 @@ private:
   std::vector<Path> search(Path path, const SymbolicValue &number, BlockId from);
 
   // ---- calls ----
-  std::vector<Path> enter(Path path, const CallRequest<SymbolicReading> &request, std::optional<std::size_t> modal);
+  std::vector<Path> enter(Path path, const CallRequest<SymbolicInterpretation> &request,
+                          std::optional<std::size_t> modal);
   std::vector<Path> modalCall(Path path, Condition moves);
-  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicReading> &request,
+  std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                 std::optional<std::size_t> modal, std::string_view reason);
-  bool mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const;
+  bool mayReach(const CallRequest<SymbolicInterpretation> &request, const Callee &program) const;
   void recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame, const SymbolicState &state);
-  void recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request, std::optional<std::size_t> modal);
+  void recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpretation> request,
+                               std::optional<std::size_t> modal);
   std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
 
   /// Keeps what the step may have stopped at; false when it always stops.
-  bool takeChecks(Path &path);
+  bool takeStops(Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
   // ---- writes (explorer_writes.cpp) ----
@@ -75,7 +78,7 @@ private:
   std::optional<StepWrites> beginWrites(const Path &path) const;
   /// What a step that has not stopped has written.
   void takeWrites(const Path &path, const StepWrites &step);
-  void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point);
+  void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicInterpretation> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
   static Place ownPlace(const Path &path) { return path.frames.size() > 1 ? path.frames[1].call : path.at; }
@@ -88,14 +91,14 @@ private:
   bool isPossible(const Path &path, smt::TermId condition);
   std::optional<bool> byEnclosure(smt::TermId condition);
 
-  StepContext<SymbolicReading> contextOf(Path &path);
+  StepContext<SymbolicInterpretation> contextOf(Path &path);
   const Node &nodeOf(const Path &path) const { return programs_.node(path.at); }
   const ProgramFile &fileOf(const Path &path) const { return programs_.file(path.at.file); }
   const Wto &wtoOf(const Callee &callee);
   const ModalTable &modesOf(FileId file);
   Path to(Path path, NodeId node) const;
 
-  SymbolicReading &reading_;
+  SymbolicInterpretation &reading_;
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const ExploreOptions &options_;
@@ -109,7 +112,7 @@ private:
   SymbolicState entry_;                                                          // as it was at the start
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Wto>> wtos_; // by file and entry
   std::map<std::uint32_t, std::unique_ptr<ModalTable>> modes_;
-  ExecutedWords<SymbolicReading> words_;
+  ExecutedWords<SymbolicInterpretation> words_;
   std::vector<LoopShape> shapes_; // by Exploration::loops
 };
 

@@ -17,9 +17,9 @@ constexpr double kMostRepeats = 100;
 std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
   auto context = contextOf(path);
   auto writes = beginWrites(path);
-  const CallRequest<SymbolicReading> request = prepareCall(context, call.call);
+  const CallRequest<SymbolicInterpretation> request = prepareCall(context, call.call);
   const NodeId next = nodeOf(path).next;
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return {};
   if (writes) // a call by T hands it over in a variable
     takeWrites(path, *writes);
@@ -50,7 +50,7 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
   auto context = contextOf(path);
   std::vector<Path> called;
   if (unknown) {
-    CallRequest<SymbolicReading> request;
+    CallRequest<SymbolicInterpretation> request;
     request.freshLocals = true;
     request.repeats = reading_.number(1);
     called = unknownCall(std::move(path), request, std::nullopt, "a modal call that is not known");
@@ -63,16 +63,16 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
 }
 
 /// Of what is not known, or not followed: it may do anything to what the called program sees, and comes back.
-std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicReading> &request,
+std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                         std::optional<std::size_t> modal, std::string_view reason) {
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
     giveUp("a call that is not followed may lead back to the program");
   if (purpose_ == Purpose::Record) {
-    UnfollowedCall &call = result_.unfollowedCalls.emplace_back(UnfollowedCall{ownPlace(path), path.conditions, {}});
+    UnmodelledCall &call = result_.unmodelledCalls.emplace_back(UnmodelledCall{ownPlace(path), path.conditions, {}});
     for (const OpenLoop &loop : path.loops)
       call.loops.push_back(loop.instance);
   }
-  recordUnfollowedEntries(path, request, modal);
+  recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);
   havocCall(context, request, reason);
   // It may stop with an alarm of its own, and it may come back to any number that some M99 P names.
@@ -80,13 +80,13 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicRea
   const ReturnTargets &returns = programs_.returns();
   if (returns.any || !returns.numbers.empty())
     giveUp("an unknown program may return to any sequence number");
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return {};
   return {to(std::move(path), next)};
 }
 
 /// A program that is in none of the files is taken to call none of them.
-bool Explorer::mayReach(const CallRequest<SymbolicReading> &request, const Callee &program) const {
+bool Explorer::mayReach(const CallRequest<SymbolicInterpretation> &request, const Callee &program) const {
   ReachedPrograms reached;
   for (const Callee &each : request.possible)
     collectReached(programs_, {each.file, each.program}, reached);
@@ -114,7 +114,7 @@ void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const Symb
 
 /// Whatever program the call enters, however often, and whatever modal calls are made in it: each entry is asked about
 /// as if it were followed.
-void Explorer::recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> request,
+void Explorer::recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpretation> request,
                                        std::optional<std::size_t> modal) {
   if (purpose_ != Purpose::Record || !options_.demands)
     return;
@@ -148,7 +148,7 @@ void Explorer::recordUnfollowedEntries(Path &path, CallRequest<SymbolicReading> 
   }
 }
 
-std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> &request,
+std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpretation> &request,
                                   std::optional<std::size_t> modal) {
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
@@ -163,7 +163,7 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicReading> 
   const Limits &limits = fileOf(path).dialect->limits;
   if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
     stopsWhen(path, reading_.truth(true), *alarm);
-    takeChecks(path);
+    takeStops(path);
     return {};
   }
   const CallSite site{path.at, modal, path.frames.back().modalLimit};
@@ -180,7 +180,7 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
   auto context = contextOf(path);
   auto writes = beginWrites(path);
   const auto target = returnTarget(context, from);
-  if (!takeChecks(path))
+  if (!takeStops(path))
     return {};
   if (writes) // the value that is returned
     takeWrites(path, *writes);

@@ -15,7 +15,7 @@ void Explorer::takeMoves(Path &path) {
   if (reading_.moves().empty() && !isMissing)
     return;
   auto context = contextOf(path);
-  ToolPoint<SymbolicReading> point = toolPointOf(context, entry_);
+  ToolPoint<SymbolicInterpretation> point = toolPointOf(context, entry_);
   const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]).number; };
   const std::vector<Move<SymbolicValue>> moves = reading_.moves();
   leavePath(path, moves, point);
@@ -35,7 +35,8 @@ void Explorer::takeMoves(Path &path) {
 /// Whether cutter compensation puts the tool beside the path, or has done so before: a movement without it comes back
 /// to the path at its end, if it is one in the plane (FANUC operator's manual: the offset is cancelled by the first
 /// movement in the plane; one of length 0 is none).
-void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicReading> &point) {
+void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves,
+                         ToolPoint<SymbolicInterpretation> &point) {
   const TermId one = store_.number(smt::Number(1));
   const TermId zero = store_.number(smt::Number(0));
   const SymbolicValue *known = path.state.variables.find(kBesidePath);

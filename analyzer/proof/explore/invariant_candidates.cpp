@@ -37,7 +37,7 @@ public:
       secondOrder(number);
     arrivalConditions();
     for (const TermId condition : trial_.conditions)
-      passCondition(condition);
+      iterationCondition(condition);
     std::sort(all_.begin(), all_.end());
     all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
     return std::move(all_);
@@ -46,8 +46,8 @@ public:
 private:
   const std::vector<LoopPart> &parts() const { return trial_.shape.parts; }
   void offer(TermId candidate) { all_.push_back(candidate); }
-  TermId change(std::size_t pass, std::size_t part) {
-    return store_.subtract(trial_.left[pass][part], parts()[part].symbol);
+  TermId change(std::size_t iteration, std::size_t part) {
+    return store_.subtract(trial_.left[iteration][part], parts()[part].symbol);
   }
 
   void bounds(const LoopPart &part) {
@@ -59,26 +59,27 @@ private:
     offer(store_.less(part.symbol, zero_));
   }
 
-  /// The parts that relations are looked for between, and the number of passes behind them.
+  /// The parts that relations are looked for between, and the number of iterations behind them.
   std::size_t related() const { return std::min(numbers_.size(), kMostRelated); }
 
-  /// Sums of parts that no pass changes (Karr, "Affine relationships among variables of a program", 1976).
+  /// Sums of parts that no iteration changes (Karr, "Affine relationships among variables of a program", 1976).
   void keptSums() {
-    std::map<std::pair<std::size_t, TermId>, std::vector<Number>> rows; // by pass and term: its factor in each change
+    std::map<std::pair<std::size_t, TermId>, std::vector<Number>>
+        rows; // by iteration and term: its factor in each change
     const TermId one = store_.number(Number(1));
-    const auto add = [&](std::size_t pass, TermId term, std::size_t column, const Number &factor) {
-      auto &row = rows[{pass, term}];
+    const auto add = [&](std::size_t iteration, TermId term, std::size_t column, const Number &factor) {
+      auto &row = rows[{iteration, term}];
       row.resize(related() + 1);
       row[column] += factor;
     };
-    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
+    for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration) {
       for (std::size_t column = 0; column < related(); ++column) {
-        const LinearSum sum = store_.linear(change(pass, numbers_[column]));
+        const LinearSum sum = store_.linear(change(iteration, numbers_[column]));
         for (const auto &[term, factor] : sum.terms)
-          add(pass, term, column, factor);
-        add(pass, one, column, sum.constant);
+          add(iteration, term, column, factor);
+        add(iteration, one, column, sum.constant);
       }
-      add(pass, one, related(), Number(1));
+      add(iteration, one, related(), Number(1));
     }
     std::vector<std::vector<Number>> matrix;
     for (auto &[key, row] : rows)
@@ -88,10 +89,10 @@ private:
       offer(store_.equal(before, now));
     }
   }
-  /// A sum of parts and of the number of passes at the arrival, and before any pass.
+  /// A sum of parts and of the number of iterations at the arrival, and before any iteration.
   std::pair<TermId, TermId> sums(const std::vector<Number> &factors) {
     TermId before = zero_;
-    TermId now = store_.scale(factors.back(), trial_.passes);
+    TermId now = store_.scale(factors.back(), trial_.iterations);
     for (std::size_t column = 0; column < related(); ++column) {
       const LoopPart &part = parts()[numbers_[column]];
       before = store_.add(before, store_.scale(factors[column], part.arrival));
@@ -100,17 +101,17 @@ private:
     return {before, now};
   }
 
-  /// Sums of two that some pass keeps and no pass lowers, where every pass changes both by a number.
+  /// Sums of two that some iteration keeps and no iteration lowers, where every iteration changes both by a number.
   void growingSums() {
     std::vector<std::vector<Number>> changes(trial_.left.size());
-    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
+    for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration) {
       for (std::size_t column = 0; column < related(); ++column) {
-        const TermId by = change(pass, numbers_[column]);
+        const TermId by = change(iteration, numbers_[column]);
         if (!store_.isNumber(by))
           return;
-        changes[pass].push_back(store_[by].number);
+        changes[iteration].push_back(store_[by].number);
       }
-      changes[pass].emplace_back(1);
+      changes[iteration].emplace_back(1);
     }
     for (std::size_t i = 0; i < related() + 1; ++i)
       for (std::size_t j = i + 1; j < related() + 1; ++j)
@@ -131,31 +132,32 @@ private:
           }
   }
 
-  /// A part that every pass changes by a + b * passes: the sum of an arithmetic series.
+  /// A part that every iteration changes by a + b * iterations: the sum of an arithmetic series.
   void secondOrder(std::size_t part) {
     std::optional<TermId> by;
-    for (std::size_t pass = 0; pass < trial_.left.size(); ++pass) {
-      if (by && *by != change(pass, part))
+    for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration) {
+      if (by && *by != change(iteration, part))
         return;
-      by = change(pass, part);
+      by = change(iteration, part);
     }
     if (!by)
       return;
-    smt::Substitution spelled, first{{trial_.passes, zero_}}, second{{trial_.passes, store_.number(Number(1))}};
+    smt::Substitution spelled, first{{trial_.iterations, zero_}}, second{{trial_.iterations, store_.number(Number(1))}};
     for (const Travel &travel : trial_.shape.travels) {
-      spelled.emplace(travel.distance, store_.multiply(trial_.passes, travel.step));
+      spelled.emplace(travel.distance, store_.multiply(trial_.iterations, travel.step));
       first.emplace(travel.distance, zero_);
       second.emplace(travel.distance, travel.step);
     }
     const TermId a = smt::substitute(store_, *by, first);
     const TermId b = store_.subtract(smt::substitute(store_, *by, second), a);
-    if (smt::substitute(store_, *by, spelled) != store_.add(a, store_.multiply(b, trial_.passes)))
+    if (smt::substitute(store_, *by, spelled) != store_.add(a, store_.multiply(b, trial_.iterations)))
       return;
-    const TermId pairs = store_.scale(Number(1) / Number(2),
-                                      store_.subtract(store_.multiply(trial_.passes, trial_.passes), trial_.passes));
-    offer(store_.equal(
-        parts()[part].symbol,
-        store_.add(parts()[part].arrival, store_.add(store_.multiply(a, trial_.passes), store_.multiply(b, pairs)))));
+    const TermId pairs =
+        store_.scale(Number(1) / Number(2),
+                     store_.subtract(store_.multiply(trial_.iterations, trial_.iterations), trial_.iterations));
+    offer(store_.equal(parts()[part].symbol,
+                       store_.add(parts()[part].arrival,
+                                  store_.add(store_.multiply(a, trial_.iterations), store_.multiply(b, pairs)))));
   }
 
   /// What held of a variable at the arrival may hold of what becomes of it.
@@ -171,7 +173,7 @@ private:
     }
   }
 
-  void passCondition(TermId condition) {
+  void iterationCondition(TermId condition) {
     const TermKind kind = store_[condition].kind;
     if (kind == TermKind::Not && store_[store_[condition].arguments[0]].kind == TermKind::Equal) {
       const auto sides = store_[store_[condition].arguments[0]].arguments; // a loop that ends at one value

@@ -1,18 +1,18 @@
-// Invariant candidates: relations that may hold before every pass of a loop, guessed from its trial passes.  A guess
-// costs time and nothing else: loops.h keeps those that are proved.
+// Invariant candidates: relations that may hold before every iteration of a loop, guessed from its trial iterations.  A
+// guess costs time and nothing else: loops.h keeps those that are proved.
 #pragma once
 
 #include "proof/explore/loops.h"
 
 namespace feedhold::prove {
 
-/// What trial passes of a loop have shown.
+/// What trial iterations of a loop have shown.
 struct LoopTrial {
-  smt::TermId passes;
+  smt::TermId iterations;
   const LoopShape &shape;
-  const std::vector<std::vector<smt::TermId>> &left; // by pass: what it leaves in each part
+  const std::vector<std::vector<smt::TermId>> &left; // by iteration: what it leaves in each part
   std::vector<smt::TermId> arrival;                  // conditions of the path that met the loop
-  std::vector<smt::TermId> conditions;               // of all passes
+  std::vector<smt::TermId> conditions;               // of all iterations
 };
 
 /// Each once, in ascending order.

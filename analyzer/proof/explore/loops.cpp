@@ -73,16 +73,16 @@ bool LoopShape::isKeptBy(smt::TermStore &store, const LoopPart &part, TermId lef
   FEEDHOLD_UNREACHABLE("the switch names every kind of part");
 }
 
-struct LoopOpener::Work {
+struct LoopSummarizer::Work {
   Path arrival;
   std::size_t instance;
-  TermId passes;
+  TermId iterations;
   LoopShape shape = {};
   TermId moved{0};
   std::vector<TermId> facts = {};
   std::size_t before = 0; // conditions of the last trial's start
   std::vector<Path> found = {};
-  std::vector<std::vector<TermId>> left = {}; // by pass: its parts
+  std::vector<std::vector<TermId>> left = {}; // by iteration: its parts
 
   std::vector<LoopPart> &parts() { return shape.parts; }
   const std::vector<LoopPart> &parts() const { return shape.parts; }
@@ -90,11 +90,11 @@ struct LoopOpener::Work {
 
 // ---- trying ----
 
-/// The state before any pass, from the parts.
-void LoopOpener::build(Work &work) {
+/// The state before any iteration, from the parts.
+void LoopSummarizer::build(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId zero = store.number(Number(0));
-  const TermId isFirst = store.equal(work.passes, zero);
+  const TermId isFirst = store.equal(work.iterations, zero);
   for (LoopPart &part : work.parts())
     if (part.kind == PartKind::Kept)
       part.generic = part.arrival;
@@ -104,18 +104,18 @@ void LoopOpener::build(Work &work) {
       part.generic = store.add(store.add(part.arrival, travelled(work, part.step)), part.error.value_or(zero));
   for (LoopPart &part : work.parts()) // from the closed ones
     if (part.kind == PartKind::Derived)
-      part.generic = store.ite(isFirst, part.arrival, lastPass(work, part.step));
+      part.generic = store.ite(isFirst, part.arrival, lastIteration(work, part.step));
   work.shape.state = work.arrival.state;
   auto part = work.parts().begin();
   forEachTerm(work.shape.state, [&](TermId &mine) { mine = (part++)->generic; });
   work.moved = part->generic;
 }
 
-/// passes * step
-TermId LoopOpener::travelled(Work &work, TermId step) {
+/// iterations * step
+TermId LoopSummarizer::travelled(Work &work, TermId step) {
   smt::TermStore &store = explorer_.store_;
   if (store.isNumber(step))
-    return store.multiply(work.passes, step);
+    return store.multiply(work.iterations, step);
   for (const Travel &travel : work.shape.travels)
     if (travel.step == step)
       return travel.distance;
@@ -123,14 +123,14 @@ TermId LoopOpener::travelled(Work &work, TermId step) {
 }
 
 /// What a distance is, and on which side of 0, if that is known of its step.
-void LoopOpener::addTravels(Work &work) {
+void LoopSummarizer::addTravels(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId zero = store.number(Number(0));
   const auto known = [&](TermId condition) {
     return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, condition);
   };
   for (const Travel &travel : work.shape.travels) {
-    work.facts.push_back(store.equal(travel.distance, store.multiply(work.passes, travel.step)));
+    work.facts.push_back(store.equal(travel.distance, store.multiply(work.iterations, travel.step)));
     if (known(store.lessOrEqual(zero, travel.step)))
       work.facts.push_back(store.lessOrEqual(zero, travel.distance));
     else if (known(store.lessOrEqual(travel.step, zero)))
@@ -139,7 +139,7 @@ void LoopOpener::addTravels(Work &work) {
 }
 
 /// Sums of numbers that doubles do not hold are off by a little.
-void LoopOpener::addErrors(Work &work) {
+void LoopSummarizer::addErrors(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId most = store.number(Number(1) / Number(kErrorOfSums));
   for (LoopPart &part : work.parts()) {
@@ -151,25 +151,25 @@ void LoopOpener::addErrors(Work &work) {
     work.facts.push_back(store.lessOrEqual(*part.error, most));
   }
 }
-bool LoopOpener::isSummedExactly(const LoopPart &part) const {
+bool LoopSummarizer::isSummedExactly(const LoopPart &part) const {
   const smt::TermStore &store = explorer_.store_;
   return explorer_.options_.sums == Sums::Exact ||
          (store.sort(part.arrival) == Sort::Int && store.sort(part.step) == Sort::Int);
 }
 
-/// From the passes before now to those before a pass that comes so much later.
-smt::Substitution LoopOpener::atPass(const Work &work, int later) const {
+/// From the iterations before now to those before an iteration that comes so much later.
+smt::Substitution LoopSummarizer::atIteration(const Work &work, int later) const {
   smt::TermStore &store = explorer_.store_;
-  smt::Substitution other{{work.passes, store.add(work.passes, store.number(Number(later)))}};
+  smt::Substitution other{{work.iterations, store.add(work.iterations, store.number(Number(later)))}};
   for (const Travel &travel : work.shape.travels)
     other.emplace(travel.distance, store.add(travel.distance, store.scale(Number(later), travel.step)));
   return other;
 }
 
-/// Over the symbols of closed parts: what it was at the last pass.
-TermId LoopOpener::lastPass(const Work &work, TermId term) const {
+/// Over the symbols of closed parts: what it was at the last iteration.
+TermId LoopSummarizer::lastIteration(const Work &work, TermId term) const {
   smt::TermStore &store = explorer_.store_;
-  const smt::Substitution earlier = atPass(work, -1);
+  const smt::Substitution earlier = atIteration(work, -1);
   smt::Substitution closed;
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Closed)
@@ -177,8 +177,8 @@ TermId LoopOpener::lastPass(const Work &work, TermId term) const {
   return smt::substitute(store, term, closed);
 }
 
-/// Follows the passes from the state that the parts say.
-bool LoopOpener::tryPasses(Work &work) {
+/// Follows the iterations from the state that the parts say.
+bool LoopSummarizer::tryIterations(Work &work) {
   build(work);
   Path start = work.arrival;
   start.state = work.shape.state;
@@ -193,33 +193,33 @@ bool LoopOpener::tryPasses(Work &work) {
   start.atOpenedHead = true;
   Explorer::Trial trial{work.instance, {}};
   explorer_.follow(std::move(start), Explorer::Purpose::Trial, &trial);
-  work.found = std::move(trial.passes);
+  work.found = std::move(trial.iterations);
   return !explorer_.result_.incomplete;
 }
 
-/// Gives the arrival the parts that a pass has made; and takes down what the passes leave.
-bool LoopOpener::relayout(Work &work, bool &grew) {
+/// Gives the arrival the parts that an iteration has made; and takes down what the iterations leave.
+bool LoopSummarizer::relayout(Work &work, bool &grew) {
   grew = false;
   SymbolicState &arrival = work.arrival.state;
   const auto size = [&] { return termsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
   const std::size_t before = size();
-  for (Path &pass : work.found)
-    if (!alignAll(explorer_.reading_, arrival, pass.state)) {
+  for (Path &iteration : work.found)
+    if (!alignAll(explorer_.reading_, arrival, iteration.state)) {
       explorer_.giveUp("a modal call begins or ends in a loop");
       return false;
     }
   grew = size() != before;
   work.left.clear();
-  for (Path &pass : work.found) {
-    alignAll(explorer_.reading_, arrival, pass.state); // what a later pass has made
-    work.left.push_back(termsOf(pass.state, pass.moved));
+  for (Path &iteration : work.found) {
+    alignAll(explorer_.reading_, arrival, iteration.state); // what a later iteration has made
+    work.left.push_back(termsOf(iteration.state, iteration.moved));
   }
   return true;
 }
 
 // ---- which parts change, and how ----
 
-bool LoopOpener::findChanged(Work &work) {
+bool LoopSummarizer::findChanged(Work &work) {
   smt::TermStore &store = explorer_.store_;
   work.parts().clear();
   for (int round = 0; round < kMostRounds; ++round) {
@@ -227,7 +227,7 @@ bool LoopOpener::findChanged(Work &work) {
       for (const TermId part : termsOf(work.arrival.state, work.arrival.moved))
         work.parts().push_back({PartKind::Kept, part, part, part, part});
     bool grew = false;
-    if (!tryPasses(work) || !relayout(work, grew))
+    if (!tryIterations(work) || !relayout(work, grew))
       return false;
     if (grew) {
       work.parts().clear();
@@ -255,11 +255,11 @@ bool LoopOpener::findChanged(Work &work) {
   return false;
 }
 
-bool LoopOpener::isConstant(const Work &work, TermId term) const {
+bool LoopSummarizer::isConstant(const Work &work, TermId term) const {
   return explorer_.result_.loops[work.instance].isConstant(explorer_.reading_, explorer_.store_, term);
 }
 
-void LoopOpener::classify(Work &work) {
+void LoopSummarizer::classify(Work &work) {
   smt::TermStore &store = explorer_.store_;
   if (work.left.empty())
     return;
@@ -298,15 +298,15 @@ void LoopOpener::classify(Work &work) {
   }
 }
 
-/// What a pass leaves is what was thought; other parts become free.
-bool LoopOpener::verify(Work &work) {
+/// What an iteration leaves is what was thought; other parts become free.
+bool LoopSummarizer::verify(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const smt::Substitution closed = work.shape.closedParts();
   bool holds = true;
-  for (std::size_t pass = 0; pass < work.left.size(); ++pass)
+  for (std::size_t iteration = 0; iteration < work.left.size(); ++iteration)
     for (std::size_t i = 0; i < work.parts().size(); ++i) {
       LoopPart &part = work.parts()[i];
-      const TermId left = work.left[pass][i];
+      const TermId left = work.left[iteration][i];
       if (work.shape.isKeptBy(store, part, left, closed))
         continue;
       if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
@@ -318,7 +318,7 @@ bool LoopOpener::verify(Work &work) {
   return holds;
 }
 
-bool LoopOpener::findKinds(Work &work) {
+bool LoopSummarizer::findKinds(Work &work) {
   classify(work);
   smt::TermStore &store = explorer_.store_;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -331,7 +331,7 @@ bool LoopOpener::findKinds(Work &work) {
                 return other.kind == PartKind::Closed && other.symbol == variable;
               }))
             part.kind = PartKind::Free;
-    work.facts = {store.lessOrEqual(store.number(Number(0)), work.passes)};
+    work.facts = {store.lessOrEqual(store.number(Number(0)), work.iterations)};
     addErrors(work);
     build(work);
     addTravels(work);
@@ -340,7 +340,7 @@ bool LoopOpener::findKinds(Work &work) {
         work.facts.push_back(
             store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
     bool grew = false;
-    if (!tryPasses(work) || !relayout(work, grew))
+    if (!tryIterations(work) || !relayout(work, grew))
       return false;
     if (grew)
       break;
@@ -353,29 +353,30 @@ bool LoopOpener::findKinds(Work &work) {
 
 // ---- invariants ----
 
-/// Before the first pass, or some pass has come before: what let it come back to the head held then.
-void LoopOpener::addLastPass(Work &work) {
+/// Before the first iteration, or some iteration has come before: what let it come back to the head held then.
+void LoopSummarizer::addLastIteration(Work &work) {
   smt::TermStore &store = explorer_.store_;
-  const smt::Substitution earlier = atPass(work, -1);
-  std::vector<TermId> cases{store.equal(work.passes, store.number(Number(0)))};
-  for (const Path &pass : work.found) {
-    std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.passes)};
-    for (std::size_t i = work.before; i < pass.conditions.size(); ++i) {
-      const auto variables = smt::variablesOf(store, pass.conditions[i]);
+  const smt::Substitution earlier = atIteration(work, -1);
+  std::vector<TermId> cases{store.equal(work.iterations, store.number(Number(0)))};
+  for (const Path &iteration : work.found) {
+    std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.iterations)};
+    for (std::size_t i = work.before; i < iteration.conditions.size(); ++i) {
+      const auto variables = smt::variablesOf(store, iteration.conditions[i]);
       if (std::all_of(variables.begin(), variables.end(),
                       [&](TermId variable) { return earlier.contains(variable) || isConstant(work, variable); }))
-        held.push_back(smt::substitute(store, pass.conditions[i], earlier));
+        held.push_back(smt::substitute(store, iteration.conditions[i], earlier));
     }
     cases.push_back(store.logicalAnd(held));
   }
   work.facts.push_back(store.logicalOr(cases));
 }
 
-std::vector<TermId> LoopOpener::candidates(const Work &work) const {
-  LoopTrial trial{work.passes, work.shape, work.left, work.arrival.conditions, {}};
-  for (const Path &pass : work.found)
-    trial.conditions.insert(trial.conditions.end(), pass.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
-                            pass.conditions.end());
+std::vector<TermId> LoopSummarizer::candidates(const Work &work) const {
+  LoopTrial trial{work.iterations, work.shape, work.left, work.arrival.conditions, {}};
+  for (const Path &iteration : work.found)
+    trial.conditions.insert(trial.conditions.end(),
+                            iteration.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
+                            iteration.conditions.end());
   std::vector<TermId> all = invariantCandidates(explorer_.store_, trial);
   if (explorer_.options_.invariants)
     for (const TermId hint : explorer_.options_.invariants(work.arrival.at, work.shape.state))
@@ -383,9 +384,9 @@ std::vector<TermId> LoopOpener::candidates(const Work &work) const {
   return all;
 }
 
-smt::Substitution LoopOpener::atArrival(const Work &work) const {
+smt::Substitution LoopSummarizer::atArrival(const Work &work) const {
   const TermId zero = explorer_.store_.number(Number(0));
-  smt::Substitution first{{work.passes, zero}};
+  smt::Substitution first{{work.iterations, zero}};
   for (const Travel &travel : work.shape.travels)
     first.emplace(travel.distance, zero);
   for (const LoopPart &part : work.parts())
@@ -396,28 +397,28 @@ smt::Substitution LoopOpener::atArrival(const Work &work) const {
   return first;
 }
 
-bool LoopOpener::holdsAtArrival(const Work &work, TermId candidate) {
+bool LoopSummarizer::holdsAtArrival(const Work &work, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
   const smt::Substitution first = atArrival(work);
   return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions,
                             smt::substitute(store, candidate, first));
 }
 
-bool LoopOpener::holdsAfter(const Work &work, const Path &pass, TermId candidate) {
+bool LoopSummarizer::holdsAfter(const Work &work, const Path &iteration, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
-  smt::Substitution next = atPass(work, 1);
-  const auto &left = work.left[static_cast<std::size_t>(&pass - work.found.data())];
+  smt::Substitution next = atIteration(work, 1);
+  const auto &left = work.left[static_cast<std::size_t>(&iteration - work.found.data())];
   for (std::size_t i = 0; i < work.parts().size(); ++i)
     if (work.parts()[i].kind == PartKind::Free)
       next.emplace(work.parts()[i].symbol, left[i]);
-  return explorer_.entails_(explorer_.reading_.facts(), pass.conditions, smt::substitute(store, candidate, next));
+  return explorer_.entails_(explorer_.reading_.facts(), iteration.conditions, smt::substitute(store, candidate, next));
 }
 
 /// Houdini: candidates that do not hold are dropped until all that are left hold together.
-void LoopOpener::addInvariants(Work &work) {
+void LoopSummarizer::addInvariants(Work &work) {
   const std::vector<TermId> always = work.facts;
   std::vector<TermId> left = candidates(work);
-  const smt::Substitution counted = atPass(work, 1);
+  const smt::Substitution counted = atIteration(work, 1);
   std::erase_if(left, [&](TermId candidate) {
     const auto variables = smt::variablesOf(explorer_.store_, candidate);
     const auto changes = [&](TermId variable) {
@@ -434,11 +435,11 @@ void LoopOpener::addInvariants(Work &work) {
     work.facts = always;
     work.facts.insert(work.facts.end(), left.begin(), left.end());
     bool grew = false;
-    if (!tryPasses(work) || !relayout(work, grew) || grew)
+    if (!tryIterations(work) || !relayout(work, grew) || grew)
       break;
     const auto dropped = std::erase_if(left, [&](TermId candidate) {
       return !std::all_of(work.found.begin(), work.found.end(),
-                          [&](const Path &pass) { return holdsAfter(work, pass, candidate); });
+                          [&](const Path &iteration) { return holdsAfter(work, iteration, candidate); });
     });
     if (dropped == 0)
       return;
@@ -446,9 +447,9 @@ void LoopOpener::addInvariants(Work &work) {
   work.facts = always;
 }
 
-// ---- LoopOpener ----
+// ---- LoopSummarizer ----
 
-bool LoopOpener::open(Path &path) {
+bool LoopSummarizer::open(Path &path) {
   smt::TermStore &store = explorer_.store_;
   const std::size_t instance = explorer_.result_.loops.size();
   std::vector<Place> calls;
@@ -456,17 +457,17 @@ bool LoopOpener::open(Path &path) {
     calls.push_back(path.frames[i].call);
   const auto purpose = explorer_.purpose_;
   const std::size_t mark = store.size();
-  Work work{.arrival = path, .instance = instance, .passes = explorer_.reading_.fresh("passes", Sort::Int)};
+  Work work{.arrival = path, .instance = instance, .iterations = explorer_.reading_.fresh("passes", Sort::Int)};
   explorer_.result_.loops.push_back(
-      {.head = path.at, .calls = calls, .passes = work.passes, .mark = mark, .arrival = path.conditions});
+      {.head = path.at, .calls = calls, .iterations = work.iterations, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
   if (!findChanged(work) || !findKinds(work))
     return false;
   addInvariants(work);
   bool grew = false;
-  if (!tryPasses(work) || !relayout(work, grew) || grew)
+  if (!tryIterations(work) || !relayout(work, grew) || grew)
     return explorer_.giveUp("what a loop changes could not be told"), false;
-  addLastPass(work);
+  addLastIteration(work);
   build(work);
 
   LoopInstance &loop = explorer_.result_.loops[instance];
@@ -489,7 +490,7 @@ bool LoopOpener::open(Path &path) {
   return true;
 }
 
-bool LoopOpener::record(std::size_t instance, const Path &path) {
+bool LoopSummarizer::record(std::size_t instance, const Path &path) {
   smt::TermStore &store = explorer_.store_;
   const LoopShape &shape = explorer_.shapes_[instance];
   LoopInstance &loop = explorer_.result_.loops[instance];
@@ -501,7 +502,7 @@ bool LoopOpener::record(std::size_t instance, const Path &path) {
   const std::vector<TermId> left = termsOf(after, path.moved);
   if (left.size() != shape.parts.size())
     return false;
-  Transition transition{path.conditions, {{loop.passes, store.add(loop.passes, store.number(Number(1)))}}};
+  Transition transition{path.conditions, {{loop.iterations, store.add(loop.iterations, store.number(Number(1)))}}};
   for (const Travel &travel : shape.travels)
     transition.next.emplace(travel.distance, store.add(travel.distance, travel.step));
   const smt::Substitution closed = shape.closedParts();

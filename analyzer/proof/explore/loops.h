@@ -1,13 +1,14 @@
-// Loops: what holds before any pass of a loop, found by trial and verified by following a pass.
+// Loops: what holds before any iteration of a loop, found by trial and verified by following an iteration.
 //
-// A path that meets a loop goes on in the midst of it, before a pass of which nothing is known but how many came before
-// (`passes`).  Each part of the state is then
-//   kept     what it was at the arrival, because no pass changes it;
-//   closed   arrival + passes * step, because every pass adds the same step, which no pass changes;
-//   derived  the arrival before the first pass, and what each pass leaves in it, told from closed parts, behind that;
-//   free     a variable, of which some invariants are known.
-// All of it is a guess until a pass has been followed from that state and has left it so; record() refuses a pass that
-// does not.
+// A path that meets a loop goes on in the midst of it, before an iteration of which nothing is known but how many came
+// before
+// (`iterations`).  Each part of the state is then
+//   kept     what it was at the arrival, because no iteration changes it;
+//   closed   arrival + iterations * step, because every iteration adds the same step, which no iteration changes;
+//   derived  the arrival before the first iteration, and what each iteration leaves in it, told from closed parts,
+//   behind that; free     a variable, of which some invariants are known.
+// All of it is a guess until an iteration has been followed from that state and has left it so; record() refuses an
+// iteration that does not.
 #pragma once
 
 #include "proof/explore/path.h"
@@ -22,13 +23,14 @@ struct LoopPart {
   PartKind kind = PartKind::Kept;
   smt::TermId arrival;
   smt::TermId symbol;  // stands for the part while its kind is looked for; of Free: for good
-  smt::TermId generic; // before any pass
-  smt::TermId step;    // of Closed: what a pass adds; of Derived: what a pass leaves, over the symbols of closed parts
+  smt::TermId generic; // before any iteration
+  smt::TermId
+      step; // of Closed: what an iteration adds; of Derived: what an iteration leaves, over the symbols of closed parts
   std::optional<smt::TermId> error = {}; // of Closed, with Sums::Rounded: by how much the sum is off
 };
 
-/// How far the passes before have gone by one step: passes * step, under a name of its own, so that a proof need not
-/// multiply.  A step that is a number needs none.
+/// How far the iterations before have gone by one step: iterations * step, under a name of its own, so that a proof
+/// need not multiply.  A step that is a number needs none.
 struct Travel {
   smt::TermId step;
   smt::TermId distance;
@@ -36,24 +38,24 @@ struct Travel {
 
 /// What is known of a loop that has been opened.
 struct LoopShape {
-  SymbolicState state;         // before any pass
+  SymbolicState state;         // before any iteration
   std::vector<LoopPart> parts; // of `state`, then whether an axis has moved
   std::vector<Travel> travels;
 
-  /// From the symbols of closed parts to what those are before the pass.
+  /// From the symbols of closed parts to what those are before the iteration.
   smt::Substitution closedParts() const;
-  /// A pass that leaves this in a part leaves it as the kind of the part says; `closed`: closedParts().
+  /// An iteration that leaves this in a part leaves it as the kind of the part says; `closed`: closedParts().
   bool isKeptBy(smt::TermStore &store, const LoopPart &part, smt::TermId left, const smt::Substitution &closed) const;
 };
 
-class LoopOpener {
+class LoopSummarizer {
 public:
-  explicit LoopOpener(Explorer &explorer) : explorer_(explorer) {}
+  explicit LoopSummarizer(Explorer &explorer) : explorer_(explorer) {}
 
   /// The path stands at the head of a loop: moves it to the midst of the loop.  False: nothing could be found that
   /// holds.
   bool open(Path &path);
-  /// The path has come back to the head: adds the pass.  False: it does not leave the loop as it was thought to.
+  /// The path has come back to the head: adds the iteration.  False: it does not leave the loop as it was thought to.
   bool record(std::size_t instance, const Path &path);
 
 private:
@@ -63,22 +65,22 @@ private:
   void classify(Work &work);
   bool verify(Work &work);
   void addInvariants(Work &work);
-  void addLastPass(Work &work);
+  void addLastIteration(Work &work);
   std::vector<smt::TermId> candidates(const Work &work) const;
   bool holdsAtArrival(const Work &work, smt::TermId candidate);
-  bool holdsAfter(const Work &work, const Path &pass, smt::TermId candidate);
+  bool holdsAfter(const Work &work, const Path &iteration, smt::TermId candidate);
 
-  bool tryPasses(Work &work);
+  bool tryIterations(Work &work);
   void build(Work &work);
   smt::TermId travelled(Work &work, smt::TermId step);
   void addTravels(Work &work);
   void addErrors(Work &work);
   bool isSummedExactly(const LoopPart &part) const;
-  smt::Substitution atPass(const Work &work, int distance) const;
+  smt::Substitution atIteration(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;
   bool relayout(Work &work, bool &grew);
   bool isConstant(const Work &work, smt::TermId term) const;
-  smt::TermId lastPass(const Work &work, smt::TermId term) const;
+  smt::TermId lastIteration(const Work &work, smt::TermId term) const;
 
   Explorer &explorer_;
 };

@@ -19,7 +19,7 @@ std::vector<TermId> without(const std::vector<TermId> &first, const std::vector<
 }
 
 /// True on the second path and false on the first.
-TermId selectorOf(SymbolicReading &reading, const std::vector<TermId> &onlyFirst,
+TermId selectorOf(SymbolicInterpretation &reading, const std::vector<TermId> &onlyFirst,
                   const std::vector<TermId> &onlySecond) {
   for (const TermId condition : onlySecond) {
     const TermId opposite = reading.store().logicalNot(condition);
@@ -36,7 +36,7 @@ bool canMerge(const Path &a, const Path &b) {
          haveSameModalCalls(a.state, b.state);
 }
 
-void mergeInto(SymbolicReading &reading, Path &path, Path other) {
+void mergeInto(SymbolicInterpretation &reading, Path &path, Path other) {
   smt::TermStore &store = reading.store();
   const std::vector<TermId> onlyFirst = without(path.conditions, other.conditions);
   const std::vector<TermId> onlySecond = without(other.conditions, path.conditions);

@@ -11,9 +11,9 @@
 
 namespace feedhold::prove {
 
-using SymbolicFrame = Frame<SymbolicReading>;
+using SymbolicFrame = Frame<SymbolicInterpretation>;
 
-/// A loop in which the path is: any of its passes.
+/// A loop in which the path is: any of its iterations.
 struct OpenLoop {
   NodeId head;
   std::size_t depth;    // how many frames there were at its head
@@ -38,7 +38,7 @@ struct Path {
   std::vector<OpenLoop> loops; // the innermost last
   smt::TermId moved;           // an axis has moved since the start
   std::uint32_t steps = 0;
-  // ---- with LoopTreatment::EachPass ----
+  // ---- with LoopTreatment::EachIteration ----
   std::shared_ptr<const Landmark> landmark = {};
   std::uint32_t visits = 0;     // to heads of loops, since the landmark
   std::uint32_t mostVisits = 1; // before a new landmark is taken

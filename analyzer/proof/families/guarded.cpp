@@ -43,10 +43,10 @@ Question guardedQuestion(const ExploredProgram &outside) {
       .broken = getsPastGuards};
   for (const PathExit &exit : found.exits)
     question.goals.push_back({&exit.conditions, store.no()});
-  for (const Check &check : found.checks)
-    for (const CheckInstance &instance : check.instances)
+  for (const StopSite &stop : found.stopSites)
+    for (const StopInstance &instance : stop.instances)
       question.goals.push_back({&instance.conditions, store.logicalNot(instance.moved), instance.stops});
-  for (const UnfollowedCall &call : found.unfollowedCalls)
+  for (const UnmodelledCall &call : found.unmodelledCalls)
     question.goals.push_back({&call.conditions, store.no()});
   if (found.incomplete)
     question.open = *found.incomplete;

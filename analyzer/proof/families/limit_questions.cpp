@@ -55,8 +55,8 @@ public:
     for (const MoveInstance &move : found_.moves)
       if (start_.space().concerns(rule, move))
         add(move);
-    for (const UnfollowedCall &call : found_.unfollowedCalls)
-      addUnfollowed(call.own, call.conditions);
+    for (const UnmodelledCall &call : found_.unmodelledCalls)
+      addUnmodelled(call.own, call.conditions);
     if (questions_.empty() && found_.incomplete)
       at(subject_.head());
     Questions all;
@@ -68,7 +68,7 @@ public:
 private:
   void add(const MoveInstance &move) {
     if (move.move.kind == MoveKind::Unfollowed)
-      return addUnfollowed(move.own, move.conditions);
+      return addUnmodelled(move.own, move.conditions);
     Question &question = at(move.own);
     question.goals.push_back({&move.conditions, start_.space().keepsLimit(limit_, move)});
     if (question.open.empty() && !isProved(move.conditions, hasSameMeaning(start_, limit_, move)))
@@ -78,7 +78,7 @@ private:
   }
 
   /// What is not followed neither keeps the limit nor breaks it.
-  void addUnfollowed(Place own, const std::vector<smt::TermId> &conditions) {
+  void addUnmodelled(Place own, const std::vector<smt::TermId> &conditions) {
     Question &question = at(own);
     question.goals.push_back({&conditions, start_.store().no()});
     if (question.open.empty() && !isProved(conditions, start_.store().no()))

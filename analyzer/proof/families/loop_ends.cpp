@@ -1,7 +1,7 @@
 #include "proof/families/loop_ends.h"
 
-#include "proof/termination/recurrence.h"
 #include "proof/decide/cancel.h"
+#include "proof/termination/recurrence.h"
 
 #include <algorithm>
 
@@ -49,7 +49,7 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
   std::stable_sort(runs.begin(), runs.end(),
                    [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
   const auto isEndless = [&](const GivenVariables &given) {
-    throwIfStopped();
+    throwIfCancelled();
     return witnesses.allowed(given) && staysIn(context.subject, loop, witnesses.runOf(given)) &&
            goesOn(context, loop, given);
   };
@@ -60,14 +60,14 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
   return std::nullopt;
 }
 
-/// Inputs with which the loop is met in a state whose pass always leads to one like it.
+/// Inputs with which the loop is met in a state whose iteration always leads to one like it.
 std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopInstance &loop) {
   smt::TermStore &store = context.start.store();
-  const auto pass = recurrentPass(context.start.reading(), store, loop);
-  if (!pass)
+  const auto iteration = recurrentIteration(context.start.reading(), store, loop);
+  if (!iteration)
     return std::nullopt;
   std::vector<smt::TermId> conditions;
-  for (const smt::TermId condition : loop.transitions[*pass].conditions)
+  for (const smt::TermId condition : loop.transitions[*iteration].conditions)
     conditions.push_back(smt::substitute(store, condition, loop.first));
   const Outcome outcome =
       discharge(store, context.start.onPath(conditions, store.no()), context.subject.options.budget);

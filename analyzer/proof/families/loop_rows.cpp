@@ -1,8 +1,8 @@
 // Loops, and so the program, come to an end.
 #include "meaning/cfg/wto.h"
-#include "proof/termination/termination_explanation.h"
-#include "proof/families/loop_ends.h"
 #include "proof/families/families.h"
+#include "proof/families/loop_ends.h"
+#include "proof/termination/termination_explanation.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ bool isInside(const Wto &wto, Place head, Place at) {
 }
 
 /// All paths have been followed to their end.
-Verdict endsByPasses(const ProofContext &context, const Obligation &obligation) {
+Verdict endsByIterations(const ProofContext &context, const Obligation &obligation) {
   if (!context.found.repeats.empty())
     return Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
   const bool isMet = obligation.kind != ObligationKind::LoopEnds || context.found.heads.contains(obligation.place);
@@ -59,20 +59,20 @@ void settleLoop(const ProofContext &context, Obligation &obligation, const Insta
                 const Violation &violation) {
   if (auto decided = decidedBefore(context, violation))
     obligation.verdict = *std::move(decided);
-  else if (context.found.treatment == LoopTreatment::EachPass)
-    obligation.verdict = endsByPasses(context, obligation);
+  else if (context.found.treatment == LoopTreatment::EachIteration)
+    obligation.verdict = endsByIterations(context, obligation);
   else
     obligation.verdict = endOfAll(context, instances, obligation.effort);
 }
 
 /// When all that lead to the loop say the same.
 void explainEnd(const ProofContext &context, verdict::Proved &proved, const Instances &instances) {
-  std::optional<LoopAccount> account;
+  std::optional<TerminationExplanation> account;
   for (const LoopInstance *instance : instances) {
     const auto end = context.ends.find(instance);
     if (end == context.ends.end())
       continue;
-    LoopAccount next = accountOf(context.start.reading(), context.subject.programs, *instance, end->second);
+    TerminationExplanation next = accountOf(context.start.reading(), context.subject.programs, *instance, end->second);
     if (account && account->why != next.why)
       return;
     if (account && account->bound != next.bound)
@@ -111,7 +111,7 @@ Violation staysInside(std::shared_ptr<const Wto> wto, Place place) {
 
 Obligation rowOfLoop(const ProofContext &context, const std::shared_ptr<const Wto> &wto, Place place) {
   Instances instances;
-  Instances within; // a pass that stays in one of these for ever does not end
+  Instances within; // an iteration that stays in one of these for ever does not end
   for (const LoopInstance &loop : context.found.loops) {
     if (loop.head == place)
       instances.push_back(&loop);
@@ -167,9 +167,9 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
   Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
   row.id = fmt::format("{}.program-ends", subject.name());
   settleLoop(context, row, instances, comesBack);
-  if (!context.found.unfollowedCalls.empty() && row.verdict.kind() != Verdict::Refuted)
+  if (!context.found.unmodelledCalls.empty() && row.verdict.kind() != Verdict::Refuted)
     row.verdict = Verdict::unknown("a program that is called is not followed and need not come back",
-                                   context.found.unfollowedCalls.front().own);
+                                   context.found.unmodelledCalls.front().own);
   else if (row.verdict == Verdict::Unreachable)
     row.verdict = verdict::Proved{.proof = {.method = "no loop"}};
   return row;
@@ -182,7 +182,7 @@ void requireEnds(const ProofContext &context, Obligation &obligation) {
     obligation.verdict = Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
     return;
   }
-  if (context.found.treatment == LoopTreatment::EachPass)
+  if (context.found.treatment == LoopTreatment::EachIteration)
     return;
   for (const LoopInstance &loop : context.found.loops)
     if (!(endOfAll(context, {&loop}, obligation.effort) == Verdict::Proved)) {

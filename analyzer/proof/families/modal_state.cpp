@@ -77,7 +77,7 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
 template <typename Visit>
 void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state,
                       Visit visit) {
-  SymbolicReading &reading = program.start.reading();
+  SymbolicInterpretation &reading = program.start.reading();
   smt::TermStore &store = program.start.store();
   SymbolicState before = program.start.entry();
   SymbolicState now = state;

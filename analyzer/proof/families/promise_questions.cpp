@@ -1,6 +1,6 @@
 // What the contract of a program promises for its return, and for the calls that raise alarms.
-#include "proof/families/modal_state.h"
 #include "proof/families/families.h"
+#include "proof/families/modal_state.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariable
 }
 
 /// Broken as soon as something happens, however the run ends.
-std::optional<std::string> brokenOnTheWay(const RunResult &run) {
+std::optional<std::string> brokenOnThePath(const RunResult &run) {
   if (run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
     return std::nullopt;
   return "a variable that the clause does not name gets another value on the way";
@@ -140,14 +140,14 @@ Questions assignQuestions(const ExploredProgram &program) {
     return {};
   const std::set<std::uint32_t> allowed = cellsOf(subject.dialect(), contract.assigns);
   Question question = promise(subject, ObligationKind::Assigns, contract.assigns.front().clause);
-  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenOnTheWay(run); };
+  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenOnThePath(run); };
   for (const WriteInstance &write : found.writes) {
     if (!write.variable)
       question.open = "a variable whose number is not known is written";
     else if (isSeenByOthers(subject, *write.variable) && !allowed.contains(*write.variable))
       question.goals.push_back({&write.conditions, write.isKept});
   }
-  if (!found.unfollowedCalls.empty())
+  if (!found.unmodelledCalls.empty())
     question.open = "a program that is called is not followed, and may write any variable";
   if (question.goals.empty() && !found.incomplete) // there is nothing to break it
     question.goals.push_back({&start.demands(), start.store().yes()});
@@ -170,14 +170,14 @@ Questions alarmQuestions(const ExploredProgram &program) {
     question.broken = [](const RunResult &run, const GivenVariables &) { return howItEnded(run); };
     for (const PathExit &exit : found.exits)
       question.goals.push_back({&exit.conditions, store.logicalNot(condition)});
-    for (const Check &check : found.checks)
-      for (const CheckInstance &instance : check.instances) {
-        const TermId isThis = check.alarm ? store.no() : store.equal(instance.number.number, number);
+    for (const StopSite &stop : found.stopSites)
+      for (const StopInstance &instance : stop.instances) {
+        const TermId isThis = stop.alarm ? store.no() : store.equal(instance.number.number, number);
         question.goals.push_back({&instance.conditions, store.implies(condition, isThis), instance.stops});
         if (isIff)
           question.goals.push_back({&instance.conditions, store.implies(isThis, condition), instance.stops});
       }
-    for (const UnfollowedCall &call : found.unfollowedCalls) // which may end with any alarm
+    for (const UnmodelledCall &call : found.unmodelledCalls) // which may end with any alarm
       question.goals.push_back({&call.conditions, isIff ? store.no() : store.logicalNot(condition)});
     questions.push_back(std::move(question));
   }

@@ -12,9 +12,9 @@ bool isSensitive(const Obligation &obligation) {
   return obligation.kind == ObligationKind::NoControlAlarm && obligation.verdict == Verdict::Proved;
 }
 
-bool isStillProved(ProofStart &start, const Check &check, const Budget &budget) {
+bool isStillProved(ProofStart &start, const StopSite &stop, const Budget &budget) {
   smt::TermStore &store = start.store();
-  return std::all_of(check.instances.begin(), check.instances.end(), [&](const CheckInstance &instance) {
+  return std::all_of(stop.instances.begin(), stop.instances.end(), [&](const StopInstance &instance) {
     return discharge(store, start.onPath(instance.conditions, store.logicalNot(instance.stops)), budget).proved();
   });
 }
@@ -35,9 +35,9 @@ void markRounding(const ProofContext &context, std::vector<Obligation> &rows) {
   for (Obligation &row : rows)
     if (isSensitive(row))
       row.verdict.proved()->exactOnly =
-          std::any_of(rounded.checks.begin(), rounded.checks.end(), [&](const Check &check) {
-            return check.place == row.place && check.span == row.span && check.alarm == row.alarm &&
-                   !isStillProved(context.start, check, budget);
+          std::any_of(rounded.stopSites.begin(), rounded.stopSites.end(), [&](const StopSite &stop) {
+            return stop.place == row.place && stop.span == row.span && stop.alarm == row.alarm &&
+                   !isStillProved(context.start, stop, budget);
           });
 }
 

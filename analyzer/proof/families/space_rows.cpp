@@ -1,6 +1,6 @@
 // Claims about space: where the tool may go (docs/geometry.md).
-#include "proof/families/input_signs.h"
 #include "proof/families/families.h"
+#include "proof/families/input_signs.h"
 #include "proof/families/space_runs.h"
 
 #include <algorithm>
@@ -113,7 +113,7 @@ std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
     return Verdict::unknown("regions are followed on machining centres alone");
   if (rule.missing)
     return Verdict::unknown(*rule.missing);
-  for (const UnfollowedCall &call : context_.found.unfollowedCalls)
+  for (const UnmodelledCall &call : context_.found.unmodelledCalls)
     if (call.own == own)
       return Verdict::unknown(context_.found.notFollowedAt(own).value_or(
                                   "a program that is called here is not followed, and may move the tool"),
@@ -245,7 +245,7 @@ std::vector<std::pair<Place, Moves>> groupsOf(const ProofContext &context, const
   for (const MoveInstance &move : context.found.moves)
     if (context.start.space().concerns(rule, move))
       groupOf(move.own).push_back(&move);
-  for (const UnfollowedCall &call : context.found.unfollowedCalls)
+  for (const UnmodelledCall &call : context.found.unmodelledCalls)
     groupOf(call.own);
   if (groups.empty() && context.found.incomplete)
     groupOf(context.subject.head());

@@ -21,8 +21,8 @@ std::vector<std::uint32_t> foreseenAlarms(const Contract *contract) {
 }
 
 /// What a run that breaks the claim on this place does.
-auto stopAt(const Check &check, const std::vector<std::uint32_t> &foreseen) {
-  return [place = check.place, span = check.span, alarm = check.alarm,
+auto stopAt(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
+  return [place = stop.place, span = stop.span, alarm = stop.alarm,
           foreseen](const RunResult &run, const GivenVariables &) -> std::optional<std::string> {
     const bool here = run.place == place && run.alarmSpan == span;
     const bool isForeseen = std::any_of(foreseen.begin(), foreseen.end(), [&](std::uint32_t number) {
@@ -36,15 +36,15 @@ auto stopAt(const Check &check, const std::vector<std::uint32_t> &foreseen) {
   };
 }
 
-std::string stopClaim(const Check &check, const std::vector<std::uint32_t> &foreseen) {
-  if (check.alarm)
-    return fmt::format("no {} here", meaningOf(*check.alarm));
+std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
+  if (stop.alarm)
+    return fmt::format("no {} here", meaningOf(*stop.alarm));
   if (foreseen.empty())
     return "this alarm is never raised";
   return "no alarm comes from here that the contract does not foresee";
 }
 
-TermId isOneOf(SymbolicReading &reading, const SymbolicValue &value, const std::vector<std::uint32_t> &numbers) {
+TermId isOneOf(SymbolicInterpretation &reading, const SymbolicValue &value, const std::vector<std::uint32_t> &numbers) {
   smt::TermStore &store = reading.store();
   std::vector<TermId> any;
   for (const std::uint32_t number : numbers)
@@ -73,16 +73,16 @@ Questions stopQuestions(const ExploredProgram &program) {
   smt::TermStore &store = start.store();
   const std::vector<std::uint32_t> foreseen = foreseenAlarms(subject.contract());
   Questions questions;
-  for (const Check &check : found.checks) {
-    const ObligationKind kind = check.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
-    if (!subject.isOwn(check.place) || !subject.wants(kind))
+  for (const StopSite &stop : found.stopSites) {
+    const ObligationKind kind = stop.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
+    if (!subject.isOwn(stop.place) || !subject.wants(kind))
       continue;
-    Question question{.row = subject.obligation(kind, check.place, check.span, stopClaim(check, foreseen)),
+    Question question{.row = subject.obligation(kind, stop.place, stop.span, stopClaim(stop, foreseen)),
                       .goals = {},
-                      .broken = stopAt(check, foreseen)};
-    question.row.alarm = check.alarm;
-    for (const CheckInstance &instance : check.instances) {
-      const TermId isForeseen = check.alarm ? store.no() : isOneOf(start.reading(), instance.number, foreseen);
+                      .broken = stopAt(stop, foreseen)};
+    question.row.alarm = stop.alarm;
+    for (const StopInstance &instance : stop.instances) {
+      const TermId isForeseen = stop.alarm ? store.no() : isOneOf(start.reading(), instance.number, foreseen);
       question.goals.push_back({&instance.conditions, store.implies(instance.stops, isForeseen)});
     }
     questions.push_back(std::move(question));
@@ -96,9 +96,9 @@ Questions unmetAlarms(const ExploredProgram &program) {
   if (!subject.wants(ObligationKind::AlarmUnreachable))
     return questions;
   const auto isMet = [&subject = subject, &found = found](BlockId block, Span span) {
-    return std::any_of(found.checks.begin(), found.checks.end(), [&](const Check &check) {
-      return !check.alarm && check.place.file == subject.program.file && check.span == span &&
-             subject.programs.node(check.place).block == block;
+    return std::any_of(found.stopSites.begin(), found.stopSites.end(), [&](const StopSite &stop) {
+      return !stop.alarm && stop.place.file == subject.program.file && stop.span == span &&
+             subject.programs.node(stop.place).block == block;
     });
   };
   for (const VariableUse &use : subject.file().model->variablesOf(subject.program.program)) {
@@ -106,12 +106,12 @@ Questions unmetAlarms(const ExploredProgram &program) {
     const Span span = subject.file().tree->expressions[use.expression].span;
     if (!row || row->role != VariableRole::Alarm || isMet(use.block, span))
       continue;
-    const Check check{
+    const StopSite stop{
         .place = {subject.program.file, writeOf(subject.file(), use)}, .span = span, .alarm = {}, .instances = {}};
-    questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, check.place, check.span,
-                                                   stopClaim(check, foreseenAlarms(subject.contract()))),
+    questions.push_back({.row = subject.obligation(ObligationKind::AlarmUnreachable, stop.place, stop.span,
+                                                   stopClaim(stop, foreseenAlarms(subject.contract()))),
                          .goals = {},
-                         .broken = stopAt(check, foreseenAlarms(subject.contract()))});
+                         .broken = stopAt(stop, foreseenAlarms(subject.contract()))});
   }
   return questions;
 }

@@ -31,8 +31,8 @@ Tool<double> toolOf(const PlainSpace &space) {
 /// Of points that are tried where nothing is known of how a depth changes.
 double stepOf(const Tool<double> &tool) { return std::max(tool.radius / 4, 0.05); }
 
-std::optional<Deepest> outsideOnWay(const PlainRegion &region, const Tool<double> &tool, const GougePath &path,
-                                    double floor) {
+std::optional<Deepest> outsideOnPath(const PlainRegion &region, const Tool<double> &tool, const GougePath &path,
+                                     double floor) {
   const auto &parts = region.parts;
   const bool isConvexLine = path.isStraight() && std::all_of(parts.begin(), parts.end(), isConvex);
   const auto atEnds = [&](const PlainShape &part) {
@@ -49,7 +49,7 @@ std::optional<Deepest> outsideOnWay(const PlainRegion &region, const Tool<double
     return isConvexLine && parts.size() == 1 ? Course::RisesToEnds : Course::NoFaster;
   };
   const Depth depth = [&](const Point<double> &point) { return depthOutside(region, tool, point); };
-  return deepestOnWay(path, {depth, course(), floor, stepOf(tool)});
+  return deepestOnPath(path, {depth, course(), floor, stepOf(tool)});
 }
 
 /// Axes that each go at a rate of their own may be anywhere in the box between the ends; the tool reaches up without
@@ -70,12 +70,12 @@ std::optional<Deepest> insideInBox(const PlainShape &part, const Tool<double> &t
   return there > floor ? std::optional(Deepest{point, there}) : std::nullopt;
 }
 
-std::optional<Deepest> insideOnWay(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
-                                   double floor) {
+std::optional<Deepest> insideOnPath(const PlainShape &part, const Tool<double> &tool, const GougePath &path,
+                                    double floor) {
   const Depth depth = [&](const Point<double> &point) { return depthInside(part, tool, point); };
   const bool isHill = path.isStraight() && isConvex(part);
   const Course course = !hasDistances(part) ? Course::Any : isHill ? Course::RisesToOne : Course::NoFaster;
-  return deepestOnWay(path, {depth, course, floor, stepOf(tool)});
+  return deepestOnPath(path, {depth, course, floor, stepOf(tool)});
 }
 
 std::optional<Deepest> insideOfRegion(const PlainRegion &region, const Tool<double> &tool, const RecordedMove &recorded,
@@ -85,7 +85,7 @@ std::optional<Deepest> insideOfRegion(const PlainRegion &region, const Tool<doub
   for (const PlainShape &part : region.parts) {
     const double least = worst ? worst->depth : floor;
     const auto found = recorded.move.kind == MoveKind::Rapid ? insideInBox(part, tool, path, least)
-                                                             : insideOnWay(part, tool, path, least);
+                                                             : insideOnPath(part, tool, path, least);
     if (found)
       worst = found;
   }
@@ -167,14 +167,14 @@ private:
     case SpaceClaim::KeepIn:
       if (!isCutting(recorded.move.kind))
         return std::nullopt;
-      return outsideOnWay(space_.keepIn[region_], tool_, GougePath(recorded), floor);
+      return outsideOnPath(space_.keepIn[region_], tool_, GougePath(recorded), floor);
     case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], tool_, recorded, floor);
     case SpaceClaim::Clearance: return tooLow;
     case SpaceClaim::Travel: {
       if (!space_.travel)
         return std::nullopt;
       const Depth depth = [&](const Point<double> &point) { return depthOutside(*space_.travel, point); };
-      return deepestOnWay(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
+      return deepestOnPath(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
     }
     }
     FEEDHOLD_UNREACHABLE("the switch names every claim");

@@ -169,7 +169,7 @@ private:
 
 } // namespace
 
-std::optional<Deepest> deepestOnWay(const GougePath &path, const Wanted &wanted) {
+std::optional<Deepest> deepestOnPath(const GougePath &path, const Wanted &wanted) {
   Search search(path, wanted.depth, wanted.floor);
   switch (wanted.course) {
   case Course::RisesToEnds:

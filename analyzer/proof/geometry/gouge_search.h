@@ -35,7 +35,7 @@ struct Wanted {
 };
 
 /// Absent: nowhere that was found.
-std::optional<Deepest> deepestOnWay(const GougePath &path, const Wanted &wanted);
+std::optional<Deepest> deepestOnPath(const GougePath &path, const Wanted &wanted);
 /// In the rectangle between two points, at the Z of `a`.
 std::optional<Deepest> deepestInRectangle(const Point<double> &a, const Point<double> &b, const Wanted &wanted);
 

@@ -16,35 +16,35 @@ ToolPath::ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::
     move_.radius.reset();
 }
 
-TermId ToolPath::share(PointOnWay &way) {
+TermId ToolPath::share(PointOnPath &way) {
   const TermId share = freshVariable(store_, "share of the way");
   way.conditions.push_back(store_.lessOrEqual(store_.number(Number(0)), share));
   way.conditions.push_back(store_.lessOrEqual(share, store_.number(Number(1))));
   return share;
 }
 
-TermId ToolPath::between(PointOnWay &way, TermId start, TermId end) {
+TermId ToolPath::between(PointOnPath &way, TermId start, TermId end) {
   if (start == end)
     return start;
   return store_.add(start, store_.multiply(share(way), store_.subtract(end, start)));
 }
 
-PointOnWay ToolPath::anyPoint() {
+PointOnPath ToolPath::anyPoint() {
   if (isArc())
     return pointOfArc();
   return move_.kind == MoveKind::Rapid ? pointOfBox() : pointOfLine();
 }
 
-PointOnWay ToolPath::pointOfLine() {
-  PointOnWay way{move_.start, {}};
+PointOnPath ToolPath::pointOfLine() {
+  PointOnPath way{move_.start, {}};
   const TermId part = move_.start == move_.end ? store_.number(Number(0)) : share(way);
   for (std::size_t i = 0; i < way.point.size(); ++i)
     way.point[i] = store_.add(move_.start[i], store_.multiply(part, store_.subtract(move_.end[i], move_.start[i])));
   return way;
 }
 
-PointOnWay ToolPath::pointOfBox() {
-  PointOnWay way{move_.start, {}};
+PointOnPath ToolPath::pointOfBox() {
+  PointOnPath way{move_.start, {}};
   for (std::size_t i = 0; i < way.point.size(); ++i)
     way.point[i] = between(way, move_.start[i], move_.end[i]);
   return way;
@@ -110,13 +110,13 @@ TermId ToolPath::besideChord(TermId x, TermId y) const {
 /// R says the distance of the centre from both ends, and the side of the chord on which it lies: these polynomial facts
 /// are of more use than the formula of the centre.  Where R is shorter than half the chord, the arc is a half circle
 /// about the middle of it; where the ends are one, there is none.
-PointOnWay ToolPath::pointOfArcByRadius() {
+PointOnPath ToolPath::pointOfArcByRadius() {
   ToolPath about = *this;
   about.move_.radius.reset();
   about.move_.firstCentre = freshVariable(store_, "centre");
   about.move_.secondCentre = freshVariable(store_, "centre");
   const Spokes ends = about.spokes();
-  PointOnWay way = about.pointOfArc();
+  PointOnPath way = about.pointOfArc();
   const TermId zero = store_.number(Number(0));
   const TermId chordFirst = store_.subtract(ends.endFirst, ends.startFirst);
   const TermId chordSecond = store_.subtract(ends.endSecond, ends.startSecond);
@@ -175,10 +175,10 @@ bool ToolPath::findCentre() {
   return true;
 }
 
-PointOnWay ToolPath::pointOfArc() {
+PointOnPath ToolPath::pointOfArc() {
   if (move_.radius)
     return pointOfArcByRadius();
-  PointOnWay way{move_.start, {}};
+  PointOnPath way{move_.start, {}};
   const Spokes ends = spokes();
   const TermId x = freshVariable(store_, "arc");
   const TermId y = freshVariable(store_, "arc");

@@ -27,7 +27,7 @@ struct TermMove {
 };
 
 /// A point on the way: any one, by new variables that `conditions` keep to the way.
-struct PointOnWay {
+struct PointOnPath {
   TermPoint point;
   std::vector<TermId> conditions;
 };
@@ -44,7 +44,7 @@ public:
   Hull hull();
   /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever
   /// rates.  What lies between the ends of a helix along its axis is taken at any turn.
-  PointOnWay anyPoint();
+  PointOnPath anyPoint();
   /// The hull is the way itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
   /// X and Y stay as they are.
@@ -56,14 +56,14 @@ private:
   bool isArc() const { return move_.kind == MoveKind::ArcClockwise || move_.kind == MoveKind::ArcCounterclockwise; }
   Hull boxHull() const;
   Hull arcHull();
-  PointOnWay pointOfLine();
-  PointOnWay pointOfBox();
-  PointOnWay pointOfArc();
-  PointOnWay pointOfArcByRadius();
+  PointOnPath pointOfLine();
+  PointOnPath pointOfBox();
+  PointOnPath pointOfArc();
+  PointOnPath pointOfArcByRadius();
   bool findCentre();
   bool centreIsLeft() const;
-  TermId share(PointOnWay &way);
-  TermId between(PointOnWay &way, TermId start, TermId end);
+  TermId share(PointOnPath &way);
+  TermId between(PointOnPath &way, TermId start, TermId end);
   TermId sector(TermId x, TermId y) const;
   TermId besideChord(TermId x, TermId y) const;
 

@@ -40,7 +40,7 @@ std::string bracketed(const std::string &text) {
 
 } // namespace
 
-AtomMaker::AtomMaker(SymbolicReading &reading, const ProgramSet &programs, const Dialect &dialect)
+AtomMaker::AtomMaker(SymbolicInterpretation &reading, const ProgramSet &programs, const Dialect &dialect)
     : store_(reading.store()), comparesExactly_(dialect.behaviour.equalTolerance == 0) {
   for (const auto &[variable, value] : reading.entryValues()) {
     const VariableRange *row = variable < kFirstNamedVariable ? findVariable(dialect, variable) : nullptr;

@@ -30,7 +30,7 @@ struct Inequality {
 
 class Candidates {
 public:
-  Candidates(AtomMaker &make, SymbolicReading &reading, const Exploration &found)
+  Candidates(AtomMaker &make, SymbolicInterpretation &reading, const Exploration &found)
       : make_(make), store_(reading.store()), found_(found) {}
 
   std::vector<GuardAtom> of(const GuardSubject &subject, const std::vector<double> &constants) {
@@ -70,28 +70,28 @@ private:
     meet(query.goal, true);
     says(query.goal, AtomRank::Claim, wanted);
     std::vector<Inequality> known;
-    const bool isWay = query.goal == store_.no(); // the claim is that no run comes along this way
+    const bool isPath = query.goal == store_.no(); // the claim is that no run comes along this way
     for (const TermId assumption : query.assumptions) {
-      meet(assumption, isWay);
-      says(assumption, isWay ? AtomRank::Claim : AtomRank::Way, known);
+      meet(assumption, isPath);
+      says(assumption, isPath ? AtomRank::Claim : AtomRank::Way, known);
     }
     project(wanted, known);
   }
   void speaksOf(const LoopInstance &loop) {
     steps(loop);
     std::vector<Inequality> known;
-    for (const Transition &pass : loop.transitions)
-      for (const TermId condition : pass.conditions) {
+    for (const Transition &iteration : loop.transitions)
+      for (const TermId condition : iteration.conditions) {
         meet(condition, false);
         says(condition, AtomRank::Way, known);
       }
     for (const auto &[variable, value] : loop.first)
       meet(value, false);
   }
-  /// What a pass adds to a variable is near to why the loop ends.
+  /// What an iteration adds to a variable is near to why the loop ends.
   void steps(const LoopInstance &loop) {
-    for (const Transition &pass : loop.transitions)
-      for (const auto &[variable, value] : pass.next) {
+    for (const Transition &iteration : loop.transitions)
+      for (const auto &[variable, value] : iteration.next) {
         if (store_.sort(variable) == smt::Sort::Bool)
           continue;
         meet(store_.subtract(value, variable), true);
@@ -99,7 +99,7 @@ private:
     for (const LoopInstance::Value &value : loop.values)
       for (const auto &[term, factor] : store_.linear(value.generic).terms) {
         const auto &variables = smt::variablesOf(store_, term);
-        if (std::find(variables.begin(), variables.end(), loop.passes) != variables.end())
+        if (std::find(variables.begin(), variables.end(), loop.iterations) != variables.end())
           meet(term, true);
       }
   }
@@ -142,12 +142,12 @@ private:
   }
   void says(const Inequality &inequality, AtomRank rank) {
     const bool isStrict = inequality.comparison == Comparison::Above;
-    for (const TermId side : {inequality.term, atFirstPass(inequality.term)}) {
+    for (const TermId side : {inequality.term, atFirstIteration(inequality.term)}) {
       take(make_.compare(side, inequality.comparison, rank));
       take(make_.compare(store_.negate(side), isStrict ? Comparison::NotBelow : Comparison::Above, rank));
     }
   }
-  TermId atFirstPass(TermId term) {
+  TermId atFirstIteration(TermId term) {
     for (const LoopInstance &loop : found_.loops)
       term = smt::substitute(store_, term, loop.first);
     return term;
@@ -227,7 +227,7 @@ private:
 
 } // namespace
 
-std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicReading &reading, const GuardSubject &subject,
+std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &reading, const GuardSubject &subject,
                                        const Exploration &found, const std::vector<double> &constants) {
   return Candidates(make, reading, found).of(subject, constants);
 }

@@ -16,7 +16,7 @@ struct GuardSubject {
 };
 
 /// Each once; by rank, then in the order in which the subject speaks of them.
-std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicReading &reading, const GuardSubject &subject,
+std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &reading, const GuardSubject &subject,
                                        const Exploration &found, const std::vector<double> &constants);
 
 } // namespace feedhold::prove

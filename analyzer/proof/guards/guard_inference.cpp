@@ -2,10 +2,10 @@
 #include "proof/guards/guard_inference.h"
 
 #include "meaning/cfg/wto.h"
+#include "proof/families/families.h"
 #include "proof/guards/guard_candidates.h"
 #include "proof/guards/guard_fix.h"
 #include "proof/guards/guard_search.h"
-#include "proof/families/families.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "proof/context/proof_context.h"
+#include "proof/prove/prove.h"
 
 #include <vector>
 

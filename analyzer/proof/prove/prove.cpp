@@ -1,8 +1,8 @@
 #include "proof/prove/prove.h"
 
+#include "proof/families/families.h"
 #include "proof/guards/guard_inference.h"
 #include "proof/prove/judge.h"
-#include "proof/families/families.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ public:
 
   ProgramProof run() {
     settleStage(*stage_);
-    followPasses();
+    followIterations();
     std::vector<Obligation> &rows = stage_->settled.rows;
     requireSomeCall(rows);
     markRounding(contextOf(*stage_), rows);
@@ -74,7 +74,7 @@ private:
       settled.rows.push_back(*std::move(guarded));
   }
 
-  void followPasses();
+  void followIterations();
 
   /// A contract that no call satisfies would make everything true.
   void requireSomeCall(std::vector<Obligation> &rows) const {
@@ -140,23 +140,23 @@ void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> 
       rows.push_back(notMet(old));
 }
 
-/// Claims that are open after loops were met in the midst of any pass: where all loops have few passes, each pass is
-/// followed.
-void Work::followPasses() {
+/// Claims that are open after loops were met in the midst of any iteration: where all loops have few iterations, each
+/// iteration is followed.
+void Work::followIterations() {
   const Exploration &found = stage_->found;
   const std::vector<Obligation> &before = stage_->settled.rows;
   const bool hasLoops = !found.loops.empty() || found.incomplete;
-  if (!hasLoops || !found.unfollowedCalls.empty() || std::none_of(before.begin(), before.end(), isOpen))
+  if (!hasLoops || !found.unmodelledCalls.empty() || std::none_of(before.begin(), before.end(), isOpen))
     return;
   ExploreOptions options = start_.exploreOptions(subject_);
-  options.loops = LoopTreatment::EachPass;
+  options.loops = LoopTreatment::EachIteration;
   options.mostSteps = 8'000;
   options.mostPaths = 100;
   options.mostWork = 200'000;
   options.mostTerms = 100'000;
   auto each = std::make_unique<Stage>();
   each->found = explore(start_.reading(), subject_.programs, subject_.program, start_.entry(), options);
-  if (each->found.incomplete || !each->found.unfollowedCalls.empty())
+  if (each->found.incomplete || !each->found.unmodelledCalls.empty())
     return;
   settleStage(*each);
   keepDecided(before, each->settled.rows);

@@ -9,7 +9,7 @@ namespace feedhold::prove {
 /// Runs are single paths: a few thousand steps of one, and a few branches where something is not known.
 ExploreOptions exactOptions() {
   ExploreOptions options;
-  options.loops = LoopTreatment::EachPass;
+  options.loops = LoopTreatment::EachIteration;
   options.mayEnclose = true;
   options.mayBeCalled = false;
   options.mostSteps = 6'000;
@@ -19,7 +19,7 @@ ExploreOptions exactOptions() {
   return options;
 }
 
-void startExactly(SymbolicReading &reading, const GivenVariables &given) {
+void startExactly(SymbolicInterpretation &reading, const GivenVariables &given) {
   smt::TermStore &store = reading.store();
   std::map<std::uint32_t, SymbolicValue> values;
   for (const auto &[variable, value] : given.entries())
@@ -57,7 +57,7 @@ bool ExactRuns::has(const Ends &ends, const RunResult &run) {
 ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   smt::TermStore store;
   const Dialect &dialect = *programs_.file(entry_.file).dialect;
-  SymbolicReading reading(store, dialect);
+  SymbolicInterpretation reading(store, dialect);
   startExactly(reading, given);
   const ModalTable modes(dialect);
   reading.keepPolar(modes.groupOf(ModalKind::Polar));
@@ -65,8 +65,8 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   Ends ends;
   ends.repeats = !found.repeats.empty();
   ends.isIncomplete = found.incomplete.has_value();
-  for (const Check &check : found.checks)
-    ends.stops.emplace_back(check.place, check.alarm);
+  for (const StopSite &stop : found.stopSites)
+    ends.stops.emplace_back(stop.place, stop.alarm);
   for (const PathExit &exit : found.exits)
     ends.exits.push_back(exit.place);
   return ends;

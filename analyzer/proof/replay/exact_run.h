@@ -20,7 +20,7 @@ enum class Agreement : std::uint8_t {
 /// To follow single runs.
 ExploreOptions exactOptions();
 /// The reading starts from these inputs.
-void startExactly(SymbolicReading &reading, const GivenVariables &given);
+void startExactly(SymbolicInterpretation &reading, const GivenVariables &given);
 
 /// Each input by its number; no value: vacant.
 using InputsKey = std::vector<std::pair<std::uint32_t, std::optional<double>>>;

@@ -1,8 +1,8 @@
 #include "proof/replay/example_run.h"
 
 #include "proof/decide/discharge.h"
-#include "proof/space/plain_space.h"
 #include "proof/replay/witness.h"
+#include "proof/space/plain_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ std::optional<ExampleRun> exampleRun(const ProgramSet &programs, Callee program,
   if (contract == nullptr)
     return started(programs, program, contracts, {});
   smt::TermStore store;
-  SymbolicReading reading(store, *programs.file(program.file).dialect);
+  SymbolicInterpretation reading(store, *programs.file(program.file).dialect);
   SymbolicState entry = symbolicEntry(reading);
   ContractTerms terms(reading, programs, program.file, contracts);
   terms.prepare(*contract, entry);

@@ -34,7 +34,7 @@ double rounded(double value, double step) { return std::round(value / step) * st
 
 } // namespace
 
-WitnessSearch::WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry,
+WitnessSearch::WitnessSearch(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
                              std::vector<smt::TermId> demands, std::vector<double> constants)
     : reading_(reading), programs_(programs), entry_(entry), demands_(std::move(demands)),
       constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)) {}
@@ -173,7 +173,7 @@ void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
 void WitnessSearch::keepSample(GivenVariables given) {
   if (smt::areStepsUsedUp() || !allowed(given))
     return;
-  throwIfStopped();
+  throwIfCancelled();
   RunOptions options = runOptions(given);
   options.fuel = kSampleFuel;
   RunResult result = run(programs_, entry_, options);
@@ -221,7 +221,7 @@ bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) c
 
 std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const Violation &violation,
                                             std::uint64_t fuel) const {
-  throwIfStopped();
+  throwIfCancelled();
   if (smt::areStepsUsedUp() || !allowed(given))
     return std::nullopt;
   RunOptions options = runOptions(given);

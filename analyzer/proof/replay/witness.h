@@ -1,9 +1,9 @@
 // Witnesses: inputs that the concrete machine runs to the violation of a claim.
 #pragma once
 
-#include "proof/symbolic/contract_terms.h"
-#include "proof/replay/exact_run.h"
 #include "proof/obligation/obligation.h"
+#include "proof/replay/exact_run.h"
+#include "proof/symbolic/contract_terms.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
 #include <functional>
@@ -35,8 +35,8 @@ struct Violation {
 class WitnessSearch {
 public:
   /// `demands`: what the inputs have to satisfy.
-  WitnessSearch(SymbolicReading &reading, const ProgramSet &programs, Callee entry, std::vector<smt::TermId> demands,
-                std::vector<double> constants);
+  WitnessSearch(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+                std::vector<smt::TermId> demands, std::vector<double> constants);
 
   /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
   /// one starts at 0.
@@ -92,7 +92,7 @@ private:
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
-  SymbolicReading &reading_;
+  SymbolicInterpretation &reading_;
   const ProgramSet &programs_;
   Callee entry_;
   std::vector<smt::TermId> demands_;

@@ -17,7 +17,7 @@ using smt::TermId;
 namespace {
 
 TermPoint inSpace(smt::TermStore &store, const std::array<SymbolicValue, kAxisCount> &point,
-                  const ToolPoint<SymbolicReading> &tool) {
+                  const ToolPoint<SymbolicInterpretation> &tool) {
   const auto at = [&](std::size_t i) { return store.add(point[i].number, tool.zero[i].number); };
   return {at(0), at(1), at(2)};
 }
@@ -247,7 +247,7 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     return store_.logicalAnd(std::vector(terms.begin(), terms.end()));
   };
   const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Way {
-    const geometry::PointOnWay any = path.anyPoint();
+    const geometry::PointOnPath any = path.anyPoint();
     return {any.conditions, all(any.point)};
   };
   const auto isOfLevel = [&](const geometry::Formula &bound) { // speaks of the axis of the helix alone
@@ -275,7 +275,7 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
       question.ways.push_back({hull.conditions, store_.logicalOr(simple)});
     if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
       for (const TermId level : std::set{move.start[2], move.end[2]}) {
-        const geometry::PointOnWay any = path.anyPoint();
+        const geometry::PointOnPath any = path.anyPoint();
         const TermId isAbove = store_.lessOrEqual(level, any.point[2]);
         question.ways.push_back(
             {any.conditions, store_.logicalAnd(isAbove, space.all({any.point[0], any.point[1], level}))});

@@ -1,11 +1,11 @@
 // Space claims: what the geometry clauses of a contract ask of each movement (docs/geometry.md).
 #pragma once
 
+#include "proof/explore/exploration.h"
 #include "proof/geometry/gouge.h"
 #include "proof/geometry/tool_path.h"
-#include "proof/symbolic/contract_terms.h"
-#include "proof/explore/exploration.h"
 #include "proof/obligation/obligation.h"
+#include "proof/symbolic/contract_terms.h"
 
 namespace feedhold::prove {
 
@@ -47,7 +47,7 @@ public:
   SpaceRule withMargin(const SpaceRule &rule, double margin) const;
   /// The feed or the speed in force; of a cutting movement.
   smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;
-  /// What may hold of the position before each pass of a loop.
+  /// What may hold of the position before each iteration of a loop.
   std::vector<smt::TermId> hints(const SymbolicState &state) const;
 
 private:

@@ -16,8 +16,8 @@ constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over wh
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
 template <typename Evaluate>
-auto inContract(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
-                SymbolicState &state, Evaluate &&evaluate) {
+auto inContract(SymbolicInterpretation &reading, const ProgramSet &programs, FileId file,
+                const FileContracts &contracts, SymbolicState &state, Evaluate &&evaluate) {
   const ProgramFile &program = programs.file(file);
   const ProgramFile within{.file = file,
                            .source = program.source,
@@ -26,7 +26,7 @@ auto inContract(SymbolicReading &reading, const ProgramSet &programs, FileId fil
                            .dialect = program.dialect};
   const ModalTable modes(*program.dialect);
   reading.useDialect(*program.dialect);
-  StepContext<SymbolicReading> context{reading, state, programs, within, modes, BlockId(0)};
+  StepContext<SymbolicInterpretation> context{reading, state, programs, within, modes, BlockId(0)};
   auto result = evaluate(context);
   reading.start(); // what a condition of a contract would stop at is no alarm of the program
   return result;

@@ -17,7 +17,8 @@ struct InputEnds {
 
 class ContractTerms {
 public:
-  ContractTerms(SymbolicReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts)
+  ContractTerms(SymbolicInterpretation &reading, const ProgramSet &programs, FileId file,
+                const FileContracts &contracts)
       : reading_(reading), programs_(programs), file_(file), contracts_(contracts), oldVariables_(oldOf(contracts)) {}
 
   /// The modal codes and the start position of the contract are put into the state.
@@ -48,7 +49,7 @@ private:
   SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
   static std::vector<std::uint32_t> oldOf(const FileContracts &contracts);
 
-  SymbolicReading &reading_;
+  SymbolicInterpretation &reading_;
   const ProgramSet &programs_;
   FileId file_;
   const FileContracts &contracts_;

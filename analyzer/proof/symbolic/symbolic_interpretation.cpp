@@ -14,7 +14,7 @@ using smt::TermKind;
 namespace {
 
 constexpr std::size_t kMostArguments = 64;
-// Behind these, no certificate can speak of the value (check/claim.cpp), and each further operation makes it larger.
+// Behind these, no certificate can speak of the value (check/problem.cpp), and each further operation makes it larger.
 constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64}; // 4096 bits
 
 Number numberOf(Decimal value) {
@@ -46,18 +46,18 @@ std::optional<Function> functionOf(FunctionKind kind) {
 
 } // namespace
 
-void SymbolicReading::start() {
-  checks_.clear();
+void SymbolicInterpretation::start() {
+  possibleStops_.clear();
   moves_.clear();
   unkeptWrites_.clear();
   stopped_ = moved_ = false;
 }
 
-TermId SymbolicReading::fresh(std::string_view what, Sort sort) {
+TermId SymbolicInterpretation::fresh(std::string_view what, Sort sort) {
   return store_.variable(fmt::format("{} {}", what, nextFresh_++), sort);
 }
 
-SymbolicValue SymbolicReading::named(const std::string &name, MayBeVacant mayBeVacant) {
+SymbolicValue SymbolicInterpretation::named(const std::string &name, MayBeVacant mayBeVacant) {
   const auto known = named_.find(name);
   if (known != named_.end())
     return known->second;
@@ -70,11 +70,11 @@ SymbolicValue SymbolicReading::named(const std::string &name, MayBeVacant mayBeV
   return value;
 }
 
-SymbolicValue SymbolicReading::freshValue(MayBeVacant mayBeVacant) {
+SymbolicValue SymbolicInterpretation::freshValue(MayBeVacant mayBeVacant) {
   return named(fmt::format("any {}", nextFresh_++), mayBeVacant);
 }
 
-SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
+SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
   const bool isNumber = range && range->kind == VariableKind::System;
   if (given_) {
@@ -93,7 +93,7 @@ SymbolicValue SymbolicReading::atEntry(std::uint32_t variable) {
 // ---- values ----
 
 /// A number that grows without end (`#1=#1*#1` in a loop) is taken as any number at some size.
-SymbolicValue SymbolicReading::of(TermId number) {
+SymbolicValue SymbolicInterpretation::of(TermId number) {
   const smt::Term &term = store_[number];
   const smt::TermShape &shape = store_.shape(number);
   const bool isHuge = term.arguments.size() > kMostArguments || shape.monomials > kLargest.monomials ||
@@ -104,12 +104,12 @@ SymbolicValue SymbolicReading::of(TermId number) {
   return anyNumber();
 }
 
-SymbolicValue SymbolicReading::literal(Decimal value) { return of(store_.number(numberOf(value))); }
-SymbolicValue SymbolicReading::number(double value) { return of(store_.number(Number::fromDouble(value))); }
-SymbolicValue SymbolicReading::vacant() { return {store_.yes(), store_.number(Number(0))}; }
+SymbolicValue SymbolicInterpretation::literal(Decimal value) { return of(store_.number(numberOf(value))); }
+SymbolicValue SymbolicInterpretation::number(double value) { return of(store_.number(Number::fromDouble(value))); }
+SymbolicValue SymbolicInterpretation::vacant() { return {store_.yes(), store_.number(Number(0))}; }
 
 /// Only what a double holds exactly: the semantics computes on with it.
-std::optional<double> SymbolicReading::constantOf(const Value &value) const {
+std::optional<double> SymbolicInterpretation::constantOf(const Value &value) const {
   if (value.vacant != store_.no() || !store_.isNumber(value.number))
     return std::nullopt;
   const Number &exact = store_[value.number].number;
@@ -117,11 +117,11 @@ std::optional<double> SymbolicReading::constantOf(const Value &value) const {
   return Number::fromDouble(nearest) == exact ? std::optional(nearest) : std::nullopt;
 }
 
-SymbolicValue SymbolicReading::select(Truth truth, const Value &first, const Value &second) {
+SymbolicValue SymbolicInterpretation::select(Truth truth, const Value &first, const Value &second) {
   return {store_.ite(truth.term, first.vacant, second.vacant), store_.ite(truth.term, first.number, second.number)};
 }
 
-SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
+SymbolicValue SymbolicInterpretation::between(const Value &start, const Value &end) {
   const Value stop = anyNumber();
   const auto within = [&](TermId low, TermId high) {
     return store_.logicalAnd(store_.lessOrEqual(low, stop.number), store_.lessOrEqual(stop.number, high));
@@ -134,13 +134,13 @@ SymbolicValue SymbolicReading::between(const Value &start, const Value &end) {
 
 /// By its form: roots, absolute values, squares, and sums and products of such.  Each term is looked at once: a
 /// rounding has its argument several times, and nested roundings would be walked through without an end.
-bool SymbolicReading::isNeverNegative(TermId id) {
+bool SymbolicInterpretation::isNeverNegative(TermId id) {
   const auto known = neverNegative_.find(id);
   return known != neverNegative_.end() ? known->second
                                        : neverNegative_.emplace(id, hasFormNeverNegative(id)).first->second;
 }
 
-bool SymbolicReading::hasFormNeverNegative(TermId id) {
+bool SymbolicInterpretation::hasFormNeverNegative(TermId id) {
   const Term term = store_[id]; // a copy: telling absolute values makes terms
   const auto allNeverNegative = [&](const auto &terms) {
     return std::all_of(terms.begin(), terms.end(), [&](TermId each) { return isNeverNegative(each); });
@@ -174,22 +174,22 @@ bool SymbolicReading::hasFormNeverNegative(TermId id) {
   return false;
 }
 
-SymbolicValue SymbolicReading::fix(const Value &a) {
+SymbolicValue SymbolicInterpretation::fix(const Value &a) {
   return of(isNeverNegative(a.number) ? store_.floor(a.number) : store_.truncate(a.number));
 }
-SymbolicValue SymbolicReading::fup(const Value &a) {
+SymbolicValue SymbolicInterpretation::fup(const Value &a) {
   const TermId up = store_.ceiling(a.number);
   if (isNeverNegative(a.number))
     return of(up);
   const TermId zero = store_.number(Number(0));
   return of(store_.ite(store_.lessOrEqual(zero, a.number), up, store_.floor(a.number)));
 }
-SymbolicValue SymbolicReading::remainder(const Value &a, const Value &b) {
+SymbolicValue SymbolicInterpretation::remainder(const Value &a, const Value &b) {
   return subtract(a, multiply(b, fix(divide(a, b))));
 }
 
 /// Halves go away from zero.  Finer steps are the increment of the control, which exact reals do not have.
-SymbolicValue SymbolicReading::roundTo(const Value &value, Decimal step) {
+SymbolicValue SymbolicInterpretation::roundTo(const Value &value, Decimal step) {
   if (step.scale() != 0 || step.mantissa() != 1 || store_.sort(value.number) == Sort::Int)
     return asNumber(value);
   const TermId half = store_.number(Number(1) / Number(2));
@@ -200,24 +200,24 @@ SymbolicValue SymbolicReading::roundTo(const Value &value, Decimal step) {
   return of(store_.ite(store_.lessOrEqual(store_.number(Number(0)), value.number), up, down));
 }
 
-SymbolicValue SymbolicReading::function(FunctionKind kind, const Value &argument) {
+SymbolicValue SymbolicInterpretation::function(FunctionKind kind, const Value &argument) {
   if (kind == FunctionKind::Abs)
     return of(isNeverNegative(argument.number) ? argument.number : store_.absolute(argument.number));
   const auto function = functionOf(kind);
   return function ? of(store_.apply(*function, argument.number)) : anyNumber();
 }
-SymbolicValue SymbolicReading::atan2(const Value &y, const Value &x) {
+SymbolicValue SymbolicInterpretation::atan2(const Value &y, const Value &x) {
   const std::array arguments{y.number, x.number};
   return of(store_.apply(Function::Atan2, arguments));
 }
-SymbolicValue SymbolicReading::power(const Value &base, const Value &exponent) {
+SymbolicValue SymbolicInterpretation::power(const Value &base, const Value &exponent) {
   const auto constant = constantOf(exponent);
   if (constant == 2.0)
     return multiply(base, base);
   const std::array arguments{base.number, exponent.number};
   return of(store_.apply(Function::Power, arguments));
 }
-SymbolicValue SymbolicReading::bitwise(OperatorKind op, const Value &a, const Value &b) {
+SymbolicValue SymbolicInterpretation::bitwise(OperatorKind op, const Value &a, const Value &b) {
   const Function function = op == OperatorKind::And  ? Function::BitAnd
                             : op == OperatorKind::Or ? Function::BitOr
                                                      : Function::BitXor;
@@ -225,7 +225,7 @@ SymbolicValue SymbolicReading::bitwise(OperatorKind op, const Value &a, const Va
   return of(store_.apply(function, arguments));
 }
 
-Condition SymbolicReading::compare(Relation relation, const Value &a, const Value &b) {
+Condition SymbolicInterpretation::compare(Relation relation, const Value &a, const Value &b) {
   switch (relation) {
   case Relation::Equal: return {store_.equal(a.number, b.number)};
   case Relation::NotEqual: return {store_.notEqual(a.number, b.number)};
@@ -237,13 +237,13 @@ Condition SymbolicReading::compare(Relation relation, const Value &a, const Valu
   return unknownTruth();
 }
 
-bool SymbolicReading::mayBe(Truth a) {
+bool SymbolicInterpretation::mayBe(Truth a) {
   return a.term != store_.no() && !(path_ && path_->says(store_.logicalNot(a.term)));
 }
 
 // ---- modal codes ----
 
-Condition SymbolicReading::isOneOf(ModalCode code, CodeMask mask) {
+Condition SymbolicInterpretation::isOneOf(ModalCode code, CodeMask mask) {
   if (const auto only = onlyCode(code))
     return truth(((mask >> *only) & 1) != 0);
   std::vector<TermId> cases;
@@ -251,15 +251,15 @@ Condition SymbolicReading::isOneOf(ModalCode code, CodeMask mask) {
     cases.push_back(store_.equal(code.index, store_.number(Number(std::countr_zero(rest)))));
   return {store_.logicalOr(cases)};
 }
-std::optional<std::uint8_t> SymbolicReading::onlyCode(ModalCode code) {
+std::optional<std::uint8_t> SymbolicInterpretation::onlyCode(ModalCode code) {
   if (!store_.isNumber(code.index))
     return std::nullopt;
   return static_cast<std::uint8_t>(store_[code.index].number.toDouble());
 }
-SymbolicCode SymbolicReading::selectCode(Truth truth, ModalCode first, ModalCode second) {
+SymbolicCode SymbolicInterpretation::selectCode(Truth truth, ModalCode first, ModalCode second) {
   return {store_.ite(truth.term, first.index, second.index)};
 }
-SymbolicValue SymbolicReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) {
+SymbolicValue SymbolicInterpretation::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) {
   const auto only = onlyCode(code);
   if (only && *only < modes.group(group).codes.size())
     return literal(Decimal(modes.group(group).codes[*only]->tenths, 1));
@@ -267,8 +267,8 @@ SymbolicValue SymbolicReading::numberOfCode(ModalCode code, const ModalTable &mo
   codeNumbers_.insert_or_assign(number.number, std::pair{group, code});
   return number;
 }
-std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicReading::codeFrom(const Value &value,
-                                                                               const ModalTable &) const {
+std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicInterpretation::codeFrom(const Value &value,
+                                                                                      const ModalTable &) const {
   const auto known = codeNumbers_.find(value.number);
   if (known == codeNumbers_.end() || value.vacant != store_.no())
     return std::nullopt;
@@ -277,21 +277,21 @@ std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicReading::codeFrom(c
 
 // ---- what happens ----
 
-void SymbolicReading::alarm(Truth truth, const AlarmReport &report) {
+void SymbolicInterpretation::alarm(Truth truth, const AlarmReport &report) {
   if (!mayBe(truth) || stopped_)
     return;
-  checks_.push_back({truth, report.kind, {}, report.place});
+  possibleStops_.push_back({truth, report.kind, {}, report.place});
   stopped_ = truth.term == store_.yes();
 }
 
-void SymbolicReading::userAlarm(const Value &number, Span place) {
+void SymbolicInterpretation::userAlarm(const Value &number, Span place) {
   if (stopped_)
     return;
-  checks_.push_back({truth(true), std::nullopt, number, place});
+  possibleStops_.push_back({truth(true), std::nullopt, number, place});
   stopped_ = true;
 }
 
-void SymbolicReading::move(const Move<Value> &move) {
+void SymbolicInterpretation::move(const Move<Value> &move) {
   if (stopped_ || move.kind == MoveKind::Dwell)
     return;
   moved_ = true;

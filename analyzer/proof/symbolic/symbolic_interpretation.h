@@ -1,4 +1,5 @@
-// SymbolicReading: programs read with terms of a solver: a value is a term over what was there at the start of the run.
+// SymbolicInterpretation: programs read with terms of a solver: a value is a term over what was there at the start of
+// the run.
 //
 // A value is a pair: whether it is vacant, and its number, which is 0 wherever it is vacant; so a vacant value counts
 // as 0 in arithmetic without a case of its own.  What is not known is a fresh variable.  Numbers are exact reals: words
@@ -32,11 +33,11 @@ struct SymbolicCode {
   friend bool operator==(const SymbolicCode &, const SymbolicCode &) = default;
 };
 
-class SymbolicReading;
-using SymbolicState = MachineState<SymbolicReading>;
+class SymbolicInterpretation;
+using SymbolicState = MachineState<SymbolicInterpretation>;
 
 /// Something that stops the run where the condition holds.
-struct StopCheck {
+struct PossibleStop {
   Condition when;
   std::optional<AlarmKind> alarm; // absent: `#3000=`
   SymbolicValue number;           // of `#3000=`
@@ -53,14 +54,14 @@ public:
   virtual bool proves(smt::TermId condition) = 0;
 };
 
-class SymbolicReading {
+class SymbolicInterpretation {
 public:
   using Value = SymbolicValue;
   using Truth = Condition;
   using ModalCode = SymbolicCode;
   using State = SymbolicState;
 
-  SymbolicReading(smt::TermStore &store, const Dialect &dialect) : store_(store), dialect_(&dialect) {}
+  SymbolicInterpretation(smt::TermStore &store, const Dialect &dialect) : store_(store), dialect_(&dialect) {}
 
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
@@ -74,7 +75,7 @@ public:
   void start();
   bool stopped() const { return stopped_; }
   /// What may have stopped the run in the step, in order.
-  const std::vector<StopCheck> &checks() const { return checks_; }
+  const std::vector<PossibleStop> &possibleStops() const { return possibleStops_; }
   /// Whether an axis may have moved in the step.
   bool moved() const { return moved_; }
   /// The movements of the step, in order.
@@ -181,7 +182,7 @@ private:
   const Dialect *dialect_;
   PathKnowledge *path_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
-  std::vector<StopCheck> checks_;
+  std::vector<PossibleStop> possibleStops_;
   std::optional<std::string_view> abandoned_;
   std::vector<std::pair<std::string_view, Span>> notes_;
   std::vector<std::uint32_t> unkeptWrites_;
@@ -200,7 +201,7 @@ private:
 };
 
 /// What the control gives to a program that is started: each part of the state a variable of its own.
-SymbolicState symbolicEntry(SymbolicReading &reading);
+SymbolicState symbolicEntry(SymbolicInterpretation &reading);
 
 /// Calls visit(smt::TermId &) for each term of the state, in the order of forEachPart.
 template <typename State, typename Visit> void forEachTerm(State &state, Visit &&visit) {
@@ -221,6 +222,6 @@ template <typename State, typename Visit> void forEachTerm(State &state, Visit &
 
 /// Gives both states the same parts, and the same variables of which nothing is known.  False when they hold different
 /// modal calls.
-bool alignAll(SymbolicReading &reading, SymbolicState &a, SymbolicState &b);
+bool alignAll(SymbolicInterpretation &reading, SymbolicState &a, SymbolicState &b);
 
 } // namespace feedhold::prove

@@ -29,8 +29,8 @@ void shareForgotten(SymbolicState &to, const SymbolicState &from) {
 
 } // namespace
 
-SymbolicState symbolicEntry(SymbolicReading &reading) {
-  using Vacancy = SymbolicReading::MayBeVacant;
+SymbolicState symbolicEntry(SymbolicInterpretation &reading) {
+  using Vacancy = SymbolicInterpretation::MayBeVacant;
   const auto nameOf = [](PartId id) {
     return id.part == Part::Position ? fmt::format("{} at the start", kAxisLetters[id.key])
                                      : fmt::format("{} in force", kModalWords[id.key]);
@@ -49,36 +49,36 @@ SymbolicState symbolicEntry(SymbolicReading &reading) {
     input = {reading.store().variable(name, Sort::Int)};
   };
   const auto truth = [&](PartId, Condition &input) { input = reading.unknownTruth(); };
-  return entryParts<SymbolicReading>(reading, Overloaded{value, code, truth},
-                                     [&](PartId id, auto &part) { setAnything(reading, id, part); });
+  return entryParts<SymbolicInterpretation>(reading, Overloaded{value, code, truth},
+                                            [&](PartId id, auto &part) { setAnything(reading, id, part); });
 }
 
-bool alignAll(SymbolicReading &reading, SymbolicState &a, SymbolicState &b) {
+bool alignAll(SymbolicInterpretation &reading, SymbolicState &a, SymbolicState &b) {
   const bool haveSameCalls = align(reading, a, b);
   shareForgotten(a, b);
   shareForgotten(b, a);
   return haveSameCalls;
 }
 
-SymbolicValue SymbolicReading::unwritten(const State &state, std::uint32_t variable) {
+SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_t variable) {
   if (!isForgotten(state, variable))
     return atEntry(variable);
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
   return range && range->kind == VariableKind::System ? anyNumber() : anything();
 }
 
-SymbolicValue SymbolicReading::volatileRead(std::uint32_t variable) {
+SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
   return of(fresh(fmt::format("read of #{}", variable), Sort::Real));
 }
-SymbolicValue SymbolicReading::toolLength(const State &, const Value &) { return anyNumber(); }
+SymbolicValue SymbolicInterpretation::toolLength(const State &, const Value &) { return anyNumber(); }
 
-void SymbolicReading::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {
+void SymbolicInterpretation::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {
   state.forgotten.emplace_back(first, last);
   std::erase_if(state.variables.entries(),
                 [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
 
-void SymbolicReading::join(State &state, Truth truth, const State &second) {
+void SymbolicInterpretation::join(State &state, Truth truth, const State &second) {
   if (truth.term == store_.no())
     return;
   State other = second;
@@ -98,14 +98,14 @@ void SymbolicReading::join(State &state, Truth truth, const State &second) {
 
 // ---- variables whose number is not one constant ----
 
-TermId SymbolicReading::isVariable(const Value &index, std::uint32_t first, std::uint32_t last) {
+TermId SymbolicInterpretation::isVariable(const Value &index, std::uint32_t first, std::uint32_t last) {
   const TermId half = store_.number(Number(1) / Number(2));
   const TermId low = store_.subtract(store_.number(Number(static_cast<std::int64_t>(first))), half);
   const TermId high = store_.add(store_.number(Number(static_cast<std::int64_t>(last))), half);
   return store_.logicalAnd(store_.lessOrEqual(low, index.number), store_.lessOrEqual(index.number, high));
 }
 
-void SymbolicReading::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
+void SymbolicInterpretation::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
   std::vector<TermId> rows;
   std::vector<TermId> guarded;
   TermId stops = store_.no();
@@ -119,15 +119,15 @@ void SymbolicReading::alarmsOfAnyOf(const Value &index, Use use, const Value &va
   alarm({store_.logicalNot(store_.logicalOr(rows))}, {AlarmKind::VariableNotAvailable, place});
   alarm({store_.logicalOr(guarded)}, {use == Use::Read ? AlarmKind::ReadProtected : AlarmKind::WriteProtected, place});
   if (mayBe({stops}) && !stopped_)
-    checks_.push_back({{stops}, std::nullopt, value, place});
+    possibleStops_.push_back({{stops}, std::nullopt, value, place});
 }
 
-SymbolicValue SymbolicReading::readAnyOf(State &, const Value &index, Span place) {
+SymbolicValue SymbolicInterpretation::readAnyOf(State &, const Value &index, Span place) {
   alarmsOfAnyOf(index, Use::Read, index, place);
   return anything();
 }
 
-bool SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
   alarmsOfAnyOf(index, Use::Write, value, place);
   bool mayMoveZero = false;
   for (const VariableRange &row : dialect_->variables) {
@@ -151,7 +151,7 @@ bool SymbolicReading::writeAnyOf(State &state, const Value &index, const Value &
 
 // ---- what is not followed ----
 
-void SymbolicReading::havoc(State &state, std::string_view reason, Span place) {
+void SymbolicInterpretation::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);
   Move<Value> anywhere{.kind = MoveKind::Unfollowed, .start = state.position};
   havocParts(*this, state, polarGroup_);

@@ -14,43 +14,43 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostNumbers = 5;
+constexpr std::size_t kMostBounded = 5;
 constexpr std::size_t kMostCandidates = 80;
-constexpr int kMostSteps = 6; // of an interval, before it has no end
-constexpr Budget kEffort{.search = 20'000, .z3 = 0, .cvc5 = 0};
+constexpr int kMostWidenings = 6; // of an interval, before it has no end
+constexpr Budget kEffortOfInvariant{.search = 20'000, .z3 = 0, .cvc5 = 0};
 
 } // namespace
 
-struct LastingFacts::Trial {
+struct EventualInvariants::Trial {
   std::uint64_t work = 0;
   std::vector<Outcome> evidence = {};
   std::optional<smt::Model> broken = {}; // by the last question, if its answer had values
 };
 
-LastingFacts::Found LastingFacts::fromArrival(std::uint64_t mostWork) const {
-  std::vector<std::size_t> passes(loop_.transitions.size());
-  std::iota(passes.begin(), passes.end(), std::size_t{0});
+EventualInvariants::Found EventualInvariants::fromArrival(std::uint64_t mostWork) const {
+  std::vector<std::size_t> iterations(loop_.transitions.size());
+  std::iota(iterations.begin(), iterations.end(), std::size_t{0});
   const Start start{loop_.arrival, loop_.first};
-  std::set<TermId> all = candidates(passes);
-  addIntervals(start, passes, all);
-  return found(start, passes, {}, std::move(all), mostWork);
+  std::set<TermId> all = candidates(iterations);
+  addIntervals(start, iterations, all);
+  return found(start, iterations, {}, std::move(all), mostWork);
 }
 
-LastingFacts::Found LastingFacts::behind(std::size_t pass, std::span<const std::size_t> passes,
-                                         std::span<const TermId> known, std::uint64_t mostWork) const {
-  Start start{loop_.transitions[pass].conditions, loop_.transitions[pass].next};
+EventualInvariants::Found EventualInvariants::behind(std::size_t iteration, std::span<const std::size_t> iterations,
+                                                     std::span<const TermId> known, std::uint64_t mostWork) const {
+  Start start{loop_.transitions[iteration].conditions, loop_.transitions[iteration].next};
   start.conditions.insert(start.conditions.end(), known.begin(), known.end());
-  std::set<TermId> all = candidates(passes);
-  addIntervals(start, passes, all);
+  std::set<TermId> all = candidates(iterations);
+  addIntervals(start, iterations, all);
   for (const TermId fact : known)
     all.erase(fact);
-  return found(start, passes, known, std::move(all), mostWork);
+  return found(start, iterations, known, std::move(all), mostWork);
 }
 
 /// Houdini: candidates that do not hold are dropped until all that are left hold together.
-LastingFacts::Found LastingFacts::found(const Start &start, std::span<const std::size_t> passes,
-                                        std::span<const TermId> known, std::set<TermId> all,
-                                        std::uint64_t mostWork) const {
+EventualInvariants::Found EventualInvariants::found(const Start &start, std::span<const std::size_t> iterations,
+                                                    std::span<const TermId> known, std::set<TermId> all,
+                                                    std::uint64_t mostWork) const {
   Trial trial;
   std::vector<TermId> left;
   for (const TermId candidate : all)
@@ -61,8 +61,8 @@ LastingFacts::Found LastingFacts::found(const Start &start, std::span<const std:
   for (bool dropped = true; dropped && !left.empty();) {
     dropped = false;
     trial.evidence.erase(trial.evidence.begin() + static_cast<std::ptrdiff_t>(ofStart), trial.evidence.end());
-    for (const std::size_t pass : passes) {
-      const Transition &transition = loop_.transitions[pass];
+    for (const std::size_t iteration : iterations) {
+      const Transition &transition = loop_.transitions[iteration];
       for (std::size_t i = 0; i < left.size();) {
         if (trial.work > mostWork)
           return {{}, {}, trial.work};
@@ -89,13 +89,13 @@ LastingFacts::Found LastingFacts::found(const Start &start, std::span<const std:
   return {std::move(left), std::move(trial.evidence), trial.work};
 }
 
-bool LastingFacts::holds(Trial &trial, std::span<const TermId> conditions, const smt::Substitution &state,
-                         TermId candidate) const {
+bool EventualInvariants::holds(Trial &trial, std::span<const TermId> conditions, const smt::Substitution &state,
+                               TermId candidate) const {
   const TermId goal = smt::substitute(store_, candidate, state);
   trial.broken.reset();
   if (goal == store_.yes())
     return true;
-  Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffort);
+  Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffortOfInvariant);
   trial.work += outcome.effort + 100;
   const bool proved = outcome.proved();
   if (proved)
@@ -107,21 +107,21 @@ bool LastingFacts::holds(Trial &trial, std::span<const TermId> conditions, const
 
 // ---- candidates ----
 
-/// Of its variables and of what no pass changes; and not of the latter alone.
-bool LastingFacts::isOfTheLoop(TermId term) const {
+/// Of its variables and of what no iteration changes; and not of the latter alone.
+bool EventualInvariants::isOfTheLoop(TermId term) const {
   return loop_.isOfState(reading_, store_, term) && !loop_.isConstant(reading_, store_, term);
 }
 
-std::vector<TermId> LastingFacts::numbers() const {
+std::vector<TermId> EventualInvariants::numbers() const {
   std::vector<TermId> numbers;
   for (const TermId variable : loop_.variables)
-    if (store_.sort(variable) != Sort::Bool && numbers.size() < kMostNumbers)
+    if (store_.sort(variable) != Sort::Bool && numbers.size() < kMostBounded)
       numbers.push_back(variable);
   return numbers;
 }
 
 /// Numbers, their sums and differences.
-std::vector<TermId> LastingFacts::forms() const {
+std::vector<TermId> EventualInvariants::forms() const {
   const std::vector<TermId> single = numbers();
   std::vector<TermId> forms = single;
   for (const TermId a : single)
@@ -133,7 +133,7 @@ std::vector<TermId> LastingFacts::forms() const {
   return forms;
 }
 
-std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) const {
+std::set<TermId> EventualInvariants::candidates(std::span<const std::size_t> iterations) const {
   std::set<TermId> all;
   for (const TermId number : numbers()) {
     for (const int bound : {0, 1}) {
@@ -143,11 +143,11 @@ std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) c
     const TermId half = store_.scale(Number(1) / Number(2), number);
     all.insert({store_.equal(number, store_.floor(number)), store_.equal(half, store_.floor(half))});
   }
-  for (const std::size_t pass : passes) {
-    for (const TermId part : smt::reachable(store_, loop_.transitions[pass].conditions))
-      addComparison(part, passes, all);
+  for (const std::size_t iteration : iterations) {
+    for (const TermId part : smt::reachable(store_, loop_.transitions[iteration].conditions))
+      addComparison(part, iterations, all);
     for (const TermId number : numbers()) {
-      const TermId next = loop_.transitions[pass].next.at(number);
+      const TermId next = loop_.transitions[iteration].next.at(number);
       if (!loop_.isConstant(reading_, store_, next))
         continue;
       all.insert(store_.lessOrEqual(number, next));
@@ -163,8 +163,9 @@ std::set<TermId> LastingFacts::candidates(std::span<const std::size_t> passes) c
   return all;
 }
 
-/// What a pass asks for, and what is left of that behind a pass that adds fixed amounts.
-void LastingFacts::addComparison(TermId condition, std::span<const std::size_t> passes, std::set<TermId> &all) const {
+/// What an iteration asks for, and what is left of that behind an iteration that adds fixed amounts.
+void EventualInvariants::addComparison(TermId condition, std::span<const std::size_t> iterations,
+                                       std::set<TermId> &all) const {
   const TermKind kind = store_[condition].kind;
   if ((kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal) || !isOfTheLoop(condition))
     return;
@@ -175,9 +176,9 @@ void LastingFacts::addComparison(TermId condition, std::span<const std::size_t> 
   if (kind == TermKind::Equal)
     forms.push_back(store_.lessOrEqual(sides[1], sides[0]));
   all.insert(forms.begin(), forms.end());
-  for (const std::size_t pass : passes) {
+  for (const std::size_t iteration : iterations) {
     smt::Substitution back;
-    for (const auto &[variable, next] : loop_.transitions[pass].next)
+    for (const auto &[variable, next] : loop_.transitions[iteration].next)
       if (store_.sort(variable) != Sort::Bool)
         if (const TermId step = store_.subtract(next, variable); store_.isNumber(step))
           back.emplace(variable, store_.subtract(variable, step));
@@ -186,8 +187,9 @@ void LastingFacts::addComparison(TermId condition, std::span<const std::size_t> 
   }
 }
 
-/// A form that is a number at the start, and that each pass moves, turns or leaves: all it can be.
-void LastingFacts::addIntervals(const Start &start, std::span<const std::size_t> passes, std::set<TermId> &all) const {
+/// A form that is a number at the start, and that each iteration moves, turns or leaves: all it can be.
+void EventualInvariants::addIntervals(const Start &start, std::span<const std::size_t> iterations,
+                                      std::set<TermId> &all) const {
   for (const TermId form : forms()) {
     const TermId first = smt::substitute(store_, form, start.state);
     if (!store_.isNumber(first))
@@ -199,8 +201,8 @@ void LastingFacts::addIntervals(const Start &start, std::span<const std::size_t>
     bool changed = true;
     for (int step = 0; changed && (hasLow || hasHigh); ++step) {
       changed = false;
-      for (const std::size_t pass : passes) {
-        const TermId next = smt::substitute(store_, form, loop_.transitions[pass].next);
+      for (const std::size_t iteration : iterations) {
+        const TermId next = smt::substitute(store_, form, loop_.transitions[iteration].next);
         const TermId moved = store_.subtract(next, form);
         const TermId turned = store_.add(next, form);
         if (!store_.isNumber(next) && !store_.isNumber(moved) && !store_.isNumber(turned)) {
@@ -218,15 +220,15 @@ void LastingFacts::addIntervals(const Start &start, std::span<const std::size_t>
         if (least < low) {
           low = least;
           changed = true;
-          hasLow = hasLow && step < kMostSteps;
+          hasLow = hasLow && step < kMostWidenings;
         }
         if (most > high) {
           high = most;
           changed = true;
-          hasHigh = hasHigh && step < kMostSteps;
+          hasHigh = hasHigh && step < kMostWidenings;
         }
       }
-      if (step > 2 * kMostSteps)
+      if (step > 2 * kMostWidenings)
         break;
     }
     if (hasLow)

@@ -1,8 +1,8 @@
-// Lasting facts: what holds before every pass of a loop from some time on, found by trial over the passes that have
-// been recorded.
+// Lasting facts: what holds before every iteration of a loop from some time on, found by trial over the iterations that
+// have been recorded.
 //
-// A fact that one of the passes leaves behind it, and that every pass keeps where it holds before, holds from then on.
-// From the arrival at the loop it holds before every pass.
+// A fact that one of the iterations leaves behind it, and that every iteration keeps where it holds before, holds from
+// then on. From the arrival at the loop it holds before every iteration.
 #pragma once
 
 #include "proof/decide/discharge.h"
@@ -13,9 +13,9 @@
 
 namespace feedhold::prove {
 
-class LastingFacts {
+class EventualInvariants {
 public:
-  LastingFacts(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop)
+  EventualInvariants(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop)
       : reading_(reading), store_(store), loop_(loop) {}
 
   struct Found {
@@ -24,8 +24,9 @@ public:
     std::uint64_t work = 0;
   };
   Found fromArrival(std::uint64_t mostWork) const;
-  /// Behind one of the passes, while no other passes are made than these; `known`: holds before and behind all of them.
-  Found behind(std::size_t pass, std::span<const std::size_t> passes, std::span<const smt::TermId> known,
+  /// Behind one of the iterations, while no other iterations are made than these; `known`: holds before and behind all
+  /// of them.
+  Found behind(std::size_t iteration, std::span<const std::size_t> iterations, std::span<const smt::TermId> known,
                std::uint64_t mostWork) const;
 
 private:
@@ -34,19 +35,19 @@ private:
     smt::Substitution state;
   };
   struct Trial;
-  Found found(const Start &start, std::span<const std::size_t> passes, std::span<const smt::TermId> known,
+  Found found(const Start &start, std::span<const std::size_t> iterations, std::span<const smt::TermId> known,
               std::set<smt::TermId> candidates, std::uint64_t mostWork) const;
   bool holds(Trial &trial, std::span<const smt::TermId> conditions, const smt::Substitution &state,
              smt::TermId candidate) const;
 
   std::vector<smt::TermId> numbers() const;
   std::vector<smt::TermId> forms() const;
-  std::set<smt::TermId> candidates(std::span<const std::size_t> passes) const;
-  void addComparison(smt::TermId condition, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
-  void addIntervals(const Start &start, std::span<const std::size_t> passes, std::set<smt::TermId> &all) const;
+  std::set<smt::TermId> candidates(std::span<const std::size_t> iterations) const;
+  void addComparison(smt::TermId condition, std::span<const std::size_t> iterations, std::set<smt::TermId> &all) const;
+  void addIntervals(const Start &start, std::span<const std::size_t> iterations, std::set<smt::TermId> &all) const;
   bool isOfTheLoop(smt::TermId term) const;
 
-  const SymbolicReading &reading_;
+  const SymbolicInterpretation &reading_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
 };

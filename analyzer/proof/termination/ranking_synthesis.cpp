@@ -18,14 +18,14 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostCases = 10; // of a pass
+constexpr std::size_t kMostCases = 10; // of an iteration
 constexpr std::size_t kMostRankingAtoms = 40;
 constexpr std::size_t kMostFactors = 3;
 constexpr std::uint64_t kMostSimplex = 150'000;
 
 } // namespace
 
-/// A pass some of whose choices have been made.
+/// An iteration some of whose choices have been made.
 struct RankingSynthesis::Draft {
   std::vector<TermId> formulas;
   std::vector<TermId> next;
@@ -58,18 +58,18 @@ public:
 
   Program(const std::vector<Atom> &atoms, std::size_t components) {
     for (std::size_t i = 0; i < components; ++i) {
-      measures_.emplace_back();
+      rankings_.emplace_back();
       for (const Atom atom : atoms)
-        measures_.back().atoms[atom].factors.emplace(simplex_.addColumn(), Number(1));
-      measures_.back().constant.factors.emplace(simplex_.addColumn(), Number(1));
+        rankings_.back().atoms[atom].factors.emplace(simplex_.addColumn(), Number(1));
+      rankings_.back().constant.factors.emplace(simplex_.addColumn(), Number(1));
     }
   }
 
-  const Form &measureOf(std::size_t component) const { return measures_[component]; }
-  /// By how much a pass lowers a measure.
+  const Form &rankingOf(std::size_t component) const { return rankings_[component]; }
+  /// By how much an iteration lowers a measure.
   Form fallOf(std::size_t component, const Case &way) const {
     Form fall;
-    for (const auto &[atom, unknown] : measures_[component].atoms) {
+    for (const auto &[atom, unknown] : rankings_[component].atoms) {
       const auto next = way.next.find(atom);
       if (next == way.next.end())
         continue;
@@ -126,20 +126,21 @@ private:
   }
 
   Simplex simplex_;
-  std::vector<Form> measures_;
+  std::vector<Form> rankings_;
 };
 
-RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop,
-                                   std::span<const std::size_t> passes, std::span<const TermId> more)
-    : reading_(reading), store_(store), loop_(loop), passes_(passes.begin(), passes.end()) {
+RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &reading, smt::TermStore &store,
+                                   const LoopInstance &loop, std::span<const std::size_t> iterations,
+                                   std::span<const TermId> more)
+    : reading_(reading), store_(store), loop_(loop), iterations_(iterations.begin(), iterations.end()) {
   for (const auto &[variable, next] : loop.transitions.front().next)
     if (store.sort(variable) != Sort::Bool)
       variables_.push_back(variable);
   const TermId zero = store.number(Number(0));
-  std::vector<TermId> formulas; // of all passes: one number for one application
+  std::vector<TermId> formulas; // of all iterations: one number for one application
   std::vector<std::size_t> ends;
-  for (const std::size_t pass : passes_) {
-    const Transition &transition = loop.transitions[pass];
+  for (const std::size_t iteration : iterations_) {
+    const Transition &transition = loop.transitions[iteration];
     std::vector<TermId> conditions = transition.conditions;
     for (const TermId condition : more) {
       conditions.push_back(condition);
@@ -164,17 +165,17 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
   for (const smt::Definition &definition : pure.definitions)
     applications_.emplace_back(definition.variable, definition.application);
   std::size_t begin = 0;
-  for (std::size_t i = 0; i < passes_.size(); ++i) {
+  for (std::size_t i = 0; i < iterations_.size(); ++i) {
     const auto first = pure.formulas.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto behindNext = first + static_cast<std::ptrdiff_t>(variables_.size());
     const auto last = pure.formulas.begin() + static_cast<std::ptrdiff_t>(ends[i]);
     std::vector<TermId> known(behindNext, last);
     known.insert(known.end(), pure.facts.begin(), pure.facts.end());
-    addCases(passes_[i], std::move(known), {first, behindNext});
+    addCases(iterations_[i], std::move(known), {first, behindNext});
     begin = ends[i];
   }
   std::set<Atom> atoms(variables_.begin(), variables_.end());
-  for (const Atom product : products_) // that every pass is known to change
+  for (const Atom product : products_) // that every iteration is known to change
     if (std::all_of(cases_.begin(), cases_.end(), [&](const Case &way) { return way.next.contains(product); }))
       atoms.insert(product);
   for (const Case &way : cases_)
@@ -185,7 +186,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicReading &reading, smt::TermStor
   atoms_.assign(atoms.begin(), atoms.end());
 }
 
-/// What no pass changes counts as a number: its own choices and functions do not matter.
+/// What no iteration changes counts as a number: its own choices and functions do not matter.
 void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
   smt::Substitution names;
   for (const TermId term : smt::reachable(store_, formulas)) {
@@ -202,7 +203,7 @@ void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
     formula = smt::substitute(store_, formula, names);
 }
 
-/// No pass changes it.
+/// No iteration changes it.
 bool RankingSynthesis::isSteady(Atom atom) const {
   TermId term = atom;
   for (auto known = applications_.rbegin(); known != applications_.rend(); ++known)
@@ -212,13 +213,13 @@ bool RankingSynthesis::isSteady(Atom atom) const {
 
 // ---- cases ----
 
-void RankingSynthesis::addCases(std::size_t pass, std::vector<TermId> formulas, std::vector<TermId> next) {
+void RankingSynthesis::addCases(std::size_t iteration, std::vector<TermId> formulas, std::vector<TermId> next) {
   std::vector<Draft> open{{std::move(formulas), std::move(next)}};
   std::vector<Case> ways;
   while (!open.empty()) {
     const Draft draft = std::move(open.back());
     open.pop_back();
-    Case way = caseOf(pass, draft);
+    Case way = caseOf(iteration, draft);
     if (!isPossible(way))
       continue;
     std::vector<Draft> parts;
@@ -280,8 +281,8 @@ bool RankingSynthesis::splitFormula(const Draft &draft, std::vector<Draft> &part
   return false;
 }
 
-RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t pass, const Draft &draft) {
-  Case way{pass, {}, {}};
+RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t iteration, const Draft &draft) {
+  Case way{iteration, {}, {}};
   std::vector<TermId> open = draft.formulas;
   while (!open.empty()) {
     const TermId formula = open.back();
@@ -299,7 +300,7 @@ RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t pass, const Draft &d
   return way;
 }
 
-/// Products of what passes change are changed by them, too.
+/// Products of what iterations change are changed by them, too.
 void RankingSynthesis::addProducts(Case &way) {
   std::set<Atom> products;
   for (const Row &row : way.rows)
@@ -395,22 +396,22 @@ bool RankingSynthesis::isPossible(const Case &way) {
 
 // ---- measures ----
 
-std::optional<TermId> RankingSynthesis::loweredBy(std::size_t pass) {
+std::optional<TermId> RankingSynthesis::loweredBy(std::size_t iteration) {
   Program program(atoms_, 1);
   const auto lower = [&](std::size_t lowered) {
     for (const Case &way : cases_)
-      if (way.pass == lowered) {
+      if (way.iteration == lowered) {
         program.require(way, Program::minus(program.fallOf(0, way), Number(1)));
-        program.require(way, program.measureOf(0));
+        program.require(way, program.rankingOf(0));
       }
   };
   for (const Case &way : cases_)
-    if (way.pass != pass)
+    if (way.iteration != iteration)
       program.require(way, program.fallOf(0, way));
-  lower(pass);
+  lower(iteration);
   bool found = program.isFeasible();
   if (found) {
-    for (const std::size_t other : passes_) {
+    for (const std::size_t other : iterations_) {
       const Simplex::Mark mark = program.mark();
       lower(other);
       if (!program.isFeasible())
@@ -429,10 +430,10 @@ std::optional<std::vector<TermId>> RankingSynthesis::nested(std::size_t depth) {
     for (std::size_t i = 0; i < depth; ++i) {
       Program::Form fall = Program::minus(program.fallOf(i, way), Number(1));
       if (i > 0)
-        fall.add(program.measureOf(i - 1), Number(1));
+        fall.add(program.rankingOf(i - 1), Number(1));
       program.require(way, fall);
     }
-    program.require(way, program.measureOf(depth - 1));
+    program.require(way, program.rankingOf(depth - 1));
   }
   std::optional<std::vector<TermId>> measures;
   if (program.isFeasible()) {
@@ -445,7 +446,7 @@ std::optional<std::vector<TermId>> RankingSynthesis::nested(std::size_t depth) {
   return measures;
 }
 
-std::optional<TermId> RankingSynthesis::sinking() {
+std::optional<TermId> RankingSynthesis::decreasing() {
   Program program(variables_, 1);
   for (const Case &way : cases_)
     program.require(way, Program::minus(program.fallOf(0, way), Number(1)));
@@ -459,8 +460,8 @@ std::optional<TermId> RankingSynthesis::sinking() {
 /// Coefficients that need not be there are 0.
 void RankingSynthesis::makePlain(Program &program, std::size_t components) {
   for (std::size_t i = 0; i < components; ++i) {
-    std::vector<Program::Unknown> unknowns{program.measureOf(i).constant};
-    for (const auto &[atom, unknown] : program.measureOf(i).atoms)
+    std::vector<Program::Unknown> unknowns{program.rankingOf(i).constant};
+    for (const auto &[atom, unknown] : program.rankingOf(i).atoms)
       unknowns.push_back(unknown);
     for (const Program::Unknown &unknown : unknowns) {
       const Simplex::Mark mark = program.mark();
@@ -474,7 +475,7 @@ void RankingSynthesis::makePlain(Program &program, std::size_t components) {
 
 /// With whole factors that have no divisor in common; over the terms of the loop.
 TermId RankingSynthesis::measure(const Program &program, std::size_t component) {
-  const Program::Form &form = program.measureOf(component);
+  const Program::Form &form = program.rankingOf(component);
   smt::LinearSum sum{program.value(form.constant), {}};
   Number denominators(1);
   Number divisor(0);

@@ -1,9 +1,9 @@
 // Ranking synthesis: linear measures of a loop, found by linear programming.
 //
-// What a pass takes for granted is read as linear constraints over its numbers; products, and what is known of a
-// function by its facts alone, count as numbers of their own.  By Farkas' lemma a linear measure falls in a pass, and
-// is bounded there, exactly when multipliers of these constraints say so, and the coefficients of the measure and the
-// multipliers are one linear program (Podelski, Rybalchenko, "A complete method for the synthesis of linear ranking
+// What an iteration takes for granted is read as linear constraints over its numbers; products, and what is known of a
+// function by its facts alone, count as numbers of their own.  By Farkas' lemma a linear measure falls in an iteration,
+// and is bounded there, exactly when multipliers of these constraints say so, and the coefficients of the measure and
+// the multipliers are one linear program (Podelski, Rybalchenko, "A complete method for the synthesis of linear ranking
 // functions", 2004).  A measure that is found is a guess: whoever asked has to prove of it what it is meant for.
 #pragma once
 
@@ -18,17 +18,18 @@ namespace feedhold::prove {
 
 class RankingSynthesis {
 public:
-  /// `more`: holds before each of the passes, and behind it.
-  RankingSynthesis(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop,
-                   std::span<const std::size_t> passes, std::span<const smt::TermId> more);
+  /// `more`: holds before each of the iterations, and behind it.
+  RankingSynthesis(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop,
+                   std::span<const std::size_t> iterations, std::span<const smt::TermId> more);
 
-  /// Lowered by the pass, before which it is not negative; raised by none; lowered by as many others as can be.
-  std::optional<smt::TermId> loweredBy(std::size_t pass);
-  /// Measures of which every pass lowers the first, and each other as soon as the one before it is negative; before no
-  /// pass is the last of them negative (Leike, Heizmann, "Ranking templates for linear loops", 2015: nested).
+  /// Lowered by the iteration, before which it is not negative; raised by none; lowered by as many others as can be.
+  std::optional<smt::TermId> loweredBy(std::size_t iteration);
+  /// Measures of which every iteration lowers the first, and each other as soon as the one before it is negative;
+  /// before no iteration is the last of them negative (Leike, Heizmann, "Ranking templates for linear loops", 2015:
+  /// nested).
   std::optional<std::vector<smt::TermId>> nested(std::size_t depth);
-  /// Lowered by every pass, without a bound.
-  std::optional<smt::TermId> sinking();
+  /// Lowered by every iteration, without a bound.
+  std::optional<smt::TermId> decreasing();
 
   std::uint64_t work() const { return work_; }
 
@@ -40,20 +41,20 @@ private:
     smt::Number constant;
     bool isEquality = false;
   };
-  /// One way through a pass, without choices.
+  /// One way through an iteration, without choices.
   struct Case {
-    std::size_t pass;
+    std::size_t iteration;
     std::vector<Row> rows;
-    std::map<Atom, Row> next; // from a variable of the loop to its value behind the pass
+    std::map<Atom, Row> next; // from a variable of the loop to its value behind the iteration
   };
   struct Draft;
   class Program;
 
   void nameConstants(std::vector<smt::TermId> &formulas);
-  void addCases(std::size_t pass, std::vector<smt::TermId> formulas, std::vector<smt::TermId> next);
+  void addCases(std::size_t iteration, std::vector<smt::TermId> formulas, std::vector<smt::TermId> next);
   bool split(const Draft &draft, std::vector<Draft> &parts);
   bool splitFormula(const Draft &draft, std::vector<Draft> &parts, smt::TermKind kind);
-  Case caseOf(std::size_t pass, const Draft &draft);
+  Case caseOf(std::size_t iteration, const Draft &draft);
   void addProducts(Case &way);
   Row times(const Row &left, const Row &right) const;
   Row expanded(smt::TermId term) const;
@@ -63,11 +64,11 @@ private:
   smt::TermId measure(const Program &program, std::size_t component);
   void makePlain(Program &program, std::size_t components);
 
-  const SymbolicReading &reading_;
+  const SymbolicInterpretation &reading_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
-  std::vector<std::size_t> passes_;
-  std::vector<Atom> variables_;                            // numbers that passes change
+  std::vector<std::size_t> iterations_;
+  std::vector<Atom> variables_;                            // numbers that iterations change
   std::vector<std::pair<Atom, smt::TermId>> applications_; // that count as numbers
   std::vector<Case> cases_;
   std::vector<Atom> products_; // of variables

@@ -2,6 +2,7 @@
 
 #include "meaning/cfg/wto.h"
 #include "proof/decide/entails.h"
+#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <set>
@@ -16,14 +17,14 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostPasses = 40;      // that are followed
-constexpr std::size_t kMostInnerPasses = 60; // of a loop within or before
+constexpr std::size_t kMostIterations = 40;      // that are followed
+constexpr std::size_t kMostInnerIterations = 60; // of a loop within or before
 constexpr std::size_t kLateStates = 8;
 constexpr std::size_t kMostNumbers = 6;
 constexpr std::size_t kMostPaired = 4;
-constexpr std::uint64_t kMostWork = 400'000;
+constexpr std::uint64_t kMostRecurrenceWork = 400'000;
 constexpr std::size_t kMostNumberWords = 8; // of a number in a state that is followed
-constexpr Budget kEffort{.search = 30'000, .z3 = 0, .cvc5 = 0};
+constexpr Budget kEffortOfRecurrence{.search = 30'000, .z3 = 0, .cvc5 = 0};
 
 bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whole) {
   return prefix.size() <= whole.size() && std::equal(prefix.begin(), prefix.end(), whole.begin());
@@ -40,7 +41,7 @@ bool isSignal(const smt::Term &variable) {
 
 class RecurrenceSearch {
 public:
-  RecurrenceSearch(const SymbolicReading &reading, smt::TermStore &store, const Exploration &exploration,
+  RecurrenceSearch(const SymbolicInterpretation &reading, smt::TermStore &store, const Exploration &exploration,
                    const LoopInstance &loop, const Model &inputs)
       : store_(store), exploration_(exploration), loop_(loop), facts_(reading.facts()), inputs_(inputs) {
     for (const auto &[variable, value] : reading.entryValues())
@@ -52,7 +53,7 @@ public:
   }
 
   std::optional<Recurrence> run() {
-    if (loop_.callsUnknown || loop_.transitions.empty() || !collectWays() || !follow())
+    if (loop_.callsUnknown || loop_.transitions.empty() || !collectPaths() || !follow())
       return std::nullopt;
     for (const Detail detail : {Detail::Signs, Detail::Places, Detail::Remainders}) {
       std::vector<TermId> set = candidates(detail);
@@ -67,15 +68,15 @@ public:
   }
 
 private:
-  // ---- ways of the passes, and of those of loops within ----
+  // ---- ways of the iterations, and of those of loops within ----
 
   /// False: paths have been merged, and what is a branch of which cannot be told.
-  bool collectWays() {
+  bool collectPaths() {
     const auto take = [&](const LoopInstance &loop) {
-      for (const Transition &pass : loop.transitions) {
-        if (!isPrefix(loop_.arrival, pass.conditions))
+      for (const Transition &iteration : loop.transitions) {
+        if (!isPrefix(loop_.arrival, iteration.conditions))
           return false;
-        ways_.push_back(&pass.conditions);
+        paths_.push_back(&iteration.conditions);
       }
       return true;
     };
@@ -88,7 +89,7 @@ private:
         const auto leadsThere = [&](const std::vector<TermId> *way) {
           return inner.arrival.size() > loop_.arrival.size() && isPrefix(inner.arrival, *way);
         };
-        if (taken.contains(&inner) || std::none_of(ways_.begin(), ways_.end(), leadsThere))
+        if (taken.contains(&inner) || std::none_of(paths_.begin(), paths_.end(), leadsThere))
           continue;
         if (inner.callsUnknown || !take(inner))
           return false;
@@ -96,7 +97,7 @@ private:
         grew = true;
       }
     }
-    for (const std::vector<TermId> *way : ways_)
+    for (const std::vector<TermId> *way : paths_)
       for (const TermId condition : *way)
         for (const TermId variable : smt::variablesOf(store_, condition))
           if (isSignal(store_[variable])) {
@@ -128,23 +129,23 @@ private:
   }
   TermId withInputs(TermId term) { return smt::substitute(store_, term, fixed_); }
 
-  // ---- the first passes, in exact numbers ----
+  // ---- the first iterations, in exact numbers ----
 
   bool follow() {
     Model model = inputs_;
     if (!complete(model, loop_.arrival) || !enter(model, loop_, model))
       return false;
     states_.push_back(model);
-    for (passes_ = 1; passes_ < kMostPasses; ++passes_) {
+    for (iterations_ = 1; iterations_ < kMostIterations; ++iterations_) {
       const auto next = after(states_.back(), loop_);
       if (!next)
         break;
       states_.push_back(*next);
-      if (isHuge(*next)) // `#1=#1*#1`: its numbers double in length with each pass
+      if (isHuge(*next)) // `#1=#1*#1`: its numbers double in length with each iteration
         break;
     }
-    const bool hasInner = ways_.size() > loop_.transitions.size();
-    if (passes_ < kMostPasses && !hasInner && !isHuge(states_.back()))
+    const bool hasInner = paths_.size() > loop_.transitions.size();
+    if (iterations_ < kMostIterations && !hasInner && !isHuge(states_.back()))
       return false; // it ends
     const std::size_t count = std::min(kLateStates, states_.size());
     late_.assign(states_.end() - static_cast<std::ptrdiff_t>(count), states_.end());
@@ -161,12 +162,12 @@ private:
   /// Gives values to the variables of the loops that the path has met, such that all conditions hold.
   bool complete(Model &model, const std::vector<TermId> &conditions) {
     for (const LoopInstance &before : exploration_.loops) {
-      if (&before == &loop_ || model.contains(store_[before.passes].name) || !isPrefix(before.arrival, conditions))
+      if (&before == &loop_ || model.contains(store_[before.iterations].name) || !isPrefix(before.arrival, conditions))
         continue;
       Model state = model;
       if (!enter(model, before, state))
         return false;
-      for (std::size_t pass = 0; pass < kMostInnerPasses; ++pass) {
+      for (std::size_t iteration = 0; iteration < kMostInnerIterations; ++iteration) {
         Model there = state;
         if (complete(there, conditions)) {
           model = std::move(there);
@@ -201,12 +202,12 @@ private:
     return true;
   }
   std::optional<Model> after(const Model &state, const LoopInstance &loop) {
-    for (const Transition &pass : loop.transitions) {
+    for (const Transition &iteration : loop.transitions) {
       Model there = state;
-      if (!complete(there, pass.conditions))
+      if (!complete(there, iteration.conditions))
         continue;
       Model next = state;
-      if (assign(there, pass.next, next))
+      if (assign(there, iteration.next, next))
         return next;
     }
     return std::nullopt;
@@ -218,8 +219,8 @@ private:
   enum class Detail : std::uint8_t { Signs, Places, Remainders };
   std::vector<TermId> candidates(Detail detail) {
     std::set<TermId> all;
-    for (const Transition &pass : loop_.transitions)
-      for (const TermId condition : pass.conditions)
+    for (const Transition &iteration : loop_.transitions)
+      for (const TermId condition : iteration.conditions)
         all.insert(withInputs(condition));
     for (const auto &[variable, next] : loop_.transitions.front().next)
       if (store_.sort(variable) == Sort::Bool)
@@ -243,7 +244,7 @@ private:
     });
     return {all.begin(), all.end()};
   }
-  /// The free parts first, then how many passes have been made, and how far they have gone.
+  /// The free parts first, then how many iterations have been made, and how far they have gone.
   std::vector<TermId> numbersOf() const {
     std::vector<TermId> numbers = loop_.variables;
     for (const auto &[variable, next] : loop_.transitions.front().next)
@@ -278,21 +279,21 @@ private:
     }
   }
 
-  /// Houdini: drops what a pass does not keep, until every pass keeps all.
+  /// Houdini: drops what an iteration does not keep, until every iteration keeps all.
   bool close(std::vector<TermId> &set) {
     for (bool dropped = true; dropped;) {
       dropped = false;
       result_.evidence.clear();
-      for (const Transition &pass : loop_.transitions) {
+      for (const Transition &iteration : loop_.transitions) {
         std::vector<TermId> conditions;
-        for (const TermId condition : pass.conditions)
+        for (const TermId condition : iteration.conditions)
           conditions.push_back(withInputs(condition));
         for (std::size_t i = 0; i < set.size();) {
-          if (work_ > kMostWork)
+          if (work_ > kMostRecurrenceWork)
             return false;
           std::vector<TermId> all = conditions;
           all.insert(all.end(), set.begin(), set.end());
-          if (proves(all, withInputs(smt::substitute(store_, set[i], pass.next)))) {
+          if (proves(all, withInputs(smt::substitute(store_, set[i], iteration.next)))) {
             ++i;
             continue;
           }
@@ -300,7 +301,8 @@ private:
           dropped = true;
           if (broken_)
             std::erase_if(set, [&](TermId other) {
-              const auto value = smt::evaluate(store_, withInputs(smt::substitute(store_, other, pass.next)), *broken_);
+              const auto value =
+                  smt::evaluate(store_, withInputs(smt::substitute(store_, other, iteration.next)), *broken_);
               return value && !std::get<bool>(*value);
             });
         }
@@ -315,7 +317,7 @@ private:
       std::vector<const std::vector<TermId> *> ways;
       std::size_t depth;
     };
-    std::vector<Node> open{{ways_, loop_.arrival.size()}};
+    std::vector<Node> open{{paths_, loop_.arrival.size()}};
     std::vector<TermId> context = set;
     for (const TermId condition : loop_.arrival)
       context.push_back(withInputs(condition));
@@ -334,7 +336,7 @@ private:
         std::vector<TermId> all = context;
         for (std::size_t i = loop_.arrival.size(); i < node.depth; ++i)
           all.push_back(withInputs((*node.ways.front())[i]));
-        if (work_ > kMostWork || !proves(all, store_.logicalOr(cases)))
+        if (work_ > kMostRecurrenceWork || !proves(all, store_.logicalOr(cases)))
           return false;
       }
       for (auto &[condition, ways] : next)
@@ -348,7 +350,7 @@ private:
     broken_.reset();
     if (goal == store_.yes())
       return true;
-    Outcome outcome = discharge(store_, relevantQuery(store_, facts_, conditions, goal), kEffort);
+    Outcome outcome = discharge(store_, relevantQuery(store_, facts_, conditions, goal), kEffortOfRecurrence);
     work_ += outcome.effort + 200;
     const bool proved = outcome.proved();
     if (proved)
@@ -365,10 +367,10 @@ private:
   Model inputs_;
   smt::Substitution fixed_;
   std::set<TermId> known_; // facts of loops, which are no branches
-  std::vector<const std::vector<TermId> *> ways_;
-  std::vector<Model> states_; // before each pass that has been followed
+  std::vector<const std::vector<TermId> *> paths_;
+  std::vector<Model> states_; // before each iteration that has been followed
   std::vector<Model> late_;
-  std::size_t passes_ = 0;
+  std::size_t iterations_ = 0;
   std::optional<Model> broken_; // by the last question, if its answer had values
   std::uint64_t work_ = 0;
   Recurrence result_;
@@ -376,10 +378,10 @@ private:
 
 } // namespace
 
-std::optional<Recurrence> recurrenceFrom(const SymbolicReading &reading, smt::TermStore &store,
+std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &reading, smt::TermStore &store,
                                          const Exploration &exploration, const LoopInstance &loop,
                                          const Model &inputs) {
-  return smt::within(3 * kStepsOfWork * kMostWork,
+  return smt::within(3 * kStepsOfWork * kMostRecurrenceWork,
                      [&] { return RecurrenceSearch(reading, store, exploration, loop, inputs).run(); })
       .value_or(std::nullopt);
 }

@@ -1,9 +1,9 @@
 #include "proof/termination/termination.h"
 
 #include "proof/decide/entails.h"
+#include "proof/smt/steps.h"
 #include "proof/termination/eventual_invariants.h"
 #include "proof/termination/ranking_synthesis.h"
-#include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <set>
@@ -16,11 +16,11 @@ using smt::TermKind;
 
 namespace {
 
-constexpr std::size_t kMostMeasures = 60;
+constexpr std::size_t kMostRankings = 60;
 constexpr std::size_t kMostPhases = 3;
-constexpr std::size_t kMostSinking = 16;
+constexpr std::size_t kMostDecreasing = 16;
 constexpr std::size_t kLikely = 4;      // measures, the first of them
-constexpr std::size_t kMostModels = 24; // of a pass, the latest
+constexpr std::size_t kMostModels = 24; // of an iteration, the latest
 /// A measure that needs more is seldom the right one; what is linear takes less.
 constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 /// Of one that is only tried.
@@ -31,7 +31,7 @@ constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
 
 class RankingSearch {
 public:
-  RankingSearch(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop)
+  RankingSearch(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop)
       : reading_(reading), store_(store), loop_(loop) {}
 
   Termination run() {
@@ -58,21 +58,21 @@ private:
     return false;
   }
 
-  /// Passes that can follow one another in a circle are ranked together.
-  bool rank(std::vector<std::size_t> passes) {
+  /// Iterations that can follow one another in a circle are ranked together.
+  bool rank(std::vector<std::size_t> iterations) {
     if (!phases_.empty())
-      std::erase_if(passes, [&](std::size_t pass) { return holds(pass, store_.no(), result_.evidence); });
-    if (passes.empty())
+      std::erase_if(iterations, [&](std::size_t iteration) { return holds(iteration, store_.no(), result_.evidence); });
+    if (iterations.empty())
       return true;
-    if (withLittle([&] { return lower(passes, candidates_); }) || lowerByProgram(passes) ||
-        withLittle([&] { return lower(passes, choices()); }))
-      return rank(passes);
-    if (passes.size() > 12 || work_ > kMostWork)
+    if (withLittle([&] { return lower(iterations, candidates_); }) || lowerByProgram(iterations) ||
+        withLittle([&] { return lower(iterations, choices()); }))
+      return rank(iterations);
+    if (iterations.size() > 12 || work_ > kMostWork)
       return false;
-    const auto circles = circlesOf(passes);
-    if (circles.size() == 1 && circles.front().size() == passes.size())
-      return inPhases(passes) || (lower(passes, likely()) && rank(passes)) || afterPass(passes) ||
-             (lower(passes, candidates_) && rank(passes)) || afterPhase(passes);
+    const auto circles = circlesOf(iterations);
+    if (circles.size() == 1 && circles.front().size() == iterations.size())
+      return inPhases(iterations) || (lower(iterations, likely()) && rank(iterations)) || afterIteration(iterations) ||
+             (lower(iterations, candidates_) && rank(iterations)) || afterPhase(iterations);
     return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
   }
   std::vector<TermId> likely() const {
@@ -86,37 +86,37 @@ private:
     return found;
   }
 
-  /// With more facts that hold before every pass.
-  bool rankWithSupport(const std::vector<std::size_t> &passes) {
-    const LastingFacts lasting(reading_, store_, loop_);
-    const LastingFacts::Found found = lasting.fromArrival(kMostWork / 4);
+  /// With more facts that hold before every iteration.
+  bool rankWithSupport(const std::vector<std::size_t> &iterations) {
+    const EventualInvariants lasting(reading_, store_, loop_);
+    const EventualInvariants::Found found = lasting.fromArrival(kMostWork / 4);
     work_ = 0;
     if (found.facts.empty())
       return false;
-    return within(found, [&] { return rank(passes); });
+    return within(found, [&] { return rank(iterations); });
   }
 
-  /// A pass that is made again and again is made once: what it leaves, and every pass keeps, holds from then on.  So
-  /// all passes are ranked where that holds, and the others without this one.
-  bool afterPass(const std::vector<std::size_t> &passes) {
+  /// An iteration that is made again and again is made once: what it leaves, and every iteration keeps, holds from then
+  /// on.  So all iterations are ranked where that holds, and the others without this one.
+  bool afterIteration(const std::vector<std::size_t> &iterations) {
     if (phases_.size() >= kMostPhases)
       return false;
-    const LastingFacts lasting(reading_, store_, loop_);
-    for (const std::size_t pass : passes) {
+    const EventualInvariants lasting(reading_, store_, loop_);
+    for (const std::size_t iteration : iterations) {
       if (work_ > kMostWork)
         return false;
-      const LastingFacts::Found found = lasting.behind(pass, passes, phases_, kMostWork / 8);
+      const EventualInvariants::Found found = lasting.behind(iteration, iterations, phases_, kMostWork / 8);
       work_ += found.work;
       if (found.facts.empty())
         continue;
-      std::vector<std::size_t> others = passes;
-      std::erase(others, pass);
-      if (within(found, [&] { return rank(passes); }) && rank(others))
+      std::vector<std::size_t> others = iterations;
+      std::erase(others, iteration);
+      if (within(found, [&] { return rank(iterations); }) && rank(others))
         return true;
     }
     return false;
   }
-  template <typename Rank> bool within(const LastingFacts::Found &found, Rank &&rankIt) {
+  template <typename Rank> bool within(const EventualInvariants::Found &found, Rank &&rankIt) {
     const std::size_t before = phases_.size();
     phases_.insert(phases_.end(), found.facts.begin(), found.facts.end());
     const bool ranked = attempt(rankIt);
@@ -127,32 +127,32 @@ private:
   }
 
   /// Measures of which each sinks when the one before it is negative.
-  bool inPhases(const std::vector<std::size_t> &passes) {
+  bool inPhases(const std::vector<std::size_t> &iterations) {
     for (const std::size_t depth : {2u, 3u}) {
-      RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+      RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
       const auto nested = synthesis.nested(depth);
       work_ += synthesis.work();
       if (!nested)
         continue;
       candidates_.insert(candidates_.begin(), nested->back());
-      if (sinks(*nested, 0, passes))
+      if (sinks(*nested, 0, iterations))
         return true;
     }
     return false;
   }
-  bool sinks(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &passes) {
+  bool sinks(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &iterations) {
     if (at + 1 == nested.size())
-      return rank(passes);
-    return sinks(nested[at], passes, [&] { return sinks(nested, at + 1, passes); });
+      return rank(iterations);
+    return sinks(nested[at], iterations, [&] { return sinks(nested, at + 1, iterations); });
   }
-  /// Every pass lowers it, without a bound: it is below -1 after some passes and from then on, and there they are
-  /// ranked.
-  template <typename Rank> bool sinks(TermId sinking, const std::vector<std::size_t> &passes, Rank &&rankIt) {
+  /// Every iteration lowers it, without a bound: it is below -1 after some iterations and from then on, and there they
+  /// are ranked.
+  template <typename Rank> bool sinks(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
     std::vector<Outcome> evidence;
-    if (!std::all_of(passes.begin(), passes.end(),
-                     [&](std::size_t pass) { return falls(fallOf(sinking, pass), pass, evidence); }))
+    if (!std::all_of(iterations.begin(), iterations.end(),
+                     [&](std::size_t iteration) { return falls(fallOf(decreasing, iteration), iteration, evidence); }))
       return false;
-    phases_.push_back(store_.less(sinking, store_.number(Number(-1))));
+    phases_.push_back(store_.less(decreasing, store_.number(Number(-1))));
     const bool ranked = attempt(rankIt);
     phases_.pop_back();
     if (ranked)
@@ -160,41 +160,41 @@ private:
     return ranked;
   }
 
-  /// What every pass lowers, without a bound, is below -1 after some passes and from then on: there the passes are
-  /// ranked again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking templates for
-  /// linear loops", 2015: multiphase).
-  bool afterPhase(const std::vector<std::size_t> &passes) {
+  /// What every iteration lowers, without a bound, is below -1 after some iterations and from then on: there the
+  /// iterations are ranked again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking
+  /// templates for linear loops", 2015: multiphase).
+  bool afterPhase(const std::vector<std::size_t> &iterations) {
     if (phases_.size() >= kMostPhases)
       return false;
-    std::vector<TermId> sinking = sinkingMeasures(passes);
-    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
-    if (const auto found = synthesis.sinking())
-      sinking.insert(sinking.begin(), *found);
+    std::vector<TermId> decreasing = decreasingRankings(iterations);
+    RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
+    if (const auto found = synthesis.decreasing())
+      decreasing.insert(decreasing.begin(), *found);
     work_ += synthesis.work();
-    return std::any_of(sinking.begin(), sinking.end(),
-                       [&](TermId each) { return sinks(each, passes, [&] { return rank(passes); }); });
+    return std::any_of(decreasing.begin(), decreasing.end(),
+                       [&](TermId each) { return sinks(each, iterations, [&] { return rank(iterations); }); });
   }
   /// By how much a measure rises may be what sinks.
-  std::vector<TermId> sinkingMeasures(const std::vector<std::size_t> &passes) {
+  std::vector<TermId> decreasingRankings(const std::vector<std::size_t> &iterations) {
     std::set<TermId> seen;
     for (const TermId measure : candidates_)
-      for (const std::size_t pass : passes) {
-        const TermId rise = store_.negate(fallOf(measure, pass));
-        if (!isConstant(rise) && seen.size() < kMostSinking)
+      for (const std::size_t iteration : iterations) {
+        const TermId rise = store_.negate(fallOf(measure, iteration));
+        if (!isConstant(rise) && seen.size() < kMostDecreasing)
           seen.insert(rise);
       }
     return {seen.begin(), seen.end()};
   }
 
   /// By a linear measure, if there is one.
-  bool lowerByProgram(std::vector<std::size_t> &passes) {
-    if (passes.size() > kMostSinking || work_ > kMostWork)
+  bool lowerByProgram(std::vector<std::size_t> &iterations) {
+    if (iterations.size() > kMostDecreasing || work_ > kMostWork)
       return false;
-    RankingSynthesis synthesis(reading_, store_, loop_, passes, phases_);
+    RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
     bool lowered = false;
-    for (const std::size_t pass : passes) {
-      const auto measure = synthesis.loweredBy(pass);
-      if (measure && lower(passes, {*measure})) {
+    for (const std::size_t iteration : iterations) {
+      const auto measure = synthesis.loweredBy(iteration);
+      if (measure && lower(iterations, {*measure})) {
         lowered = true;
         break;
       }
@@ -203,27 +203,27 @@ private:
     return lowered;
   }
 
-  /// Takes away the passes that lower a measure which no other pass raises.
-  bool lower(std::vector<std::size_t> &passes, const std::vector<TermId> &candidates) {
+  /// Takes away the iterations that lower a measure which no other iteration raises.
+  bool lower(std::vector<std::size_t> &iterations, const std::vector<TermId> &candidates) {
     for (const TermId measure : candidates) {
       std::vector<Outcome> evidence;
       std::vector<std::size_t> lowering;
       std::optional<TermId> decrease;
       bool raised = false;
-      for (const std::size_t pass : passes) {
-        const TermId fall = fallOf(measure, pass);
-        if (lowers(measure, fall, pass, evidence)) {
-          lowering.push_back(pass);
+      for (const std::size_t iteration : iterations) {
+        const TermId fall = fallOf(measure, iteration);
+        if (lowers(measure, fall, iteration, evidence)) {
+          lowering.push_back(iteration);
           decrease = decrease.value_or(fall);
-        } else if (!holds(pass, store_.lessOrEqual(zero(), fall), evidence)) {
+        } else if (!holds(iteration, store_.lessOrEqual(zero(), fall), evidence)) {
           raised = true;
           break;
         }
       }
       if (raised || lowering.empty())
         continue;
-      std::erase_if(passes, [&](std::size_t pass) {
-        return std::find(lowering.begin(), lowering.end(), pass) != lowering.end();
+      std::erase_if(iterations, [&](std::size_t iteration) {
+        return std::find(lowering.begin(), lowering.end(), iteration) != lowering.end();
       });
       result_.measures.push_back({measure, *decrease, std::move(lowering), !phases_.empty()});
       std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
@@ -231,20 +231,21 @@ private:
     }
     return false;
   }
-  TermId fallOf(TermId measure, std::size_t pass) {
-    return store_.subtract(measure, smt::substitute(store_, measure, loop_.transitions[pass].next));
+  TermId fallOf(TermId measure, std::size_t iteration) {
+    return store_.subtract(measure, smt::substitute(store_, measure, loop_.transitions[iteration].next));
   }
-  /// By an amount that no pass changes and that is positive, or by a fixed one.
-  bool lowers(TermId measure, TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
-    return mayLower(fall) && holds(pass, store_.lessOrEqual(zero(), measure), evidence) && falls(fall, pass, evidence);
+  /// By an amount that no iteration changes and that is positive, or by a fixed one.
+  bool lowers(TermId measure, TermId fall, std::size_t iteration, std::vector<Outcome> &evidence) {
+    return mayLower(fall) && holds(iteration, store_.lessOrEqual(zero(), measure), evidence) &&
+           falls(fall, iteration, evidence);
   }
-  bool falls(TermId fall, std::size_t pass, std::vector<Outcome> &evidence) {
+  bool falls(TermId fall, std::size_t iteration, std::vector<Outcome> &evidence) {
     if (!mayLower(fall))
       return false;
     if (isConstant(fall))
-      return holds(pass, store_.less(zero(), fall), evidence);
+      return holds(iteration, store_.less(zero(), fall), evidence);
     for (const int parts : {1, 10, 1000, 1'000'000}) {
-      if (holds(pass, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
+      if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
         return true;
       if (store_.sort(fall) == smt::Sort::Int)
         return false;
@@ -254,12 +255,12 @@ private:
   bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
 
   bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
-  bool holds(std::size_t pass, TermId goal, std::vector<Outcome> &evidence) {
+  bool holds(std::size_t iteration, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
-    if (work_ > kMostWork || isBroken(pass, goal))
+    if (work_ > kMostWork || isBroken(iteration, goal))
       return false;
-    std::vector<TermId> conditions = loop_.transitions[pass].conditions;
+    std::vector<TermId> conditions = loop_.transitions[iteration].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
     Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), effort_);
     const bool proved = outcome.proved();
@@ -267,31 +268,31 @@ private:
     if (proved)
       evidence.push_back(std::move(outcome));
     else if (const smt::Model *model = outcome.counterexample()) {
-      if (models_[pass].size() == kMostModels)
-        models_[pass].erase(models_[pass].begin());
-      models_[pass].push_back(*model);
+      if (models_[iteration].size() == kMostModels)
+        models_[iteration].erase(models_[iteration].begin());
+      models_[iteration].push_back(*model);
     }
     return proved;
   }
-  /// By a state before the pass that has been met in the search.
-  bool isBroken(std::size_t pass, TermId goal) const {
+  /// By a state before the iteration that has been met in the search.
+  bool isBroken(std::size_t iteration, TermId goal) const {
     const auto is = [&](TermId formula, const smt::Model &model, bool truth) {
       const auto value = smt::evaluate(store_, formula, model);
       return value && std::get<bool>(*value) == truth;
     };
-    return std::any_of(models_[pass].begin(), models_[pass].end(), [&](const smt::Model &model) {
+    return std::any_of(models_[iteration].begin(), models_[iteration].end(), [&](const smt::Model &model) {
       return is(goal, model, false) &&
              std::all_of(phases_.begin(), phases_.end(), [&](TermId phase) { return is(phase, model, true); });
     });
   }
   TermId zero() { return store_.number(Number(0)); }
 
-  /// What the conditions of the passes keep from below, the number of passes apart.
+  /// What the conditions of the iterations keep from below, the number of iterations apart.
   std::vector<TermId> measures() {
     std::set<TermId> seen;
     std::vector<TermId> all;
     const auto offer = [&](TermId measure) {
-      if (all.size() < kMostMeasures && !isConstant(measure) && seen.insert(measure).second)
+      if (all.size() < kMostRankings && !isConstant(measure) && seen.insert(measure).second)
         all.push_back(measure);
     };
     for (const TermId hint : loop_.measures)
@@ -315,7 +316,7 @@ private:
     std::set<TermId> found;
     for (const Transition &transition : loop_.transitions)
       for (const TermId part : smt::reachable(store_, transition.conditions)) {
-        if (const auto distance = distanceOf(part); distance && found.size() < kMostSinking)
+        if (const auto distance = distanceOf(part); distance && found.size() < kMostDecreasing)
           found.insert(store_.absolute(*distance));
         if (store_[part].kind == TermKind::Or || store_[part].kind == TermKind::And)
           for (const TermId measure : largerOf(part))
@@ -327,7 +328,7 @@ private:
       found.insert(store_.absolute(each));
     for (const TermId a : numbers)
       for (const TermId b : numbers)
-        if (a < b && found.size() < kMostSinking)
+        if (a < b && found.size() < kMostDecreasing)
           found.insert(larger(a, b));
     return {found.begin(), found.end()};
   }
@@ -344,7 +345,7 @@ private:
         found.push_back(larger(distances[i], distances[j]));
     return found;
   }
-  /// Between the sides of a comparison; absent where no pass changes it.
+  /// Between the sides of a comparison; absent where no iteration changes it.
   std::optional<TermId> distanceOf(TermId compared) {
     const TermKind kind = store_[compared].kind;
     if (kind != TermKind::Less && kind != TermKind::LessOrEqual && kind != TermKind::Equal)
@@ -368,14 +369,14 @@ private:
       offer(store_.subtract(left, right));
   }
 
-  // ---- which pass can follow which ----
+  // ---- which iteration can follow which ----
 
-  std::vector<std::vector<std::size_t>> circlesOf(const std::vector<std::size_t> &passes) {
-    const std::size_t count = passes.size();
+  std::vector<std::vector<std::size_t>> circlesOf(const std::vector<std::size_t> &iterations) {
+    const std::size_t count = iterations.size();
     std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < count; ++j)
-        reaches[i][j] = canFollow(passes[i], passes[j]);
+        reaches[i][j] = canFollow(iterations[i], iterations[j]);
     for (std::size_t k = 0; k < count; ++k)
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
@@ -389,12 +390,12 @@ private:
       for (std::size_t j = i; j < count; ++j)
         if (!placed[j] && reaches[i][j] && reaches[j][i]) {
           placed[j] = true;
-          circles.back().push_back(passes[j]);
+          circles.back().push_back(iterations[j]);
         }
     }
     return circles;
   }
-  /// What is not of the loop itself is read anew in the second pass: other variables stand for it.
+  /// What is not of the loop itself is read anew in the second iteration: other variables stand for it.
   bool canFollow(std::size_t first, std::size_t second) {
     const Transition &before = loop_.transitions[first];
     smt::Substitution next = before.next;
@@ -419,26 +420,27 @@ private:
     return false;
   }
 
-  const SymbolicReading &reading_;
+  const SymbolicInterpretation &reading_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<TermId> candidates_;
-  std::vector<TermId> phases_;                  // hold from some pass on
-  std::vector<std::vector<smt::Model>> models_; // by pass: states before it
+  std::vector<TermId> phases_;                  // hold from some iteration on
+  std::vector<std::vector<smt::Model>> models_; // by iteration: states before it
   Budget effort_ = kEffort;                     // of one question
   std::uint64_t work_ = 0;
   Termination result_;
 };
 
-std::optional<std::size_t> recurrentPassOf(const SymbolicReading &reading, smt::TermStore &store,
-                                           const LoopInstance &loop) {
+std::optional<std::size_t> recurrentIterationOf(const SymbolicInterpretation &reading, smt::TermStore &store,
+                                                const LoopInstance &loop) {
   Entailment entails(store);
   for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
-    const Transition &pass = loop.transitions[i];
-    const bool holdsAgain = std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](TermId condition) {
-      return loop.isOfState(reading, store, condition) &&
-             entails(reading.facts(), pass.conditions, smt::substitute(store, condition, pass.next));
-    });
+    const Transition &iteration = loop.transitions[i];
+    const bool holdsAgain =
+        std::all_of(iteration.conditions.begin(), iteration.conditions.end(), [&](TermId condition) {
+          return loop.isOfState(reading, store, condition) &&
+                 entails(reading.facts(), iteration.conditions, smt::substitute(store, condition, iteration.next));
+        });
     if (holdsAgain)
       return i;
   }
@@ -447,7 +449,7 @@ std::optional<std::size_t> recurrentPassOf(const SymbolicReading &reading, smt::
 
 } // namespace
 
-Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, const LoopInstance &loop) {
+Termination provesEnd(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop) {
   auto found = smt::within(kMostSteps, [&] { return RankingSearch(reading, store, loop).run(); });
   if (found)
     return std::move(*found);
@@ -458,9 +460,9 @@ Termination provesEnd(const SymbolicReading &reading, smt::TermStore &store, con
   return given;
 }
 
-std::optional<std::size_t> recurrentPass(const SymbolicReading &reading, smt::TermStore &store,
-                                         const LoopInstance &loop) {
-  const auto found = smt::within(kMostSteps, [&] { return recurrentPassOf(reading, store, loop); });
+std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &reading, smt::TermStore &store,
+                                              const LoopInstance &loop) {
+  const auto found = smt::within(kMostSteps, [&] { return recurrentIterationOf(reading, store, loop); });
   return found.value_or(std::nullopt);
 }
 

@@ -1,8 +1,8 @@
 #include "proof/termination/termination_explanation.h"
 
 #include "proof/decide/entails.h"
-#include "proof/symbolic/shop_terms.h"
 #include "proof/smt/steps.h"
+#include "proof/symbolic/shop_terms.h"
 
 #include <fmt/format.h>
 
@@ -17,41 +17,44 @@ namespace {
 
 class Account {
 public:
-  Account(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop)
+  Account(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop)
       : reading_(reading), store_(reading.store()), programs_(programs), loop_(loop) {
     for (const auto &[variable, value] : reading.entryValues())
       atCall_.emplace(value.number, programs.nameOfVariable(variable));
     for (const LoopInstance::Value &value : loop.values)
       if (value.generic != value.arrival && !store_.isNumber(value.generic))
-        beforePass_.emplace(value.generic, programs.nameOfVariable(value.variable));
+        beforeIteration_.emplace(value.generic, programs.nameOfVariable(value.variable));
   }
 
-  LoopAccount of(const Termination &end) {
+  TerminationExplanation of(const Termination &end) {
     if (end.measures.empty())
       return {"no pass comes back to its start", ""};
-    if (std::any_of(end.measures.begin(), end.measures.end(), [](const Measure &measure) { return measure.isLate; }))
+    if (std::any_of(end.measures.begin(), end.measures.end(),
+                    [](const RankingFunction &measure) { return measure.isLate; }))
       return {late(end), ""};
     if (end.measures.size() > 1)
       return {inTurn(end), ""};
-    const Measure &measure = end.measures.front();
-    const bool isSteady = isConstant(measure.decrease) &&
-                          std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
-                            return store_.subtract(measure.measure, smt::substitute(store_, measure.measure,
-                                                                                    pass.next)) == measure.decrease;
-                          });
-    return isSteady ? LoopAccount{steady(measure), bound(measure)} : LoopAccount{unsteady(measure), ""};
+    const RankingFunction &measure = end.measures.front();
+    const bool isSteady =
+        isConstant(measure.decrease) &&
+        std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
+          return store_.subtract(measure.measure, smt::substitute(store_, measure.measure, iteration.next)) ==
+                 measure.decrease;
+        });
+    return isSteady ? TerminationExplanation{steady(measure), bound(measure)}
+                    : TerminationExplanation{unsteady(measure), ""};
   }
 
 private:
-  /// Passes are made while the measure is not negative; or positive, where that is so before each of them.
-  std::string bound(const Measure &measure) {
+  /// Iterations are made while the measure is not negative; or positive, where that is so before each of them.
+  std::string bound(const RankingFunction &measure) {
     const TermId quotient = inSteps(smt::substitute(store_, measure.measure, loop_.first), measure.decrease);
     const TermId one = store_.number(Number(1));
     TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
     if (!testsFirst()) {
-      most = store_.add(most, one); // what comes back to the start begins one pass more
+      most = store_.add(most, one); // what comes back to the start begins one iteration more
       if (!isMetWith(store_.lessOrEqual(one, most)))
-        return ""; // such a loop has one pass at least, however small the number is
+        return ""; // such a loop has one iteration at least, however small the number is
     }
     return roundedText(most).value_or("");
   }
@@ -60,7 +63,7 @@ private:
     return discharge(store_, relevantQuery(store_, reading_.facts(), loop_.arrival, goal), Budget::quick()).proved();
   }
   /// FUP and FIX go by the sign of what they round: whole numbers beside it come into its brackets, where the sum is
-  /// not negative if there are passes.
+  /// not negative if there are iterations.
   std::optional<std::string> roundedText(TermId most) {
     smt::LinearSum sum = store_.linear(most);
     const auto isRounded = [&](const auto &part) {
@@ -81,10 +84,10 @@ private:
     const auto text = shopText(store_, inside, atCall_);
     return text ? std::optional(fmt::format("{}[{}]", factor.sign() > 0 ? "FIX" : "FUP", *text)) : std::nullopt;
   }
-  bool isPositive(const Measure &measure) {
+  bool isPositive(const RankingFunction &measure) {
     const TermId goal = store_.less(store_.number(Number(0)), measure.measure);
-    return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &pass) {
-      return discharge(store_, relevantQuery(store_, reading_.facts(), pass.conditions, goal), Budget::quick())
+    return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
+      return discharge(store_, relevantQuery(store_, reading_.facts(), iteration.conditions, goal), Budget::quick())
           .proved();
     });
   }
@@ -106,18 +109,18 @@ private:
   }
 
   /// The measure is a variable over or under a limit, mostly.
-  std::string steady(const Measure &measure) {
+  std::string steady(const RankingFunction &measure) {
     for (const LoopInstance::Value &value : loop_.values)
       if (const auto ratio = ratioOf(value.generic, measure.measure))
         if (std::string text = steady(value, *ratio, measure); !text.empty())
           return text;
     const auto step = shown(measure.decrease);
-    const auto text = shopText(store_, measure.measure, namesBeforePass());
+    const auto text = shopText(store_, measure.measure, namesBeforeIteration());
     return step && text ? fmt::format("`{}` falls by `{}` each pass and is never below 0 before one", *text, *step)
                         : "";
   }
-  /// value = ratio * measure + a limit.  What a loop tests at its end is the value behind the pass.
-  std::string steady(const LoopInstance::Value &value, const Number &ratio, const Measure &measure) {
+  /// value = ratio * measure + a limit.  What a loop tests at its end is the value behind the iteration.
+  std::string steady(const LoopInstance::Value &value, const Number &ratio, const RankingFunction &measure) {
     const TermId step = store_.scale(ratio.sign() < 0 ? -ratio : ratio, measure.decrease);
     const TermId tested =
         testsFirst() ? value.generic : store_.subtract(value.generic, store_.scale(ratio, measure.decrease));
@@ -136,7 +139,7 @@ private:
     return fmt::format("`{}` {} by `{}` each pass and the loop stops {} `{}`", programs_.nameOfVariable(value.variable),
                        falls ? "falls" : "rises", *stepText, where, *limitText);
   }
-  /// How much of the measure a value holds, when no pass changes the rest of it.
+  /// How much of the measure a value holds, when no iteration changes the rest of it.
   std::optional<Number> ratioOf(TermId value, TermId measure) {
     const smt::LinearSum whole = store_.linear(value);
     for (const auto &[term, factor] : store_.linear(measure).terms) {
@@ -149,19 +152,19 @@ private:
     }
     return std::nullopt;
   }
-  std::string unsteady(const Measure &measure) {
-    const auto text = shopText(store_, measure.measure, namesBeforePass());
+  std::string unsteady(const RankingFunction &measure) {
+    const auto text = shopText(store_, measure.measure, namesBeforeIteration());
     return text ? fmt::format("`{}` falls each pass and is never below 0 before one", *text) : "";
   }
   /// Of a loop with phases: what ends the last one.
   std::string late(const Termination &end) {
-    const auto text = shopText(store_, end.measures.back().measure, namesBeforePass());
+    const auto text = shopText(store_, end.measures.back().measure, namesBeforeIteration());
     return text ? fmt::format("from some pass on `{}` falls each pass, and it is not below 0 before one", *text) : "";
   }
   std::string inTurn(const Termination &end) {
     std::string text;
-    for (const Measure &measure : end.measures) {
-      const auto name = shopText(store_, measure.measure, namesBeforePass());
+    for (const RankingFunction &measure : end.measures) {
+      const auto name = shopText(store_, measure.measure, namesBeforeIteration());
       if (!name)
         return "";
       text += fmt::format("{}`{}`", text.empty() ? "every pass lowers " : ", or leaves it and lowers ", *name);
@@ -170,14 +173,14 @@ private:
   }
 
   /// With the values at the call where nothing has written them since.
-  TermNames namesBeforePass() const {
-    TermNames names = beforePass_;
+  TermNames namesBeforeIteration() const {
+    TermNames names = beforeIteration_;
     for (const LoopInstance::Value &value : loop_.values)
       if (value.generic == value.arrival && atCall_.contains(value.arrival))
         names.emplace(value.arrival, programs_.nameOfVariable(value.variable));
     return names;
   }
-  /// A value that no pass changes: from the values at the call, or by the variable that holds it.
+  /// A value that no iteration changes: from the values at the call, or by the variable that holds it.
   std::optional<std::string> shown(TermId term) {
     if (auto text = shopText(store_, term, atCall_))
       return text;
@@ -190,20 +193,21 @@ private:
 
   bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
 
-  SymbolicReading &reading_;
+  SymbolicInterpretation &reading_;
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const LoopInstance &loop_;
   TermNames atCall_;
-  TermNames beforePass_;
+  TermNames beforeIteration_;
 };
 
 } // namespace
 
-LoopAccount accountOf(SymbolicReading &reading, const ProgramSet &programs, const LoopInstance &loop,
-                      const Termination &end) {
+TerminationExplanation accountOf(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop,
+                                 const Termination &end) {
   constexpr std::uint64_t kStepsOfAccount = 200'000'000;
-  return smt::within(kStepsOfAccount, [&] { return Account(reading, programs, loop).of(end); }).value_or(LoopAccount());
+  return smt::within(kStepsOfAccount, [&] { return Account(reading, programs, loop).of(end); })
+      .value_or(TerminationExplanation());
 }
 
 } // namespace feedhold::prove

@@ -43,13 +43,13 @@ bool hasProducts(const check::Conjunction &conjunction) {
 }
 
 /// Absent: the certificate shows that the claim cannot be satisfied.
-std::optional<Error> follow(const check::Claim &claim, const std::string &text) {
+std::optional<Error> follow(const check::UnsatProblem &claim, const std::string &text) {
   const Result<check::Certificate> certificate = check::readCertificate(claim, text);
   return certificate ? check::verify(claim, certificate.value()) : certificate.error();
 }
 
 void checkCertified(Question &question, const std::string &text, const std::string &certificate) {
-  const Result<check::Claim> claim = check::readClaim(text);
+  const Result<check::UnsatProblem> claim = check::readClaim(text);
   const std::optional<Error> wrong = claim ? follow(claim.value(), certificate) : claim.error();
   question.isFollowed = !wrong;
   if (wrong)
@@ -57,7 +57,7 @@ void checkCertified(Question &question, const std::string &text, const std::stri
 }
 
 smt::Arithmetic arithmeticOf(const std::string &text) {
-  const Result<check::Claim> claim = check::readClaim(text);
+  const Result<check::UnsatProblem> claim = check::readClaim(text);
   return claim && !hasProducts(claim.value().conjunction) ? smt::Arithmetic::Linear : smt::Arithmetic::Nonlinear;
 }
 

@@ -110,7 +110,8 @@ class Space:
         """Points of the tool whose tip is at `tip`, most on its skin; towards `aims` the nearest ones."""
         yield tip
         for aim in aims:
-            for height in {max(0.0, aim[2] - tip[2]), *HEIGHTS[:4]}:
+            level = max(0.0, aim[2] - tip[2])
+            for height in {level, level + 0.01, *HEIGHTS[:4]}:  # from far below the level itself is but the rim
                 far = math.dist(aim[:2], tip[:2])
                 whole = self.radius_at(height) * (1 - 1e-12) / far if far else 0.0
                 for part in {min(1.0, whole), whole}:

@@ -20,7 +20,8 @@ struct Nest {
   Inputs bad;
 };
 
-// clang-format off: a row a line
+// a row a line
+// clang-format off
 /// The counters are #1 and #2, from 0; #501 and #502 are promised to be whole and 1 to 50.
 const std::vector<Nest> &nests() {
   static const std::vector<Nest> rows = {

@@ -14,7 +14,7 @@ Polynomial sum(const Polynomial &left, const Polynomial &right, const Number &fa
 }
 
 /// x >= 1, y >= x, 2 - y > 0 ... and x*y < 1: contradictory by x*(y - x) + (x - 1)*(x - 1) + 2*(x - 1) + (1 - x*y) = 0.
-Claim productClaim() {
+UnsatProblem productClaim() {
   const Polynomial one = constant(1);
   return {{{"x", Range::Real}, {"y", Range::Real}},
           {{{sum(kX, one, -1), Relation::NonNegative},
@@ -57,44 +57,45 @@ TEST(Checker, RefusesWhatIsNotThere) {
 
 TEST(Checker, MultipliersAreNotNegative) {
   const Polynomial above = sum(kX, constant(1));
-  const Claim claim{{{"x", Range::Real}}, {{{kX, Relation::NonNegative}, {above, Relation::NonNegative}}, {}}};
+  const UnsatProblem claim{{{"x", Range::Real}}, {{{kX, Relation::NonNegative}, {above, Relation::NonNegative}}, {}}};
   EXPECT_TRUE(verify(claim, {Combination{{{1, {0}, {}}, {-1, {1}, {}}}, {}}, {}}).has_value());
 }
 
 TEST(Checker, SquaresAreNotStrict) {
   // -x*x >= 0 holds at x = 0.
   const Constraint flat{scaled(multiply(kX, kX), -1), Relation::NonNegative};
-  const Claim claim{{{"x", Range::Real}}, {{flat}, {}}};
+  const UnsatProblem claim{{{"x", Range::Real}}, {{flat}, {}}};
   EXPECT_TRUE(verify(claim, {Combination{{{1, {}, {kX}}, {1, {0}, {}}}, {}}, {}}).has_value());
-  const Claim below{{{"x", Range::Real}}, {{{flat.polynomial, Relation::Positive}}, {}}};
+  const UnsatProblem below{{{"x", Range::Real}}, {{{flat.polynomial, Relation::Positive}}, {}}};
   EXPECT_FALSE(verify(below, {Combination{{{1, {}, {kX}}, {1, {0}, {}}}, {}}, {}}).has_value());
 }
 
 TEST(Checker, WeakHypothesesGiveNoStrictContradiction) {
-  const Claim claim{{{"x", Range::Real}}, {{{kX, Relation::NonNegative}, {scaled(kX, -1), Relation::NonNegative}}, {}}};
+  const UnsatProblem claim{{{"x", Range::Real}},
+                           {{{kX, Relation::NonNegative}, {scaled(kX, -1), Relation::NonNegative}}, {}}};
   EXPECT_TRUE(verify(claim, {Combination{{{1, {0}, {}}, {1, {1}, {}}}, {}}, {}}).has_value()) << "x = 0 satisfies it";
 }
 
 TEST(Checker, EqualitiesStandInNoProduct) {
   // x = 0 as a product with multiplier 1, -1 - x >= 0 is false at 0, yet x - 1 = 0 used with a sign would hide it.
-  const Claim claim{{{"x", Range::Real}},
-                    {{{kX, Relation::Zero}, {sum(scaled(kX, -1), constant(-1)), Relation::Zero}}, {}}};
+  const UnsatProblem claim{{{"x", Range::Real}},
+                           {{{kX, Relation::Zero}, {sum(scaled(kX, -1), constant(-1)), Relation::Zero}}, {}}};
   EXPECT_TRUE(verify(claim, {Combination{{{1, {0}, {}}, {1, {1}, {}}}, {}}, {}}).has_value());
   const Certificate right{Combination{{}, {{constant(1), 0}, {constant(1), 1}}}, {}};
   EXPECT_FALSE(verify(claim, right).has_value());
-  const Claim weak{{{"x", Range::Real}},
-                   {{{kX, Relation::NonNegative}, {sum(kX, constant(1)), Relation::NonNegative}}, {}}};
+  const UnsatProblem weak{{{"x", Range::Real}},
+                          {{{kX, Relation::NonNegative}, {sum(kX, constant(1)), Relation::NonNegative}}, {}}};
   const Certificate free{Combination{{}, {{constant(1), 0}, {constant(-1), 1}}}, {}};
   EXPECT_TRUE(verify(weak, free).has_value()) << "free multipliers are for equalities";
 }
 
 TEST(Checker, IntegersAreTightenedAndSplit) {
   // 2n = 1 has no integer solution.
-  const Claim odd{{{"n", Range::Integer}}, {{{sum(scaled(kX, 2), constant(-1)), Relation::Zero}}, {}}};
+  const UnsatProblem odd{{{"n", Range::Integer}}, {{{sum(scaled(kX, 2), constant(-1)), Relation::Zero}}, {}}};
   const Certificate tighten{Tighten{0}, {{Combination{{{1, {1}, {}}}, {{constant(Number(-1) / 2), 0}}}, {}}}};
   const std::optional<Error> wrong = verify(odd, tighten);
   EXPECT_FALSE(wrong.has_value()) << wrong->message;
-  const Claim half{{{"n", Range::Real}}, odd.conjunction};
+  const UnsatProblem half{{{"n", Range::Real}}, odd.conjunction};
   EXPECT_TRUE(verify(half, tighten).has_value()) << "a real may be 1/2";
   const Certificate split{
       IntegerSplit{kX, 0},
@@ -108,7 +109,7 @@ TEST(Checker, EveryAlternativeNeedsItsBranch) {
   const Constraint positive{kX, Relation::Positive};
   const Clause clause{{{{{scaled(kX, -1), Relation::NonNegative}}, {}},
                        {{{sum(scaled(kX, -1), constant(-1)), Relation::NonNegative}}, {}}}};
-  const Claim claim{{{"x", Range::Real}}, {{positive}, {clause}}};
+  const UnsatProblem claim{{{"x", Range::Real}}, {{positive}, {clause}}};
   const Certificate branch{Combination{{{1, {0}, {}}, {1, {1}, {}}}, {}}, {}};
   EXPECT_FALSE(verify(claim, {ClauseSplit{0}, {branch, branch}}).has_value());
   EXPECT_TRUE(verify(claim, {ClauseSplit{0}, {branch}}).has_value());
@@ -118,13 +119,13 @@ TEST(Checker, EveryAlternativeNeedsItsBranch) {
 TEST(CheckerText, ComesBack) {
   const Clause clause{
       {{{{kX, Relation::Zero}}, {}}, {{{kY, Relation::Positive}}, {{{{{{kX, Relation::NonNegative}}, {}}}}}}}};
-  Claim claim = productClaim();
+  UnsatProblem claim = productClaim();
   claim.variables[0].name = "#500 (A)";
   claim.conjunction.clauses.push_back(clause);
   claim.conjunction.clauses.push_back(Clause{{clause.alternatives.front()}});
   const Conjunction nested{{{{}, Relation::Zero}}, {clause, Clause{}}};
   claim.conjunction.clauses.push_back(Clause{{Conjunction{}, nested}});
-  Result<Claim> read = readClaim(writeClaim(claim));
+  Result<UnsatProblem> read = readClaim(writeClaim(claim));
   ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_EQ(read.value(), claim);
 
@@ -138,7 +139,7 @@ TEST(CheckerText, ComesBack) {
 }
 
 TEST(CheckerText, RefusesDamage) {
-  const Claim claim = productClaim();
+  const UnsatProblem claim = productClaim();
   const auto refuses = [](const std::string &middle) {
     return !readClaim("(set-logic QF_LRA)" + middle + "(check-sat)").ok();
   };

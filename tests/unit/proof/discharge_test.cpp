@@ -28,7 +28,7 @@ protected:
     const Proved &proved = std::get<Proved>(outcome.answer);
     ASSERT_EQ(proved.grade, Grade::Certified);
     const auto &evidence = std::get<CertificateEvidence>(proved.evidence);
-    Result<check::Claim> claim = check::readClaim(evidence.claim);
+    Result<check::UnsatProblem> claim = check::readClaim(evidence.claim);
     ASSERT_TRUE(claim.ok()) << claim.error().message;
     Result<check::Certificate> certificate = check::readCertificate(claim.value(), evidence.certificate);
     ASSERT_TRUE(certificate.ok()) << certificate.error().message;
@@ -61,12 +61,12 @@ TEST_F(DischargeTest, LinearChains) {
 }
 
 TEST_F(DischargeTest, PassesOfADepth) {
-  // n = FUP[#1/#2]: the depth of a pass, #1/n, is never above #2.
-  const TermId passes = store.ceiling(store.divide(x, y));
+  // n = FUP[#1/#2]: the depth of a iteration, #1/n, is never above #2.
+  const TermId iterations = store.ceiling(store.divide(x, y));
   const std::vector<TermId> contract{store.less(number(0), x), store.lessOrEqual(x, number(200)),
                                      store.less(number(0), y), store.lessOrEqual(y, number(20))};
-  expectCertified({contract, store.notEqual(passes, number(0))});
-  expectCertified({contract, store.lessOrEqual(store.divide(x, passes), y)});
+  expectCertified({contract, store.notEqual(iterations, number(0))});
+  expectCertified({contract, store.lessOrEqual(store.divide(x, iterations), y)});
 }
 
 TEST_F(DischargeTest, RootsOfACircle) {

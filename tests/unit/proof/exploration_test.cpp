@@ -15,16 +15,16 @@ TEST(Exploration, FollowsBothWaysOfACondition) {
 TEST(Exploration, LeavesOutAWayThatContradictsThePath) {
   const Explored program("O1\n#1=3\nIF[#1GT5]GOTO10\nM99\nN10#3000=1\n");
   EXPECT_EQ(program.found.exits.size(), 1U);
-  EXPECT_TRUE(program.found.checks.empty());
+  EXPECT_TRUE(program.found.stopSites.empty());
 }
 
 TEST(Exploration, RecordsWhereARunMayStop) {
   const Explored program("O1\n#2=1/#1\nIF[#1GT5]THEN#3000=7\nM99\n");
-  ASSERT_EQ(program.found.checks.size(), 2U);
-  EXPECT_EQ(program.found.checks[0].alarm, AlarmKind::DivideByZero);
-  EXPECT_EQ(program.lineOf(program.found.checks[0].place), 2U);
-  EXPECT_FALSE(program.found.checks[1].alarm); // `#3000=`
-  EXPECT_EQ(program.lineOf(program.found.checks[1].place), 3U);
+  ASSERT_EQ(program.found.stopSites.size(), 2U);
+  EXPECT_EQ(program.found.stopSites[0].alarm, AlarmKind::DivideByZero);
+  EXPECT_EQ(program.lineOf(program.found.stopSites[0].place), 2U);
+  EXPECT_FALSE(program.found.stopSites[1].alarm); // `#3000=`
+  EXPECT_EQ(program.lineOf(program.found.stopSites[1].place), 3U);
 }
 
 TEST(Exploration, MeetsALoopOnceInAnyOfItsPasses) {
@@ -36,14 +36,14 @@ TEST(Exploration, MeetsALoopOnceInAnyOfItsPasses) {
 
 TEST(Exploration, FollowsEachPassWhereItIsAsked) {
   const Explored program("O1\n#1=0\nWHILE[#1LT3]DO1\n#500=#1\n#1=#1+1\nEND1\nM99\n",
-                         {.loops = LoopTreatment::EachPass});
+                         {.loops = LoopTreatment::EachIteration});
   ASSERT_EQ(program.found.exits.size(), 1U);
   smt::TermStore &store = const_cast<Explored &>(program).start.store();
   EXPECT_EQ(program.found.exits[0].state.variables.find(500)->number, store.number(smt::Number(2)));
 }
 
 TEST(Exploration, TellsThatAPathComesBackToItsState) {
-  const Explored program("O1\nWHILE[1EQ1]DO1\nEND1\nM99\n", {.loops = LoopTreatment::EachPass});
+  const Explored program("O1\nWHILE[1EQ1]DO1\nEND1\nM99\n", {.loops = LoopTreatment::EachIteration});
   EXPECT_EQ(program.found.repeats.size(), 1U);
   EXPECT_TRUE(program.found.exits.empty());
 }
@@ -65,7 +65,7 @@ TEST(Exploration, AWriteToAnUnknownNumberMayBeToAny) {
 
 TEST(Exploration, AProgramThatIsNotThereMayDoAnything) {
   const Explored program("O1\nM98P2\nM99\n");
-  EXPECT_EQ(program.found.unfollowedCalls.size(), 1U);
+  EXPECT_EQ(program.found.unmodelledCalls.size(), 1U);
   EXPECT_EQ(program.found.exits.size(), 1U);
 }
 

@@ -4,6 +4,7 @@
 #include "dialects/registry.h"
 #include "language/parse/parse.h"
 #include "proof/context/proof_context.h"
+#include "proof/families/families.h"
 
 #include <memory>
 #include <string>
@@ -45,7 +46,7 @@ struct Explored : ParsedProgram {
   ProofSubject subject{set, main(), nullptr, options};
   ProofStart start{subject};
   Exploration found;
-  BrokenPromises promises{subject};
+  BrokenPromises promises{subject, promiseQuestions};
   LoopEnds ends;
 
 private:

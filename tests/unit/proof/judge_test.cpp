@@ -1,6 +1,6 @@
 // The judge, on verdicts that are false on purpose.
-#include "proof/prove/judge.h"
 #include "proof/families/families.h"
+#include "proof/prove/judge.h"
 #include "unit/proof/explored.h"
 
 #include <gtest/gtest.h>

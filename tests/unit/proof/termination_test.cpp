@@ -1,4 +1,4 @@
-// Loops by their passes: what ends them, and from where they go on for ever.
+// Loops by their iterations: what ends them, and from where they go on for ever.
 #include "proof/termination/termination.h"
 
 #include "dialects/registry.h"
@@ -17,7 +17,7 @@ using smt::TermStore;
 class LoopTest : public ::testing::Test {
 protected:
   LoopTest() {
-    loop.passes = store.variable("passes", Sort::Int);
+    loop.iterations = store.variable("passes", Sort::Int);
     loop.mark = store.size();
     x = variable("x");
     y = variable("y");
@@ -33,10 +33,10 @@ protected:
   TermId atMost(TermId left, TermId right) { return store.lessOrEqual(left, right); }
 
   /// What is not named stays as it is.
-  void pass(std::vector<TermId> conditions, const smt::Substitution &changes) {
+  void iteration(std::vector<TermId> conditions, const smt::Substitution &changes) {
     Transition transition{loop.arrival, changes};
     transition.conditions.insert(transition.conditions.end(), conditions.begin(), conditions.end());
-    transition.next.emplace(loop.passes, plus(loop.passes, 1));
+    transition.next.emplace(loop.iterations, plus(loop.iterations, 1));
     for (const TermId each : loop.variables)
       transition.next.emplace(each, each);
     loop.transitions.push_back(std::move(transition));
@@ -44,10 +44,10 @@ protected:
   bool ends() { return provesEnd(reading, store, loop).proved; }
 
   TermStore store;
-  SymbolicReading reading{store, *findDialect(allDialects(), "fanuc-30i")};
+  SymbolicInterpretation reading{store, *findDialect(allDialects(), "fanuc-30i")};
   TermId n = store.variable("n", Sort::Int);
   TermId zero = number(0);
-  LoopInstance loop{.head = {FileId(0), NodeId(0)}, .calls = {}, .passes = zero, .mark = 0, .arrival = {}};
+  LoopInstance loop{.head = {FileId(0), NodeId(0)}, .calls = {}, .iterations = zero, .mark = 0, .arrival = {}};
   TermId x = zero;
   TermId y = zero;
 };
@@ -55,62 +55,62 @@ protected:
 using Ends = LoopTest;
 
 TEST_F(Ends, WhatFallsToABound) {
-  pass({less(zero, x)}, {{x, plus(x, -1)}});
+  iteration({less(zero, x)}, {{x, plus(x, -1)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, WhatOnlyFalls) {
-  pass({less(x, number(9))}, {{x, plus(x, -1)}});
+  iteration({less(x, number(9))}, {{x, plus(x, -1)}});
   EXPECT_FALSE(ends());
 }
 TEST_F(Ends, SumWithFactors) {
   const TermId isLow = atMost(x, number(100));
-  pass({less(zero, y), isLow, less(number(-50), x)}, {{x, plus(x, 11)}, {y, plus(y, -6)}});
-  pass({less(zero, y), less(number(-50), x), store.logicalNot(isLow)}, {{x, plus(x, -10)}, {y, plus(y, 5)}});
+  iteration({less(zero, y), isLow, less(number(-50), x)}, {{x, plus(x, 11)}, {y, plus(y, -6)}});
+  iteration({less(zero, y), less(number(-50), x), store.logicalNot(isLow)}, {{x, plus(x, -10)}, {y, plus(y, 5)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, SumThatOnePassRaises) {
   const TermId isLow = atMost(x, number(100));
-  pass({less(zero, y), isLow, less(number(-50), x)}, {{x, plus(x, 11)}, {y, plus(y, -6)}});
-  pass({less(zero, y), less(number(-50), x), store.logicalNot(isLow)}, {{x, plus(x, -10)}, {y, plus(y, 6)}});
+  iteration({less(zero, y), isLow, less(number(-50), x)}, {{x, plus(x, 11)}, {y, plus(y, -6)}});
+  iteration({less(zero, y), less(number(-50), x), store.logicalNot(isLow)}, {{x, plus(x, -10)}, {y, plus(y, 6)}});
   EXPECT_FALSE(ends());
 }
 TEST_F(Ends, SpeedThatFalls) {
-  pass({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, -1)}});
+  iteration({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, -1)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, SpeedOfASpeed) {
   const TermId z = variable("z");
-  pass({atMost(zero, x)}, {{x, store.add(x, y)}, {y, store.add(y, z)}, {z, plus(z, -1)}});
+  iteration({atMost(zero, x)}, {{x, store.add(x, y)}, {y, store.add(y, z)}, {z, plus(z, -1)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, SpeedThatRises) {
-  pass({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, 1)}});
+  iteration({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, 1)}});
   EXPECT_FALSE(ends());
 }
 TEST_F(Ends, SpeedThatTurns) {
-  pass({less(zero, x)}, {{x, plus(store.add(x, y), -1)}, {y, store.negate(y)}});
+  iteration({less(zero, x)}, {{x, plus(store.add(x, y), -1)}, {y, store.negate(y)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, SpeedThatTurnsAndDoesNotFall) {
-  pass({less(zero, x)}, {{x, store.add(x, y)}, {y, store.negate(y)}});
+  iteration({less(zero, x)}, {{x, store.add(x, y)}, {y, store.negate(y)}});
   EXPECT_FALSE(ends());
 }
 TEST_F(Ends, SidesChangeAndTheDistanceFalls) {
-  pass({less(zero, x)}, {{x, store.subtract(number(1), x)}});
-  pass({less(x, zero)}, {{x, plus(store.negate(x), -1)}});
+  iteration({less(zero, x)}, {{x, store.subtract(number(1), x)}});
+  iteration({less(x, zero)}, {{x, plus(store.negate(x), -1)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, SidesChangeAndTheDistanceStays) {
-  pass({less(zero, x)}, {{x, store.negate(x)}});
-  pass({less(x, zero)}, {{x, store.negate(x)}});
+  iteration({less(zero, x)}, {{x, store.negate(x)}});
+  iteration({less(x, zero)}, {{x, store.negate(x)}});
   EXPECT_FALSE(ends());
 }
 TEST_F(Ends, WhileEitherIsLeft) {
-  pass({store.logicalOr(less(zero, x), less(zero, y))}, {{x, plus(x, -1)}, {y, plus(y, -2)}});
+  iteration({store.logicalOr(less(zero, x), less(zero, y))}, {{x, plus(x, -1)}, {y, plus(y, -2)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, WhileEitherIsLeftAndOneStays) {
-  pass({store.logicalOr(less(zero, x), less(zero, y))}, {{x, plus(x, -1)}});
+  iteration({store.logicalOr(less(zero, x), less(zero, y))}, {{x, plus(x, -1)}});
   EXPECT_FALSE(ends());
 }
 /// Up to the top, once to 0, and up to n.
@@ -118,30 +118,30 @@ TEST_F(Ends, WhatOnePassLeavesLasts) {
   const TermId isElsewhere = store.notEqual(x, n);
   const TermId isBelow = atMost(x, number(20));
   loop.arrival = {atMost(zero, n), atMost(n, number(20))};
-  pass({isElsewhere, isBelow}, {{x, plus(x, 1)}});
-  pass({isElsewhere, store.logicalNot(isBelow)}, {{x, zero}});
+  iteration({isElsewhere, isBelow}, {{x, plus(x, 1)}});
+  iteration({isElsewhere, store.logicalNot(isBelow)}, {{x, zero}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, ARingWithoutThePlace) {
   const TermId isElsewhere = store.notEqual(x, n);
   const TermId isBelow = atMost(x, number(20));
   loop.arrival = {atMost(zero, n)};
-  pass({isElsewhere, isBelow}, {{x, plus(x, 1)}});
-  pass({isElsewhere, store.logicalNot(isBelow)}, {{x, zero}});
+  iteration({isElsewhere, isBelow}, {{x, plus(x, 1)}});
+  iteration({isElsewhere, store.logicalNot(isBelow)}, {{x, zero}});
   EXPECT_FALSE(ends());
 }
 /// The lower one is taken from the higher, which needs both to be positive.
 TEST_F(Ends, WhatHoldsAtTheArrivalSupports) {
   loop.arrival = {atMost(number(1), n)};
-  loop.first = {{loop.passes, zero}, {x, n}, {y, number(12)}};
-  pass({less(x, y)}, {{y, store.subtract(y, x)}});
-  pass({less(y, x)}, {{x, store.subtract(x, y)}});
+  loop.first = {{loop.iterations, zero}, {x, n}, {y, number(12)}};
+  iteration({less(x, y)}, {{y, store.subtract(y, x)}});
+  iteration({less(y, x)}, {{x, store.subtract(x, y)}});
   EXPECT_TRUE(ends());
 }
 TEST_F(Ends, NoSupportAtTheArrival) {
-  loop.first = {{loop.passes, zero}, {x, n}, {y, number(12)}};
-  pass({less(x, y)}, {{y, store.subtract(y, x)}});
-  pass({less(y, x)}, {{x, store.subtract(x, y)}});
+  loop.first = {{loop.iterations, zero}, {x, n}, {y, number(12)}};
+  iteration({less(x, y)}, {{y, store.subtract(y, x)}});
+  iteration({less(y, x)}, {{x, store.subtract(x, y)}});
   EXPECT_FALSE(ends());
 }
 
@@ -156,7 +156,7 @@ protected:
       inputs.emplace(store[value.number].name, Number(held));
       inputs.emplace(store[value.vacant].name, false);
     }
-    loop.first = {{loop.passes, zero}, {x, a.number}, {y, b.number}};
+    loop.first = {{loop.iterations, zero}, {x, a.number}, {y, b.number}};
     for (const TermId each : loop.variables)
       loop.first.emplace(each, zero);
     Exploration exploration;
@@ -166,45 +166,45 @@ protected:
 };
 
 TEST_F(GoesOn, StepOverTheEnd) {
-  pass({store.notEqual(x, zero)}, {{x, plus(x, -2)}});
+  iteration({store.notEqual(x, zero)}, {{x, plus(x, -2)}});
   EXPECT_TRUE(from(1, 0));
   EXPECT_FALSE(from(2, 0));
-  EXPECT_FALSE(from(200, 0)); // behind the passes that are followed
+  EXPECT_FALSE(from(200, 0)); // behind the iterations that are followed
 }
 TEST_F(GoesOn, TheSpeedGrows) {
-  pass({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, 1)}});
+  iteration({atMost(zero, x)}, {{x, store.add(x, y)}, {y, plus(y, 1)}});
   EXPECT_TRUE(from(3, 0));
   EXPECT_TRUE(from(100, -10)); // after it has fallen
   EXPECT_FALSE(from(3, -10));
 }
 TEST_F(GoesOn, GrowthOfBoth) {
-  pass({less(zero, x)}, {{x, store.scale(Number(2), y)}, {y, store.scale(Number(3), x)}});
+  iteration({less(zero, x)}, {{x, store.scale(Number(2), y)}, {y, store.scale(Number(3), x)}});
   EXPECT_TRUE(from(1, 1));
   EXPECT_FALSE(from(1, -1));
 }
 TEST_F(GoesOn, SidesChangeAndTheDistanceGrows) {
-  pass({store.notEqual(x, zero), less(zero, x)}, {{x, plus(store.negate(x), -1)}});
-  pass({store.notEqual(x, zero), atMost(x, zero)}, {{x, plus(store.negate(x), 1)}});
+  iteration({store.notEqual(x, zero), less(zero, x)}, {{x, plus(store.negate(x), -1)}});
+  iteration({store.notEqual(x, zero), atMost(x, zero)}, {{x, plus(store.negate(x), 1)}});
   EXPECT_TRUE(from(5, 0));
 }
-/// The passes are closed under their conditions, and there is another way at the branch.
+/// The iterations are closed under their conditions, and there is another way at the branch.
 TEST_F(GoesOn, AWayOutThatComesLate) {
-  pass({less(zero, x), less(y, number(1000))}, {{x, plus(x, 1)}, {y, plus(y, 1)}});
+  iteration({less(zero, x), less(y, number(1000))}, {{x, plus(x, 1)}, {y, plus(y, 1)}});
   EXPECT_FALSE(from(1, 0));
 }
 TEST_F(GoesOn, AWayOutThatAnUnknownTakes) {
   const TermId unknown = store.variable("any 1", Sort::Real);
-  pass({less(zero, x), less(unknown, number(7))}, {{x, plus(x, 1)}});
+  iteration({less(zero, x), less(unknown, number(7))}, {{x, plus(x, 1)}});
   EXPECT_FALSE(from(1, 0));
 }
 TEST_F(GoesOn, ASignalThatStaysOff) {
   const TermId signal = store.variable("read of #1000 3", Sort::Real);
-  pass({store.notEqual(signal, number(1))}, {{x, plus(x, 1)}});
+  iteration({store.notEqual(signal, number(1))}, {{x, plus(x, 1)}});
   EXPECT_TRUE(from(1, 0));
 }
 TEST_F(GoesOn, AClockDoesNotStandStill) {
   const TermId clock = store.variable("read of #3001 3", Sort::Real);
-  pass({less(clock, number(500))}, {{x, plus(x, 1)}});
+  iteration({less(clock, number(500))}, {{x, plus(x, 1)}});
   EXPECT_FALSE(from(1, 0));
 }
 

@@ -1,5 +1,5 @@
 // From terms to a claim: negation normal form, nothing clever.
-#include "proof/check/claim.h"
+#include "proof/check/problem.h"
 
 #include "base/support/check.h"
 
@@ -28,7 +28,7 @@ class Builder {
 public:
   explicit Builder(const smt::TermStore &store) : store_(store) {}
 
-  Result<Claim> build(std::span<const TermId> formulas) {
+  Result<UnsatProblem> build(std::span<const TermId> formulas) {
     const std::vector<TermId> all = smt::reachable(store_, formulas);
     for (TermId id : all)
       prepare(id);
@@ -189,7 +189,7 @@ private:
   }
 
   const smt::TermStore &store_;
-  Claim claim_;
+  UnsatProblem claim_;
   std::map<TermId, Polynomial> polynomials_;
   std::size_t constraints_ = 0, ites_ = 0;
   std::string failure_;
@@ -197,7 +197,7 @@ private:
 
 } // namespace
 
-Result<Claim> claimOf(const smt::TermStore &store, std::span<const TermId> formulas) {
+Result<UnsatProblem> claimOf(const smt::TermStore &store, std::span<const TermId> formulas) {
   return Builder(store).build(formulas);
 }
 

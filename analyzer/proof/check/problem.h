@@ -1,4 +1,4 @@
-// Claim: constraints over polynomials that are said to contradict one another.
+// UnsatProblem: constraints over polynomials that are said to contradict one another.
 #pragma once
 
 #include "base/support/result.h"
@@ -41,19 +41,19 @@ struct ClaimVariable {
   friend bool operator==(const ClaimVariable &, const ClaimVariable &) = default;
 };
 
-struct Claim {
+struct UnsatProblem {
   std::vector<ClaimVariable> variables; ///< by the number that polynomials use
   Conjunction conjunction;
-  friend bool operator==(const Claim &, const Claim &) = default;
+  friend bool operator==(const UnsatProblem &, const UnsatProblem &) = default;
 };
 
 /// The claim that the formulas (Bool terms without Divide and Apply) contradict one another.  The claim is
 /// satisfiable wherever the formulas are: a Bool variable becomes an integer in 0..1, an ite of numbers a new
 /// variable that equals one branch or the other.  Refused when it grows beyond a bound.
-Result<Claim> claimOf(const smt::TermStore &store, std::span<const smt::TermId> formulas);
+Result<UnsatProblem> claimOf(const smt::TermStore &store, std::span<const smt::TermId> formulas);
 
 /// As SMT-LIB 2: `unsat` says that the claim is right. `readClaim` gives the same claim back.
-std::string writeClaim(const Claim &claim);
-Result<Claim> readClaim(std::string_view text);
+std::string writeClaim(const UnsatProblem &claim);
+Result<UnsatProblem> readClaim(std::string_view text);
 
 } // namespace feedhold::check

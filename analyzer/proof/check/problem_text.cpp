@@ -1,6 +1,6 @@
 // Claims as SMT-LIB 2, so that any solver can be asked of them: an `assert` for each constraint, then for each clause.
 // Of SMT-LIB only what is written here is read back.
-#include "proof/check/claim.h"
+#include "proof/check/problem.h"
 #include "proof/check/variable_names.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ template <typename Wanted> bool anyConstraint(const Conjunction &conjunction, co
          });
 }
 
-std::string logicOf(const Claim &claim) {
+std::string logicOf(const UnsatProblem &claim) {
   const bool hasProducts =
       anyConstraint(claim.conjunction, [](const Constraint &constraint) { return degree(constraint.polynomial) > 1; });
   const bool hasIntegers = std::any_of(claim.variables.begin(), claim.variables.end(),
@@ -48,7 +48,7 @@ std::string text(const Number &value) {
 
 class Writer {
 public:
-  explicit Writer(const Claim &claim) : claim_(claim) {}
+  explicit Writer(const UnsatProblem &claim) : claim_(claim) {}
 
   std::string write() const {
     std::string result = "(set-logic " + logicOf(claim_) + ")\n";
@@ -119,17 +119,17 @@ private:
     return result;
   }
 
-  const Claim &claim_;
+  const UnsatProblem &claim_;
 };
 
 // ---- reading ----
 
 class ClaimReader {
 public:
-  Claim claim(std::span<const SExpression> items) {
+  UnsatProblem claim(std::span<const SExpression> items) {
     if (items.size() < 2 || !items.front().isCall("set-logic") || !items.back().isCall("check-sat"))
       throw Malformed{"the text is no claim: it does not go from `set-logic` to `check-sat`"};
-    Claim claim;
+    UnsatProblem claim;
     for (const SExpression &item : items.subspan(1, items.size() - 2))
       if (item.isCall("declare-const"))
         claim.variables.push_back(declared(item));
@@ -220,9 +220,9 @@ private:
 
 } // namespace
 
-std::string writeClaim(const Claim &claim) { return Writer(claim).write(); }
+std::string writeClaim(const UnsatProblem &claim) { return Writer(claim).write(); }
 
-Result<Claim> readClaim(std::string_view text) {
+Result<UnsatProblem> readClaim(std::string_view text) {
   const Result<std::vector<SExpression>> items = smt::readSExpressions(text);
   if (!items)
     return items.error();
