@@ -1,7 +1,7 @@
 // Bundle folders: bundles of proofs on disk.
 #pragma once
 
-#include "surface/sink/proof_bundle.h"
+#include "surface/evidence/evidence_bundle.h"
 
 #include <filesystem>
 

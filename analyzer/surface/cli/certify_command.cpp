@@ -1,9 +1,9 @@
 // `feedhold certify [PATHS] -o FOLDER`: a report of proofs for people who release programs.
 #include "dialects/registry.h"
 #include "surface/cli/bundle_folder.h"
-#include "surface/cli/certificate_run.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/kind_options.h"
+#include "surface/cli/report_run.h"
 #include "surface/cli/terminal.h"
 
 #include <fmt/chrono.h>
@@ -65,8 +65,8 @@ std::filesystem::path plainPath(const std::string &path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
-Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
-  CertificateWish wish;
+Result<ReportOptions> wishOf(const CertifyArguments &arguments) {
+  ReportOptions wish;
   for (const std::string &path : arguments.paths) {
     if (path == "-")
       return Error{"standard input cannot be found again, so that there is nothing to certify"};
@@ -90,23 +90,23 @@ Result<CertificateWish> wishOf(const CertifyArguments &arguments) {
   return wish;
 }
 
-int exitCodeOf(Standing standing) {
-  switch (standing) {
-  case Standing::Ready: return kExitClean;
-  case Standing::Open: return kExitUnknown;
-  case Standing::Alarms:
-  case Standing::Broken: return kExitFindings;
+int exitCodeOf(ReleaseStatus status) {
+  switch (status) {
+  case ReleaseStatus::Ready: return kExitClean;
+  case ReleaseStatus::Open: return kExitUnknown;
+  case ReleaseStatus::Alarms:
+  case ReleaseStatus::Broken: return kExitFindings;
   }
   return kExitCouldNotRun;
 }
 
 Result<int> certify(const CertifyArguments &arguments) {
-  const Result<CertificateWish> wish = wishOf(arguments);
+  const Result<ReportOptions> wish = wishOf(arguments);
   if (!wish)
     return wish.error();
-  if (const auto refusal = whyNoBundleFits(arguments.output, kCertificate))
+  if (const auto refusal = whyNoBundleFits(arguments.output, kReportDocument))
     return Error{arguments.output + ": " + refusal->message};
-  const CertificateRun run = runCertificate(wish.value(), arguments.output, arguments.jobs);
+  const ReportRun run = runReport(wish.value(), arguments.output, arguments.jobs);
   for (const PathProblem &problem : run.problems)
     printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())
@@ -115,8 +115,8 @@ Result<int> certify(const CertifyArguments &arguments) {
     return Error{arguments.output + ": " + error->message};
   if (!arguments.quiet)
     print(fmt::format("{} in {} program{}: {}\n", textOf(run.counts), run.programs, run.programs == 1 ? "" : "s",
-                      (std::filesystem::path(arguments.output) / kCertificatePage).generic_string()));
-  return exitCodeOf(run.standing);
+                      (std::filesystem::path(arguments.output) / kReportPage).generic_string()));
+  return exitCodeOf(run.status);
 }
 
 int certifyOrComplain(const CertifyArguments &arguments) {

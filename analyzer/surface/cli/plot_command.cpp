@@ -3,7 +3,7 @@
 #include "surface/cli/commands.h"
 #include "surface/cli/run_input.h"
 #include "surface/cli/terminal.h"
-#include "surface/sink/run_picture.h"
+#include "surface/plot/run_picture.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

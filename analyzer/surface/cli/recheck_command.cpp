@@ -4,10 +4,10 @@
 #include "proof/smt/solver.h"
 #include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
-#include "surface/cli/certificate_run.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/report_run.h"
 #include "surface/cli/terminal.h"
-#include "surface/sink/evidence_check.h"
+#include "surface/evidence/evidence_check.h"
 
 #include <fmt/format.h>
 
@@ -99,7 +99,7 @@ std::string summaryOf(const std::vector<Question> &questions) {
       agreementOf(smt::cvc5Version().value_or("cvc5, which is not installed,"), questions, &Question::cvc5));
 }
 
-std::string_view toldOfCertificate(const Question &question) {
+std::string_view toldOfReport(const Question &question) {
   if (!question.hasCertificate)
     return "";
   return question.isFollowed ? "the checker follows its certificate, " : "its certificate fails, ";
@@ -107,8 +107,8 @@ std::string_view toldOfCertificate(const Question &question) {
 
 void printEach(const std::vector<Question> &questions, std::string_view folder) {
   for (const Question &question : questions)
-    print(fmt::format("{}{}: {}Z3 {}, cvc5 {}\n", folder, question.file, toldOfCertificate(question),
-                      nameOf(question.z3), nameOf(question.cvc5)));
+    print(fmt::format("{}{}: {}Z3 {}, cvc5 {}\n", folder, question.file, toldOfReport(question), nameOf(question.z3),
+                      nameOf(question.cvc5)));
 }
 
 int present(const Findings &findings, const std::string &told, std::string_view folder,
@@ -154,7 +154,7 @@ Result<int> recheckBundle(const Bundle &stored, const RecheckArguments &argument
 
 /// Programs that lie elsewhere are compared, and not proved again: what they call may be anywhere.
 Result<int> recheckReport(const Bundle &stored, const RecheckArguments &arguments) {
-  const Result<CertificateOrigin> origin = certificateOrigin(stored, arguments.folder);
+  const Result<ReportOrigin> origin = reportOrigin(stored, arguments.folder);
   if (!origin)
     return origin.error();
   if (const auto &dialect = origin.value().wish.reading.dialect)
@@ -174,12 +174,12 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   }
   for (const std::string &gone : sources.gone)
     findings.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
-  const CertificateRun run = runCertificate(origin.value().wish, arguments.folder, arguments.jobs);
+  const ReportRun run = runReport(origin.value().wish, arguments.folder, arguments.jobs);
   for (const PathProblem &problem : run.problems)
     findings.problems.push_back(problem.path + ": " + problem.message);
   if (run.problems.empty()) {
     findings.add(differences(evidenceOf(stored), evidenceOf(run.report)));
-    findings.add(certificateDifferences(stored, run.report));
+    findings.add(reportDifferences(stored, run.report));
   }
   return present(findings, fmt::format("{}, {} proved again", compared, counted(run.counts.all(), "obligation")),
                  kEvidenceFolder, arguments, kExitClean);
@@ -189,11 +189,11 @@ Result<int> recheck(const RecheckArguments &arguments) {
   const Result<Bundle> stored = readBundle(arguments.folder);
   if (!stored)
     return stored.error();
-  if (stored.value().contains(std::string(kCertificate)))
+  if (stored.value().contains(std::string(kReportDocument)))
     return recheckReport(stored.value(), arguments);
   if (!stored.value().contains(std::string(kBundleIndex)))
     return Error{
-        fmt::format("holds neither a report nor proofs: there is no {} and no {}", kCertificate, kBundleIndex)};
+        fmt::format("holds neither a report nor proofs: there is no {} and no {}", kReportDocument, kBundleIndex)};
   if (!arguments.against.empty())
     return Error{"--against is for reports of `feedhold certify`"};
   return recheckBundle(stored.value(), arguments);

@@ -1,4 +1,4 @@
-#include "surface/sink/plot_sink.h"
+#include "surface/plot/plot_sink.h"
 
 #include <gtest/gtest.h>
 #include <limits>

@@ -1,7 +1,7 @@
 // What the parts of a certificate's page are written with.  Internal to sink/.
 #pragma once
 
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 #include "surface/sink/xml.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ struct Look {
 };
 Look lookOfClaim(const Json &obligation);
 /// Of a program, or of all.
-Look lookOfStanding(const Json &standing);
+Look lookOfStatus(const Json &status);
 std::string badge(const Look &look);
 
 /// Paths of programs as the page has them: below the folder that all of them lie in.

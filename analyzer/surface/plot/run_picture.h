@@ -2,7 +2,7 @@
 #pragma once
 
 #include "findings/session/programs.h"
-#include "surface/sink/plot_sink.h"
+#include "surface/plot/plot_sink.h"
 
 #include <span>
 #include <string>

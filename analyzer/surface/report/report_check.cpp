@@ -1,7 +1,7 @@
 // What has become of a report: whether it fits together, and whether the same programs give the same one now.
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@ namespace fs = std::filesystem;
 using certificate::Json;
 
 Result<Json> certificate::readDocument(const Bundle &report) {
-  const auto text = report.find(std::string(kCertificate));
+  const auto text = report.find(std::string(kReportDocument));
   if (text == report.end())
-    return Error{fmt::format("no report: it has no {}", kCertificate)};
+    return Error{fmt::format("no report: it has no {}", kReportDocument)};
   Json document = Json::parse(text->second, nullptr, false);
   if (document.is_discarded() || !document.is_object())
-    return Error{fmt::format("{} cannot be read", kCertificate)};
+    return Error{fmt::format("{} cannot be read", kReportDocument)};
   return document;
 }
 
@@ -53,7 +53,7 @@ private:
       for (std::size_t i = 0; i < now.size(); ++i)
         compare(where + "[" + nameOf(now[i], i) + "]", before[i], now[i]);
     else
-      lines_.push_back(fmt::format("`{}`: `{}` is not what a proof now gives", kCertificate, where));
+      lines_.push_back(fmt::format("`{}`: `{}` is not what a proof now gives", kReportDocument, where));
   }
   void compareMembers(const std::string &where, const Json &before, const Json &now) {
     const auto of = [&](const std::string &name) { return where.empty() ? name : where + "." + name; };
@@ -61,7 +61,7 @@ private:
       compare(of(name), before.contains(name) ? before.at(name) : Json(), value);
     for (const auto &[name, value] : before.items())
       if (!now.contains(name))
-        lines_.push_back(fmt::format("`{}`: `{}` does not belong there", kCertificate, of(name)));
+        lines_.push_back(fmt::format("`{}`: `{}` does not belong there", kReportDocument, of(name)));
   }
   static std::string nameOf(const Json &row, std::size_t index) {
     for (const char *member : {"id", "path", "name", "file"})
@@ -75,7 +75,7 @@ private:
 
 } // namespace
 
-Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path &folder) {
+Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) {
   const Result<Json> document = certificate::readDocument(report);
   if (!document)
     return document.error();
@@ -85,7 +85,7 @@ Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path
     const auto pathOf = [&](const Json &path) {
       return (fs::absolute(folder) / path.get<std::string>()).lexically_normal();
     };
-    CertificateOrigin origin{.version = document.value().at("feedhold"), .wish = {}};
+    ReportOrigin origin{.version = document.value().at("feedhold"), .wish = {}};
     const Json &reading = document.value().at("reading");
     for (const Json &path : reading.at("paths"))
       origin.wish.paths.push_back(pathOf(path));
@@ -102,17 +102,17 @@ Result<CertificateOrigin> certificateOrigin(const Bundle &report, const fs::path
       origin.wish.date = document.value().at("date").get<std::string>();
     return origin;
   } catch (const Json::exception &) {
-    return Error{fmt::format("{} cannot be read", kCertificate)};
+    return Error{fmt::format("{} cannot be read", kReportDocument)};
   }
 }
 
 std::vector<std::string> inconsistencies(const Bundle &report) {
   std::vector<std::string> lines;
-  const std::string &text = report.at(std::string(kCertificate));
+  const std::string &text = report.at(std::string(kReportDocument));
   try {
     const Json document = Json::parse(text);
     if (certificate::textOf(document) != text)
-      lines.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+      lines.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
     std::map<std::string, std::string> hashes;
     collectHashes(document, "", hashes);
     const std::string index = std::string(kEvidenceFolder) + std::string(kBundleIndex);
@@ -124,24 +124,24 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
       else if (sha256(file->second) != hash)
         lines.push_back(fmt::format("`{}` is not the one that was written: its hash is another", name));
     for (const auto &[name, content] : report)
-      if (name != kCertificate && name != kCertificatePage && !hashes.contains(name))
+      if (name != kReportDocument && name != kReportPage && !hashes.contains(name))
         lines.push_back(fmt::format("`{}` does not belong to the report", name));
-    const auto page = report.find(std::string(kCertificatePage));
+    const auto page = report.find(std::string(kReportPage));
     if (page == report.end())
-      lines.push_back(fmt::format("`{}` is missing", kCertificatePage));
+      lines.push_back(fmt::format("`{}` is missing", kReportPage));
     else if (page->second != certificate::pageOf(text, report))
-      lines.push_back(fmt::format("`{}` is not the page of this `{}`", kCertificatePage, kCertificate));
+      lines.push_back(fmt::format("`{}` is not the page of this `{}`", kReportPage, kReportDocument));
   } catch (const Json::exception &) {
-    lines.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+    lines.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
   }
   return lines;
 }
 
-std::vector<std::string> certificateDifferences(const Bundle &stored, const Bundle &now) {
+std::vector<std::string> reportDifferences(const Bundle &stored, const Bundle &now) {
   const Result<Json> before = certificate::readDocument(stored);
   const Result<Json> after = certificate::readDocument(now);
   if (!before || !after)
-    return {fmt::format("`{}` is not as it was written", kCertificate)};
+    return {fmt::format("`{}` is not as it was written", kReportDocument)};
   std::vector<std::string> lines = DocumentComparison().run(before.value(), after.value());
   for (const auto &[name, text] : now)
     if (const auto file = stored.find(name);

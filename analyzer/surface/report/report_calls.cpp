@@ -1,6 +1,6 @@
 // Who calls whom: a drawing of each part of the programs that hangs together, and the same in words.
-#include "surface/sink/certificate_html.h"
-#include "surface/sink/certificate_layout.h"
+#include "surface/report/report_html.h"
+#include "surface/report/report_layout.h"
 
 #include <algorithm>
 #include <map>
@@ -203,7 +203,7 @@ public:
     for (const Json &file : document.at("files"))
       for (const Json &program : file.at("programs"))
         add(file.at("path").get<std::string>() + "|" + program.at("name").get<std::string>(),
-            {program.at("name"), program.at("title"), anchorOf(file, program), lookOfStanding(program.at("standing"))});
+            {program.at("name"), program.at("title"), anchorOf(file, program), lookOfStatus(program.at("standing"))});
     for (const Json &file : document.at("files"))
       for (const Json &program : file.at("programs"))
         for (const Json &call : program.at("calls"))

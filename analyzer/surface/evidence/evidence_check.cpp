@@ -1,4 +1,4 @@
-#include "surface/sink/evidence_check.h"
+#include "surface/evidence/evidence_check.h"
 
 #include "base/support/parallel.h"
 #include "proof/check/certificate.h"

@@ -1,7 +1,7 @@
 // The parts of a certificate, each from one step to the next.  Internal to sink/.
 #pragma once
 
-#include "surface/sink/certificate.h"
+#include "surface/report/release_report.h"
 #include "surface/sink/prove_shown.h"
 
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ std::string optionsBehindFile(const TypedWitness &run, const ProvedFile &file);
 
 /// It names each file of the report but the page by its hash, those of the evidence by their index.  `runs`: by file
 /// and program.
-Json documentOf(const CertificateInput &input, const Bundle &evidence,
+Json documentOf(const ReportInput &input, const Bundle &evidence,
                 const std::vector<std::vector<std::vector<ShownRun>>> &runs);
 
 /// The page: a function of the report's other files alone.

@@ -1,4 +1,4 @@
-#include "surface/sink/certificate_layout.h"
+#include "surface/report/report_layout.h"
 
 #include <algorithm>
 #include <numeric>

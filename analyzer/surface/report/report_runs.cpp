@@ -1,8 +1,8 @@
 // The runs that a certificate draws.
 #include "proof/replay/example_run.h"
 #include "proof/space/plain_space.h"
-#include "surface/sink/certificate_parts.h"
-#include "surface/sink/run_picture.h"
+#include "surface/plot/run_picture.h"
+#include "surface/report/report_parts.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // The files that a report was made of, as they are now: where they were, or below another folder.
 #include "base/support/sha256.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
 
@@ -154,7 +154,7 @@ SourceCheck checkSources(const Bundle &report, const fs::path &folder, const std
         ++result.same;
     }
   } catch (const Json::exception &) {
-    result.changed.push_back(fmt::format("`{}` is not as it was written", kCertificate));
+    result.changed.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
   }
   return result;
 }

@@ -3,37 +3,37 @@
 #pragma once
 
 #include "findings/session/result.h"
-#include "surface/sink/proof_bundle.h"
+#include "surface/evidence/evidence_bundle.h"
 
 #include <functional>
 
 namespace feedhold {
 
-inline constexpr std::string_view kCertificate = "certificate.json";
-inline constexpr std::string_view kCertificatePage = "index.html";
+inline constexpr std::string_view kReportDocument = "certificate.json";
+inline constexpr std::string_view kReportPage = "index.html";
 inline constexpr std::string_view kEvidenceFolder = "certificate/"; // holds a bundle of proofs
 
 /// How a certificate was asked for, beside how programs are read.
-struct CertificateWish {
+struct ReportOptions {
   std::vector<std::filesystem::path> paths; // that were named
   BundleReading reading;
   std::optional<std::string> date; // as it is shown; absent: no date, so that the same input gives the same bytes
 };
 
 /// Whether a program may be released by what was proved, the worst last.
-enum class Standing : std::uint8_t {
+enum class ReleaseStatus : std::uint8_t {
   Ready,  // every claim holds
   Open,   // something is neither proved nor refuted, or cannot be read
   Alarms, // a call raises an alarm that the contract does not foresee
   Broken, // a call breaks a claim
 };
-std::string_view nameOf(Standing standing);
-Standing standingOf(const ProvedFile &file, const ProvedProgram &program);
+std::string_view nameOf(ReleaseStatus status);
+ReleaseStatus releaseStatusOf(const ProvedFile &file, const ProvedProgram &program);
 /// The worst of all programs.  Where nothing at all is claimed, nothing is proved.
-Standing standingOf(const ProofsResult &proofs);
+ReleaseStatus releaseStatusOf(const ProofsResult &proofs);
 
-struct CertificateInput {
-  const CertificateWish &wish;
+struct ReportInput {
+  const ReportOptions &wish;
   const ProofsResult &proofs;
   const CheckResult &findings; // of the same files
   const DialectRegistry &dialects;
@@ -46,14 +46,14 @@ struct CertificateInput {
 };
 
 /// All files of the report.  The same input gives the same bytes.
-Bundle makeCertificate(const CertificateInput &input);
+Bundle makeReport(const ReportInput &input);
 
 /// How a report says that it was asked for.
-struct CertificateOrigin {
+struct ReportOrigin {
   std::string version;
-  CertificateWish wish; // paths as seen from here
+  ReportOptions wish; // paths as seen from here
 };
-Result<CertificateOrigin> certificateOrigin(const Bundle &report, const std::filesystem::path &folder);
+Result<ReportOrigin> reportOrigin(const Bundle &report, const std::filesystem::path &folder);
 
 /// Whether the report fits together: every file is the one that `certificate.json` names, and the page says what it
 /// says.  A line for each difference.
@@ -70,7 +70,7 @@ SourceCheck checkSources(const Bundle &report, const std::filesystem::path &fold
                          const std::optional<std::filesystem::path> &place);
 
 /// How a report differs from the one that the same programs give now, beside what differences() tells of its evidence.
-std::vector<std::string> certificateDifferences(const Bundle &stored, const Bundle &now);
+std::vector<std::string> reportDifferences(const Bundle &stored, const Bundle &now);
 
 /// The bundle of proofs in a report.
 Bundle evidenceOf(const Bundle &report);

@@ -1,4 +1,4 @@
-#include "surface/sink/proof_bundle.h"
+#include "surface/evidence/evidence_bundle.h"
 #include "surface/sink/json_parts.h"
 
 #include "base/support/match.h"

@@ -1,8 +1,8 @@
-#include "surface/sink/certificate.h"
+#include "surface/report/release_report.h"
 
 #include "base/support/parallel.h"
 #include "base/support/sha256.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using Runs = std::vector<std::vector<std::vector<ShownRun>>>; // by file and program
 
-Runs runsOf(const CertificateInput &input) {
+Runs runsOf(const ReportInput &input) {
   Runs runs;
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
   for (const ProvedFile &file : input.proofs.files) {
@@ -46,7 +46,7 @@ void addPictures(Bundle &report, const Json &document, const Runs &runs) {
 
 } // namespace
 
-Bundle makeCertificate(const CertificateInput &input) {
+Bundle makeReport(const ReportInput &input) {
   const Bundle evidence = makeBundle(input.proofs, input.wish.reading, input.version, input.folder / kEvidenceFolder);
   const Runs runs = runsOf(input);
   const Json document = certificate::documentOf(input, evidence, runs);
@@ -56,8 +56,8 @@ Bundle makeCertificate(const CertificateInput &input) {
   addPictures(report, document, runs);
   const std::string text = certificate::textOf(document);
   const std::string page = certificate::pageOf(text, report);
-  report.emplace(kCertificate, text);
-  report.emplace(kCertificatePage, page);
+  report.emplace(kReportDocument, text);
+  report.emplace(kReportPage, page);
   return report;
 }
 

@@ -1,5 +1,5 @@
 // What has become of a bundle: compared with a new proof of the same.
-#include "surface/sink/proof_bundle.h"
+#include "surface/evidence/evidence_bundle.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // The page of a certificate: one HTML file without script, without network, made of certificate.json and the pictures
 // beside it alone, so that it can be made again and compared.
 #include "base/support/sha256.h"
-#include "surface/sink/certificate_html.h"
-#include "surface/sink/certificate_style.h"
+#include "surface/report/report_html.h"
+#include "surface/report/report_style.h"
 
 #include <array>
 #include <map>
@@ -100,11 +100,11 @@ private:
   }
 
   void verdict() {
-    const Look look = lookOfStanding(document_.at("standing"));
-    const Json &standing = document_.at("standing");
-    const std::string_view words = standing == "ready"    ? "Everything that was asked is proved"
-                                   : standing == "broken" ? "Not fit for release: claims are refuted"
-                                   : standing == "alarms"
+    const Look look = lookOfStatus(document_.at("standing"));
+    const Json &status = document_.at("standing");
+    const std::string_view words = status == "ready"    ? "Everything that was asked is proved"
+                                   : status == "broken" ? "Not fit for release: claims are refuted"
+                                   : status == "alarms"
                                        ? "Decide before release: alarms can come that no contract settles"
                                        : "Not ready for release: not everything is proved";
     Counts counts;
@@ -137,17 +137,17 @@ private:
         "report. See also what was <a href=\"#not-checked\">not checked</a>.</p>\n</div>\n</section>\n");
   }
   /// `Refuted: O9313, O9314 and 3 more`
-  void named(std::string_view standing) {
+  void named(std::string_view status) {
     std::size_t count = 0;
     std::string names;
     eachProgram([&](const Json &file, const Json &program) {
-      if (program.at("standing") == standing && ++count <= kMostNamed)
+      if (program.at("standing") == status && ++count <= kMostNamed)
         names += fmt::format("{}<a href=\"#{}\">{}</a>", count == 1 ? "" : ", ", anchorOf(file, program),
                              text(program.at("name")));
     });
     if (count == 0)
       return;
-    const Look look = lookOfStanding(Json(standing));
+    const Look look = lookOfStatus(Json(status));
     add("<p class=\"named\">{} {}: {}{}</p>\n", badge(look), counted(count, "program"), names,
         count > kMostNamed ? fmt::format(" and {} more", count - kMostNamed) : std::string());
   }

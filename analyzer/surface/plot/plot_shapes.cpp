@@ -1,6 +1,6 @@
 // Regions and tools as they are seen along an axis.
 #include "base/support/match.h"
-#include "surface/sink/plot_view.h"
+#include "surface/plot/plot_view.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,7 @@
 namespace feedhold {
 
 namespace {
-
 using geometry::Condition;
-using geometry::Interval;
 using geometry::Prism;
 
 /// Sides without a bound end this far outside of the view.
@@ -33,7 +31,7 @@ public:
     };
     if (cylinder.axis != view_.across && cylinder.axis != view_.up)
       return circle(centreOf(view_.across), centreOf(view_.up), cylinder.radius);
-    const auto side = [&](Axis axis) -> Interval<double> {
+    const auto side = [&](Axis axis) -> geometry::Interval<double> {
       if (axis == cylinder.axis)
         return cylinder.along;
       return {centreOf(axis) - cylinder.radius, centreOf(axis) + cylinder.radius};
@@ -54,7 +52,7 @@ public:
   std::string draw(const Condition<double, bool> &) const { return {}; }
 
 private:
-  std::string rectangle(const Interval<double> &across, const Interval<double> &up) const {
+  std::string rectangle(const geometry::Interval<double> &across, const geometry::Interval<double> &up) const {
     if (!across.low && !across.high && !up.low && !up.high)
       return {}; // everywhere: it would say nothing
     const double left = across.low ? view_.x(*across.low) : -kBeyond;
@@ -83,7 +81,7 @@ private:
   std::string_view attributes_;
 };
 
-void include(PlotRange &range, const Interval<double> &interval) {
+void include(PlotRange &range, const geometry::Interval<double> &interval) {
   for (const auto &end : {interval.low, interval.high})
     if (end)
       range.include(*end);

@@ -1,4 +1,4 @@
-#include "surface/cli/certificate_run.h"
+#include "surface/cli/report_run.h"
 
 #include "dialects/registry.h"
 #include "findings/session/session.h"
@@ -19,7 +19,7 @@ namespace {
 KnownNames known() { return {allDialects(), allRules()}; }
 
 /// Absolute paths: what is said of a file must not depend on the folder in which somebody stands.
-CheckOptions filesOf(const CertificateWish &wish, unsigned jobs) {
+CheckOptions filesOf(const ReportOptions &wish, unsigned jobs) {
   CheckOptions files;
   for (const fs::path &path : wish.paths)
     files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
@@ -77,12 +77,12 @@ std::vector<std::string> solvers() {
 
 } // namespace
 
-CertificateRun runCertificate(const CertificateWish &wish, const fs::path &folder, unsigned jobs) {
+ReportRun runReport(const ReportOptions &wish, const fs::path &folder, unsigned jobs) {
   ProofsWish proofsWish{.files = filesOf(wish, jobs)};
   proofsWish.prove.only = wish.reading.only;
   keepEvidence(proofsWish);
   ProofsResult proofs = proveAll(proofsWish, known());
-  CertificateRun run;
+  ReportRun run;
   if (proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
     proofs.errors.push_back({proofs.skipped.front().path, "nothing to prove: " + proofs.skipped.front().reason});
   run.problems = proofs.errors;
@@ -95,17 +95,16 @@ CertificateRun runCertificate(const CertificateWish &wish, const fs::path &folde
       run.counts.add(program.proof);
       ++run.programs;
     }
-  run.standing = standingOf(proofs);
-  run.report =
-      makeCertificate({.wish = wish,
-                       .proofs = proofs,
-                       .findings = findings,
-                       .dialects = allDialects(),
-                       .configOf = [&](const fs::path &file) { return configFor(proofsWish.files.config, file); },
-                       .version = FEEDHOLD_VERSION,
-                       .solvers = solvers(),
-                       .folder = folder,
-                       .jobs = jobs});
+  run.status = releaseStatusOf(proofs);
+  run.report = makeReport({.wish = wish,
+                           .proofs = proofs,
+                           .findings = findings,
+                           .dialects = allDialects(),
+                           .configOf = [&](const fs::path &file) { return configFor(proofsWish.files.config, file); },
+                           .version = FEEDHOLD_VERSION,
+                           .solvers = solvers(),
+                           .folder = folder,
+                           .jobs = jobs});
   return run;
 }
 

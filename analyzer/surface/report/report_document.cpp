@@ -1,7 +1,7 @@
 // certificate.json: what was proved of which bytes, under which settings.
 #include "base/support/sha256.h"
 #include "base/support/text.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ std::string titleOf(const LoadedFile &file, ProgramId program) {
 
 class Document {
 public:
-  Document(const CertificateInput &input, const Bundle &evidence,
+  Document(const ReportInput &input, const Bundle &evidence,
            const std::vector<std::vector<std::vector<ShownRun>>> &runs)
       : input_(input), runs_(runs) {
     const std::string &text = evidence.at(std::string(kBundleIndex));
@@ -63,7 +63,7 @@ public:
             {"date", input_.wish.date ? Json(*input_.wish.date) : Json()},
             {"reading", readingToJson()},
             {"counts", countsToJson(counts_)},
-            {"standing", nameOf(standingOf(input_.proofs))},
+            {"standing", nameOf(releaseStatusOf(input_.proofs))},
             {"assumptions", assumptions()},
             {"sources", sourcesToJson()},
             {"files", std::move(files)},
@@ -212,7 +212,7 @@ private:
             {"title", titleOf(loaded, program.program)},
             {"line", loaded.source.lineOf(loaded.model.programs[program.program].header.begin)},
             {"counts", countsToJson(counts)},
-            {"standing", nameOf(standingOf(file, program))},
+            {"standing", nameOf(releaseStatusOf(file, program))},
             {"summary", sentenceOf(file, program)},
             {"clauses", clausesOf(loaded, program.program)},
             {"calls", callsOf(file, program.program)},
@@ -345,7 +345,7 @@ private:
     return row;
   }
 
-  const CertificateInput &input_;
+  const ReportInput &input_;
   const std::vector<std::vector<std::vector<ShownRun>>> &runs_;
   std::map<std::string, Json> evidence_; // obligations by the path from the evidence
   std::map<std::string, Source> sources_;
@@ -358,7 +358,7 @@ private:
 
 std::string textOf(const Json &document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json documentOf(const CertificateInput &input, const Bundle &evidence,
+Json documentOf(const ReportInput &input, const Bundle &evidence,
                 const std::vector<std::vector<std::vector<ShownRun>>> &runs) {
   return Document(input, evidence, runs).write();
 }

@@ -1,4 +1,4 @@
-#include "surface/sink/run_picture.h"
+#include "surface/plot/run_picture.h"
 
 #include "base/support/text.h"
 #include "language/syntax/tree.h"

@@ -1,7 +1,7 @@
-#include "surface/sink/plot_sink.h"
+#include "surface/plot/plot_sink.h"
 
 #include "base/support/check.h"
-#include "surface/sink/plot_view.h"
+#include "surface/plot/plot_view.h"
 #include "surface/sink/xml.h"
 
 #include <fmt/format.h>

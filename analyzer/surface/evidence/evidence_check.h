@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proof/decide/discharge.h"
-#include "surface/sink/proof_bundle.h"
+#include "surface/evidence/evidence_bundle.h"
 
 namespace feedhold {
 

@@ -1,4 +1,4 @@
-#include "surface/sink/certificate_html.h"
+#include "surface/report/report_html.h"
 
 #include <utility>
 
@@ -55,12 +55,12 @@ Look lookOfClaim(const Json &obligation) {
   return {"unreachable", "–", "unreachable"};
 }
 
-Look lookOfStanding(const Json &standing) {
-  if (standing == "ready")
+Look lookOfStatus(const Json &status) {
+  if (status == "ready")
     return {"proved", "✓", "proved"};
-  if (standing == "broken")
+  if (status == "broken")
     return {"refuted", "✗", "refuted"};
-  if (standing == "alarms")
+  if (status == "alarms")
     return {"alarms", "!", "alarm to decide on"};
   return {"unknown", "?", "not all proved"};
 }

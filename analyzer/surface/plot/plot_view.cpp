@@ -1,4 +1,4 @@
-#include "surface/sink/plot_view.h"
+#include "surface/plot/plot_view.h"
 
 #include <fmt/format.h>
 

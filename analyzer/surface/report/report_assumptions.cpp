@@ -1,5 +1,5 @@
 // What proofs take for given, in words for those who sign: docs/soundness.md and docs/geometry.md tell the whole of it.
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <array>
 

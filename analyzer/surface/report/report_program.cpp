@@ -1,5 +1,5 @@
 // What a certificate's page says of one program.
-#include "surface/sink/certificate_html.h"
+#include "surface/report/report_html.h"
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ public:
       : file_(file), program_(program), paths_(paths), report_(report), isStyled_(isStyled) {}
 
   std::string write() {
-    const Look look = lookOfStanding(program_.at("standing"));
+    const Look look = lookOfStatus(program_.at("standing"));
     add("<section class=\"program\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p class=\"meta\">{}, line {} &middot; "
         "read for {}</p>\n<p class=\"sentence {}\">{}</p>\n",
         anchorOf(file_, program_), text(program_.at("name")), text(program_.at("title")), paths_.of(file_.at("path")),

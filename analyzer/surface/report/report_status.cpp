@@ -1,7 +1,7 @@
 // Whether a program may be released by what was proved.  An alarm that a call can raise is no fault by itself, but the
 // contract has to foresee it.
 #include "base/support/text.h"
-#include "surface/sink/certificate_parts.h"
+#include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
 
@@ -127,38 +127,38 @@ std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
 
 namespace feedhold {
 
-std::string_view nameOf(Standing standing) {
-  switch (standing) {
-  case Standing::Ready: return "ready";
-  case Standing::Open: return "open";
-  case Standing::Alarms: return "alarms";
-  case Standing::Broken: return "broken";
+std::string_view nameOf(ReleaseStatus status) {
+  switch (status) {
+  case ReleaseStatus::Ready: return "ready";
+  case ReleaseStatus::Open: return "open";
+  case ReleaseStatus::Alarms: return "alarms";
+  case ReleaseStatus::Broken: return "broken";
   }
   return "";
 }
 
-Standing standingOf(const ProvedFile &file, const ProvedProgram &program) {
+ReleaseStatus releaseStatusOf(const ProvedFile &file, const ProvedProgram &program) {
   const bool isRead = certificate::unreadableLines(file.file(), program.program).empty();
-  Standing standing = isRead ? Standing::Ready : Standing::Open;
+  ReleaseStatus status = isRead ? ReleaseStatus::Ready : ReleaseStatus::Open;
   for (const prove::Obligation &obligation : program.proof.obligations) {
     if (holds(obligation.verdict))
       continue;
-    standing = std::max(standing, obligation.verdict == prove::Verdict::Unknown ? Standing::Open
-                                  : certificate::raisedAlarm(obligation, file)  ? Standing::Alarms
-                                                                                : Standing::Broken);
+    status = std::max(status, obligation.verdict == prove::Verdict::Unknown ? ReleaseStatus::Open
+                              : certificate::raisedAlarm(obligation, file)  ? ReleaseStatus::Alarms
+                                                                            : ReleaseStatus::Broken);
   }
-  return standing;
+  return status;
 }
 
-Standing standingOf(const ProofsResult &proofs) {
-  Standing worst = Standing::Ready;
+ReleaseStatus releaseStatusOf(const ProofsResult &proofs) {
+  ReleaseStatus worst = ReleaseStatus::Ready;
   bool isAnythingClaimed = false;
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
-      worst = std::max(worst, standingOf(file, program));
+      worst = std::max(worst, releaseStatusOf(file, program));
       isAnythingClaimed = isAnythingClaimed || !program.proof.obligations.empty();
     }
-  return isAnythingClaimed ? worst : std::max(worst, Standing::Open);
+  return isAnythingClaimed ? worst : std::max(worst, ReleaseStatus::Open);
 }
 
 } // namespace feedhold
