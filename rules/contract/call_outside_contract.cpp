@@ -61,7 +61,7 @@ class CallCheck {
 public:
   CallCheck(const Call &call, ProgramRef callee, const FileContext &context, const Reporter &reporter)
       : call_(call), callee_(callee), context_(context), reporter_(reporter),
-        contracts_(context.contracts[callee.file.index()]), passed_(passedBy(call, context)) {}
+        contracts_(*context.contracts[callee.file.index()]), passed_(passedBy(call, context)) {}
 
   void run(const Contract &contract) {
     for (const EntryValue &param : contract.params)

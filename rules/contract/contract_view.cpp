@@ -10,7 +10,7 @@ std::string programOf(const ContractIssue &issue, const FileContext &context) {
 }
 
 void pointAt(ClauseId id, std::string label, const FileContext &context, Diagnostic &diagnostic) {
-  const FileContracts &contracts = context.contracts[context.file.index()];
+  const FileContracts &contracts = *context.contracts[context.file.index()];
   const Clause &clause = contracts.clauses[id];
   if (clause.source == context.contractSource) {
     diagnostic.labels.push_back({clause.span, std::move(label)});
@@ -21,7 +21,7 @@ void pointAt(ClauseId id, std::string label, const FileContext &context, Diagnos
 }
 
 void pointAtContract(ClauseId id, FileId callee, const FileContext &context, Diagnostic &diagnostic) {
-  const FileContracts &contracts = context.contracts[callee.index()];
+  const FileContracts &contracts = *context.contracts[callee.index()];
   const Clause &clause = contracts.clauses[id];
   if (clause.source == kProgramText)
     diagnostic.labels.push_back({clause.span, "the contract", callee});

@@ -3,7 +3,7 @@
 //
 //     simulation_bench PROGRAM.nc...
 #include "dialects/registry.h"
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "proof/prove/prove.h"
 #include "proof/space/plain_space.h"
 #include "rules/registry.h"
@@ -24,7 +24,7 @@ double since(Clock::time_point begin) { return std::chrono::duration<double>(Clo
 
 class Package {
 public:
-  explicit Package(std::unique_ptr<const LoadedPrograms> programs)
+  explicit Package(std::unique_ptr<const Project> programs)
       : programs_(std::move(programs)), start_(*startOf(*programs_, std::nullopt)),
         contracts_(programs_->file(start_.file).contracts), contract_(*contracts_.of(start_.program)) {}
 
@@ -89,7 +89,7 @@ private:
       geometry::deepestGouge(space, geometry::SpaceClaim::KeepOut, region, result.moves);
   }
 
-  std::unique_ptr<const LoadedPrograms> programs_;
+  std::unique_ptr<const Project> programs_;
   Callee start_;
   const FileContracts &contracts_;
   const Contract &contract_;
@@ -101,7 +101,7 @@ int main(int count, char **arguments) {
   fmt::print("| program | claims | proof, s | runs in that time | arguments in steps of 1 | share of them |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   for (int i = 1; i < count; ++i) {
-    auto loaded = loadPrograms({.path = arguments[i], .dialect = "fanuc-30i"}, {allDialects(), allRules()});
+    auto loaded = loadProject({.path = arguments[i], .dialect = "fanuc-30i"}, {allDialects(), allRules()});
     if (!loaded) {
       fmt::print(stderr, "{}\n", loaded.error().message);
       return 2;

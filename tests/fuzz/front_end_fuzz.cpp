@@ -31,9 +31,9 @@ void run(std::string text, const Dialect &dialect) {
   FEEDHOLD_CHECK(dump(tree, source).size() + dump(model, tree, source).size() > 0, "a dump is empty");
   const CallGraph graph({{FileId(0), "", "fuzz", &model}});
   const std::vector<Sidecar> sidecars = {{source, std::nullopt}}; // the same lines as a file beside the program
-  const std::vector<FileContracts> contracts = {readContracts(source, tree, model, dialect, sidecars)};
-  FEEDHOLD_CHECK(dump(contracts.front(), model, tree).empty() == contracts.front().contracts.empty(),
-                 "a contract is lost");
+  const FileContracts read = readContracts(source, tree, model, dialect, sidecars);
+  const std::vector<const FileContracts *> contracts = {&read};
+  FEEDHOLD_CHECK(dump(read, model, tree).empty() == read.contracts.empty(), "a contract is lost");
   const ProgramSet programs({{FileId(0), &source, &tree, &model, &dialect}}, graph);
   const FileContext context{FileId(0), source, dialect, tree, model, graph, &programs, contracts};
   for (const RawFinding &finding :

@@ -2,7 +2,7 @@
 
 #include "base/support/text.h"
 #include "dialects/registry.h"
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "rules/registry.h"
 #include "surface/sink/run_sink.h"
 
@@ -20,22 +20,22 @@ struct Wish {
 };
 
 /// Takes down one word of what follows the name of the stage; false when it means nothing.
-bool take(const std::string &word, const Dialect &dialect, Wish &wish) {
+bool take(const std::string &word, const Dialect &dialect, Wish &options) {
   const std::size_t equals = word.find('=');
   const double value = std::strtod(word.c_str() + (equals == std::string::npos ? 1 : equals + 1), nullptr);
   if (word == "trace")
-    wish.trace = true;
+    options.trace = true;
   else if (word == "block-skip")
-    wish.options.blockSkip = BlockSkipSwitch::On;
+    options.options.blockSkip = BlockSkipSwitch::On;
   else if (word.starts_with("fuel="))
-    wish.options.fuel = static_cast<std::uint64_t>(value);
+    options.options.fuel = static_cast<std::uint64_t>(value);
   else if (word.starts_with('#'))
-    wish.options.variables.set(static_cast<std::uint32_t>(std::atoi(word.c_str() + 1)), ConcreteValue::of(value));
+    options.options.variables.set(static_cast<std::uint32_t>(std::atoi(word.c_str() + 1)), ConcreteValue::of(value));
   else if (equals == 1 && isLetter(word.front()))
-    wish.options.variables.set(dialect.argumentVariables[static_cast<std::size_t>(word.front() - 'A')],
-                               ConcreteValue::of(value));
+    options.options.variables.set(dialect.argumentVariables[static_cast<std::size_t>(word.front() - 'A')],
+                                  ConcreteValue::of(value));
   else if (const auto axis = axisOf(word.front()))
-    wish.options.start[indexOf(*axis)] = value;
+    options.options.start[indexOf(*axis)] = value;
   else
     return false;
   return true;
@@ -60,22 +60,22 @@ std::vector<TracedBlock> traceOf(const ProgramSet &programs, Callee entry, RunOp
 } // namespace
 
 std::string runStageOf(const Input &input, std::string_view wishes) {
-  ProgramsWish asked{.path = input.files.front().name, .dialect = std::string(input.dialect->id)};
+  ProgramOptions asked{.path = input.files.front().name, .dialect = std::string(input.dialect->id)};
   asked.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
-  const auto loaded = loadPrograms(asked, {allDialects(), allRules()});
+  const auto loaded = loadProject(asked, {allDialects(), allRules()});
   if (!loaded)
     return loaded.error().message + "\n";
-  const LoadedPrograms &programs = *loaded.value();
-  Wish wish;
+  const Project &programs = *loaded.value();
+  Wish options;
   std::istringstream words{std::string(wishes)};
   for (std::string word; words >> word;)
-    if (!take(word, programs.dialect, wish))
+    if (!take(word, programs.dialect(), options))
       return fmt::format("`{}` says nothing about a run\n", word);
   const std::optional<Callee> start = startOf(programs, std::nullopt);
   if (!start)
     return "no program\n";
-  const RunResult result = run(*programs.set, *start, wish.options);
-  const auto trace = wish.trace ? traceOf(*programs.set, *start, wish.options) : std::vector<TracedBlock>{};
+  const RunResult result = run(*programs.set, *start, options.options);
+  const auto trace = options.trace ? traceOf(*programs.set, *start, options.options) : std::vector<TracedBlock>{};
   std::vector<std::string> shown;
   for (const auto &file : programs.files)
     shown.push_back(file->shown);

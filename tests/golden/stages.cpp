@@ -3,9 +3,9 @@
 #include "golden/stages.h"
 
 #include "dialects/registry.h"
+#include "findings/project/sidecars.h"
 #include "findings/session/ranges.h"
 #include "findings/session/session.h"
-#include "findings/session/sidecars.h"
 #include "golden/run_stage.h"
 #include "golden/verdicts_stage.h"
 #include "language/lex/lexer.h"
@@ -145,9 +145,9 @@ std::string report(const Input &input, Format format) {
   return problemsOf(result) + text;
 }
 
-std::string fixed(const Input &input, FixWish wish) {
+std::string fixed(const Input &input, FixKind options) {
   const Folder folder(input);
-  const FixResult result = fix(optionsFor(input), wish, knownNames());
+  const FixResult result = fix(optionsFor(input), options, knownNames());
   std::map<std::string, std::string> after;
   for (const FixedFile &file : result.files)
     after[file.path] = file.after;
@@ -158,14 +158,14 @@ std::string fixed(const Input &input, FixWish wish) {
 /// As `feedhold ranges` tells of the first file, called programs included.
 std::string invariants(const Input &input) {
   const Folder folder(input);
-  ProgramsWish wish{.path = input.files.front().name};
+  ProgramOptions options{.path = input.files.front().name};
   if (!input.guess)
-    wish.dialect = std::string(input.dialect->id);
-  wish.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
-  const auto programs = loadPrograms(wish, knownNames());
+    options.dialect = std::string(input.dialect->id);
+  options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
+  const auto programs = loadProject(options, knownNames());
   if (!programs)
     return programs.error().message + "\n";
-  const Result<BlockStates> states = rangesOf(*programs.value(), {.files = RangesWish::Files::All});
+  const Result<BlockStates> states = rangesOf(*programs.value(), {.files = RangesOptions::Files::All});
   if (!states)
     return states.error().message + "\n";
   std::vector<std::string> shown;
@@ -176,9 +176,9 @@ std::string invariants(const Input &input) {
 
 std::string verdicts(const Input &input) {
   const Folder folder(input);
-  ProofsWish wish{.files = optionsFor(input)};
-  wish.prove.guards = prove::InferGuards::No;
-  return verdictsOf(proveAll(wish, knownNames()));
+  ProofOptions options{.files = optionsFor(input)};
+  options.prove.guards = prove::InferGuards::No;
+  return verdictsOf(proveAll(options, knownNames()));
 }
 
 } // namespace
@@ -205,9 +205,9 @@ std::optional<std::string> runStage(std::string_view stage, const Input &input) 
   if (stage == "findings")
     return report(input, Format::Text);
   if (stage == "fixed")
-    return fixed(input, FixWish::Safe);
+    return fixed(input, FixKind::Safe);
   if (stage == "fixed-unsafe")
-    return fixed(input, FixWish::All);
+    return fixed(input, FixKind::All);
   if (const std::optional<Format> format = formatFromName(stage))
     return report(input, *format);
   return std::nullopt;

@@ -198,7 +198,7 @@ std::vector<Suppression> findSuppressions(const FileContext &context) {
       found.push_back(std::move(suppression));
   if (context.file.index() >= context.contracts.size())
     return found;
-  const FileContracts &contracts = context.contracts[context.file.index()];
+  const FileContracts &contracts = *context.contracts[context.file.index()];
   for (const SidecarAllowance &allowance : contracts.allowances)
     for (Suppression &suppression : readAllowance(allowance, contracts, context))
       found.push_back(std::move(suppression));

@@ -51,15 +51,15 @@ struct FileContext {
   const SyntaxTree &tree;
   const ProgramModel &model;
   const CallGraph &callGraph;
-  const ProgramSet *programs = nullptr;          // when some rule asks for the flow
-  std::span<const FileContracts> contracts = {}; // by FileId; may be empty
+  const ProgramSet *programs = nullptr;                 // when some rule asks for the flow
+  std::span<const FileContracts *const> contracts = {}; // by FileId; may be empty
   /// The text that findings are about: the program, or a file with its contracts (`source` is that file then).
   ContractSourceId contractSource = kProgramText;
 
   std::string_view text(Span span) const { return source.text(span); }
   /// Null: the program has no clause, or contracts were not read.
   const Contract *contractOf(ProgramRef program) const {
-    return program.file.index() < contracts.size() ? contracts[program.file.index()].of(program.program) : nullptr;
+    return program.file.index() < contracts.size() ? contracts[program.file.index()]->of(program.program) : nullptr;
   }
   /// "`#510`": program text for a message, blanks at the ends cut, a long one shortened.
   std::string quoted(Span span) const;

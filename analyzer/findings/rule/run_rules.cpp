@@ -167,7 +167,7 @@ void visitModel(const HookLists &lists, const FileContext &context) {
 void visitContracts(const HookLists &lists, const FileContext &context) {
   if (context.file.index() >= context.contracts.size())
     return;
-  for (const ContractIssue &issue : context.contracts[context.file.index()].issues)
+  for (const ContractIssue &issue : context.contracts[context.file.index()]->issues)
     if (issue.source == context.contractSource)
       tell(lists.contractIssues[static_cast<std::size_t>(issue.kind)], context, issue);
 }
@@ -203,7 +203,7 @@ void visitFlow(const HookLists &lists, const FileContext &context) {
       visitRuns(program, std::array{&allowed, &all}, nullptr, context);
       continue;
     }
-    visitRuns(program, std::array{&allowed}, &context.contracts[context.file.index()], context);
+    visitRuns(program, std::array{&allowed}, context.contracts[context.file.index()], context);
     if (!all.empty())
       visitRuns(program, std::array{&all}, nullptr, context);
   }

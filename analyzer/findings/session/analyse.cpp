@@ -1,13 +1,12 @@
-// Parses all files, joins their models to one call graph, then runs the rules file by file.
+// Loads all files as one project, then runs the rules file by file.
 #include "findings/session/analyse.h"
 
 #include "base/support/parallel.h"
 #include "base/support/text.h"
+#include "findings/project/project.h"
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"
 #include "findings/session/fingerprint.h"
-#include "findings/session/sidecars.h"
-#include "language/parse/parse.h"
 
 #include <fmt/format.h>
 
@@ -21,34 +20,6 @@
 namespace feedhold {
 
 namespace {
-
-/// Without rules that ask for the flow the tree goes as soon as the rules of its file have run; the model stays, since
-/// the call graph looks at it.
-struct Read {
-  std::unique_ptr<const SyntaxTree> tree;
-  std::unique_ptr<const ProgramModel> model;
-};
-
-FileContracts contractsOf(const WorkItem &item, const Read &read, const std::shared_ptr<const OpenTexts> &open) {
-  return readContracts(item.source, *read.tree, *read.model, item.profile->dialect,
-                       sidecarsOf(item.path, *read.model, open));
-}
-
-Read read(const WorkItem &item) {
-  const Dialect &dialect = item.profile->dialect;
-  auto tree = std::make_unique<const SyntaxTree>(parse(item.source, dialect));
-  auto model = std::make_unique<const ProgramModel>(resolve(item.source, *tree, dialect));
-  return {std::move(tree), std::move(model)};
-}
-
-CallGraph joinModels(std::span<const WorkItem> items, const std::vector<Read> &reads) {
-  std::vector<ModelledFile> files;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (reads[i].model != nullptr)
-      files.push_back({FileId(i), items[i].path.parent_path().generic_string(), items[i].path.stem().generic_string(),
-                       reads[i].model.get()});
-  return CallGraph(std::move(files));
-}
 
 CheckedFile headOf(const WorkItem &item) {
   return {item.shown, item.source, item.profile->dialect.id, item.choice, item.reasons, item.profile->errorOn, {}};
@@ -71,7 +42,7 @@ Finding toFinding(SuppressedFinding suppressed, const FileContext &context, cons
   finding.suppressed = true;
   finding.reason = std::move(suppressed.reason);
   if (suppressed.source != kProgramText)
-    finding.allowedIn = context.contracts[context.file.index()].source(suppressed.source).path();
+    finding.allowedIn = context.contracts[context.file.index()]->source(suppressed.source).path();
   return finding;
 }
 
@@ -98,7 +69,7 @@ std::vector<Finding> findingsOf(SuppressionResult raw, const FileContext &contex
 /// A file beside the program, when there is something to say of its clauses or its suppressions.
 std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext &program, ContractSourceId source,
                                         std::span<const SidecarFinding> ofSuppressions) {
-  const FileContracts &contracts = program.contracts[program.file.index()];
+  const FileContracts &contracts = *program.contracts[program.file.index()];
   const FileContext context{program.file,  contracts.source(source), program.dialect, program.tree,
                             program.model, program.callGraph,        nullptr,         program.contracts,
                             source};
@@ -132,7 +103,7 @@ Analysed analyseOne(const WorkItem &item, const FileContext &context, const Rule
       applySuppressions(runRules(item.profile->rules, context), context, rules, item.profile->rules);
   const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
   result.findings = findingsOf(std::move(raw), context, *item.profile);
-  for (std::size_t i = 1; i < context.contracts[context.file.index()].sources.size(); ++i)
+  for (std::size_t i = 1; i < context.contracts[context.file.index()]->sources.size(); ++i)
     if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(i), ofSidecars))
       result.sidecars.push_back(std::move(*file));
   return result;
@@ -199,37 +170,14 @@ bool anyAsksFlow(std::span<const WorkItem> items) {
   });
 }
 
-/// A file in another language is there without blocks and programs, so that files keep their numbers.
-ProgramSet programsOf(std::span<const WorkItem> items, const std::vector<Read> &reads, const CallGraph &callGraph,
-                      unsigned jobs) {
-  static const SyntaxTree noBlocks = parse(SourceFile::fromText("", ""), items.front().profile->dialect);
-  static const ProgramModel noPrograms;
-  std::vector<ProgramFile> files;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const bool isRead = items[i].foreign == nullptr;
-    files.push_back({FileId(i), &items[i].source, isRead ? reads[i].tree.get() : &noBlocks,
-                     isRead ? reads[i].model.get() : &noPrograms, &items[i].profile->dialect});
-  }
-  return ProgramSet(std::move(files), callGraph, jobs);
-}
-
 } // namespace
 
 std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
                                  const AnalyseOptions &options) {
-  std::vector<Read> reads(items.size());
-  std::vector<FileContracts> contracts(items.size());
-  parallelFor(items.size(), options.jobs, [&](std::size_t i) {
-    if (items[i].foreign != nullptr)
-      return;
-    reads[i] = read(items[i]);
-    contracts[i] = contractsOf(items[i], reads[i], options.open);
-  });
-  const CallGraph callGraph = joinModels(items, reads);
-  std::optional<ProgramSet> programs;
-  if (anyAsksFlow(items))
-    programs.emplace(programsOf(items, reads, callGraph, options.jobs));
-
+  const Project project = loadProject(
+      items,
+      {.graphs = anyAsksFlow(items) ? LoadGraphs::Yes : LoadGraphs::No, .jobs = options.jobs, .open = options.open});
+  const std::vector<const FileContracts *> contracts = project.contracts();
   std::vector<Analysed> analysed(items.size());
   std::atomic<std::size_t> done{0};
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
@@ -239,11 +187,16 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     if (item.foreign != nullptr) {
       analysed[i].findings = refuse(item);
     } else {
-      const FileContext context{FileId(i),       item.source, item.profile->dialect,           *reads[i].tree,
-                                *reads[i].model, callGraph,   programs ? &*programs : nullptr, contracts};
+      const ProjectFile &file = project.file(FileId(i));
+      const FileContext context{FileId(i),
+                                item.source,
+                                *file.dialect,
+                                file.tree,
+                                file.model,
+                                project.callGraph,
+                                project.set ? &*project.set : nullptr,
+                                contracts};
       analysed[i] = analyseOne(item, context, rules);
-      if (!programs)
-        reads[i].tree.reset();
     }
     if (options.progress)
       options.progress(++done, items.size());
@@ -255,8 +208,8 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
     files.push_back(headOf(items[i]));
     files.back().findings = std::move(analysed[i].findings);
     files.back().isOnlyCalled = isOnlyCalled(items[i], options);
-    for (std::size_t k = 1; k < contracts[i].sources.size(); ++k)
-      files.back().sidecars.push_back(contracts[i].sources[k].path());
+    for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)
+      files.back().sidecars.push_back(contracts[i]->sources[k].path());
   }
   std::vector<CheckedFile> sidecars = joinSidecars(std::move(analysed), files);
   std::move(sidecars.begin(), sidecars.end(), std::back_inserter(files));

@@ -1,7 +1,8 @@
 // Analyse: from loaded files to findings.
 #pragma once
 
-#include "findings/session/workload.h"
+#include "findings/project/workload.h"
+#include "findings/session/result.h"
 
 #include <span>
 #include <vector>

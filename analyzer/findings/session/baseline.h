@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings/session/proofs.h"
+#include "findings/session/result.h"
 
 #include <compare>
 #include <filesystem>

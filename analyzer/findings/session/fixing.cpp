@@ -28,15 +28,15 @@ std::size_t errorCount(const CheckedFile &file) {
   }));
 }
 
-/// The first fix of each finding that the wish allows; the others are alternatives to it.
-std::vector<FixIt> wantedFixes(const CheckedFile &file, FixWish wish) {
+/// The first fix of each finding that the kind allows; the others are alternatives to it.
+std::vector<FixIt> wantedFixes(const CheckedFile &file, FixKind kind) {
   std::vector<FixIt> wanted;
   for (const Finding &finding : file.findings) {
     if (finding.suppressed)
       continue;
     const std::vector<FixIt> &fixes = finding.diagnostic.fixes;
     const auto first = std::find_if(fixes.begin(), fixes.end(), [&](const FixIt &candidate) {
-      return wish == FixWish::All || candidate.safety == FixSafety::Safe;
+      return kind == FixKind::All || candidate.safety == FixSafety::Safe;
     });
     if (first != fixes.end())
       wanted.push_back(*first);
@@ -46,8 +46,8 @@ std::vector<FixIt> wantedFixes(const CheckedFile &file, FixWish wish) {
 
 class Repairer {
 public:
-  Repairer(const CheckOptions &options, FixWish wish, const KnownNames &known)
-      : options_(options), wish_(wish), known_(known), workload_(loadWorkload(options, known)),
+  Repairer(const CheckOptions &options, FixKind kind, const KnownNames &known)
+      : options_(options), kind_(kind), known_(known), workload_(loadWorkload(options, known)),
         repairs_(workload_.items.size()) {}
 
   FixResult run() {
@@ -78,7 +78,7 @@ private:
   bool apply(const CheckedFile &file, std::size_t i) {
     Repair &repair = repairs_[i];
     repair.lastFixes = 0;
-    const std::vector<FixIt> fixes = wantedFixes(file, wish_);
+    const std::vector<FixIt> fixes = wantedFixes(file, kind_);
     if (fixes.empty())
       return false;
     AppliedEdits applied = applyFixes(file.source.text(), fixes);
@@ -129,7 +129,7 @@ private:
   }
 
   const CheckOptions &options_;
-  FixWish wish_;
+  FixKind kind_;
   const KnownNames &known_;
   Workload workload_;
   std::vector<Repair> repairs_;
@@ -137,8 +137,8 @@ private:
 
 } // namespace
 
-FixResult fix(const CheckOptions &options, FixWish wish, const KnownNames &known) {
-  return Repairer(options, wish, known).run();
+FixResult fix(const CheckOptions &options, FixKind kind, const KnownNames &known) {
+  return Repairer(options, kind, known).run();
 }
 
 std::vector<PathProblem> writeFixes(const std::vector<FixedFile> &files) {

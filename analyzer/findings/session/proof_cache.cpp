@@ -3,7 +3,7 @@
 
 #include "base/source/write_file.h"
 #include "base/support/sha256.h"
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 #include "findings/session/proof_record.h"
 #include "proof/smt/solver.h"
 
@@ -35,7 +35,7 @@ private:
 };
 
 /// All files of the folder: what one of them calls, names or returns to may concern another.
-void addFiles(Material &material, const LoadedPrograms &programs) {
+void addFiles(Material &material, const Project &programs) {
   material.add(programs.files.size());
   for (const auto &file : programs.files) {
     material.add(file->path.filename().generic_string());
@@ -71,7 +71,7 @@ void trim(const fs::path &folder) {
 
 } // namespace
 
-std::string proofKey(const ProofCache &cache, const LoadedPrograms &programs, ProgramId program,
+std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
   const auto &[only, budget, steps, guards, contractsOf] = options;
@@ -81,8 +81,8 @@ std::string proofKey(const ProofCache &cache, const LoadedPrograms &programs, Pr
   material.add(kFormat);
   material.add(cache.tool);
   material.add(smt::z3Version());
-  material.add(programs.dialect.id);
-  material.add(textOf(programs.dialect.switches));
+  material.add(programs.dialect().id);
+  material.add(textOf(programs.dialect().switches));
   material.add(only.size());
   for (const prove::ObligationKind kind : only)
     material.add(prove::nameOf(kind));

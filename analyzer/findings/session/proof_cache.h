@@ -2,7 +2,7 @@
 // read or does not fit is proved again; what cannot be written is forgotten.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "proof/prove/prove.h"
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct ProofCache {
 
 /// A hash of the program, all files that were loaded with it, their contracts, the dialect with its settings, the
 /// options, the tool and its solver.
-std::string proofKey(const ProofCache &cache, const LoadedPrograms &programs, ProgramId program,
+std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options);
 
 struct RememberedProof {

@@ -14,19 +14,9 @@ namespace feedhold {
 
 namespace {
 
-using Loaded = Result<std::unique_ptr<const LoadedPrograms>>;
-
-Loaded load(const ProofsWish &wish, const WorkItem &item, const KnownNames &known) {
-  ProgramsWish programs{
-      .path = item.shown, .dialect = wish.files.dialect, .config = wish.files.config, .open = wish.files.open};
-  if (item.path.empty())
-    programs.piped = wish.files.piped;
-  return loadPrograms(programs, known);
-}
-
 /// A clause that was left out for a mistake in it would be a promise that nobody proves, and one about a variable that
 /// the program does not read was meant for another variable.
-std::optional<PathProblem> contractMistake(const LoadedFile &file, ProgramId program) {
+std::optional<PathProblem> contractMistake(const ProjectFile &file, ProgramId program) {
   const Contract *contract = file.contracts.of(program);
   const std::vector<ContractIssue> &issues = file.contracts.issues;
   const bool namesOthers = std::any_of(issues.begin(), issues.end(), [&](const ContractIssue &issue) {
@@ -40,7 +30,7 @@ std::optional<PathProblem> contractMistake(const LoadedFile &file, ProgramId pro
 }
 
 struct Job {
-  const LoadedPrograms *loaded;
+  const Project *project;
   ProvedProgram *result;
 };
 
@@ -51,45 +41,44 @@ std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
 }
 
 void proveAnew(const Job &job, const prove::ProveOptions &options) {
-  const LoadedPrograms &programs = *job.loaded;
+  const Project &project = *job.project;
   const ProgramId program = job.result->program;
-  const Callee callee{FileId(0), programs.set->file(FileId(0)).cfg.entryOf(program), program};
+  const Callee callee{FileId(0), project.set->file(FileId(0)).cfg.entryOf(program), program};
   prove::ProveOptions own = options;
-  own.steps = stepsFor(options.steps, programs.file(FileId(0)).model.programs.size());
-  for (const auto &file : programs.files)
-    own.contractsOf.push_back(&file->contracts);
-  job.result->proof = prove::prove(*programs.set, callee, &programs.file(FileId(0)).contracts, own);
+  own.steps = stepsFor(options.steps, project.file(FileId(0)).model.programs.size());
+  own.contractsOf = project.contracts();
+  job.result->proof = prove::prove(*project.set, callee, &project.file(FileId(0)).contracts, own);
 }
 
-void proveOrRecall(const Job &job, const ProofsWish &wish) {
-  if (!wish.cache && wish.steps == KeepSteps::Yes) {
+void proveOrRecall(const Job &job, const ProofOptions &options) {
+  if (!options.cache && options.steps == KeepSteps::Yes) {
     prove::CertificateLog log;
-    proveAnew(job, wish.prove);
+    proveAnew(job, options.prove);
     job.result->steps = log.take();
     return;
   }
-  if (!wish.cache) {
-    proveAnew(job, wish.prove);
+  if (!options.cache) {
+    proveAnew(job, options.prove);
     return;
   }
-  const std::string key = proofKey(*wish.cache, *job.loaded, job.result->program, wish.prove);
-  if (auto remembered = recall(*wish.cache, key, *job.loaded->set)) {
+  const std::string key = proofKey(*options.cache, *job.project, job.result->program, options.prove);
+  if (auto remembered = recall(*options.cache, key, *job.project->set)) {
     job.result->record = std::move(remembered->record);
     job.result->proof = std::move(remembered->proof);
     return;
   }
   const std::uint64_t failures = failedChildren();
-  proveAnew(job, wish.prove);
+  proveAnew(job, options.prove);
   // A solver that is missing today may be there tomorrow, and one that had to be stopped may be in time.
   if (failedChildren() == failures && job.result->proof.contradictions.empty())
-    remember(*wish.cache, key, job.result->proof);
+    remember(*options.cache, key, job.result->proof);
 }
 
-void proveUnlessStopped(const Job &job, const ProofsWish &wish) {
-  const prove::StopScope scope(wish.stop);
+void proveUnlessStopped(const Job &job, const ProofOptions &options) {
+  const prove::StopScope scope(options.stop);
   try {
     prove::throwIfCancelled();
-    proveOrRecall(job, wish);
+    proveOrRecall(job, options);
   } catch (const prove::Cancelled &) {
     // proveAll sees it, too.
   }
@@ -97,8 +86,8 @@ void proveUnlessStopped(const Job &job, const ProofsWish &wish) {
 
 } // namespace
 
-ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
-  Workload workload = loadWorkload(wish.files, known);
+ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
+  Workload workload = loadWorkload(options.files, known);
   ProofsResult result{{}, std::move(workload.skipped), std::move(workload.errors)};
   std::vector<const WorkItem *> items;
   for (const WorkItem &item : workload.items)
@@ -107,16 +96,15 @@ ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
     else
       items.push_back(&item);
 
-  std::vector<std::optional<Loaded>> loaded(items.size());
-  parallelFor(items.size(), wish.files.jobs, [&](std::size_t i) { loaded[i] = load(wish, *items[i], known); });
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (!*loaded[i]) {
-      result.errors.push_back({items[i]->shown, loaded[i]->error().message});
-      continue;
-    }
-    ProvedFile &file = result.files.emplace_back(ProvedFile{loaded[i]->take(), {}});
+  FileStore store(FileStore::Lifetime::Run); // the files of one folder belong to many projects
+  const ProgramOptions withFolder{.path = {}, .open = options.files.open, .store = &store};
+  std::vector<std::unique_ptr<const Project>> projects(items.size());
+  parallelFor(items.size(), options.files.jobs,
+              [&](std::size_t i) { projects[i] = loadProject(*items[i], withFolder, known); });
+  for (std::unique_ptr<const Project> &project : projects) {
+    ProvedFile &file = result.files.emplace_back(ProvedFile{std::move(project), {}});
     for (std::size_t program = 0; program < file.file().model.programs.size(); ++program)
-      if (wish.which == ProofsWish::Which::WithContract && file.file().contracts.of(ProgramId(program)) == nullptr)
+      if (options.which == ProofOptions::Which::WithContract && file.file().contracts.of(ProgramId(program)) == nullptr)
         continue;
       else if (auto mistake = contractMistake(file.file(), ProgramId(program)))
         result.errors.push_back(std::move(*mistake));
@@ -127,14 +115,14 @@ ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known) {
   std::vector<Job> jobs;
   for (ProvedFile &file : result.files)
     for (ProvedProgram &program : file.programs)
-      jobs.push_back({file.loaded.get(), &program});
+      jobs.push_back({file.project.get(), &program});
   std::atomic<std::size_t> done{0};
-  parallelFor(jobs.size(), wish.files.jobs, [&](std::size_t i) {
-    proveUnlessStopped(jobs[i], wish);
-    if (wish.files.progress)
-      wish.files.progress(++done, jobs.size());
+  parallelFor(jobs.size(), options.files.jobs, [&](std::size_t i) {
+    proveUnlessStopped(jobs[i], options);
+    if (options.files.progress)
+      options.files.progress(++done, jobs.size());
   });
-  if (wish.stop.stop_requested())
+  if (options.stop.stop_requested())
     result.files.clear(); // a program that was not proved to its end would look like one without mistakes
   return result;
 }

@@ -14,7 +14,7 @@ namespace feedhold {
 /// Whether all steps are kept that were certified on the way to the verdicts.
 enum class KeepSteps : std::uint8_t { No, Yes };
 
-struct ProofsWish {
+struct ProofOptions {
   CheckOptions files; // which, how they are read, and on how many threads
   prove::ProveOptions prove = {};
   std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
@@ -31,10 +31,10 @@ struct ProvedProgram {
 };
 
 struct ProvedFile {
-  std::unique_ptr<const LoadedPrograms> loaded; // the file itself is FileId(0)
-  std::vector<ProvedProgram> programs;          // as they stand in the file
+  std::unique_ptr<const Project> project; // the file itself is FileId(0)
+  std::vector<ProvedProgram> programs;    // as they stand in the file
 
-  const LoadedFile &file() const { return loaded->file(FileId(0)); }
+  const ProjectFile &file() const { return project->file(FileId(0)); }
 };
 
 struct ProofsResult {
@@ -43,6 +43,6 @@ struct ProofsResult {
   std::vector<PathProblem> errors;  // files that could not be read, contracts with mistakes
 };
 
-ProofsResult proveAll(const ProofsWish &wish, const KnownNames &known);
+ProofsResult proveAll(const ProofOptions &options, const KnownNames &known);
 
 } // namespace feedhold

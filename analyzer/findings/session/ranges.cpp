@@ -12,7 +12,7 @@ namespace {
 
 constexpr FileId kFirstFile{0};
 
-std::vector<Callee> allStarts(const LoadedPrograms &loaded) {
+std::vector<Callee> allStarts(const Project &loaded) {
   const ProgramSet &programs = *loaded.set;
   const ProgramFile &file = programs.file(kFirstFile);
   std::vector<Callee> starts;
@@ -49,25 +49,25 @@ std::optional<BlockId> blockAt(const ProgramFile &file, std::uint32_t line) {
 
 } // namespace
 
-Result<BlockStates> rangesOf(const LoadedPrograms &programs, const RangesWish &wish) {
+Result<BlockStates> rangesOf(const Project &programs, const RangesOptions &options) {
   std::vector<Callee> starts;
-  if (wish.program) {
-    const auto start = startOf(programs, wish.program);
+  if (options.program) {
+    const auto start = startOf(programs, options.program);
     if (!start)
-      return Error{fmt::format("no program `{}` in it", *wish.program)};
+      return Error{fmt::format("no program `{}` in it", *options.program)};
     starts.push_back(*start);
   } else {
     starts = allStarts(programs);
   }
   const ProgramFile &file = programs.set->file(kFirstFile);
   std::optional<BlockId> block;
-  if (wish.line) {
-    block = blockAt(file, *wish.line);
-    if (!block || *wish.line == 0)
-      return Error{fmt::format("nothing is executed in line {} or behind it", *wish.line)};
+  if (options.line) {
+    block = blockAt(file, *options.line);
+    if (!block || *options.line == 0)
+      return Error{fmt::format("nothing is executed in line {} or behind it", *options.line)};
   }
   const auto wants = [&](FileId at, BlockId which) {
-    return (at == kFirstFile || (wish.files == RangesWish::Files::All && !block)) && (!block || *block == which);
+    return (at == kFirstFile || (options.files == RangesOptions::Files::All && !block)) && (!block || *block == which);
   };
   return collectBlockStates(*programs.set, starts, wants, &programs.file(kFirstFile).contracts);
 }

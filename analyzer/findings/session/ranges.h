@@ -1,12 +1,12 @@
 // Ranges: what is known before the blocks of a program that has been loaded with its folder.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "inference/absint/block_states.h"
 
 namespace feedhold {
 
-struct RangesWish {
+struct RangesOptions {
   /// Started there alone; absent: at each program of the file that none of its others calls.
   std::optional<std::string> program = std::nullopt;
   std::optional<std::uint32_t> line = std::nullopt; // absent: all lines
@@ -15,6 +15,6 @@ struct RangesWish {
 };
 
 /// Errors: no such program, no such line.
-Result<BlockStates> rangesOf(const LoadedPrograms &programs, const RangesWish &wish);
+Result<BlockStates> rangesOf(const Project &programs, const RangesOptions &options);
 
 } // namespace feedhold

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/source/source_file.h"
+#include "findings/project/outcome.h"
 #include "findings/rule/rule.h"
 
 #include <string>
@@ -9,16 +10,6 @@
 #include <vector>
 
 namespace feedhold {
-
-/// Why a file is read in its dialect.
-enum class DialectChoice {
-  Option,      // --dialect
-  FilePattern, // [[files]] of the configuration
-  Config,      // `dialect` of the configuration
-  Guess,       // from the text
-  Fallback,    // nothing speaks for any: the first of the list
-};
-std::string_view nameOf(DialectChoice choice);
 
 struct Finding {
   const RuleInfo *rule;
@@ -40,17 +31,6 @@ struct CheckedFile {
   std::vector<Finding> findings;          // by place, then by rule
   bool isOnlyCalled = false;              // no rules ran over it: it is there for the others
   std::vector<std::string> sidecars = {}; // paths of the files beside it that were read with it
-};
-
-struct SkippedFile {
-  std::string path;
-  std::string reason;
-};
-
-/// A path or a configuration that could not be used.
-struct PathProblem {
-  std::string path;
-  std::string message;
 };
 
 struct CheckResult {

@@ -7,17 +7,6 @@
 
 namespace feedhold {
 
-std::string_view nameOf(DialectChoice choice) {
-  switch (choice) {
-  case DialectChoice::Option: return "option";
-  case DialectChoice::FilePattern: return "file-pattern";
-  case DialectChoice::Config: return "config";
-  case DialectChoice::Guess: return "guess";
-  case DialectChoice::Fallback: return "fallback";
-  }
-  FEEDHOLD_UNREACHABLE("a way to choose a dialect without a name");
-}
-
 bool fails(const Finding &finding, const CheckedFile &file) {
   return !finding.suppressed && finding.severity >= file.errorOn;
 }

@@ -1,7 +1,8 @@
 // Session: everything for a set of files, from paths to findings, and the repairs.
 #pragma once
 
-#include "findings/session/workload.h"
+#include "findings/project/workload.h"
+#include "findings/session/result.h"
 
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace feedhold {
 CheckResult check(const CheckOptions &options, const KnownNames &known);
 
 /// Which fixes a person wants.
-enum class FixWish { Safe, All };
+enum class FixKind { Safe, All };
 
 struct FixedFile {
   std::string path;            // as in CheckedFile
@@ -29,7 +30,7 @@ struct FixResult {
 
 /// Repairs in memory, again and again until nothing is left to repair (at most kMostFixRounds times).  A file in which
 /// a round of repairs brings forth more errors than there were keeps its text from before that round.
-FixResult fix(const CheckOptions &options, FixWish wish, const KnownNames &known);
+FixResult fix(const CheckOptions &options, FixKind kind, const KnownNames &known);
 inline constexpr int kMostFixRounds = 10;
 
 /// Puts the repaired texts in place of the files; the problems are those that could not be written.

@@ -94,13 +94,13 @@ std::string nameOf(const KnownObligation &entry) {
 }
 
 template <typename Entry>
-std::string told(std::size_t hidden, const std::vector<Entry> &gone, const BaselineWish &wish, std::string_view one,
-                 std::string_view many) {
-  std::string text = fmt::format("{} hidden by {}\n", counted(hidden, one, many), wish.file);
+std::string told(std::size_t hidden, const std::vector<Entry> &gone, const BaselineOptions &options,
+                 std::string_view one, std::string_view many) {
+  std::string text = fmt::format("{} hidden by {}\n", counted(hidden, one, many), options.file);
   if (gone.empty())
     return text;
   text += fmt::format("{} of {} {} gone; --update-baseline takes {} out:\n", counted(gone.size(), "entry", "entries"),
-                      wish.file, gone.size() == 1 ? "is" : "are", gone.size() == 1 ? "it" : "them");
+                      options.file, gone.size() == 1 ? "is" : "are", gone.size() == 1 ? "it" : "them");
   for (std::size_t i = 0; i < std::min(gone.size(), kGoneShown); ++i)
     text += fmt::format("  {}\n", nameOf(gone[i]));
   if (gone.size() > kGoneShown)
@@ -115,68 +115,70 @@ template <typename Entry> std::size_t lacking(const std::vector<Entry> &a, const
   return rest.size();
 }
 
-Result<Baseline> readBaseline(const BaselineWish &wish) {
-  if (!wish.isAsked())
+Result<Baseline> readBaseline(const BaselineOptions &options) {
+  if (!options.isAsked())
     return Baseline{};
   std::error_code error;
-  if (!fs::exists(wish.file, error)) {
-    if (wish.update)
+  if (!fs::exists(options.file, error)) {
+    if (options.update)
       return Baseline{};
-    return Error{wish.file + ": no such baseline; --update-baseline writes it"};
+    return Error{options.file + ": no such baseline; --update-baseline writes it"};
   }
-  const Result<SourceFile> file = SourceFile::open(wish.file);
+  const Result<SourceFile> file = SourceFile::open(options.file);
   if (!file)
-    return Error{fmt::format("{}: {}", wish.file, file.error().message)};
+    return Error{fmt::format("{}: {}", options.file, file.error().message)};
   Result<Baseline> baseline = parse(file.value().text());
   if (!baseline)
-    return Error{fmt::format("{}: {}", wish.file, baseline.error().message)};
+    return Error{fmt::format("{}: {}", options.file, baseline.error().message)};
   return baseline;
 }
 
-std::optional<Error> writeBaseline(const BaselineWish &wish, const Baseline &baseline) {
-  return saveFile(wish.file, fmt::format("{{\n  \"version\": {},\n  \"findings\": {},\n  \"obligations\": {}\n}}\n",
-                                         kVersion, toText(baseline.findings), toText(baseline.obligations)));
+std::optional<Error> writeBaseline(const BaselineOptions &options, const Baseline &baseline) {
+  return saveFile(options.file, fmt::format("{{\n  \"version\": {},\n  \"findings\": {},\n  \"obligations\": {}\n}}\n",
+                                            kVersion, toText(baseline.findings), toText(baseline.obligations)));
 }
 
 /// `wrote 3 findings to FILE (1 new, 2 gone)`
-std::string toldOfUpdate(const Baseline &before, const Baseline &after, const BaselineWish &wish) {
+std::string toldOfUpdate(const Baseline &before, const Baseline &after, const BaselineOptions &options) {
   return fmt::format("wrote {} and {} to {}: {} new, {} gone\n", counted(after.findings.size(), "finding", "findings"),
-                     counted(after.obligations.size(), "verdict", "verdicts"), wish.file,
+                     counted(after.obligations.size(), "verdict", "verdicts"), options.file,
                      lacking(after.findings, before.findings) + lacking(after.obligations, before.obligations),
                      lacking(before.findings, after.findings) + lacking(before.obligations, after.obligations));
 }
 
 } // namespace
 
-void addBaselineOptions(CLI::App &app, BaselineWish &wish) {
-  CLI::Option *file = app.add_option("--baseline", wish.file, "report only what is not in this file");
-  app.add_flag("--update-baseline", wish.update, "write what there is now to the baseline, instead of reporting it")
+void addBaselineOptions(CLI::App &app, BaselineOptions &options) {
+  CLI::Option *file = app.add_option("--baseline", options.file, "report only what is not in this file");
+  app.add_flag("--update-baseline", options.update, "write what there is now to the baseline, instead of reporting it")
       ->needs(file);
 }
 
-fs::path folderOf(const BaselineWish &wish) { return fs::absolute(wish.file).lexically_normal().parent_path(); }
+fs::path folderOf(const BaselineOptions &options) {
+  return fs::absolute(options.file).lexically_normal().parent_path();
+}
 
-std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineWish &wish) {
+std::optional<Baseline> baselineToStart(const std::optional<std::string> &complaint, const BaselineOptions &options) {
   if (complaint) {
     printError(*complaint);
     return std::nullopt;
   }
-  Result<Baseline> known = readBaseline(wish);
+  Result<Baseline> known = readBaseline(options);
   if (known)
     return known.take();
   printError(known.error().message);
   return std::nullopt;
 }
 
-int updateBaselineFile(const Baseline &before, const Baseline &after, const BaselineWish &wish,
+int updateBaselineFile(const Baseline &before, const Baseline &after, const BaselineOptions &options,
                        std::span<const PathProblem> problems, UpdateTold wanted) {
   printProblems(problems);
-  if (const auto error = writeBaseline(wish, after)) {
-    printError(wish.file + ": " + error->message);
+  if (const auto error = writeBaseline(options, after)) {
+    printError(options.file + ": " + error->message);
     return kExitCouldNotRun;
   }
   if (wanted == UpdateTold::Yes)
-    print(toldOfUpdate(before, after, wish));
+    print(toldOfUpdate(before, after, options));
   return problems.empty() ? kExitClean : kExitCouldNotRun;
 }
 
@@ -185,12 +187,12 @@ void printProblems(std::span<const PathProblem> problems) {
     printError(problem.path + ": " + problem.message);
 }
 
-std::string told(const NewFindings &found, const BaselineWish &wish) {
-  return told(found.hidden, found.gone, wish, "old finding is", "old findings are");
+std::string told(const NewFindings &found, const BaselineOptions &options) {
+  return told(found.hidden, found.gone, options, "old finding is", "old findings are");
 }
 
-std::string told(const NewVerdicts &found, const BaselineWish &wish) {
-  return told(found.hidden, found.gone, wish, "old verdict is", "old verdicts are");
+std::string told(const NewVerdicts &found, const BaselineOptions &options) {
+  return told(found.hidden, found.gone, options, "old verdict is", "old verdicts are");
 }
 
 } // namespace feedhold

@@ -33,9 +33,9 @@ std::optional<Error> writeAll(const fs::path &folder, const Bundle &bundle) {
 
 } // namespace
 
-void keepEvidence(ProofsWish &wish) {
-  wish.steps = KeepSteps::Yes;
-  wish.prove.guards = prove::InferGuards::No;
+void keepEvidence(ProofOptions &options) {
+  options.steps = KeepSteps::Yes;
+  options.prove.guards = prove::InferGuards::No;
 }
 
 std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view mark) {

@@ -66,28 +66,28 @@ std::filesystem::path plainPath(const std::string &path) {
 }
 
 Result<ReportOptions> wishOf(const CertifyArguments &arguments) {
-  ReportOptions wish;
+  ReportOptions options;
   for (const std::string &path : arguments.paths) {
     if (path == "-")
       return Error{"standard input cannot be found again, so that there is nothing to certify"};
-    wish.paths.push_back(plainPath(path));
+    options.paths.push_back(plainPath(path));
   }
-  if (wish.paths.empty())
-    wish.paths = {plainPath(".")};
+  if (options.paths.empty())
+    options.paths = {plainPath(".")};
   if (!arguments.dialect.empty()) {
     if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
       return Error{*complaint};
-    wish.reading.dialect = arguments.dialect;
+    options.reading.dialect = arguments.dialect;
   }
-  wish.reading.isolated = arguments.isolated;
+  options.reading.isolated = arguments.isolated;
   if (!arguments.config.empty())
-    wish.reading.config = arguments.config;
-  wish.reading.only = kindsFrom(arguments.only);
+    options.reading.config = arguments.config;
+  options.reading.only = kindsFrom(arguments.only);
   const auto date = dateOf(arguments);
   if (!date)
     return date.error();
-  wish.date = date.value();
-  return wish;
+  options.date = date.value();
+  return options;
 }
 
 int exitCodeOf(ReleaseStatus status) {
@@ -101,12 +101,12 @@ int exitCodeOf(ReleaseStatus status) {
 }
 
 Result<int> certify(const CertifyArguments &arguments) {
-  const Result<ReportOptions> wish = wishOf(arguments);
-  if (!wish)
-    return wish.error();
+  const Result<ReportOptions> options = wishOf(arguments);
+  if (!options)
+    return options.error();
   if (const auto refusal = whyNoBundleFits(arguments.output, kReportDocument))
     return Error{arguments.output + ": " + refusal->message};
-  const ReportRun run = runReport(wish.value(), arguments.output, arguments.jobs);
+  const ReportRun run = runReport(options.value(), arguments.output, arguments.jobs);
   for (const PathProblem &problem : run.problems)
     printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())

@@ -1,31 +1,31 @@
 #include "surface/cli/change_options.h"
 
-#include "findings/session/git_changes.h"
+#include "findings/project/git_changes.h"
 
 namespace feedhold {
 
-void addChangedSince(CLI::App &app, ChangeWish &wish) {
-  app.add_option("--changed-since", wish.since,
+void addChangedSince(CLI::App &app, ChangeOptions &change) {
+  app.add_option("--changed-since", change.since,
                  "only programs that differ from where the branch left this revision, and all that call them");
 }
 
-void addWithCallers(CLI::App &app, ChangeWish &wish) {
+void addWithCallers(CLI::App &app, ChangeOptions &change) {
   CLI::Option *callers =
-      app.add_flag("--with-callers", wish.withCallers,
+      app.add_flag("--with-callers", change.withCallers,
                    "the paths are changed programs and contracts: also all programs of their folders that call them");
   callers->excludes(app.get_option("--changed-since"));
 }
 
-std::optional<std::string> complaintAbout(const ChangeWish &wish, const CheckOptions &options) {
-  if (!wish.isAsked() || !options.piped)
+std::optional<std::string> complaintAbout(const ChangeOptions &change, const CheckOptions &options) {
+  if (!change.isAsked() || !options.piped)
     return std::nullopt;
   return "standard input has neither a history nor a folder; name files for --changed-since and --with-callers";
 }
 
-Result<Affected> affected(const ChangeWish &wish, const CheckOptions &options, const KnownNames &known) {
-  if (wish.withCallers)
+Result<Affected> affected(const ChangeOptions &change, const CheckOptions &options, const KnownNames &known) {
+  if (change.withCallers)
     return affectedByNamed(options.paths, options, known);
-  const Result<std::vector<std::filesystem::path>> changed = changedSince(wish.since, options.paths);
+  const Result<std::vector<std::filesystem::path>> changed = changedSince(change.since, options.paths);
   if (!changed)
     return changed.error();
   return affectedBy(changed.value(), options, known);

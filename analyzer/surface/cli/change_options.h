@@ -1,7 +1,7 @@
 // `--changed-since REV` and `--with-callers`: a run over what a change may concern.
 #pragma once
 
-#include "findings/session/affected.h"
+#include "findings/project/affected.h"
 
 #include <CLI/CLI.hpp>
 
@@ -9,18 +9,18 @@
 
 namespace feedhold {
 
-struct ChangeWish {
+struct ChangeOptions {
   std::string since; // a revision; empty: none
   bool withCallers = false;
 
   bool isAsked() const { return !since.empty() || withCallers; }
 };
-void addChangedSince(CLI::App &app, ChangeWish &wish);
-void addWithCallers(CLI::App &app, ChangeWish &wish);
+void addChangedSince(CLI::App &app, ChangeOptions &change);
+void addWithCallers(CLI::App &app, ChangeOptions &change);
 
-std::optional<std::string> complaintAbout(const ChangeWish &wish, const CheckOptions &options);
+std::optional<std::string> complaintAbout(const ChangeOptions &change, const CheckOptions &options);
 
 /// Of the files of `options`.  Errors: git refuses.
-Result<Affected> affected(const ChangeWish &wish, const CheckOptions &options, const KnownNames &known);
+Result<Affected> affected(const ChangeOptions &change, const CheckOptions &options, const KnownNames &known);
 
 } // namespace feedhold

@@ -2,10 +2,10 @@
 #include "base/diag/edits.h"
 #include "base/source/write_file.h"
 #include "dialects/registry.h"
-#include "findings/session/discovery.h"
-#include "findings/session/selection.h"
+#include "findings/project/discovery.h"
+#include "findings/project/selection.h"
+#include "findings/project/watched.h"
 #include "findings/session/session.h"
-#include "findings/session/watched.h"
 #include "rules/registry.h"
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/change_options.h"
@@ -46,8 +46,8 @@ struct CheckArguments {
   bool statistics = false;
   bool exitZero = false;
   bool watch = false;
-  BaselineWish baseline;
-  ChangeWish change;
+  BaselineOptions baseline;
+  ChangeOptions change;
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
@@ -108,7 +108,7 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
   return std::nullopt;
 }
 
-ConfigWish configWish(const CheckArguments &arguments) {
+ConfigOptions configOptions(const CheckArguments &arguments) {
   if (arguments.isolated)
     return {ConfigSource::None};
   if (!arguments.config.empty())
@@ -128,7 +128,7 @@ CheckOptions toOptions(const CheckArguments &arguments) {
   options.select = arguments.select;
   options.ignore = arguments.ignore;
   options.errorOn = severityFromName(arguments.errorOn);
-  options.config = configWish(arguments);
+  options.config = configOptions(arguments);
   options.jobs = arguments.jobs;
   return options;
 }
@@ -207,7 +207,7 @@ int showDiffs(const FixResult &fixed, const CheckArguments &arguments) {
 }
 
 int repair(const CheckOptions &options, const CheckArguments &arguments, ProgressLine &progress) {
-  FixResult fixed = fix(options, arguments.unsafeFixes ? FixWish::All : FixWish::Safe, knownNames());
+  FixResult fixed = fix(options, arguments.unsafeFixes ? FixKind::All : FixKind::Safe, knownNames());
   progress.clear();
   complainIfNothingWasChecked(fixed.remaining, arguments);
   if (arguments.diff)

@@ -2,7 +2,7 @@
 #include "surface/cli/dump_input.h"
 
 #include "dialects/registry.h"
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 #include "surface/cli/terminal.h"
 
 #include <memory>

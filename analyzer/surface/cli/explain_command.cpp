@@ -1,6 +1,6 @@
 // `feedhold explain RULE`: the page of a rule.
 #include "base/support/text.h"
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 #include "rules/registry.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/terminal.h"

@@ -40,8 +40,8 @@ struct ProveArguments {
   bool quiet = false;
   bool withoutCache = false;
   bool statistics = false;
-  BaselineWish baseline;
-  ChangeWish change;
+  BaselineOptions baseline;
+  ChangeOptions change;
 };
 
 void addOptions(CLI::App &app, ProveArguments &arguments) {
@@ -75,32 +75,32 @@ std::optional<ProofCache> cacheFor(const ProveArguments &arguments) {
   return proofCache(arguments.cacheFolder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cacheFolder));
 }
 
-ProofsWish toWish(const ProveArguments &arguments) {
-  ProofsWish wish;
-  wish.files.paths = arguments.paths;
-  if (std::erase(wish.files.paths, "-") != 0)
-    wish.files.piped = PipedText{arguments.stdinFilename, readStandardInput()};
-  else if (wish.files.paths.empty())
-    wish.files.paths = {"."};
+ProofOptions proofOptionsOf(const ProveArguments &arguments) {
+  ProofOptions options;
+  options.files.paths = arguments.paths;
+  if (std::erase(options.files.paths, "-") != 0)
+    options.files.piped = PipedText{arguments.stdinFilename, readStandardInput()};
+  else if (options.files.paths.empty())
+    options.files.paths = {"."};
   if (!arguments.dialect.empty())
-    wish.files.dialect = arguments.dialect;
+    options.files.dialect = arguments.dialect;
   if (arguments.isolated)
-    wish.files.config.source = ConfigSource::None;
+    options.files.config.source = ConfigSource::None;
   else if (!arguments.config.empty())
-    wish.files.config = {ConfigSource::Named, arguments.config};
-  wish.files.jobs = arguments.jobs;
-  wish.cache = cacheFor(arguments);
+    options.files.config = {ConfigSource::Named, arguments.config};
+  options.files.jobs = arguments.jobs;
+  options.cache = cacheFor(arguments);
   if (!arguments.certificate.empty())
-    keepEvidence(wish);
-  wish.prove.only = kindsFrom(arguments.only);
-  return wish;
+    keepEvidence(options);
+  options.prove.only = kindsFrom(arguments.only);
+  return options;
 }
 
-BundleReading bundleReading(const ProofsWish &wish) {
-  BundleReading reading{.dialect = wish.files.dialect, .only = wish.prove.only};
-  reading.isolated = wish.files.config.source == ConfigSource::None;
-  if (wish.files.config.source == ConfigSource::Named)
-    reading.config = wish.files.config.file;
+BundleReading bundleReading(const ProofOptions &options) {
+  BundleReading reading{.dialect = options.files.dialect, .only = options.prove.only};
+  reading.isolated = options.files.config.source == ConfigSource::None;
+  if (options.files.config.source == ConfigSource::Named)
+    reading.config = options.files.config.file;
   return reading;
 }
 
@@ -179,16 +179,16 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
 }
 
 /// Leaves what a change concerns; the result is what is wrong with the files among which was searched.
-Result<std::vector<PathProblem>> narrow(ProofsWish &wish, const ProveArguments &arguments) {
+Result<std::vector<PathProblem>> narrow(ProofOptions &options, const ProveArguments &arguments) {
   if (!arguments.change.isAsked())
     return std::vector<PathProblem>();
-  if (auto complaint = complaintAbout(arguments.change, wish.files))
+  if (auto complaint = complaintAbout(arguments.change, options.files))
     return Error{std::move(*complaint)};
-  Result<Affected> found = affected(arguments.change, wish.files, {allDialects(), allRules()});
+  Result<Affected> found = affected(arguments.change, options.files, {allDialects(), allRules()});
   if (!found)
     return found.error();
   const Affected affected = found.take();
-  wish.files.paths.assign(affected.programs.begin(), affected.programs.end());
+  options.files.paths.assign(affected.programs.begin(), affected.programs.end());
   return affected.errors;
 }
 
@@ -204,21 +204,21 @@ int runProve(const ProveArguments &arguments) {
   const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
   if (!baseline)
     return kExitCouldNotRun;
-  ProofsWish wish = toWish(arguments);
-  const Result<std::vector<PathProblem>> narrowed = narrow(wish, arguments);
+  ProofOptions options = proofOptionsOf(arguments);
+  const Result<std::vector<PathProblem>> narrowed = narrow(options, arguments);
   if (!narrowed) {
     printError(narrowed.error().message);
     return kExitCouldNotRun;
   }
-  ProofsResult result = proveAll(wish, {allDialects(), allRules()});
+  ProofsResult result = proveAll(options, {allDialects(), allRules()});
   addErrors(result, narrowed.value());
   complainIfNothingWasProved(result);
   if (!arguments.certificate.empty())
     if (const auto error = writeBundle(
-            arguments.certificate, makeBundle(result, bundleReading(wish), FEEDHOLD_VERSION, arguments.certificate)))
+            arguments.certificate, makeBundle(result, bundleReading(options), FEEDHOLD_VERSION, arguments.certificate)))
       result.errors.push_back({arguments.certificate, error->message});
   const BaselineScope scope{.folder = arguments.baseline.isAsked() ? folderOf(arguments.baseline) : fs::path(),
-                            .kinds = wish.prove.only};
+                            .kinds = options.prove.only};
   if (arguments.baseline.update)
     return updateBaselineFile(*baseline, updated(*baseline, result, scope), arguments.baseline, result.errors,
                               arguments.quiet ? UpdateTold::No : UpdateTold::Yes);

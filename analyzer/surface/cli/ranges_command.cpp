@@ -58,25 +58,25 @@ PathAndLine pathAndLine(const std::string &text) {
 
 Result<std::string> ranges(const RangesArguments &arguments) {
   const PathAndLine asked = pathAndLine(arguments.path);
-  ProgramsWish wish{.path = asked.path};
+  ProgramOptions options{.path = asked.path};
   if (asked.path == "-")
-    wish.piped = PipedText{"<stdin>", readStandardInput()};
+    options.piped = PipedText{"<stdin>", readStandardInput()};
   if (!arguments.dialect.empty()) {
     if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
       return Error{*complaint};
-    wish.dialect = arguments.dialect;
+    options.dialect = arguments.dialect;
   }
   if (arguments.isolated)
-    wish.config.source = ConfigSource::None;
+    options.config.source = ConfigSource::None;
   else if (!arguments.config.empty())
-    wish.config = {ConfigSource::Named, arguments.config};
-  const auto loaded = loadPrograms(wish, {allDialects(), allRules()});
+    options.config = {ConfigSource::Named, arguments.config};
+  const auto loaded = loadProject(options, {allDialects(), allRules()});
   if (!loaded)
     return loaded.error();
-  const LoadedPrograms &programs = *loaded.value();
+  const Project &programs = *loaded.value();
 
   const auto program = arguments.program.empty() ? std::nullopt : std::optional(arguments.program);
-  const auto files = arguments.calls ? RangesWish::Files::All : RangesWish::Files::First;
+  const auto files = arguments.calls ? RangesOptions::Files::All : RangesOptions::Files::First;
   const Result<BlockStates> states = rangesOf(programs, {program, asked.line, files});
   if (!states)
     return Error{asked.path + ": " + states.error().message};

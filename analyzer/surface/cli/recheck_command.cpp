@@ -28,19 +28,19 @@ struct RecheckArguments {
   bool verbose = false;
 };
 
-ProofsWish wishFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
-  ProofsWish wish;
+ProofOptions wishFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
+  ProofOptions options;
   for (const std::filesystem::path &path : origin.paths)
-    wish.files.paths.push_back(path.generic_string());
-  wish.files.dialect = origin.reading.dialect;
+    options.files.paths.push_back(path.generic_string());
+  options.files.dialect = origin.reading.dialect;
   if (origin.reading.isolated)
-    wish.files.config.source = ConfigSource::None;
+    options.files.config.source = ConfigSource::None;
   else if (origin.reading.config)
-    wish.files.config = {ConfigSource::Named, *origin.reading.config};
-  wish.files.jobs = arguments.jobs;
-  wish.prove.only = origin.reading.only;
-  keepEvidence(wish);
-  return wish;
+    options.files.config = {ConfigSource::Named, *origin.reading.config};
+  options.files.jobs = arguments.jobs;
+  options.prove.only = origin.reading.only;
+  keepEvidence(options);
+  return options;
 }
 
 std::optional<std::string> complaintAbout(const BundleOrigin &origin) {
@@ -157,7 +157,7 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   const Result<ReportOrigin> origin = reportOrigin(stored, arguments.folder);
   if (!origin)
     return origin.error();
-  if (const auto &dialect = origin.value().wish.reading.dialect)
+  if (const auto &dialect = origin.value().options.reading.dialect)
     if (const auto complaint = complaintAboutDialect(*dialect, allDialects()))
       return Error{*complaint};
   Findings findings = evidenceFindings(evidenceOf(stored), kEvidenceFolder, arguments);
@@ -174,7 +174,7 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   }
   for (const std::string &gone : sources.gone)
     findings.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
-  const ReportRun run = runReport(origin.value().wish, arguments.folder, arguments.jobs);
+  const ReportRun run = runReport(origin.value().options, arguments.folder, arguments.jobs);
   for (const PathProblem &problem : run.problems)
     findings.problems.push_back(problem.path + ": " + problem.message);
   if (run.problems.empty()) {

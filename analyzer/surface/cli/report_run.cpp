@@ -19,23 +19,23 @@ namespace {
 KnownNames known() { return {allDialects(), allRules()}; }
 
 /// Absolute paths: what is said of a file must not depend on the folder in which somebody stands.
-CheckOptions filesOf(const ReportOptions &wish, unsigned jobs) {
+CheckOptions filesOf(const ReportOptions &options, unsigned jobs) {
   CheckOptions files;
-  for (const fs::path &path : wish.paths)
+  for (const fs::path &path : options.paths)
     files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
-  files.dialect = wish.reading.dialect;
-  if (wish.reading.isolated)
+  files.dialect = options.reading.dialect;
+  if (options.reading.isolated)
     files.config.source = ConfigSource::None;
-  else if (wish.reading.config)
-    files.config = {ConfigSource::Named, fs::absolute(*wish.reading.config).lexically_normal()};
+  else if (options.reading.config)
+    files.config = {ConfigSource::Named, fs::absolute(*options.reading.config).lexically_normal()};
   files.jobs = jobs;
   return files;
 }
 
-std::optional<fs::path> configFor(const ConfigWish &wish, const fs::path &file) {
-  if (wish.source == ConfigSource::Named)
-    return wish.file;
-  ConfigFinder finder(wish, known());
+std::optional<fs::path> configFor(const ConfigOptions &options, const fs::path &file) {
+  if (options.source == ConfigSource::Named)
+    return options.file;
+  ConfigFinder finder(options, known());
   const Config *config = finder.forFolder(file.parent_path());
   return config == nullptr || config->folder.empty() ? std::nullopt : std::optional(config->folder / kConfigFileName);
 }
@@ -43,19 +43,19 @@ std::optional<fs::path> configFor(const ConfigWish &wish, const fs::path &file) 
 bool isOpen(const prove::Obligation &obligation) { return !prove::holds(obligation.verdict); }
 
 /// The search for clauses is no part of the evidence, so that it is made apart.
-void addGuards(ProofsResult &proofs, const ProofsWish &made) {
-  ProofsWish wish = made;
-  wish.steps = KeepSteps::No;
-  wish.prove.guards = prove::InferGuards::Yes;
-  wish.files.paths.clear();
+void addGuards(ProofsResult &proofs, const ProofOptions &made) {
+  ProofOptions options = made;
+  options.steps = KeepSteps::No;
+  options.prove.guards = prove::InferGuards::Yes;
+  options.files.paths.clear();
   for (const ProvedFile &file : proofs.files)
     if (std::any_of(file.programs.begin(), file.programs.end(), [](const ProvedProgram &program) {
           return std::any_of(program.proof.obligations.begin(), program.proof.obligations.end(), isOpen);
         }))
-      wish.files.paths.push_back(file.file().shown);
-  if (wish.files.paths.empty())
+      options.files.paths.push_back(file.file().shown);
+  if (options.files.paths.empty())
     return;
-  const ProofsResult guarded = proveAll(wish, known());
+  const ProofsResult guarded = proveAll(options, known());
   std::map<std::pair<std::string, std::string>, const prove::Guard *> guards; // by file and obligation
   for (const ProvedFile &file : guarded.files)
     for (const ProvedProgram &program : file.programs)
@@ -77,30 +77,30 @@ std::vector<std::string> solvers() {
 
 } // namespace
 
-ReportRun runReport(const ReportOptions &wish, const fs::path &folder, unsigned jobs) {
-  ProofsWish proofsWish{.files = filesOf(wish, jobs)};
-  proofsWish.prove.only = wish.reading.only;
-  keepEvidence(proofsWish);
-  ProofsResult proofs = proveAll(proofsWish, known());
+ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsigned jobs) {
+  ProofOptions proofOptions{.files = filesOf(options, jobs)};
+  proofOptions.prove.only = options.reading.only;
+  keepEvidence(proofOptions);
+  ProofsResult proofs = proveAll(proofOptions, known());
   ReportRun run;
   if (proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
     proofs.errors.push_back({proofs.skipped.front().path, "nothing to prove: " + proofs.skipped.front().reason});
   run.problems = proofs.errors;
   if (!run.problems.empty())
     return run;
-  addGuards(proofs, proofsWish);
-  const CheckResult findings = check(proofsWish.files, known());
+  addGuards(proofs, proofOptions);
+  const CheckResult findings = check(proofOptions.files, known());
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
       run.counts.add(program.proof);
       ++run.programs;
     }
   run.status = releaseStatusOf(proofs);
-  run.report = makeReport({.wish = wish,
+  run.report = makeReport({.options = options,
                            .proofs = proofs,
                            .findings = findings,
                            .dialects = allDialects(),
-                           .configOf = [&](const fs::path &file) { return configFor(proofsWish.files.config, file); },
+                           .configOf = [&](const fs::path &file) { return configFor(proofOptions.files.config, file); },
                            .version = FEEDHOLD_VERSION,
                            .solvers = solvers(),
                            .folder = folder,

@@ -15,6 +15,6 @@ struct ReportRun {
 };
 
 /// Checks and proves; what is open is proved once more in search of a clause that would help.
-ReportRun runReport(const ReportOptions &wish, const std::filesystem::path &folder, unsigned jobs);
+ReportRun runReport(const ReportOptions &options, const std::filesystem::path &folder, unsigned jobs);
 
 } // namespace feedhold

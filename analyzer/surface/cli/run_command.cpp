@@ -49,7 +49,7 @@ Result<int> runProgram(const RunArguments &arguments) {
   if (!prepared)
     return prepared.error();
   PreparedRun ready = prepared.take();
-  const LoadedPrograms &programs = *ready.programs;
+  const Project &programs = *ready.programs;
   Trace trace(*programs.set);
   if (arguments.trace)
     ready.options.trace = std::ref(trace);

@@ -60,13 +60,13 @@ std::optional<std::uint32_t> variableFrom(const ProgramSet &programs, std::strin
   return isNumber && number > 0 && number < kFirstNamedVariable ? std::optional(number) : std::nullopt;
 }
 
-Result<GivenVariables> givenVariables(const RunInput &input, const LoadedPrograms &programs) {
+Result<GivenVariables> givenVariables(const RunInput &input, const Project &programs) {
   GivenVariables given;
   for (const std::string &text : input.arguments) {
     const Result<Setting> setting = settingFrom(text);
     if (!setting)
       return Error{"--arg: " + setting.error().message};
-    const auto variable = argumentVariable(programs.dialect, setting.value().name);
+    const auto variable = argumentVariable(programs.dialect(), setting.value().name);
     if (!variable)
       return Error{fmt::format("--arg: `{}` is no letter that can be an argument here; --var sets any variable",
                                setting.value().name)};
@@ -97,20 +97,20 @@ Result<std::array<double, kAxisCount>> startPosition(const RunInput &input) {
   return start;
 }
 
-Result<std::unique_ptr<const LoadedPrograms>> load(const RunInput &input) {
-  ProgramsWish wish{.path = input.path};
+Result<std::unique_ptr<const Project>> load(const RunInput &input) {
+  ProgramOptions options{.path = input.path};
   if (input.path == "-")
-    wish.piped = PipedText{"<stdin>", readStandardInput()};
+    options.piped = PipedText{"<stdin>", readStandardInput()};
   if (!input.dialect.empty()) {
     if (const auto complaint = complaintAboutDialect(input.dialect, allDialects()))
       return Error{*complaint};
-    wish.dialect = input.dialect;
+    options.dialect = input.dialect;
   }
   if (input.isolated)
-    wish.config.source = ConfigSource::None;
+    options.config.source = ConfigSource::None;
   else if (!input.config.empty())
-    wish.config = {ConfigSource::Named, input.config};
-  return loadPrograms(wish, {allDialects(), allRules()});
+    options.config = {ConfigSource::Named, input.config};
+  return loadProject(options, {allDialects(), allRules()});
 }
 
 } // namespace
@@ -134,7 +134,7 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
   auto loaded = load(input);
   if (!loaded)
     return loaded.error();
-  const LoadedPrograms &programs = *loaded.value();
+  const Project &programs = *loaded.value();
   const auto name = input.program.empty() ? std::nullopt : std::optional(input.program);
   const std::optional<Callee> start = startOf(programs, name);
   if (!start)

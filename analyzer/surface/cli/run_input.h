@@ -1,7 +1,7 @@
 // RunInput: what sub-commands that execute a program are told on the command line.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "meaning/machine/machine.h"
 #include "proof/replay/example_run.h"
 
@@ -30,7 +30,7 @@ struct RunInput {
 void addRunInput(CLI::App &app, RunInput &input);
 
 struct PreparedRun {
-  std::unique_ptr<const LoadedPrograms> programs;
+  std::unique_ptr<const Project> programs;
   Callee start;
   RunOptions options;
 };

@@ -14,15 +14,15 @@ void writeTo(std::FILE *stream, std::string_view text) { std::fwrite(text.data()
 
 } // namespace
 
-ColourWish colourWishFrom(std::string_view name) {
-  return name == "always" ? ColourWish::Always : name == "never" ? ColourWish::Never : ColourWish::Auto;
+ColourOption colourWishFrom(std::string_view name) {
+  return name == "always" ? ColourOption::Always : name == "never" ? ColourOption::Never : ColourOption::Auto;
 }
 
-bool useColour(ColourWish wish) {
-  switch (wish) {
-  case ColourWish::Always: return true;
-  case ColourWish::Never: return false;
-  case ColourWish::Auto: break;
+bool useColour(ColourOption options) {
+  switch (options) {
+  case ColourOption::Always: return true;
+  case ColourOption::Never: return false;
+  case ColourOption::Auto: break;
   }
   const char *noColour = std::getenv("NO_COLOR");
   return (noColour == nullptr || *noColour == '\0') && ::isatty(STDOUT_FILENO) != 0;

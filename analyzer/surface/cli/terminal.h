@@ -9,12 +9,12 @@
 
 namespace feedhold {
 
-enum class ColourWish { Auto, Always, Never };
+enum class ColourOption { Auto, Always, Never };
 
 /// From `auto`, `always` or `never`.
-ColourWish colourWishFrom(std::string_view name);
+ColourOption colourWishFrom(std::string_view name);
 /// Auto: standard output is a terminal and NO_COLOR is not set (no-color.org).
-bool useColour(ColourWish wish);
+bool useColour(ColourOption options);
 bool isErrorTerminal();
 
 void print(std::string_view text);

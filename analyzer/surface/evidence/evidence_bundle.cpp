@@ -77,7 +77,7 @@ private:
       for (const Obligation &obligation : program.proof.obligations)
         obligations.push_back(obligationToJson(obligation, file, program));
     return {{"path", path},
-            {"dialect", file.loaded->dialect.id},
+            {"dialect", file.project->dialect().id},
             {"sources", sourcesOf(file)},
             {"programs", std::move(programs)},
             {"obligations", std::move(obligations)}};
@@ -85,7 +85,7 @@ private:
   /// All that was read: the program, its contract files, the programs of its folder.
   Json sourcesOf(const ProvedFile &file) const {
     std::map<std::string, std::string> hashes;
-    for (const auto &loaded : file.loaded->files) {
+    for (const auto &loaded : file.project->files) {
       hashes[pathFrom(folder_, loaded->path)] = sha256(loaded->source.text());
       for (std::size_t i = 1; i < loaded->contracts.sources.size(); ++i) {
         const SourceFile &contract = loaded->contracts.sources[i];
@@ -110,7 +110,7 @@ private:
             {"program", toString(file.file().model.programs[program.program].name)},
             {"kind", prove::nameOf(obligation.kind)},
             {"line", file.file().source.lineOf(obligation.span.begin)},
-            {"claim", claimOf(obligation, file.loaded->dialect)},
+            {"claim", claimOf(obligation, file.project->dialect())},
             {"verdict", prove::nameOf(obligation.verdict)},
             {"grade", obligation.verdict.grade() ? Json(prove::nameOf(*obligation.verdict.grade())) : Json()},
             {"reason", orNull(obligation.verdict.reason())},
@@ -123,7 +123,7 @@ private:
     Json variables = Json::object();
     for (const auto &[variable, value] : witness.variables.entries())
       if (!value.vacant)
-        variables[file.loaded->set->nameOfVariable(variable).substr(1)] = value.number;
+        variables[file.project->set->nameOfVariable(variable).substr(1)] = value.number;
     return {{"variables", std::move(variables)}, {"happened", witness.happened}};
   }
   Json evidenceToJson(const prove::Proved &proved, const std::string &name) {

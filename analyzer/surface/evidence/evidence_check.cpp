@@ -134,12 +134,12 @@ std::string_view nameOf(SolverSays says) {
   return "";
 }
 
-std::vector<Question> checkEvidence(const Bundle &bundle, const EvidenceWish &wish) {
+std::vector<Question> checkEvidence(const Bundle &bundle, const EvidenceOptions &options) {
   std::vector<Question> questions;
   for (const auto &[name, text] : bundle)
     if (name.ends_with(kQuestionEnd))
       questions.push_back({.file = name, .hasCertificate = bundle.contains(certificateOf(name))});
-  parallelFor(questions.size(), wish.jobs, [&](std::size_t index) {
+  parallelFor(questions.size(), options.jobs, [&](std::size_t index) {
     Question &question = questions[index];
     const std::string &text = bundle.at(question.file);
     if (question.hasCertificate)
@@ -147,8 +147,8 @@ std::vector<Question> checkEvidence(const Bundle &bundle, const EvidenceWish &wi
     else
       checkSolved(question, text);
   });
-  if (wish.ask == AskSolvers::Always)
-    giveOpinions(bundle, questions, wish.jobs);
+  if (options.ask == AskSolvers::Always)
+    giveOpinions(bundle, questions, options.jobs);
   return questions;
 }
 

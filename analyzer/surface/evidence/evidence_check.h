@@ -26,13 +26,13 @@ struct Question {
   bool holds() const { return problem.empty(); }
 };
 
-struct EvidenceWish {
+struct EvidenceOptions {
   AskSolvers ask = AskSolvers::Always;
   unsigned jobs = 0; // 0: one for each processor
 };
 
 /// In the order of the files' names.  A question with a certificate holds when the checker follows that and no solver
 /// contradicts; one without when both solvers refute it.
-std::vector<Question> checkEvidence(const Bundle &bundle, const EvidenceWish &wish);
+std::vector<Question> checkEvidence(const Bundle &bundle, const EvidenceOptions &options);
 
 } // namespace feedhold

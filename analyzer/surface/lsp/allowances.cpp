@@ -1,7 +1,7 @@
 #include "surface/lsp/allowances.h"
 
 #include "base/support/text.h"
-#include "findings/session/sidecars.h"
+#include "findings/project/sidecars.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The block at which the finding is; absent: it is of an older text.
-std::optional<BlockId> blockOf(const Remark &remark, const LoadedFile &file) {
+std::optional<BlockId> blockOf(const Remark &remark, const ProjectFile &file) {
   if (remark.span.begin > file.source.text().size())
     return std::nullopt;
   return file.tree.blockAt(remark.span.begin);
 }
 
 /// Of the block, when it is the first one of that number in its program: a clause means that one.
-std::optional<std::uint32_t> numberOf(BlockId block, const LoadedFile &file) {
+std::optional<std::uint32_t> numberOf(BlockId block, const ProjectFile &file) {
   const Program &program = file.model.programs[file.model.programOf(block)];
   const auto numbers = file.model.sequenceNumbersIn(program.first, program.last);
   const auto own =
@@ -33,7 +33,7 @@ std::optional<std::uint32_t> numberOf(BlockId block, const LoadedFile &file) {
   return first->block == block ? std::optional(own->number) : std::nullopt;
 }
 
-const SourceFile *sourceOf(const fs::path &sidecar, const LoadedFile &file) {
+const SourceFile *sourceOf(const fs::path &sidecar, const ProjectFile &file) {
   const auto &sources = file.contracts.sources;
   const auto found = std::find_if(sources.begin(), sources.end(),
                                   [&](const SourceFile &source) { return fs::path(source.path()) == sidecar; });
@@ -45,7 +45,7 @@ struct Home {
   fs::path file;
   const SourceFile *source; // null: it is not there yet
 };
-std::optional<Home> homeOf(ProgramId program, const LoadedFile &file) {
+std::optional<Home> homeOf(ProgramId program, const ProjectFile &file) {
   const std::optional<std::uint32_t> number = file.model.programs[program].name.number;
   std::vector<fs::path> names;
   if (number)
@@ -62,7 +62,7 @@ std::optional<Home> homeOf(ProgramId program, const LoadedFile &file) {
 
 /// What a comment can stand behind: all of the block but its last blanks, and a comment that goes on to the end of the
 /// line.
-Span placeForComment(BlockId at, const LoadedFile &file) {
+Span placeForComment(BlockId at, const ProjectFile &file) {
   const Block &block = file.tree.blocks[at];
   std::uint32_t end = block.end;
   for (const Comment &comment : file.tree.commentsOf(at))
@@ -75,7 +75,7 @@ Span placeForComment(BlockId at, const LoadedFile &file) {
 
 } // namespace
 
-std::optional<Edit> commentAllowing(const Remark &remark, const LoadedFile &file) {
+std::optional<Edit> commentAllowing(const Remark &remark, const ProjectFile &file) {
   const std::optional<BlockId> at = blockOf(remark, file);
   if (!at)
     return std::nullopt;
@@ -83,7 +83,7 @@ std::optional<Edit> commentAllowing(const Remark &remark, const LoadedFile &file
   return Edit{{place.end, place.end}, fmt::format("{}(@ALLOW {} )", place.empty() ? "" : " ", remark.code)};
 }
 
-std::optional<SidecarClause> clauseAllowing(const Remark &remark, const LoadedFile &file) {
+std::optional<SidecarClause> clauseAllowing(const Remark &remark, const ProjectFile &file) {
   const std::optional<BlockId> block = blockOf(remark, file);
   std::error_code ignored; // what cannot be asked has no files beside it
   if (!block || !fs::is_regular_file(file.path, ignored) || file.model.programs.empty())

@@ -1,7 +1,7 @@
 // Documents: the texts that editors have open, and how they change.
 #pragma once
 
-#include "findings/session/open_texts.h"
+#include "findings/project/open_texts.h"
 #include "surface/lsp/places.h"
 
 #include <map>

@@ -1,7 +1,7 @@
 // Feature: what a client can ask about a document; one handler file for each.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "proof/prove/prove.h"
 #include "surface/lsp/feature_flow.h"
 #include "surface/lsp/places.h"
@@ -28,17 +28,17 @@ struct DocumentProof {
 /// A document as its features see it: read together with its folder.
 struct View {
   std::string uri;                                          // as the client wrote it
-  std::shared_ptr<const LoadedPrograms> programs;           // the document is FileId(0)
+  std::shared_ptr<const Project> programs;                  // the document is FileId(0)
   std::shared_ptr<const std::vector<DocumentProof>> proofs; // null: not finished for this text
   const KnownNames &known;
   PositionEncoding encoding;
   std::vector<std::filesystem::path> folders; // of the workspace
   std::shared_ptr<const OpenTexts> open = {}; // of all editors
   std::shared_ptr<const OpenUris> uris = std::make_shared<const OpenUris>();
-  FileMemory *memory = nullptr; // of what was loaded before
+  FileStore *store = nullptr; // of what was loaded before
   std::shared_ptr<Flow> flow = std::make_shared<Flow>();
 
-  const LoadedFile &file() const { return programs->file(FileId(0)); }
+  const ProjectFile &file() const { return programs->file(FileId(0)); }
   Places places() const { return Places(file().source, encoding); }
   Places places(FileId id) const { return Places(programs->file(id).source, encoding); }
   /// The URI of any of its files; that of an open document as the client wrote it.

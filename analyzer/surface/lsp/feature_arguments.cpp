@@ -7,8 +7,8 @@
 
 namespace feedhold::lsp {
 
-std::vector<Parameter> parametersOf(const LoadedPrograms &programs, ProgramRef program) {
-  const LoadedFile &file = programs.file(program.file);
+std::vector<Parameter> parametersOf(const Project &programs, ProgramRef program) {
+  const ProjectFile &file = programs.file(program.file);
   std::set<std::uint32_t> variables;
   std::set<std::uint32_t> own; // written before anything reads them
   const Contract *contract = file.contracts.of(program.program);
@@ -22,15 +22,15 @@ std::vector<Parameter> parametersOf(const LoadedPrograms &programs, ProgramRef p
   }
   std::vector<Parameter> found;
   for (const std::uint32_t variable : variables)
-    if (const auto letter = letterOf(programs.dialect, variable))
+    if (const auto letter = letterOf(programs.dialect(), variable))
       found.push_back(
           {*letter, variable, meaningOf(programs, program, variable), clauseOf(programs, program, variable)});
   std::sort(found.begin(), found.end(), [](const Parameter &a, const Parameter &b) { return a.letter < b.letter; });
   return found;
 }
 
-std::optional<CallAtPlace> macroCallAt(const LoadedPrograms &programs, std::uint32_t offset) {
-  const LoadedFile &file = programs.file(kDocument);
+std::optional<CallAtPlace> macroCallAt(const Project &programs, std::uint32_t offset) {
+  const ProjectFile &file = programs.file(kDocument);
   const std::uint32_t line = file.source.lineOf(offset);
   const BlockId block = file.tree.blockAt(file.source.lineSpan(line).begin);
   for (const Call &call : file.model.callsIn(block, block.next())) {

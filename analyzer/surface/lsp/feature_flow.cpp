@@ -24,7 +24,7 @@ void Flow::forget() {
   awaited_.reset();
 }
 
-Flow::States Flow::follow(const LoadedPrograms &programs) {
+Flow::States Flow::follow(const Project &programs) {
   Result<BlockStates> states = rangesOf(programs, {});
   if (!states || states.value().gaveUp)
     return nullptr;

@@ -12,7 +12,7 @@ namespace feedhold::lsp {
 
 class Flow {
 public:
-  using Programs = std::shared_ptr<const LoadedPrograms>;
+  using Programs = std::shared_ptr<const Project>;
   using States = std::shared_ptr<const BlockStates>;
 
   /// Of all blocks of the document, followed when they are first asked for; null when they could not be.
@@ -25,15 +25,15 @@ public:
   /// Has another thread follow(), and take() called with what comes of it.  Empty: all is followed at once.
   std::function<void(const Programs &)> followLater;
   /// Null: they could not be.  From any thread.
-  static States follow(const LoadedPrograms &programs);
+  static States follow(const Project &programs);
   void take(const Programs &programs, States states);
 
 private:
   bool isKnown(const Programs &programs) const { return programs_.lock() == programs; }
 
-  std::weak_ptr<const LoadedPrograms> programs_;
+  std::weak_ptr<const Project> programs_;
   States states_;
-  std::weak_ptr<const LoadedPrograms> awaited_; // of what another thread follows
+  std::weak_ptr<const Project> awaited_; // of what another thread follows
 };
 
 } // namespace feedhold::lsp

@@ -13,19 +13,18 @@ namespace {
 
 constexpr std::size_t kMostTexts = 4; // in one answer
 
-std::string wayOf(const LoadedPrograms &programs, const ContextStates &context) {
+std::string wayOf(const Project &programs, const ContextStates &context) {
   if (context.calls.empty())
     return {};
   const Place from = context.calls.back();
-  const LoadedFile &file = programs.file(from.file);
+  const ProjectFile &file = programs.file(from.file);
   const std::uint32_t line = lineOf(file, programs.set->node(from).block);
   return from.file == kDocument ? fmt::format("called in line {}", line)
                                 : fmt::format("called in {}:{}", file.path.filename().generic_string(), line);
 }
 
 /// Of the programs that are started where these ways begin.
-std::string assumedBy(const LoadedPrograms &programs, const std::vector<const ContextStates *> &contexts,
-                      ProgramId own) {
+std::string assumedBy(const Project &programs, const std::vector<const ContextStates *> &contexts, ProgramId own) {
   std::vector<std::string> others;
   bool isOwn = false;
   for (const ContextStates *context : contexts) {
@@ -47,9 +46,9 @@ std::string assumedBy(const LoadedPrograms &programs, const std::vector<const Co
 
 /// Of a program with more blocks than are kept together: of this one alone.
 std::optional<BlockStates> statesOfOne(const View &view, BlockId block) {
-  RangesWish wish;
-  wish.line = lineOf(view.file(), block);
-  Result<BlockStates> states = rangesOf(*view.programs, wish);
+  RangesOptions options;
+  options.line = lineOf(view.file(), block);
+  Result<BlockStates> states = rangesOf(*view.programs, options);
   if (!states || states.value().gaveUp)
     return std::nullopt;
   return states.take();
@@ -64,7 +63,7 @@ bool isExecuted(const View &view, BlockId block) {
 } // namespace
 
 std::optional<KnownHere> knownBefore(const View &view, BlockId block) {
-  const LoadedPrograms &programs = *view.programs;
+  const Project &programs = *view.programs;
   if (!isExecuted(view, block))
     return std::nullopt;
   const BlockStates *states = view.flow->statesOf(view.programs);
@@ -72,7 +71,7 @@ std::optional<KnownHere> knownBefore(const View &view, BlockId block) {
   if (!states || (states->isCutShort && !one))
     return std::nullopt;
   KnownHere known;
-  const ModalTable modes(programs.dialect);
+  const ModalTable modes(programs.dialect());
   std::vector<const ContextStates *> contexts;
   for (const ContextStates &context : (one ? *one : *states).contexts)
     if (const auto found = context.blocks.find(block); context.file == kDocument && found != context.blocks.end()) {

@@ -5,7 +5,7 @@
 namespace feedhold::lsp {
 
 std::string View::uriOf(FileId id) const {
-  const LoadedFile &loaded = programs->file(id);
+  const ProjectFile &loaded = programs->file(id);
   return id == kDocument || loaded.path.empty() ? uri : uris->of(loaded.path);
 }
 
@@ -13,12 +13,12 @@ View withFolder(const View &view) {
   View whole = view;
   if (view.file().path.empty() || !view.file().model.calls.empty()) // then it is loaded with them
     return whole;
-  const ProgramsWish wish{.path = view.file().path.generic_string(),
-                          .dialect = std::string(view.programs->dialect.id),
-                          .open = view.open,
-                          .folder = ProgramsWish::Folder::Always,
-                          .memory = view.memory};
-  auto loaded = loadPrograms(wish, view.known);
+  const ProgramOptions options{.path = view.file().path.generic_string(),
+                               .dialect = std::string(view.programs->dialect().id),
+                               .open = view.open,
+                               .folder = ProgramOptions::Folder::Always,
+                               .store = view.store};
+  auto loaded = loadProject(options, view.known);
   if (loaded && loaded.value()->file(kDocument).source.text() == view.file().source.text())
     whole.programs = loaded.take();
   return whole;
@@ -51,7 +51,7 @@ std::string plain(std::string_view text) {
   return result;
 }
 
-Span spanOf(const LoadedFile &file, ProgramId program) {
+Span spanOf(const ProjectFile &file, ProgramId program) {
   const Program &named = file.model.programs[program];
   Span span = file.tree.blocks[named.first].span();
   for (BlockId block = named.first; block < named.last && block.index() < file.tree.blockCount(); block = block.next())
@@ -61,6 +61,6 @@ Span spanOf(const LoadedFile &file, ProgramId program) {
   return cover(span, nameSpanOf(file, program));
 }
 
-Span nameSpanOf(const LoadedFile &file, ProgramId program) { return file.model.programs[program].header; }
+Span nameSpanOf(const ProjectFile &file, ProgramId program) { return file.model.programs[program].header; }
 
 } // namespace feedhold::lsp

@@ -22,8 +22,8 @@ Json markdown(std::string text);
 std::string plain(std::string_view text);
 
 /// From its O word up to its last block that the control reads.
-Span spanOf(const LoadedFile &file, ProgramId program);
+Span spanOf(const ProjectFile &file, ProgramId program);
 /// The O word, or the first block of a program without one.
-Span nameSpanOf(const LoadedFile &file, ProgramId program);
+Span nameSpanOf(const ProjectFile &file, ProgramId program);
 
 } // namespace feedhold::lsp

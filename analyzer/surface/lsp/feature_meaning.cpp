@@ -12,7 +12,7 @@ namespace feedhold::lsp {
 namespace {
 
 /// Without its parentheses.
-std::string textOf(const LoadedFile &file, const Comment &comment) {
+std::string textOf(const ProjectFile &file, const Comment &comment) {
   std::string text = file.source.utf8(comment.span);
   if (text.starts_with('(') || text.starts_with(';'))
     text.erase(0, 1);
@@ -49,7 +49,7 @@ std::optional<std::string> saidOf(std::string_view comment, std::uint32_t variab
 }
 
 /// The comment in the block of the first assignment, when the block does nothing else.
-std::optional<std::string> saidBesideAssignment(const LoadedFile &file, ProgramId program, std::uint32_t variable) {
+std::optional<std::string> saidBesideAssignment(const ProjectFile &file, ProgramId program, std::uint32_t variable) {
   for (const VariableUse &use : file.model.variablesOf(program)) {
     if (!use.write || use.number != variable)
       continue;
@@ -62,7 +62,7 @@ std::optional<std::string> saidBesideAssignment(const LoadedFile &file, ProgramI
   return std::nullopt;
 }
 
-const EntryValue *entryOf(const LoadedFile &file, ProgramId program, std::uint32_t variable) {
+const EntryValue *entryOf(const ProjectFile &file, ProgramId program, std::uint32_t variable) {
   const Contract *contract = file.contracts.of(program);
   if (!contract)
     return nullptr;
@@ -75,12 +75,12 @@ const EntryValue *entryOf(const LoadedFile &file, ProgramId program, std::uint32
 
 } // namespace
 
-std::string nameOf(const LoadedPrograms &programs, ProgramRef program) {
+std::string nameOf(const Project &programs, ProgramRef program) {
   const std::string name = toString(programs.file(program.file).model.programs[program.program].name);
   return name.empty() ? "this program" : name;
 }
 
-std::string titleOf(const LoadedFile &file, ProgramId program) {
+std::string titleOf(const ProjectFile &file, ProgramId program) {
   const Program &named = file.model.programs[program];
   if (named.name.empty())
     return {};
@@ -90,15 +90,15 @@ std::string titleOf(const LoadedFile &file, ProgramId program) {
   return {};
 }
 
-std::string meaningOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t variable) {
-  const LoadedFile &file = programs.file(program.file);
+std::string meaningOf(const Project &programs, ProgramRef program, std::uint32_t variable) {
+  const ProjectFile &file = programs.file(program.file);
   if (const EntryValue *entry = entryOf(file, program.program, variable); entry && !entry->name.empty())
     return entry->name;
-  const VariableRange *range = findVariable(programs.dialect, variable);
+  const VariableRange *range = findVariable(programs.dialect(), variable);
   if (variable >= kFirstNamedVariable || !range || range->kind == VariableKind::System)
     return {}; // its name, or the table of the control, says it
   const Program &named = file.model.programs[program.program];
-  const auto letter = letterOf(programs.dialect, variable);
+  const auto letter = letterOf(programs.dialect(), variable);
   for (BlockId block = named.first; block < named.last && block.index() < file.tree.blockCount(); block = block.next())
     for (const Comment &comment : file.tree.commentsOf(block))
       if (auto said = saidOf(textOf(file, comment), variable, letter))
@@ -106,7 +106,7 @@ std::string meaningOf(const LoadedPrograms &programs, ProgramRef program, std::u
   return saidBesideAssignment(file, program.program, variable).value_or("");
 }
 
-std::string clauseOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t variable) {
+std::string clauseOf(const Project &programs, ProgramRef program, std::uint32_t variable) {
   const FileContracts &contracts = programs.file(program.file).contracts;
   const EntryValue *entry = entryOf(programs.file(program.file), program.program, variable);
   return entry ? contracts.clauses[entry->clause].text : "";
@@ -120,14 +120,14 @@ std::optional<char> letterOf(const Dialect &dialect, std::uint32_t variable) {
   return static_cast<char>('A' + (found - letters.begin()));
 }
 
-std::string kindOf(const LoadedPrograms &programs, std::uint32_t variable) {
+std::string kindOf(const Project &programs, std::uint32_t variable) {
   if (variable >= kFirstNamedVariable)
     return programs.set->isGlobalName(variable) ? "named variable of all programs" : "named variable of this program";
-  const VariableRange *range = findVariable(programs.dialect, variable);
+  const VariableRange *range = findVariable(programs.dialect(), variable);
   if (!range)
-    return fmt::format("{} has no such variable", programs.dialect.title);
+    return fmt::format("{} has no such variable", programs.dialect().title);
   std::string text(range->meaning);
-  if (const auto letter = letterOf(programs.dialect, variable))
+  if (const auto letter = letterOf(programs.dialect(), variable))
     text += fmt::format(", argument {}", *letter);
   if (!range->name.empty())
     text = fmt::format("`{}` {}", range->name, text);
@@ -164,7 +164,7 @@ std::string_view helpOf(ClauseKind kind) {
   return "";
 }
 
-std::uint32_t lineOf(const LoadedFile &file, BlockId block) {
+std::uint32_t lineOf(const ProjectFile &file, BlockId block) {
   return file.source.lineOf(file.tree.blocks[block].begin);
 }
 

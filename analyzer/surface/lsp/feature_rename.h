@@ -18,15 +18,15 @@ void checkLabelCanChange(const View &view, const LabelRef &label);
 void checkVariableCanChange(const View &view, const VariableRef &variable);
 
 /// Jumps of a program whose targets are not known, and those from elsewhere that may lead into it.
-void checkJumpsAreKnown(const LoadedPrograms &programs, ProgramRef program);
+void checkJumpsAreKnown(const Project &programs, ProgramRef program);
 /// Numbers behind `@AT N` in the contracts beside a program.
 struct NamedBlock {
   ContractSourceId source;
   Span span; // `N30`
   std::uint32_t number;
 };
-std::vector<NamedBlock> blocksNamedBeside(const LoadedFile &file, ProgramId program);
+std::vector<NamedBlock> blocksNamedBeside(const ProjectFile &file, ProgramId program);
 /// A jump's number, or an N word, as it is written with another number.
-std::string withNumber(const LoadedFile &file, Span span, std::uint32_t number);
+std::string withNumber(const ProjectFile &file, Span span, std::uint32_t number);
 
 } // namespace feedhold::lsp

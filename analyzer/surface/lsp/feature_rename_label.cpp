@@ -28,7 +28,7 @@ std::uint32_t numberOf(std::string_view name) {
 }
 
 /// The programs among `labels` are several: the one jump cannot say two numbers.
-void checkOneTarget(const LoadedPrograms &programs, const LabelRef &label) {
+void checkOneTarget(const Project &programs, const LabelRef &label) {
   for (std::size_t i = 0; i < programs.files.size(); ++i)
     for (const Jump &jump : programs.files[i]->model.jumps) {
       if (jump.kind != JumpKind::ReturnTo || targetNumber(jump) != label.number)
@@ -40,7 +40,7 @@ void checkOneTarget(const LoadedPrograms &programs, const LabelRef &label) {
     }
 }
 
-bool mayLeadInto(const LoadedPrograms &programs, FileId file, const Jump &jump, ProgramRef program) {
+bool mayLeadInto(const Project &programs, FileId file, const Jump &jump, ProgramRef program) {
   const ProgramRef own{file, jump.program};
   switch (jump.kind) {
   case JumpKind::Goto:
@@ -62,11 +62,11 @@ bool mayLeadInto(const LoadedPrograms &programs, FileId file, const Jump &jump, 
   });
 }
 
-void checkOtherJumps(const LoadedPrograms &programs, ProgramRef program) {
-  const LoadedFile &file = programs.file(program.file);
+void checkOtherJumps(const Project &programs, ProgramRef program) {
+  const ProjectFile &file = programs.file(program.file);
   const Program &named = file.model.programs[program.program];
   for (BlockId block = named.first; block < named.last; block = block.next())
-    if (findCode(file.tree, block, programs.dialect, CodeRole::JumpOnInput))
+    if (findCode(file.tree, block, programs.dialect(), CodeRole::JumpOnInput))
       throw Refused(fmt::format("line {} jumps on an input to a number that is not followed", lineOf(file, block)));
   for (const Call &call : file.model.callsOf(program.program)) {
     const Word *operation = call.kind == CallKind::MacroA ? findWord(file.tree, call.block, 'H') : nullptr;
@@ -78,7 +78,7 @@ void checkOtherJumps(const LoadedPrograms &programs, ProgramRef program) {
 
 } // namespace
 
-void checkJumpsAreKnown(const LoadedPrograms &programs, ProgramRef program) {
+void checkJumpsAreKnown(const Project &programs, ProgramRef program) {
   for (std::size_t i = 0; i < programs.files.size(); ++i)
     for (const Jump &jump : programs.files[i]->model.jumps)
       if (!targetNumber(jump) && mayLeadInto(programs, FileId(i), jump, program))
@@ -88,7 +88,7 @@ void checkJumpsAreKnown(const LoadedPrograms &programs, ProgramRef program) {
   checkOtherJumps(programs, program);
 }
 
-std::vector<NamedBlock> blocksNamedBeside(const LoadedFile &file, ProgramId program) {
+std::vector<NamedBlock> blocksNamedBeside(const ProjectFile &file, ProgramId program) {
   constexpr std::string_view kAt = "@AT";
   std::vector<NamedBlock> found;
   for (const Clause &clause : file.contracts.clauses) {
@@ -111,14 +111,14 @@ std::vector<NamedBlock> blocksNamedBeside(const LoadedFile &file, ProgramId prog
   return found;
 }
 
-std::string withNumber(const LoadedFile &file, Span span, std::uint32_t number) {
+std::string withNumber(const ProjectFile &file, Span span, std::uint32_t number) {
   const std::string_view text = file.source.text(span);
   const bool hasLetter = !text.empty() && isLetter(text.front());
   return (hasLetter ? std::string(1, text.front()) : std::string()) + std::to_string(number);
 }
 
 void checkLabelCanChange(const View &view, const LabelRef &label) {
-  const LoadedPrograms &programs = *view.programs;
+  const Project &programs = *view.programs;
   if (programs.file(label.program.file).model.find(label.program.program, label.number).empty())
     throw Refused(fmt::format("there is no N{} in {}", label.number, nameOf(programs, label.program)));
   checkJumpsAreKnown(programs, label.program);
@@ -126,17 +126,18 @@ void checkLabelCanChange(const View &view, const LabelRef &label) {
 }
 
 void renameLabel(const View &view, const LabelRef &label, std::string_view newName, Edits &edits) {
-  const LoadedPrograms &programs = *view.programs;
+  const Project &programs = *view.programs;
   const std::uint32_t number = numberOf(newName);
   checkLabelCanChange(view, label);
   if (number == label.number)
     return;
-  if (number > programs.dialect.limits.lastSequenceNumber || (number == 0 && !programs.dialect.grammar.sequenceZero))
-    throw Refused(fmt::format("sequence numbers of {} go from {} to {}", programs.dialect.title,
-                              programs.dialect.grammar.sequenceZero ? 0 : 1,
-                              programs.dialect.limits.lastSequenceNumber));
+  if (number > programs.dialect().limits.lastSequenceNumber ||
+      (number == 0 && !programs.dialect().grammar.sequenceZero))
+    throw Refused(fmt::format("sequence numbers of {} go from {} to {}", programs.dialect().title,
+                              programs.dialect().grammar.sequenceZero ? 0 : 1,
+                              programs.dialect().limits.lastSequenceNumber));
   for (const Use &use : usesOf(programs, LabelRef{label.program, number})) {
-    const LoadedFile &file = programs.file(use.file);
+    const ProjectFile &file = programs.file(use.file);
     throw Refused(fmt::format("N{} is taken: line {} of {} has `{}`", number, file.source.lineOf(use.span.begin),
                               file.shown, file.source.utf8(use.span)));
   }

@@ -15,7 +15,7 @@ namespace {
 bool isNamed(const VariableRef &variable) { return variable.number >= kFirstNamedVariable; }
 
 /// The programs of the variable's scope.
-template <typename Act> void eachProgram(const LoadedPrograms &programs, const VariableRef &variable, Act act) {
+template <typename Act> void eachProgram(const Project &programs, const VariableRef &variable, Act act) {
   if (variable.scope)
     return act(*variable.scope);
   for (std::size_t i = 0; i < programs.files.size(); ++i)
@@ -32,8 +32,8 @@ struct Mention {
 };
 
 /// The end of `#21`, `# 021`, `#<depth>` at `at`, when it is the variable.
-std::optional<std::size_t> endOfMention(const LoadedPrograms &programs, const VariableRef &variable,
-                                        std::string_view text, std::size_t at) {
+std::optional<std::size_t> endOfMention(const Project &programs, const VariableRef &variable, std::string_view text,
+                                        std::size_t at) {
   std::size_t begin = at + 1;
   while (begin < text.size() && isBlank(text[begin]))
     ++begin;
@@ -50,7 +50,7 @@ std::optional<std::size_t> endOfMention(const LoadedPrograms &programs, const Va
   return static_cast<std::size_t>(end - text.data());
 }
 
-std::vector<Mention> mentionsInContracts(const LoadedPrograms &programs, const VariableRef &variable) {
+std::vector<Mention> mentionsInContracts(const Project &programs, const VariableRef &variable) {
   std::vector<Mention> found;
   for (std::size_t i = 0; i < programs.files.size(); ++i) {
     const FileContracts &contracts = programs.files[i]->contracts;
@@ -69,7 +69,7 @@ std::vector<Mention> mentionsInContracts(const LoadedPrograms &programs, const V
   return found;
 }
 
-void checkNoRangeHolds(const LoadedPrograms &programs, const VariableRef &variable) {
+void checkNoRangeHolds(const Project &programs, const VariableRef &variable) {
   for (const auto &file : programs.files)
     for (const Contract &contract : file->contracts.contracts)
       for (const Assigns &assigns : contract.assigns)
@@ -82,9 +82,9 @@ void checkNoRangeHolds(const LoadedPrograms &programs, const VariableRef &variab
 
 // ---- what may reach it by another way ----
 
-void checkNothingIsComputed(const LoadedPrograms &programs, const VariableRef &variable) {
+void checkNothingIsComputed(const Project &programs, const VariableRef &variable) {
   eachProgram(programs, variable, [&](ProgramRef program) {
-    const LoadedFile &file = programs.file(program.file);
+    const ProjectFile &file = programs.file(program.file);
     for (const VariableUse &use : file.model.variablesOf(program.program))
       if (std::holds_alternative<IndirectVariable>(file.tree.expressions[use.expression].node))
         throw Refused(fmt::format("line {} of {} computes the number of a variable: it may be this one",
@@ -92,7 +92,7 @@ void checkNothingIsComputed(const LoadedPrograms &programs, const VariableRef &v
   });
 }
 
-void checkHasNoOtherName(const LoadedPrograms &programs, const VariableRef &variable) {
+void checkHasNoOtherName(const Project &programs, const VariableRef &variable) {
   for (const auto &file : programs.files)
     for (const Statement &statement : file->tree.statements) {
       const auto *naming = std::get_if<NameVariables>(&statement.node);
@@ -102,13 +102,13 @@ void checkHasNoOtherName(const LoadedPrograms &programs, const VariableRef &vari
     }
 }
 
-bool sharesLocals(const LoadedPrograms &programs, const Call &call, const LoadedFile &file) {
+bool sharesLocals(const Project &programs, const Call &call, const ProjectFile &file) {
   switch (call.kind) {
   case CallKind::Subprogram:
   case CallKind::External: return true;
   case CallKind::Code: {
     const Word &word = file.tree.words[call.code];
-    const CodeCall *row = findCodeCall(programs.dialect, word.address(), word.tenths().value_or(0));
+    const CodeCall *row = findCodeCall(programs.dialect(), word.address(), word.tenths().value_or(0));
     return !row || !row->isMacro;
   }
   case CallKind::Macro:
@@ -123,14 +123,14 @@ bool sharesLocals(const LoadedPrograms &programs, const Call &call, const Loaded
 }
 
 /// Programs called by M98 work on the locals of their caller.
-void checkLocalsAreItsOwn(const LoadedPrograms &programs, ProgramRef program) {
-  const LoadedFile &file = programs.file(program.file);
+void checkLocalsAreItsOwn(const Project &programs, ProgramRef program) {
+  const ProjectFile &file = programs.file(program.file);
   for (const Call &call : file.model.callsOf(program.program))
     if (sharesLocals(programs, call, file))
       throw Refused(
           fmt::format("the program called in line {} works on the same local variables", lineOf(file, call.block)));
   for (const CallGraph::Caller &caller : programs.set->callGraph().callers(program)) {
-    const LoadedFile &from = programs.file(caller.file);
+    const ProjectFile &from = programs.file(caller.file);
     const Call &call = from.model.calls[caller.call];
     if (sharesLocals(programs, call, from))
       throw Refused(fmt::format("line {} of {} calls this program without local variables of its own",
@@ -139,7 +139,7 @@ void checkLocalsAreItsOwn(const LoadedPrograms &programs, ProgramRef program) {
 }
 
 /// It is written before anything reads it, so that no caller gives it its value.
-bool isWrittenFirst(const LoadedFile &file, ProgramId program, std::uint32_t variable) {
+bool isWrittenFirst(const ProjectFile &file, ProgramId program, std::uint32_t variable) {
   const auto uses = file.model.variablesOf(program);
   std::optional<BlockId> first;
   for (const VariableUse &use : uses)
@@ -161,20 +161,20 @@ bool isWrittenFirst(const LoadedFile &file, ProgramId program, std::uint32_t var
   return false;
 }
 
-void checkNoCallerGivesIt(const LoadedPrograms &programs, const VariableRef &variable) {
-  const LoadedFile &file = programs.file(variable.scope->file);
+void checkNoCallerGivesIt(const Project &programs, const VariableRef &variable) {
+  const ProjectFile &file = programs.file(variable.scope->file);
   const Program &program = file.model.programs[variable.scope->program];
   const bool isCalled = program.returns || programs.set->callGraph().isCalled(*variable.scope);
   if (isNamed(variable) || !isCalled || isWrittenFirst(file, variable.scope->program, variable.number))
     return;
-  const auto letter = letterOf(programs.dialect, variable.number);
+  const auto letter = letterOf(programs.dialect(), variable.number);
   throw Refused(fmt::format("`#{}`{} may hold what a caller passes: the calls would have to change, too",
                             variable.number, letter ? fmt::format(" (argument {})", *letter) : ""));
 }
 
 // ---- the new name ----
 
-VariableRef newVariable(const LoadedPrograms &programs, const VariableRef &old, std::string_view name) {
+VariableRef newVariable(const Project &programs, const VariableRef &old, std::string_view name) {
   std::string_view digits = trimmed(name);
   if (digits.starts_with('#'))
     digits.remove_prefix(1);
@@ -183,8 +183,8 @@ VariableRef newVariable(const LoadedPrograms &programs, const VariableRef &old, 
   const auto [at, error] = std::from_chars(digits.data(), end, number);
   if (digits.empty() || error != std::errc() || at != end)
     throw Refused(fmt::format("`{}` is no variable: write `#105` or `105`", name));
-  const VariableRange *from = findVariable(programs.dialect, old.number);
-  const VariableRange *to = findVariable(programs.dialect, number);
+  const VariableRange *from = findVariable(programs.dialect(), old.number);
+  const VariableRange *to = findVariable(programs.dialect(), number);
   if (!to || to->kind != from->kind)
     throw Refused(fmt::format("`#{}` is {}; `#{}` is {}", old.number, kindOf(programs, old.number), number,
                               to ? kindOf(programs, number) : "no variable of this control"));
@@ -192,7 +192,7 @@ VariableRef newVariable(const LoadedPrograms &programs, const VariableRef &old, 
 }
 
 /// `#<depth>` out of `depth`, `<depth>` or `#<depth>`.
-std::string newNameOf(const LoadedPrograms &programs, const VariableRef &old, std::string_view name) {
+std::string newNameOf(const Project &programs, const VariableRef &old, std::string_view name) {
   std::string_view bare = trimmed(name);
   for (const std::string_view sign : {"#", "<"})
     if (bare.starts_with(sign))
@@ -211,8 +211,8 @@ std::string newNameOf(const LoadedPrograms &programs, const VariableRef &old, st
 } // namespace
 
 void checkVariableCanChange(const View &view, const VariableRef &variable) {
-  const LoadedPrograms &programs = *view.programs;
-  const VariableRange *range = isNamed(variable) ? nullptr : findVariable(programs.dialect, variable.number);
+  const Project &programs = *view.programs;
+  const VariableRange *range = isNamed(variable) ? nullptr : findVariable(programs.dialect(), variable.number);
   const bool isOurs =
       isNamed(variable) || (range && (range->kind == VariableKind::Local || range->kind == VariableKind::Common ||
                                       range->kind == VariableKind::Retentive));
@@ -230,7 +230,7 @@ void checkVariableCanChange(const View &view, const VariableRef &variable) {
 }
 
 void renameVariable(const View &view, const VariableRef &variable, std::string_view newName, Edits &edits) {
-  const LoadedPrograms &programs = *view.programs;
+  const Project &programs = *view.programs;
   checkVariableCanChange(view, variable);
   std::string text;
   if (isNamed(variable)) {

@@ -10,7 +10,7 @@ namespace {
 
 class Finder {
 public:
-  Finder(const LoadedPrograms &programs, std::uint32_t offset)
+  Finder(const Project &programs, std::uint32_t offset)
       : file_(programs.file(kDocument)), offset_(offset), block_(file_.tree.blockAt(offset)) {}
 
   std::optional<ThingAt> find() {
@@ -91,15 +91,15 @@ private:
         offer(clause.span, ClauseThing{ClauseId(i)});
   }
 
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   std::uint32_t offset_;
   BlockId block_;
   std::optional<ThingAt> best_;
 };
 
-std::vector<LabelRef> returnLabels(const LoadedPrograms &programs, ProgramRef own, std::uint32_t number) {
+std::vector<LabelRef> returnLabels(const Project &programs, ProgramRef own, std::uint32_t number) {
   std::vector<LabelRef> labels;
-  if (!programs.dialect.behaviour.returnTargetIsLocal)
+  if (!programs.dialect().behaviour.returnTargetIsLocal)
     for (const CallGraph::Caller &caller : programs.set->callGraph().callers(own)) {
       const ProgramModel &model = programs.file(caller.file).model;
       const LabelRef label{{caller.file, model.calls[caller.call].caller}, number};
@@ -113,11 +113,11 @@ std::vector<LabelRef> returnLabels(const LoadedPrograms &programs, ProgramRef ow
 
 } // namespace
 
-std::optional<ThingAt> thingAt(const LoadedPrograms &programs, std::uint32_t offset) {
+std::optional<ThingAt> thingAt(const Project &programs, std::uint32_t offset) {
   return Finder(programs, offset).find();
 }
 
-std::vector<LabelRef> labelsOf(const LoadedPrograms &programs, FileId file, const Jump &jump) {
+std::vector<LabelRef> labelsOf(const Project &programs, FileId file, const Jump &jump) {
   const std::optional<std::uint32_t> number = targetNumber(jump);
   if (!number)
     return {};
@@ -136,15 +136,15 @@ std::vector<LabelRef> labelsOf(const LoadedPrograms &programs, FileId file, cons
   return {};
 }
 
-VariableRef variableOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t number) {
-  const VariableRange *range = number < kFirstNamedVariable ? findVariable(programs.dialect, number) : nullptr;
+VariableRef variableOf(const Project &programs, ProgramRef program, std::uint32_t number) {
+  const VariableRange *range = number < kFirstNamedVariable ? findVariable(programs.dialect(), number) : nullptr;
   const bool isLocal =
       number < kFirstNamedVariable ? range && range->kind == VariableKind::Local : !programs.set->isGlobalName(number);
   return {number, isLocal ? std::optional(program) : std::nullopt};
 }
 
-std::optional<VariableRef> variableOf(const LoadedPrograms &programs, FileId file, const VariableUse &use) {
-  const LoadedFile &in = programs.file(file);
+std::optional<VariableRef> variableOf(const Project &programs, FileId file, const VariableUse &use) {
+  const ProjectFile &in = programs.file(file);
   std::optional<std::uint32_t> number = use.number;
   if (const auto *named = std::get_if<NamedVariable>(&in.tree.expressions[use.expression].node))
     number = programs.set->variableOf(file, named->name);

@@ -1,7 +1,7 @@
 // Thing: what stands at a place of a program.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 
 #include <optional>
 #include <variant>
@@ -78,12 +78,12 @@ struct ThingAt {
 };
 
 /// The smallest thing at an offset of the document; the one that ends there when none goes on.
-std::optional<ThingAt> thingAt(const LoadedPrograms &programs, std::uint32_t offset);
+std::optional<ThingAt> thingAt(const Project &programs, std::uint32_t offset);
 
 /// Where a jump with a literal target looks: in its program, in the program that it calls, or in all that call it.
-std::vector<LabelRef> labelsOf(const LoadedPrograms &programs, FileId file, const Jump &jump);
+std::vector<LabelRef> labelsOf(const Project &programs, FileId file, const Jump &jump);
 /// Absent: computed, or a name without a meaning.
-std::optional<VariableRef> variableOf(const LoadedPrograms &programs, FileId file, const VariableUse &use);
-VariableRef variableOf(const LoadedPrograms &programs, ProgramRef program, std::uint32_t number);
+std::optional<VariableRef> variableOf(const Project &programs, FileId file, const VariableUse &use);
+VariableRef variableOf(const Project &programs, ProgramRef program, std::uint32_t number);
 
 } // namespace feedhold::lsp

@@ -14,16 +14,16 @@ std::vector<Use> inOrder(std::vector<Use> uses) {
   return uses;
 }
 
-Span calleeSpanOf(const LoadedFile &file, const Call &call) {
+Span calleeSpanOf(const ProjectFile &file, const Call &call) {
   return call.programWord ? file.tree.words[*call.programWord].span() : call.span;
 }
 
 /// Words that give a local variable its first value.
-void addPassed(const LoadedPrograms &programs, const VariableRef &variable, std::vector<Use> &uses) {
+void addPassed(const Project &programs, const VariableRef &variable, std::vector<Use> &uses) {
   if (!variable.scope)
     return;
   for (const CallGraph::Caller &caller : programs.set->callGraph().callers(*variable.scope)) {
-    const LoadedFile &file = programs.file(caller.file);
+    const ProjectFile &file = programs.file(caller.file);
     for (const Argument &argument : file.model.calls[caller.call].arguments)
       if (argument.variable == variable.number && argument.role == ArgumentRole::Passed)
         uses.push_back({caller.file, file.tree.words[argument.word].span(), UseRole::Definition});
@@ -31,7 +31,7 @@ void addPassed(const LoadedPrograms &programs, const VariableRef &variable, std:
 }
 
 /// The clause that says what it holds on entry.
-void addClause(const LoadedPrograms &programs, const VariableRef &variable, std::vector<Use> &uses) {
+void addClause(const Project &programs, const VariableRef &variable, std::vector<Use> &uses) {
   for (std::size_t i = 0; i < programs.files.size(); ++i) {
     const FileContracts &contracts = programs.files[i]->contracts;
     for (const Contract &contract : contracts.contracts) {
@@ -45,7 +45,7 @@ void addClause(const LoadedPrograms &programs, const VariableRef &variable, std:
   }
 }
 
-std::vector<Use> usesOfLoop(const LoadedPrograms &programs, const Loop &loop) {
+std::vector<Use> usesOfLoop(const Project &programs, const Loop &loop) {
   const SyntaxTree &tree = programs.file(kDocument).tree;
   std::vector<Use> uses{{kDocument, tree.statements[loop.doStatement].span, UseRole::Definition}};
   if (loop.endStatement)
@@ -53,8 +53,8 @@ std::vector<Use> usesOfLoop(const LoadedPrograms &programs, const Loop &loop) {
   return uses;
 }
 
-std::vector<Use> usesOfConstruct(const LoadedPrograms &programs, const OWordUse &oWord) {
-  const LoadedFile &file = programs.file(kDocument);
+std::vector<Use> usesOfConstruct(const Project &programs, const OWordUse &oWord) {
+  const ProjectFile &file = programs.file(kDocument);
   std::vector<Use> uses;
   if (!oWord.construct)
     return uses;
@@ -66,8 +66,8 @@ std::vector<Use> usesOfConstruct(const LoadedPrograms &programs, const OWordUse 
 
 } // namespace
 
-std::vector<Use> usesOf(const LoadedPrograms &programs, const LabelRef &label) {
-  const LoadedFile &file = programs.file(label.program.file);
+std::vector<Use> usesOf(const Project &programs, const LabelRef &label) {
+  const ProjectFile &file = programs.file(label.program.file);
   std::vector<Use> uses;
   for (const SequenceNumber &each : file.model.find(label.program.program, label.number))
     uses.push_back({label.program.file, file.tree.words[each.word].span(), UseRole::Definition});
@@ -82,12 +82,12 @@ std::vector<Use> usesOf(const LoadedPrograms &programs, const LabelRef &label) {
   return inOrder(std::move(uses));
 }
 
-std::vector<Use> usesOf(const LoadedPrograms &programs, const VariableRef &variable) {
+std::vector<Use> usesOf(const Project &programs, const VariableRef &variable) {
   std::vector<Use> uses;
   for (std::size_t i = 0; i < programs.files.size(); ++i) {
     if (variable.scope && variable.scope->file != FileId(i))
       continue;
-    const LoadedFile &file = *programs.files[i];
+    const ProjectFile &file = *programs.files[i];
     for (const VariableUse &use : file.model.variables)
       if ((!use.number || use.number == variable.number) && variableOf(programs, FileId(i), use) == variable)
         uses.push_back({FileId(i), file.tree.expressions[use.expression].span,
@@ -98,20 +98,20 @@ std::vector<Use> usesOf(const LoadedPrograms &programs, const VariableRef &varia
   return inOrder(std::move(uses));
 }
 
-std::vector<Use> usesOf(const LoadedPrograms &programs, ProgramRef program) {
+std::vector<Use> usesOf(const Project &programs, ProgramRef program) {
   std::vector<Use> uses;
   const Program &named = programs.file(program.file).model.programs[program.program];
   if (!named.name.empty())
     uses.push_back({program.file, named.header, UseRole::Definition});
   for (const CallGraph::Caller &caller : programs.set->callGraph().callers(program)) {
-    const LoadedFile &file = programs.file(caller.file);
+    const ProjectFile &file = programs.file(caller.file);
     uses.push_back({caller.file, calleeSpanOf(file, file.model.calls[caller.call]), UseRole::Reference});
   }
   return inOrder(std::move(uses));
 }
 
-std::vector<Use> usesOf(const LoadedPrograms &programs, const Thing &thing) {
-  const LoadedFile &file = programs.file(kDocument);
+std::vector<Use> usesOf(const Project &programs, const Thing &thing) {
+  const ProjectFile &file = programs.file(kDocument);
   return match(
       thing,
       [&](const HeaderThing &it) {

@@ -19,10 +19,10 @@ struct Use {
 };
 
 // In order of files and places.
-std::vector<Use> usesOf(const LoadedPrograms &programs, const LabelRef &label);
-std::vector<Use> usesOf(const LoadedPrograms &programs, const VariableRef &variable);
-std::vector<Use> usesOf(const LoadedPrograms &programs, ProgramRef program);
+std::vector<Use> usesOf(const Project &programs, const LabelRef &label);
+std::vector<Use> usesOf(const Project &programs, const VariableRef &variable);
+std::vector<Use> usesOf(const Project &programs, ProgramRef program);
 /// Of what stands at a place of the document; empty: it has no name, or its name is computed.
-std::vector<Use> usesOf(const LoadedPrograms &programs, const Thing &thing);
+std::vector<Use> usesOf(const Project &programs, const Thing &thing);
 
 } // namespace feedhold::lsp

@@ -13,7 +13,7 @@ namespace {
 constexpr int kFunctionSymbol = 12; // SymbolKind
 
 Json itemOf(const View &view, ProgramRef program) {
-  const LoadedFile &file = view.programs->file(program.file);
+  const ProjectFile &file = view.programs->file(program.file);
   const std::string title = titleOf(file, program.program);
   const std::string folder = file.path.filename().generic_string();
   return {{"name", nameOf(*view.programs, program)},
@@ -30,7 +30,7 @@ std::optional<ProgramRef> programOf(const View &view, const Json &item) {
   for (std::size_t i = 0; i < view.programs->files.size(); ++i) {
     if (view.uriOf(FileId(i)) != uri)
       continue;
-    const LoadedFile &file = *view.programs->files[i];
+    const ProjectFile &file = *view.programs->files[i];
     const std::uint32_t offset = view.places(FileId(i)).offset(item.at("selectionRange").at("start"));
     for (std::size_t p = 0; p < file.model.programs.size(); ++p)
       if (nameSpanOf(file, ProgramId(p)).begin == offset)

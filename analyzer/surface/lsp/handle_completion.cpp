@@ -111,7 +111,7 @@ private:
   }
   Json programs() {
     for (std::size_t i = 0; i < view_.programs->files.size(); ++i) {
-      const LoadedFile &file = *view_.programs->files[i];
+      const ProjectFile &file = *view_.programs->files[i];
       for (std::size_t p = 0; p < file.model.programs.size(); ++p) {
         const ProgramName &name = file.model.programs[ProgramId(p)].name;
         if (!name.number || (FileId(i) == kDocument && ProgramId(p) == program_))
@@ -129,7 +129,7 @@ private:
     for (const VariableUse &use : file_.model.variablesOf(program_))
       if (use.number && seen.insert(*use.number).second)
         variable(*use.number, meaningOf(*view_.programs, {kDocument, program_}, *use.number));
-    for (const VariableRange &range : view_.programs->dialect.variables)
+    for (const VariableRange &range : view_.programs->dialect().variables)
       if (range.kind == VariableKind::System && seen.insert(range.first).second)
         variable(range.first, range.first == range.last ? "" : fmt::format("up to #{}", range.last));
     return std::move(items_);
@@ -159,7 +159,7 @@ private:
   }
 
   const View &view_;
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   std::uint32_t offset_;
   std::string_view line_;   // up to the cursor
   std::string_view behind_; // and from there

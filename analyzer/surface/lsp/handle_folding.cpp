@@ -9,7 +9,7 @@ namespace {
 
 class Folds {
 public:
-  explicit Folds(const LoadedFile &file) : file_(file) {}
+  explicit Folds(const ProjectFile &file) : file_(file) {}
 
   Json build() {
     for (std::size_t i = 0; i < file_.model.programs.size(); ++i)
@@ -67,7 +67,7 @@ private:
       add(*run, "comment");
   }
 
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   Json folds_ = Json::array();
 };
 

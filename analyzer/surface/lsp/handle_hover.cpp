@@ -55,7 +55,7 @@ private:
   // ---- programs ----
 
   void program(ProgramRef ref) {
-    const LoadedFile &in = programs_.file(ref.file);
+    const ProjectFile &in = programs_.file(ref.file);
     const std::string title = titleOf(in, ref.program);
     line("**{}**{}", nameOf(programs_, ref), title.empty() ? "" : " " + plain(title));
     if (ref.file != kDocument)
@@ -110,8 +110,8 @@ private:
     line("**N{}** of {}", label.number, nameOf(programs_, label.program));
     line("{}", lines.empty() ? "no jump names it" : "named in " + lines);
   }
-  static std::string placeOf(const LoadedPrograms &programs, const Use &use) {
-    const LoadedFile &in = programs.file(use.file);
+  static std::string placeOf(const Project &programs, const Use &use) {
+    const ProjectFile &in = programs.file(use.file);
     const std::uint32_t at = in.source.lineOf(use.span.begin);
     return use.file == kDocument ? fmt::format("line {}", at)
                                  : fmt::format("{}:{}", in.path.filename().generic_string(), at);
@@ -181,19 +181,19 @@ private:
     const std::string name = toUpper(file_.source.utf8(word.span()));
     if (word.form() == WordForm::Expression)
       return line("**{}**: the code is computed", name);
-    const Code *row = codeOf(word, programs_.dialect);
+    const Code *row = codeOf(word, programs_.dialect());
     const auto tenths = word.tenths();
-    const CodeCall *calls = tenths ? findCodeCall(programs_.dialect, word.address(), *tenths) : nullptr;
+    const CodeCall *calls = tenths ? findCodeCall(programs_.dialect(), word.address(), *tenths) : nullptr;
     if (calls)
       return line("**{}** calls O{} on this machine", name, calls->program);
     if (!row && word.address() == 'M')
       return line("**{}**: what it does is up to the builder of the machine", name);
     if (!row)
-      return line("**{}**: {} has no such code", name, programs_.dialect.title);
-    line("**{}** {} ({})", name, row->meaning, programs_.dialect.title);
+      return line("**{}**: {} has no such code", name, programs_.dialect().title);
+    line("**{}** {} ({})", name, row->meaning, programs_.dialect().title);
     if (row->group == 0 || word.address() != 'G')
       return;
-    const std::string mode = modeName(ModalTable(programs_.dialect), row->group);
+    const std::string mode = modeName(ModalTable(programs_.dialect()), row->group);
     line("modal group {}{}", row->group, mode.starts_with("group") ? "" : ": " + mode);
     before([&](const StateFacts &facts) {
       const auto found =
@@ -213,8 +213,8 @@ private:
   }
 
   const View &view_;
-  const LoadedPrograms &programs_;
-  const LoadedFile &file_;
+  const Project &programs_;
+  const ProjectFile &file_;
   const ThingAt &at_;
   std::string text_;
 };

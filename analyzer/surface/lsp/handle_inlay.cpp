@@ -61,7 +61,7 @@ private:
   // ---- G90 and G91 ----
 
   void distances() {
-    const auto group = ModalTable(programs_.dialect).groupOf(ModalKind::Distance);
+    const auto group = ModalTable(programs_.dialect()).groupOf(ModalKind::Distance);
     const BlockId first = file_.tree.blockAt(wanted_.begin), last = file_.tree.blockAt(wanted_.end);
     if (!group || !mayChangeUnseen(*group))
       return;
@@ -103,7 +103,7 @@ private:
   }
   bool isDistance(const Word &word, std::uint8_t group) const {
     const auto tenths = word.address() == 'G' ? word.tenths() : std::nullopt;
-    const Code *code = tenths ? findGCode(programs_.dialect, *tenths) : nullptr;
+    const Code *code = tenths ? findGCode(programs_.dialect(), *tenths) : nullptr;
     return code && code->group == group;
   }
   bool setsDistance(BlockId block, std::uint8_t group) const {
@@ -111,7 +111,7 @@ private:
     return std::any_of(words.begin(), words.end(), [&](const Word &word) { return isDistance(word, group); });
   }
   std::string textOf(const CodeSet &codes, std::uint8_t group) const {
-    const ModalTable modes(programs_.dialect);
+    const ModalTable modes(programs_.dialect());
     const auto &rows = modes.group(group).codes;
     std::string text;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -123,8 +123,8 @@ private:
   }
 
   const View &view_;
-  const LoadedPrograms &programs_;
-  const LoadedFile &file_;
+  const Project &programs_;
+  const ProjectFile &file_;
   Span wanted_;
   Json hints_ = Json::array();
 };

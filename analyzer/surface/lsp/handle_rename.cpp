@@ -18,7 +18,7 @@ struct Renamed {
   Span span;
 };
 
-LabelRef onlyLabel(const LoadedPrograms &programs, const Jump &jump) {
+LabelRef onlyLabel(const Project &programs, const Jump &jump) {
   const auto labels = labelsOf(programs, kDocument, jump);
   if (labels.empty())
     throw Refused("the target is computed: any sequence number of the program may be meant");
@@ -52,7 +52,7 @@ Renamed namedAt(const View &view, const Json &params) {
 constexpr std::array<std::uint32_t, 4> kSteps = {10, 5, 2, 1};
 
 std::uint32_t stepFor(const View &view, std::size_t count, std::uint32_t wanted) {
-  const std::uint64_t last = view.programs->dialect.limits.lastSequenceNumber;
+  const std::uint64_t last = view.programs->dialect().limits.lastSequenceNumber;
   if (count * wanted <= last)
     return wanted;
   for (const std::uint32_t step : kSteps)
@@ -94,7 +94,7 @@ private:
   }
   /// No jump misses its number, and none comes from another program or goes there.
   void checkJumpsStay(ProgramRef program) const {
-    const LoadedPrograms &programs = *view_.programs;
+    const Project &programs = *view_.programs;
     for (std::size_t i = 0; i < programs.files.size(); ++i)
       for (const Jump &jump : programs.files[i]->model.jumps) {
         const ProgramRef own{FileId(i), jump.program};
@@ -114,7 +114,7 @@ private:
   }
 
   const View &view_;
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   Edits &edits_;
 };
 
@@ -145,8 +145,8 @@ Json renumber(const View &document, const Json &params) {
   const auto step = params.value("step", std::uint32_t{10});
   if (step == 0)
     throw Refused("the step is 0");
-  if (!view.programs->dialect.grammar.sequenceJumps)
-    throw Refused(fmt::format("{} does not jump to sequence numbers", view.programs->dialect.title));
+  if (!view.programs->dialect().grammar.sequenceJumps)
+    throw Refused(fmt::format("{} does not jump to sequence numbers", view.programs->dialect().title));
   Edits edits(view);
   Renumbering renumbering(view, edits);
   for (std::size_t i = 0; i < view.file().model.programs.size(); ++i)

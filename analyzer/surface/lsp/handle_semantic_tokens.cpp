@@ -35,7 +35,7 @@ public:
   explicit Writer(const View &view) : view_(view), file_(view.file()), places_(view.places()) {}
 
   std::vector<std::uint32_t> write() {
-    const TokenBuffer tokens = lex(file_.source, view_.programs->dialect);
+    const TokenBuffer tokens = lex(file_.source, view_.programs->dialect());
     for (std::size_t i = 0; i < tokens.size(); ++i)
       i += token(tokens, i);
     return std::move(data_);
@@ -92,7 +92,7 @@ private:
     const std::string_view digits = file_.source.text(number.span());
     std::uint32_t value = 0;
     const bool isWhole = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec == std::errc();
-    const VariableRange *range = isWhole ? findVariable(view_.programs->dialect, value) : nullptr;
+    const VariableRange *range = isWhole ? findVariable(view_.programs->dialect(), value) : nullptr;
     const bool isOfControl = range && range->kind == VariableKind::System;
     const unsigned modifiers =
         (isOfControl ? kOfTheControl : 0) | (range && range->access == VariableAccess::ReadOnly ? kReadOnly : 0);
@@ -133,7 +133,7 @@ private:
   }
 
   const View &view_;
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   Places places_;
   std::uint32_t offset_ = 0; // the last one that was asked for
   Places::LineAndCharacter place_{0, 0};

@@ -38,7 +38,7 @@ Json signatureHelp(const View &view, const Json &params) {
   if (!at)
     return nullptr;
   const std::vector<Parameter> parameters = parametersOf(*view.programs, at->callee);
-  const LoadedFile &callee = view.programs->file(at->callee.file);
+  const ProjectFile &callee = view.programs->file(at->callee.file);
   std::string label = view.file().source.utf8(at->call->span);
   Json shown = Json::array();
   for (const Parameter &parameter : parameters) {

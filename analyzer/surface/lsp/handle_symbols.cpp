@@ -50,7 +50,7 @@ Json jsonOf(const View &view, const std::vector<Symbol> &symbols) {
 
 class Outline {
 public:
-  explicit Outline(const LoadedFile &file) : file_(file) {}
+  explicit Outline(const ProjectFile &file) : file_(file) {}
 
   std::vector<Symbol> build() {
     for (std::size_t i = 0; i < file_.model.programs.size(); ++i)
@@ -99,7 +99,7 @@ private:
     symbols_.push_back({file_.source.utf8(head), "", kOperator, cover(head, spanOfPart(construct.parts.back())), head});
   }
 
-  const LoadedFile &file_;
+  const ProjectFile &file_;
   std::vector<Symbol> symbols_;
 };
 
@@ -112,7 +112,7 @@ Json workspaceSymbol(const View &document, const Json &params) {
   const std::string query = toUpper(params.at("query").get<std::string>());
   Json found = Json::array();
   for (std::size_t i = 0; i < view.programs->files.size(); ++i) {
-    const LoadedFile &file = *view.programs->files[i];
+    const ProjectFile &file = *view.programs->files[i];
     for (std::size_t p = 0; p < file.model.programs.size(); ++p) {
       const ProgramName &name = file.model.programs[ProgramId(p)].name;
       const std::string title = titleOf(file, ProgramId(p));

@@ -1,6 +1,6 @@
 #include "surface/lsp/places.h"
 
-#include "findings/session/open_texts.h"
+#include "findings/project/open_texts.h"
 
 #include <fmt/format.h>
 

@@ -72,7 +72,7 @@ public:
       : file_(file), report_{.result = result}, context_(context) {}
 
   Remark remarkOf(const Obligation &obligation, const ProvedProgram &program) const {
-    const Dialect &dialect = file_.loaded->dialect;
+    const Dialect &dialect = file_.project->dialect();
     Remark remark{.span = obligation.span,
                   .severity = obligation.verdict == Verdict::Refuted ? Severity::Error : Severity::Warning,
                   .code = std::string(nameOf(obligation.kind)),
@@ -93,12 +93,12 @@ private:
   void addWitness(Remark &remark, const Obligation &obligation, const ProvedProgram &program) const {
     const prove::Witness &witness = *obligation.verdict.witness();
     const TypedWitness call = typed(witness, file_, program, report_);
-    const std::string happened = happenedIn(witness, obligation, file_.loaded->dialect);
+    const std::string happened = happenedIn(witness, obligation, file_.project->dialect());
     remark.message += fmt::format("\n{}: {}", textOf(call), happened);
     if (witness.gouge) {
-      const BlockId block = file_.loaded->set->node(witness.gouge->place).block;
+      const BlockId block = file_.project->set->node(witness.gouge->place).block;
       const FileId there = witness.gouge->place.file;
-      addPlace(remark, there, file_.loaded->file(there).tree.blocks[block].span(), happened);
+      addPlace(remark, there, file_.project->file(there).tree.blocks[block].span(), happened);
     }
     remark.commands.push_back({{"title", "run the witness: " + textOf(call)},
                                {"command", "feedhold.runWitness"},
@@ -115,7 +115,7 @@ private:
   }
 
   void addPlace(Remark &remark, FileId there, Span span, std::string message) const {
-    const LoadedFile &file = file_.loaded->file(there);
+    const ProjectFile &file = file_.project->file(there);
     RelatedPlace place{.uri = {}, .span = span, .message = std::move(message)};
     if (there != FileId(0)) {
       place.uri = context_.uriOf(file.path);
@@ -127,7 +127,7 @@ private:
   /// The place is in a program that is called: the remark stands at the head of the one that was proved.
   void moveToOwnText(Remark &remark, const Obligation &obligation, const ProvedProgram &program) const {
     addPlace(remark, obligation.place.file, obligation.span, "here");
-    const LoadedFile &own = file_.file();
+    const ProjectFile &own = file_.file();
     remark.span = own.model.programs[program.program].header;
   }
 

@@ -1,7 +1,7 @@
 // serve: the language server on a pair of streams.
 #pragma once
 
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 #include "findings/session/proof_cache.h"
 
 #include <istream>

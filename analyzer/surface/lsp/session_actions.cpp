@@ -101,7 +101,7 @@ void ClientSession::addActions(const Remark &remark, OpenDocument &document, con
   const bool isOfSuppression = rule && rule->rule->info.category == Category::Suppression;
   if (!programs || !remark.subject.empty() || isOfSuppression)
     return; // a verdict is no matter of opinion, and what is wrong with a suppression cannot be suppressed
-  const LoadedFile &file = programs->file(FileId(0));
+  const ProjectFile &file = programs->file(FileId(0));
   if (const std::optional<Edit> edit = commentAllowing(remark, file))
     actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", remark.code)},
                        {"kind", kQuickFix},
@@ -131,7 +131,7 @@ std::optional<Edit> ClientSession::fixAll(OpenDocument &document) {
   if (!document.fixed || document.fixed->stamp != document.stamp) {
     // With its folder: what seems unused in a program alone may be of use to those that it calls.
     const FlowScope scope = workspace_.scopeOf(document);
-    const FixResult result = fix(scope.whole ? *scope.whole : scope.alone, FixWish::Safe, options_.known);
+    const FixResult result = fix(scope.whole ? *scope.whole : scope.alone, FixKind::Safe, options_.known);
     const std::string name = Workspace::nameIn(document, scope.alone);
     document.fixed = FixedText{document.stamp, *document.document.text};
     for (const FixedFile &file : result.files)
@@ -151,8 +151,8 @@ Json ClientSession::formatting(const Json &params) {
   const auto programs = workspace_.programsOf(document);
   if (!programs)
     return nullptr;
-  const LoadedFile &file = programs->file(FileId(0));
-  std::vector<Edit> edits = format(file.source, file.tree, programs->dialect, style);
+  const ProjectFile &file = programs->file(FileId(0));
+  std::vector<Edit> edits = format(file.source, file.tree, programs->dialect(), style);
   const Places places(file.source, workspace_.encoding);
   if (params.contains("range")) {
     const Span asked = places.span(params.at("range"));
@@ -191,7 +191,7 @@ Json ClientSession::runWitness(const OpenDocument &document, const std::string &
           if (obligation.id == id && obligation.verdict.witness()) {
             const ProveReport report{.result = *document.proved};
             const TypedWitness witness = typed(*obligation.verdict.witness(), file, program, report);
-            const std::string happened = happenedIn(*obligation.verdict.witness(), obligation, file.loaded->dialect);
+            const std::string happened = happenedIn(*obligation.verdict.witness(), obligation, file.project->dialect());
             show(Severity::Info, fmt::format("{}: {}\n{}", textOf(witness), happened, witness.run()));
             return {{"call", textOf(witness)}, {"happened", happened}, {"run", witness.run()}};
           }

@@ -39,18 +39,18 @@ void ClientSession::startProofs(OpenDocument &document) {
   const bool isPromising = programs && !programs->file(FileId(0)).contracts.contracts.empty();
   if (!isPromising)
     return takeProofs(uri, document.stamp, std::make_shared<ProofsResult>());
-  ProofsWish wish{
-      .files = workspace_.optionsFor(document), .cache = options_.cache, .which = ProofsWish::Which::WithContract};
+  ProofOptions options{
+      .files = workspace_.optionsFor(document), .cache = options_.cache, .which = ProofOptions::Which::WithContract};
   const std::string token = fmt::format("feedhold/proofs/{}", ++lastAsked_);
   beginProgress(token, uri);
-  proofLane_.submit(uri, [this, uri, stamp = document.stamp, wish, token](const std::stop_token &stop) mutable {
-    wish.stop = stop;
-    wish.files.progress = [&](std::size_t done, std::size_t all) { reportProgress(token, done, all); };
+  proofLane_.submit(uri, [this, uri, stamp = document.stamp, options, token](const std::stop_token &stop) mutable {
+    options.stop = stop;
+    options.files.progress = [&](std::size_t done, std::size_t all) { reportProgress(token, done, all); };
     std::shared_ptr<ProofsResult> result;
     std::string failure;
     try {
       if (!stop.stop_requested())
-        result = std::make_shared<ProofsResult>(proveAll(wish, options_.known));
+        result = std::make_shared<ProofsResult>(proveAll(options, options_.known));
     } catch (const std::exception &error) {
       failure = error.what();
     }
@@ -77,7 +77,7 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
     const ProvedFile &file = result->files.front();
     remarks = remarksOnProofs(file, *result, remarkContext());
     // The verdicts name places of the programs that were loaded for them.
-    document->programs = std::shared_ptr<const LoadedPrograms>(result, file.loaded.get());
+    document->programs = std::shared_ptr<const Project>(result, file.project.get());
   }
   for (const PathProblem &problem : result->errors) // the findings say it, too
     log(fmt::format("{}: {}", problem.path, problem.message));

@@ -1,7 +1,7 @@
 #include "surface/lsp/workspace.h"
 
 #include "base/support/check.h"
-#include "findings/session/discovery.h"
+#include "findings/project/discovery.h"
 
 #include <algorithm>
 
@@ -180,21 +180,21 @@ std::vector<std::string> Workspace::programsBeside(const fs::path &contract) {
   return named.empty() ? all : named;
 }
 
-std::shared_ptr<const LoadedPrograms> Workspace::programsOf(OpenDocument &document) {
+std::shared_ptr<const Project> Workspace::programsOf(OpenDocument &document) {
   if (document.programs || document.isContract())
     return document.programs;
   const CheckOptions options = optionsFor(document);
-  const ProgramsWish wish{.path = options.paths.empty() ? std::string() : options.paths.front(),
-                          .piped = options.piped,
-                          .open = options.open,
-                          .memory = &memory_};
-  if (auto loaded = loadPrograms(wish, known_))
+  const ProgramOptions program{.path = options.paths.empty() ? std::string() : options.paths.front(),
+                               .piped = options.piped,
+                               .open = options.open,
+                               .store = &store_};
+  if (auto loaded = loadProject(program, known_))
     document.programs = loaded.take();
   return document.programs;
 }
 
 View Workspace::viewOf(OpenDocument &document) {
-  std::shared_ptr<const LoadedPrograms> programs = programsOf(document);
+  std::shared_ptr<const Project> programs = programsOf(document);
   FEEDHOLD_CHECK(programs != nullptr, "a view of what is no program");
   return {.uri = document.document.uri,
           .programs = std::move(programs),
@@ -204,7 +204,7 @@ View Workspace::viewOf(OpenDocument &document) {
           .folders = folders,
           .open = texts_,
           .uris = uris_,
-          .memory = &memory_,
+          .store = &store_,
           .flow = document.kept};
 }
 

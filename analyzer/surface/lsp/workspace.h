@@ -1,7 +1,7 @@
 // Workspace: the open documents with all that is known of them, and how they are read.
 #pragma once
 
-#include "findings/session/file_memory.h"
+#include "findings/project/file_store.h"
 #include "surface/lsp/event_queue.h"
 #include "surface/lsp/feature.h"
 #include "surface/lsp/remarks.h"
@@ -31,7 +31,7 @@ struct OpenDocument {
   bool isFlowKnown = false;           // `flow` is of the text in hand
   std::map<std::string, Json> others; // diagnostics for further files, by their URIs
 
-  std::shared_ptr<const LoadedPrograms> programs;        // of the text in hand; null: not read yet
+  std::shared_ptr<const Project> programs;               // of the text in hand; null: not read yet
   std::shared_ptr<Flow> kept = std::make_shared<Flow>(); // of `programs`, once it has been asked for
   std::shared_ptr<const std::vector<DocumentProof>> verdicts;
   std::shared_ptr<const ProofsResult> proved; // what they come from
@@ -80,7 +80,7 @@ public:
   /// The programs that may be meant by a file with contracts: those of its name, else all of its folder.
   static std::vector<std::string> programsBeside(const std::filesystem::path &contract);
   /// Null: it is no program.
-  std::shared_ptr<const LoadedPrograms> programsOf(OpenDocument &document);
+  std::shared_ptr<const Project> programsOf(OpenDocument &document);
   View viewOf(OpenDocument &document);
   std::string uriOf(const std::filesystem::path &path) const { return uris_->of(path); }
 
@@ -92,7 +92,7 @@ private:
   std::size_t filesBelow(const std::filesystem::path &root);
 
   KnownNames known_;
-  FileMemory memory_;
+  FileStore store_{FileStore::Lifetime::Server};
   std::map<std::filesystem::path, std::size_t> filesBelow_; // roots: only about how many matters
   std::map<std::string, OpenDocument> documents_;           // by URI
   std::shared_ptr<const OpenTexts> texts_ = std::make_shared<const OpenTexts>();

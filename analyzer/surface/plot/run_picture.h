@@ -1,7 +1,7 @@
 // Run pictures: a run of a program with the space of its contract, as a picture, and what there is to say of it.
 #pragma once
 
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "surface/plot/plot_sink.h"
 
 #include <span>
@@ -12,7 +12,7 @@ namespace feedhold {
 
 /// A run that is to be drawn.
 struct PicturedRun {
-  const LoadedPrograms &programs;
+  const Project &programs;
   Callee start;
   const RunOptions &options;
   const RunResult &result;

@@ -47,7 +47,8 @@ void addPictures(Bundle &report, const Json &document, const Runs &runs) {
 } // namespace
 
 Bundle makeReport(const ReportInput &input) {
-  const Bundle evidence = makeBundle(input.proofs, input.wish.reading, input.version, input.folder / kEvidenceFolder);
+  const Bundle evidence =
+      makeBundle(input.proofs, input.options.reading, input.version, input.folder / kEvidenceFolder);
   const Runs runs = runsOf(input);
   const Json document = certificate::documentOf(input, evidence, runs);
   Bundle report;

@@ -33,7 +33,7 @@ ReleaseStatus releaseStatusOf(const ProvedFile &file, const ProvedProgram &progr
 ReleaseStatus releaseStatusOf(const ProofsResult &proofs);
 
 struct ReportInput {
-  const ReportOptions &wish;
+  const ReportOptions &options;
   const ProofsResult &proofs;
   const CheckResult &findings; // of the same files
   const DialectRegistry &dialects;
@@ -51,7 +51,7 @@ Bundle makeReport(const ReportInput &input);
 /// How a report says that it was asked for.
 struct ReportOrigin {
   std::string version;
-  ReportOptions wish; // paths as seen from here
+  ReportOptions options; // paths as seen from here
 };
 Result<ReportOrigin> reportOrigin(const Bundle &report, const std::filesystem::path &folder);
 

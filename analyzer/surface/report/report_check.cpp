@@ -85,21 +85,21 @@ Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) 
     const auto pathOf = [&](const Json &path) {
       return (fs::absolute(folder) / path.get<std::string>()).lexically_normal();
     };
-    ReportOrigin origin{.version = document.value().at("feedhold"), .wish = {}};
+    ReportOrigin origin{.version = document.value().at("feedhold"), .options = {}};
     const Json &reading = document.value().at("reading");
     for (const Json &path : reading.at("paths"))
-      origin.wish.paths.push_back(pathOf(path));
+      origin.options.paths.push_back(pathOf(path));
     if (!reading.at("dialect").is_null())
-      origin.wish.reading.dialect = reading.at("dialect").get<std::string>();
-    origin.wish.reading.isolated = reading.at("isolated");
+      origin.options.reading.dialect = reading.at("dialect").get<std::string>();
+    origin.options.reading.isolated = reading.at("isolated");
     if (!reading.at("config").is_null())
-      origin.wish.reading.config = pathOf(reading.at("config"));
+      origin.options.reading.config = pathOf(reading.at("config"));
     for (const prove::ObligationKind kind : prove::kObligationKinds)
       for (const Json &name : reading.at("only"))
         if (name == prove::nameOf(kind))
-          origin.wish.reading.only.push_back(kind);
+          origin.options.reading.only.push_back(kind);
     if (!document.value().at("date").is_null())
-      origin.wish.date = document.value().at("date").get<std::string>();
+      origin.options.date = document.value().at("date").get<std::string>();
     return origin;
   } catch (const Json::exception &) {
     return Error{fmt::format("{} cannot be read", kReportDocument)};

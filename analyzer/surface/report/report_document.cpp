@@ -25,7 +25,7 @@ Json countsToJson(const VerdictCounts &counts) {
 }
 
 /// `POCKET FROM THE MIDDLE`: the comment behind the name of a program.
-std::string titleOf(const LoadedFile &file, ProgramId program) {
+std::string titleOf(const ProjectFile &file, ProgramId program) {
   const std::uint32_t header = file.source.lineOf(file.model.programs[program].header.begin);
   for (const Comment &comment : file.tree.comments)
     if (file.source.lineOf(comment.span.begin) == header) {
@@ -60,7 +60,7 @@ public:
     return {{"version", 1},
             {"feedhold", input_.version},
             {"solvers", std::move(solvers)},
-            {"date", input_.wish.date ? Json(*input_.wish.date) : Json()},
+            {"date", input_.options.date ? Json(*input_.options.date) : Json()},
             {"reading", readingToJson()},
             {"counts", countsToJson(counts_)},
             {"standing", nameOf(releaseStatusOf(input_.proofs))},
@@ -75,12 +75,12 @@ private:
   std::string relative(const fs::path &path) const { return pathFrom(input_.folder, path); }
 
   Json readingToJson() const {
-    const BundleReading &reading = input_.wish.reading;
+    const BundleReading &reading = input_.options.reading;
     Json only = Json::array();
     for (const prove::ObligationKind kind : reading.only)
       only.push_back(prove::nameOf(kind));
     Json paths = Json::array();
-    for (const fs::path &path : input_.wish.paths)
+    for (const fs::path &path : input_.options.paths)
       paths.push_back(relative(path));
     return {{"paths", std::move(paths)},
             {"dialect", reading.dialect ? Json(*reading.dialect) : Json()},
@@ -116,12 +116,12 @@ private:
   }
   void addSources(const ProvedFile &file) {
     std::set<std::size_t> called;
-    for (std::size_t i = 0; i < file.loaded->files.size(); ++i)
-      for (const Call &call : file.loaded->files[i]->model.calls)
-        if (const auto callee = file.loaded->set->callGraph().callee(FileId(i), call))
+    for (std::size_t i = 0; i < file.project->files.size(); ++i)
+      for (const Call &call : file.project->files[i]->model.calls)
+        if (const auto callee = file.project->set->callGraph().callee(FileId(i), call))
           called.insert(callee->file.index());
-    for (std::size_t i = 0; i < file.loaded->files.size(); ++i) {
-      const LoadedFile &loaded = *file.loaded->files[i];
+    for (std::size_t i = 0; i < file.project->files.size(); ++i) {
+      const ProjectFile &loaded = *file.project->files[i];
       addSource(loaded.path, loaded.source.text(), i == 0 ? "program" : called.contains(i) ? "called" : "beside");
       for (std::size_t contract = 1; contract < loaded.contracts.sources.size(); ++contract) {
         const SourceFile &source = loaded.contracts.sources[contract];
@@ -154,12 +154,12 @@ private:
       for (const std::string_view reason : checked->reasons)
         reasons.push_back(reason);
     return {{"path", path},
-            {"dialect", file.loaded->dialect.id},
-            {"control", fmt::format("{} ({})", file.loaded->dialect.title, file.loaded->dialect.controls)},
+            {"dialect", file.project->dialect().id},
+            {"control", fmt::format("{} ({})", file.project->dialect().title, file.project->dialect().controls)},
             {"chosenBy", checked ? Json(feedhold::nameOf(checked->choice)) : Json()},
             {"reasons", std::move(reasons)},
             {"config", config ? Json(relative(*config)) : Json()},
-            {"switches", switchesOf(file.loaded->dialect)},
+            {"switches", switchesOf(file.project->dialect())},
             {"programs", std::move(programs)},
             {"findings", checked ? findingsToJson(*checked) : Json::array()}};
   }
@@ -204,7 +204,7 @@ private:
     VerdictCounts counts;
     counts.add(program.proof);
     counts_.add(program.proof);
-    const LoadedFile &loaded = file.file();
+    const ProjectFile &loaded = file.file();
     Json obligations = Json::array();
     for (const Obligation &obligation : program.proof.obligations)
       obligations.push_back(obligationToJson(obligation, path, file, program));
@@ -221,7 +221,7 @@ private:
             {"obligations", std::move(obligations)},
             {"runs", runsToJson(path, runs)}};
   }
-  Json clausesOf(const LoadedFile &file, ProgramId program) const {
+  Json clausesOf(const ProjectFile &file, ProgramId program) const {
     Json rows = Json::array();
     for (const Clause &clause : file.contracts.clauses)
       if (clause.program == program) {
@@ -239,31 +239,31 @@ private:
     std::set<ProgramRef> seen(open.begin(), open.end());
     for (std::size_t i = 0; i < open.size(); ++i) {
       const ProgramRef caller = open[i];
-      const LoadedFile &from = file.loaded->file(caller.file);
+      const ProjectFile &from = file.project->file(caller.file);
       for (const Call &call : from.model.callsOf(caller.program)) {
-        const auto callee = file.loaded->set->callGraph().callee(caller.file, call);
+        const auto callee = file.project->set->callGraph().callee(caller.file, call);
         const std::string name = toString(call.callee);
         rows.push_back({{"from", nameIn(from, caller.program)},
                         {"fromPath", relative(from.path)},
                         {"line", from.source.lineOf(call.span.begin)},
-                        {"to", callee         ? nameIn(file.loaded->file(callee->file), callee->program)
+                        {"to", callee         ? nameIn(file.project->file(callee->file), callee->program)
                                : name.empty() ? "a program that is computed"
                                               : name},
-                        {"path", callee ? Json(relative(file.loaded->file(callee->file).path)) : Json()}});
+                        {"path", callee ? Json(relative(file.project->file(callee->file).path)) : Json()}});
         if (callee && seen.insert(*callee).second)
           open.push_back(*callee);
       }
     }
     return rows;
   }
-  static std::string nameIn(const LoadedFile &file, ProgramId program) {
+  static std::string nameIn(const ProjectFile &file, ProgramId program) {
     const std::string name = toString(file.model.programs[program].name);
     return name.empty() ? "a program without a number" : name;
   }
   Json unfollowedOf(const ProvedFile &file, const ProvedProgram &program) const {
     Json rows = Json::array();
     for (const prove::Unfollowed &each : program.proof.unfollowed) {
-      const LoadedFile &where = file.loaded->file(each.place.file);
+      const ProjectFile &where = file.project->file(each.place.file);
       rows.push_back(
           {{"reason", each.reason}, {"path", relative(where.path)}, {"line", where.source.lineOf(each.span.begin)}});
     }
@@ -286,7 +286,7 @@ public:
 private:
   /// What a replay has to be told, from the folder of the report.
   std::string readingOptions() const {
-    const BundleReading &reading = input_.wish.reading;
+    const BundleReading &reading = input_.options.reading;
     std::string text;
     if (reading.dialect)
       text += " --dialect " + *reading.dialect;
@@ -322,14 +322,14 @@ private:
     for (const Json &each : evidence_.at(pathFrom(input_.folder / kEvidenceFolder, file.file().path)))
       if (each.at("id") == obligation.id)
         row = each;
-    const Dialect &dialect = file.loaded->dialect;
+    const Dialect &dialect = file.project->dialect();
     row.erase("program");
     row["evidence"] = evidenceToJson(row.at("evidence"));
     row["method"] = obligation.verdict.method().empty() ? Json() : Json(obligation.verdict.method());
     row["rlimit"] = obligation.effort;
     row["margin"] = obligation.verdict.margin() ? Json(*obligation.verdict.margin()) : Json();
-    row["path"] = relative(file.loaded->file(obligation.place.file).path);
-    row["line"] = file.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
+    row["path"] = relative(file.project->file(obligation.place.file).path);
+    row["line"] = file.project->file(obligation.place.file).source.lineOf(obligation.span.begin);
     row["message"] = holds(obligation.verdict) ? Json() : Json(messageOf(obligation, dialect));
     row["alarm"] = alarmToJson(raisedAlarm(obligation, file));
     row["guard"] = obligation.verdict.guard() ? Json(obligation.verdict.guard()->clause) : Json();

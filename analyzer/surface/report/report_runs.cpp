@@ -21,7 +21,7 @@ public:
                 const RunResult &result) const {
     const TypedWitness call = typed(witness, file_, program_, {.result = none_});
     ShownRun shown{std::move(witnessOf), feedhold::textOf(call), optionsBehindFile(call, file_), {}, {}};
-    const PicturedRun run{*file_.loaded, start(), options, result, shown.call};
+    const PicturedRun run{*file_.project, start(), options, result, shown.call};
     RunPicture picture = drawRuns(shown.call, std::span(&run, 1));
     shown.svg = std::move(picture.svg);
     shown.notes = std::move(picture.notes);
@@ -38,14 +38,14 @@ public:
       if (!drawn.insert(call.options).second)
         continue;
       RunOptions options{.variables = obligation.verdict.witness()->variables};
-      options = prove::startedAsSaid(*file_.loaded->set, start(), file_.file().contracts, std::move(options));
+      options = prove::startedAsSaid(*file_.project->set, start(), file_.file().contracts, std::move(options));
       runs.push_back(
-          draw(*obligation.verdict.witness(), obligation.id, options, run(*file_.loaded->set, start(), options)));
+          draw(*obligation.verdict.witness(), obligation.id, options, run(*file_.project->set, start(), options)));
     }
     return runs;
   }
   std::vector<ShownRun> example() const {
-    const auto found = prove::exampleRun(*file_.loaded->set, start(), file_.file().contracts);
+    const auto found = prove::exampleRun(*file_.project->set, start(), file_.file().contracts);
     const bool moves = found && std::any_of(found->result.moves.begin(), found->result.moves.end(),
                                             [](const RecordedMove &move) { return move.move.kind != MoveKind::Dwell; });
     if (!moves)
@@ -56,7 +56,7 @@ public:
 
 private:
   Callee start() const {
-    return {FileId(0), file_.loaded->set->file(FileId(0)).cfg.entryOf(program_.program), program_.program};
+    return {FileId(0), file_.project->set->file(FileId(0)).cfg.entryOf(program_.program), program_.program};
   }
 
   const ProvedFile &file_;

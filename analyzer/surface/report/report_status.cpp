@@ -18,7 +18,7 @@ using prove::Verdict;
 constexpr std::size_t kMostAlarmsNamed = 6;
 
 /// `#3000=120`.  Nothing where the number is computed: it may be any.
-std::optional<std::uint32_t> writtenNumber(const LoadedFile &file, const Dialect &dialect, const Assign &assign) {
+std::optional<std::uint32_t> writtenNumber(const ProjectFile &file, const Dialect &dialect, const Assign &assign) {
   const auto *assignment = std::get_if<Assignment>(&file.tree.statements[assign.first].node);
   const auto variable = assignment ? variableNumber(file.tree, assignment->target) : std::nullopt;
   if (assign.count != 1 || !variable || !raisesAlarm(dialect, *variable))
@@ -30,7 +30,7 @@ std::optional<std::uint32_t> writtenNumber(const LoadedFile &file, const Dialect
 }
 
 /// What the operator reads: `#3000=120(NO FEATURE)`.
-std::string messageBehind(const LoadedFile &file, const Node &node, Span assignment) {
+std::string messageBehind(const ProjectFile &file, const Node &node, Span assignment) {
   for (const Comment &comment : file.tree.commentsOf(node.block))
     if (comment.span.begin >= assignment.begin) {
       std::string text = file.source.utf8(comment.span);
@@ -46,9 +46,9 @@ std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const Prove
   if (obligation.kind != ObligationKind::AlarmUnreachable || obligation.verdict != Verdict::Refuted)
     return std::nullopt;
   RaisedAlarm alarm;
-  const Node &node = file.loaded->set->file(FileId(0)).cfg.nodes[obligation.place.node];
+  const Node &node = file.project->set->file(FileId(0)).cfg.nodes[obligation.place.node];
   if (const auto *assign = std::get_if<Assign>(&node.instruction)) {
-    alarm.number = writtenNumber(file.file(), file.loaded->dialect, *assign);
+    alarm.number = writtenNumber(file.file(), file.project->dialect(), *assign);
     alarm.message = messageBehind(file.file(), node, file.file().tree.statements[assign->first].span);
   }
   return alarm;
@@ -57,7 +57,7 @@ std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const Prove
 namespace {
 
 /// Lines from 1.  What the control makes of such a block, nobody knows: most stop there.
-std::vector<std::size_t> unreadableLines(const LoadedFile &file, ProgramId program) {
+std::vector<std::size_t> unreadableLines(const ProjectFile &file, ProgramId program) {
   std::vector<std::size_t> lines;
   for (BlockId block(0); block.index() < file.tree.blocks.size(); block = BlockId(block.index() + 1))
     if (file.tree.blocks[block].has(Block::kBroken) && file.model.programOf(block) == program)

@@ -24,7 +24,7 @@ public:
         obligations.push_back(obligationToJson(obligation, program));
     }
     return {{"path", file_.file().shown},
-            {"dialect", file_.loaded->dialect.id},
+            {"dialect", file_.project->dialect().id},
             {"programs", std::move(programs)},
             {"obligations", std::move(obligations)}};
   }
@@ -36,7 +36,7 @@ private:
   Json programToJson(const ProvedProgram &program) const {
     Json unfollowed = Json::array();
     for (const prove::Unfollowed &each : program.proof.unfollowed) {
-      const LoadedFile &file = file_.loaded->file(each.place.file);
+      const ProjectFile &file = file_.project->file(each.place.file);
       const Position at = file.source.position(each.span.begin);
       unfollowed.push_back({{"reason", each.reason}, {"path", file.shown}, {"line", at.line}, {"column", at.column}});
     }
@@ -46,13 +46,13 @@ private:
   }
   Json obligationToJson(const Obligation &obligation, const ProvedProgram &program) const {
     const prove::Verdict &verdict = obligation.verdict;
-    const Position at = file_.loaded->file(obligation.place.file).source.position(obligation.span.begin);
+    const Position at = file_.project->file(obligation.place.file).source.position(obligation.span.begin);
     return {{"id", obligation.id},
             {"program", nameOf(program)},
             {"kind", prove::nameOf(obligation.kind)},
             {"line", at.line},
             {"column", at.column},
-            {"claim", claimOf(obligation, file_.loaded->dialect)},
+            {"claim", claimOf(obligation, file_.project->dialect())},
             {"verdict", prove::nameOf(verdict)},
             {"grade", verdict.grade() ? Json(prove::nameOf(*verdict.grade())) : Json()},
             {"method", orNull(verdict.method())},
@@ -66,7 +66,7 @@ private:
   }
   Json guardToJson(const Obligation &obligation) const {
     const auto &[conditions, clause, fix] = *obligation.verdict.guard();
-    const SourceFile &source = file_.loaded->file(obligation.place.file).source;
+    const SourceFile &source = file_.project->file(obligation.place.file).source;
     return {{"conditions", conditions}, {"clause", clause}, {"fix", fix ? json::fixToJson(*fix, source) : Json()}};
   }
   Json witnessToJson(const Obligation &obligation, const ProvedProgram &program) const {
@@ -79,12 +79,12 @@ private:
             {"variables", std::move(variables)},
             {"run", call.run()},
             {"end", feedhold::nameOf(witness.end)},
-            {"happened", happenedIn(witness, obligation, file_.loaded->dialect)},
+            {"happened", happenedIn(witness, obligation, file_.project->dialect())},
             {"gouge", witness.gouge ? gougeToJson(*witness.gouge) : Json()}};
   }
   Json gougeToJson(const prove::GougeAt &gouge) const {
-    const LoadedFile &file = file_.loaded->file(gouge.place.file);
-    const BlockId block = file_.loaded->set->node(gouge.place).block;
+    const ProjectFile &file = file_.project->file(gouge.place.file);
+    const BlockId block = file_.project->set->node(gouge.place).block;
     const auto &[x, y, z] = gouge.at;
     return {{"path", file.shown},
             {"line", file.source.lineOf(file.tree.blocks[block].span().begin)},

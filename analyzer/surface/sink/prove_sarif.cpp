@@ -53,14 +53,15 @@ std::string_view levelOf(const Obligation &obligation) {
 std::string textFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
                     const ProveReport &report) {
   if (obligation.verdict.exactOnly())
-    return claimOf(obligation, file.loaded->dialect) + "\n" + std::string(kExactOnly);
-  std::string text = messageOf(obligation, file.loaded->dialect);
+    return claimOf(obligation, file.project->dialect()) + "\n" + std::string(kExactOnly);
+  std::string text = messageOf(obligation, file.project->dialect());
   if (!obligation.verdict.reason().empty())
     text += fmt::format("\n{}", obligation.verdict.reason());
   if (obligation.verdict.witness()) {
     const TypedWitness witness = typed(*obligation.verdict.witness(), file, program, report);
     text += "\n" + textOf(witness) + ": " +
-            happenedIn(*obligation.verdict.witness(), obligation, file.loaded->dialect) + "\nsee it: " + witness.run();
+            happenedIn(*obligation.verdict.witness(), obligation, file.project->dialect()) +
+            "\nsee it: " + witness.run();
   }
   if (obligation.verdict.guard())
     text += "\n" + remedyOf(*obligation.verdict.guard());
@@ -69,7 +70,7 @@ std::string textFor(const Obligation &obligation, const ProvedFile &file, const 
 
 Json resultFor(const Obligation &obligation, const ProvedFile &file, const ProvedProgram &program,
                const ProveReport &report) {
-  const LoadedFile &there = file.loaded->file(obligation.place.file);
+  const ProjectFile &there = file.project->file(obligation.place.file);
   Json location = {
       {"physicalLocation", sarif::physicalLocation(there.shown, there.source, obligation.span, report.root)},
       {"logicalLocations", Json::array({Json{{"fullyQualifiedName", obligation.id}}})}};

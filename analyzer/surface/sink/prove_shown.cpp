@@ -86,12 +86,12 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
   for (const auto &[variable, value] : witness.variables.entries()) {
     if (value.vacant)
       continue;
-    if (const auto letter = letterFor(file.loaded->dialect, variable); letter && name.number) {
+    if (const auto letter = letterFor(file.project->dialect(), variable); letter && name.number) {
       letters += fmt::format(" {}{}", *letter, withPoint(value.number));
       result.options += fmt::format(" --arg {}={}", *letter, shortest(value.number));
       continue;
     }
-    const std::string shown = file.loaded->set->nameOfVariable(variable);
+    const std::string shown = file.project->set->nameOfVariable(variable);
     result.others.emplace_back(shown, shortest(value.number));
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));

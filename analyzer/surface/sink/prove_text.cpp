@@ -59,15 +59,15 @@ private:
 
   void picture(const Obligation &obligation, std::vector<std::string> notes) {
     Diagnostic diagnostic{
-        .message = messageOf(obligation, file_.loaded->dialect), .span = obligation.span, .notes = std::move(notes)};
+        .message = messageOf(obligation, file_.project->dialect()), .span = obligation.span, .notes = std::move(notes)};
     if (obligation.verdict.guard()) {
       diagnostic.notes.push_back(remedyOf(*obligation.verdict.guard()));
       if (obligation.verdict.guard()->fix)
-        addFix(diagnostic, *obligation.verdict.guard()->fix, file_.loaded->file(obligation.place.file).source);
+        addFix(diagnostic, *obligation.verdict.guard()->fix, file_.project->file(obligation.place.file).source);
     }
-    const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.loaded->file(id).source; };
+    const auto fileOf = [&](FileId id) -> const SourceFile & { return file_.project->file(id).source; };
     text_ += render(diagnostic, {nameOf(obligation.verdict), obligation.id},
-                    file_.loaded->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
+                    file_.project->file(obligation.place.file).source, fileOf, {.colour = report_.colour});
     text_ += '\n';
   }
 
@@ -88,7 +88,7 @@ private:
     const TypedWitness witness = typed(*obligation.verdict.witness(), file_, program_, report_);
     std::vector<std::string> notes{
         fmt::format("{}: {}", textOf(witness),
-                    happenedIn(*obligation.verdict.witness(), obligation, file_.loaded->dialect)),
+                    happenedIn(*obligation.verdict.witness(), obligation, file_.project->dialect())),
         "see it: " + witness.run()};
     if (obligation.verdict.witness()->gouge)
       notes.push_back(fmt::format("draw it: {} -o gouge.svg", witness.plot()));
@@ -109,10 +109,10 @@ private:
   }
 
   void line(const Obligation &obligation) {
-    const std::uint32_t at = file_.loaded->file(obligation.place.file).source.lineOf(obligation.span.begin);
+    const std::uint32_t at = file_.project->file(obligation.place.file).source.lineOf(obligation.span.begin);
     const std::string_view grade = obligation.verdict.grade() ? nameOf(*obligation.verdict.grade()) : "";
     text_ += fmt::format("{:<11} {:<12} line {:>4}  {}  [{}]\n", nameOf(obligation.verdict), grade, at,
-                         claimOf(obligation, file_.loaded->dialect), obligation.id);
+                         claimOf(obligation, file_.project->dialect()), obligation.id);
     if (const std::string why = whyOf(obligation); !why.empty())
       text_ += fmt::format("            {}\n", why);
     if (obligation.verdict.exactOnly())

@@ -1,7 +1,7 @@
 #include "inference/absint/kept_state.h"
 
 #include "dialects/registry.h"
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "inference/absint/analysis.h"
 #include "rules/registry.h"
 
@@ -31,7 +31,7 @@ TEST(KeptState, IsTheStateAgain) {
   for (const auto &entry : std::filesystem::recursive_directory_iterator(FEEDHOLD_SOURCE_DIR "/corpus")) {
     if (entry.path().extension() != ".nc")
       continue;
-    const auto loaded = loadPrograms({.path = entry.path().string()}, {allDialects(), allRules()});
+    const auto loaded = loadProject({.path = entry.path().string()}, {allDialects(), allRules()});
     const auto start = loaded ? startOf(*loaded.value(), std::nullopt) : std::nullopt;
     if (!start)
       continue;

@@ -30,10 +30,10 @@ protected:
   }
   std::string uri(const std::string &name) const { return uriOfPath(folder_ / name); }
   View open(const std::string &name, const std::string &dialect = "fanuc-30i") const {
-    ProgramsWish wish;
-    wish.path = (folder_ / name).string();
-    wish.dialect = dialect;
-    auto programs = loadPrograms(wish, kKnown);
+    ProgramOptions options;
+    options.path = (folder_ / name).string();
+    options.dialect = dialect;
+    auto programs = loadProject(options, kKnown);
     if (!programs)
       throw std::runtime_error(programs.error().message);
     return {uri(name), programs.take(), nullptr, kKnown, PositionEncoding::Utf16, {folder_}};

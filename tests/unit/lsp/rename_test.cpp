@@ -80,7 +80,7 @@ TEST_F(LspRename, ASequenceNumberTakesItsJumpsAlong) {
   EXPECT_NE(text.find("N120#1=#1+1\nIF[#1LT5]GOTO120\n"), std::string::npos) << text;
   EXPECT_NE(text.find("M99P120\nN7M30"), std::string::npos) << text;
   EXPECT_NE(text.find("N10G04X1.\nGOTO10\n"), std::string::npos) << "the other program keeps its number";
-  EXPECT_EQ(jumps(text, view.programs->dialect), jumps(std::string(kJumps), view.programs->dialect));
+  EXPECT_EQ(jumps(text, view.programs->dialect()), jumps(std::string(kJumps), view.programs->dialect()));
   EXPECT_EQ(renamed(view, "N10#1", "120"), text);
 }
 
@@ -183,7 +183,7 @@ TEST_F(LspRename, NewNumbersKeepAllJumps) {
   const Json edit = ask(view, "feedhold/renumber", {{"textDocument", {{"uri", view.uri}}}});
   const std::string text = applied(edit).at("part.nc");
   EXPECT_NE(text.find("IF[#1LT9]GOTO 20\nM99P10\nN20M30"), std::string::npos) << text;
-  EXPECT_EQ(jumps(text, view.programs->dialect), jumps(std::string(kJumps), view.programs->dialect));
+  EXPECT_EQ(jumps(text, view.programs->dialect()), jumps(std::string(kJumps), view.programs->dialect()));
   const View twice = openText("O1\nN5G04X1.\nGOTO5\nN5G04X2.\nGOTO5\nM30\n");
   EXPECT_EQ(applied(ask(twice, "feedhold/renumber", {{"step", 100}})).at("part.nc"),
             "O1\nN100G04X1.\nGOTO200\nN200G04X2.\nGOTO100\nM30\n");
@@ -206,7 +206,7 @@ TEST_F(LspRename, NewNumbersKeepAllJumpsOfProgramsFromShops) {
       if (texts.empty())
         return;
       ++changed;
-      EXPECT_EQ(jumps(texts.at("part.nc"), view.programs->dialect), jumps(text.str(), view.programs->dialect))
+      EXPECT_EQ(jumps(texts.at("part.nc"), view.programs->dialect()), jumps(text.str(), view.programs->dialect()))
           << entry.path();
     });
   }

@@ -1,6 +1,6 @@
 // feedhold.toml: what is read, and where and how a slip of the pen is reported.
 #include "dialects/registry.h"
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 #include "rules/registry.h"
 
 #include <fmt/format.h>

@@ -155,8 +155,8 @@ TEST_F(Session, ForeignLanguageIsOneFinding) {
 
 TEST_F(Session, UnsafeFixesOnlyWhenAskedFor) {
   write("part.nc", kProgramWithSlip);
-  EXPECT_TRUE(fix(options(), FixWish::Safe, known()).files.empty());
-  const FixResult all = fix(options(), FixWish::All, known());
+  EXPECT_TRUE(fix(options(), FixKind::Safe, known()).files.empty());
+  const FixResult all = fix(options(), FixKind::All, known());
   ASSERT_EQ(all.files.size(), 1U);
   EXPECT_EQ(all.files[0].before, kProgramWithSlip);
   EXPECT_EQ(all.files[0].after, "%\nO1001(SLIP)\nN10 #510=1.5\nM30\n%\n");
@@ -168,7 +168,7 @@ TEST_F(Session, UnsafeFixesOnlyWhenAskedFor) {
 TEST_F(Session, WritingKeepsThePermissionsAndLeavesNothingBehind) {
   write("part.nc", kProgramWithSlip);
   fs::permissions(folder_ / "part.nc", fs::perms::owner_all);
-  const FixResult fixed = fix(options(), FixWish::All, known());
+  const FixResult fixed = fix(options(), FixKind::All, known());
   EXPECT_TRUE(writeFixes(fixed.files).empty());
   EXPECT_EQ(read("part.nc"), "%\nO1001(SLIP)\nN10 #510=1.5\nM30\n%\n");
   EXPECT_EQ(fs::status(folder_ / "part.nc").permissions(), fs::perms::owner_all);

@@ -1,6 +1,6 @@
 // Files with contracts beside a program: which are found, and how their findings come out.
 #include "dialects/registry.h"
-#include "findings/session/programs.h"
+#include "findings/project/project.h"
 #include "findings/session/session.h"
 #include "rules/registry.h"
 
@@ -63,7 +63,7 @@ TEST_F(Sidecars, EachNameIsReadOnce) {
   write("part.contract", "@REQUIRE #21 GT 3\n");
   write("part.nc.contract", "@REQUIRE #21 GT 4\n");
   write("O9999.contract", "@REQUIRE #21 GT 5\n");
-  const auto programs = loadPrograms({.path = (folder_ / "part.nc").string(), .config = {ConfigSource::None}}, known());
+  const auto programs = loadProject({.path = (folder_ / "part.nc").string(), .config = {ConfigSource::None}}, known());
   ASSERT_TRUE(programs);
   const FileContracts &contracts = programs.value()->files.front()->contracts;
   ASSERT_NE(contracts.of(ProgramId(0)), nullptr);
@@ -81,7 +81,7 @@ TEST_F(Sidecars, OneThatCannotBeReadIsAnError) {
 TEST_F(Sidecars, AreNotRepaired) {
   write("part.nc", "O9100\n(@PARM #21 0..5)\n#1=#21\nM99\n");
   write("part.contract", "@PARM #21 0..5\n");
-  const FixResult fixed = fix(options(), FixWish::All, known());
+  const FixResult fixed = fix(options(), FixKind::All, known());
   ASSERT_EQ(fixed.files.size(), 1u);
   EXPECT_EQ(fixed.files.front().after, "O9100\n(@PARAM #21 0..5)\n#1=#21\nM99\n");
 }

@@ -1,5 +1,7 @@
 // What stays the same from one loading of a folder to the next is not read again; what does not, is.
-#include "findings/session/file_memory.h"
+#include "findings/project/file_store.h"
+
+#include "findings/project/project.h"
 
 #include "dialects/registry.h"
 #include "rules/registry.h"
@@ -29,16 +31,15 @@ protected:
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  std::unique_ptr<const LoadedPrograms>
-  load(std::shared_ptr<const OpenTexts> open = std::make_shared<const OpenTexts>()) {
+  std::unique_ptr<const Project> load(std::shared_ptr<const OpenTexts> open = std::make_shared<const OpenTexts>()) {
     const KnownNames known{allDialects(), allRules()};
-    auto loaded = loadPrograms(
-        {.path = (folder_ / "O1.nc").generic_string(), .open = std::move(open), .memory = &memory_}, known);
+    auto loaded =
+        loadProject({.path = (folder_ / "O1.nc").generic_string(), .open = std::move(open), .store = &store_}, known);
     return loaded ? loaded.take() : nullptr;
   }
 
   /// Which of the three files are the very same readings.
-  static std::vector<bool> kept(const LoadedPrograms &before, const LoadedPrograms &after) {
+  static std::vector<bool> kept(const Project &before, const Project &after) {
     std::vector<bool> same;
     for (std::size_t i = 0; i < after.files.size(); ++i)
       same.push_back(before.files.at(i) == after.files[i]);
@@ -46,7 +47,7 @@ protected:
   }
 
   fs::path folder_;
-  FileMemory memory_;
+  FileStore store_{FileStore::Lifetime::Server};
 };
 
 TEST_F(FileMemoryTest, OnlyWhatChangedIsRead) {
@@ -81,7 +82,7 @@ TEST_F(FileMemoryTest, AnotherControlReadsAnew) {
   const auto first = load();
   write("feedhold.toml", "dialect = \"mitsubishi-m700\"\n");
   const auto second = load();
-  ASSERT_NE(first->dialect.id, second->dialect.id);
+  ASSERT_NE(first->dialect().id, second->dialect().id);
   EXPECT_EQ(kept(*first, *second), std::vector({false, false, false}));
   fs::remove(folder_ / "feedhold.toml");
   EXPECT_EQ(kept(*first, *load()), std::vector({true, true, true}));

@@ -1,7 +1,7 @@
 // The names that people write in settings and options: rules, categories, dialects, patterns.
 #include "base/support/text.h"
-#include "findings/session/config.h"
-#include "findings/session/selection.h"
+#include "findings/project/config.h"
+#include "findings/project/selection.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Applies the steps of a selection rule by rule.
-#include "findings/session/selection.h"
+#include "findings/project/selection.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "findings/session/git_changes.h"
+#include "findings/project/git_changes.h"
 
 #include "base/support/process.h"
 #include "base/support/text.h"

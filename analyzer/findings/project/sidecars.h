@@ -1,7 +1,7 @@
 // Sidecars: the files beside a program that hold contracts.
 #pragma once
 
-#include "findings/session/open_texts.h"
+#include "findings/project/open_texts.h"
 #include "language/contract/contract.h"
 
 #include <filesystem>

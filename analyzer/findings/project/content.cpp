@@ -1,5 +1,5 @@
 // Tells text from binary data by its control bytes.
-#include "findings/session/content.h"
+#include "findings/project/content.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Walks folders in the order of names, so that the same tree gives the same list on every machine.
-#include "findings/session/discovery.h"
+#include "findings/project/discovery.h"
 
 #include "base/support/text.h"
-#include "findings/session/sidecars.h"
+#include "findings/project/sidecars.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "findings/session/watched.h"
+#include "findings/project/watched.h"
 
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 
 namespace feedhold {
 

@@ -2,7 +2,7 @@
 // calls.
 #pragma once
 
-#include "findings/session/workload.h"
+#include "findings/project/workload.h"
 
 #include <filesystem>
 #include <set>

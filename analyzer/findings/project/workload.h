@@ -1,9 +1,9 @@
 // Workload: the files of a run, loaded, each with the settings that hold for it.
 #pragma once
 
-#include "findings/session/config_finder.h"
-#include "findings/session/open_texts.h"
-#include "findings/session/result.h"
+#include "findings/project/config_finder.h"
+#include "findings/project/open_texts.h"
+#include "findings/project/outcome.h"
 
 #include <filesystem>
 #include <functional>
@@ -28,7 +28,7 @@ struct CheckOptions {
   std::vector<std::string> select = {};              // names that exist
   std::vector<std::string> ignore = {};
   std::optional<Severity> errorOn = std::nullopt;
-  ConfigWish config = {};
+  ConfigOptions config = {};
   unsigned jobs = 0;                          // 0: one per processor
   std::shared_ptr<const OpenTexts> open = {}; // of editors; null: none
   /// Which rules run: without those that follow the flow of programs, a file takes a fraction of the time.

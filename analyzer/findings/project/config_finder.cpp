@@ -1,5 +1,5 @@
 // Searches folders upwards and remembers the answer for each.
-#include "findings/session/config_finder.h"
+#include "findings/project/config_finder.h"
 
 #include "base/source/source_file.h"
 
@@ -10,7 +10,7 @@ namespace feedhold {
 namespace fs = std::filesystem;
 
 const Config *ConfigFinder::forFolder(const fs::path &folder) {
-  switch (wish_.source) {
+  switch (options_.source) {
   case ConfigSource::Nearest: return search(fs::absolute(folder).lexically_normal()).get();
   case ConfigSource::Named: return search({}).get();
   case ConfigSource::None: break;
@@ -24,8 +24,8 @@ ConfigFinder::Found ConfigFinder::search(const fs::path &folder) {
     return known->second;
   Found found;
   std::error_code ignored; // a folder that cannot be looked into has no configuration for us
-  const fs::path here = wish_.source == ConfigSource::Named ? wish_.file : folder / kConfigFileName;
-  if (wish_.source == ConfigSource::Named || fs::is_regular_file(here, ignored))
+  const fs::path here = options_.source == ConfigSource::Named ? options_.file : folder / kConfigFileName;
+  if (options_.source == ConfigSource::Named || fs::is_regular_file(here, ignored))
     found = load(here);
   else if (folder == folder.root_path() || folder.empty())
     found = std::make_shared<const Config>();

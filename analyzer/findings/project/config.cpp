@@ -1,6 +1,6 @@
 // Reads `feedhold.toml` with toml++.  Every key and value is checked against what exists, so that a slip of the
 // pen is an error with its place and not a setting that silently does nothing.
-#include "findings/session/config.h"
+#include "findings/project/config.h"
 
 #include "base/support/text.h"
 

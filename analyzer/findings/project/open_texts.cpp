@@ -1,4 +1,4 @@
-#include "findings/session/open_texts.h"
+#include "findings/project/open_texts.h"
 
 namespace feedhold {
 

@@ -1,10 +1,10 @@
 // Finds, opens and looks at the files in parallel, then settles what holds for each.
-#include "findings/session/workload.h"
+#include "findings/project/workload.h"
 
 #include "base/support/parallel.h"
-#include "findings/session/content.h"
-#include "findings/session/discovery.h"
-#include "findings/session/selection.h"
+#include "findings/project/content.h"
+#include "findings/project/discovery.h"
+#include "findings/project/selection.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,7 @@
-#include "findings/session/affected.h"
+#include "findings/project/affected.h"
 
-#include "base/support/parallel.h"
-#include "findings/session/discovery.h"
-#include "findings/session/sidecars.h"
-#include "language/model/call_graph.h"
-#include "language/parse/parse.h"
+#include "findings/project/discovery.h"
+#include "findings/project/project.h"
 
 #include <fmt/format.h>
 
@@ -29,22 +26,19 @@ bool isConfigName(const fs::path &path) { return path.filename() == kConfigFileN
 /// Files of a run with their calls.
 class Callers {
 public:
-  Callers(const std::vector<WorkItem> &items, unsigned jobs) : items_(items), models_(items.size()) {
-    parallelFor(items.size(), jobs, [&](std::size_t i) {
-      if (items[i].foreign == nullptr) {
-        const SyntaxTree tree = parse(items[i].source, items[i].profile->dialect);
-        models_[i] = resolve(items[i].source, tree, items[i].profile->dialect);
-      }
-    });
-    std::vector<ModelledFile> files;
-    for (std::size_t i = 0; i < items.size(); ++i)
-      files.push_back({FileId(i), folderOf(i).generic_string(), items[i].path.stem().generic_string(), &models_[i]});
-    graph_ = CallGraph(std::move(files));
-    connect();
+  explicit Callers(const Project &project) : project_(project), callers_(project.files.size()) {
+    for (std::size_t i = 0; i < project.files.size(); ++i)
+      for (const Call &call : model(i).calls)
+        if (const auto callee = project.callGraph.callee(FileId(i), call))
+          callers_[callee->file.index()].push_back(i);
+        else if (call.callee.empty())
+          openCallers_[folderOf(i)].push_back(i);
+        else
+          missing_.insert(i);
   }
 
-  fs::path folderOf(std::size_t item) const { return absoluteOf(items_[item].path).parent_path(); }
-  const ProgramModel &model(std::size_t item) const { return models_[item]; }
+  fs::path folderOf(std::size_t file) const { return absoluteOf(project_.files[file]->path).parent_path(); }
+  const ProgramModel &model(std::size_t file) const { return project_.files[file]->model; }
   bool callsSomethingMissing(std::size_t item) const { return missing_.contains(item); }
 
   /// The items and all that call them.
@@ -68,21 +62,7 @@ public:
   }
 
 private:
-  void connect() {
-    callers_.resize(items_.size());
-    for (std::size_t i = 0; i < items_.size(); ++i)
-      for (const Call &call : models_[i].calls)
-        if (const auto callee = graph_.callee(FileId(i), call))
-          callers_[callee->file.index()].push_back(i);
-        else if (call.callee.empty())
-          openCallers_[folderOf(i)].push_back(i);
-        else
-          missing_.insert(i);
-  }
-
-  const std::vector<WorkItem> &items_;
-  std::vector<ProgramModel> models_;
-  CallGraph graph_;
+  const Project &project_;
   std::vector<std::vector<std::size_t>> callers_;            // by item
   std::map<fs::path, std::vector<std::size_t>> openCallers_; // by folder: which program they call is open
   std::set<std::size_t> missing_;
@@ -91,7 +71,7 @@ private:
 /// What the changed paths mean for the programs beside them.
 class Touch {
 public:
-  Touch(const std::vector<fs::path> &changed, const ConfigWish &config) : changed_(changed.begin(), changed.end()) {
+  Touch(const std::vector<fs::path> &changed, const ConfigOptions &config) : changed_(changed.begin(), changed.end()) {
     std::error_code ignored;
     for (const fs::path &path : changed_) {
       if (config.source == ConfigSource::Nearest && isConfigName(path))
@@ -127,7 +107,9 @@ private:
 
 Affected affectedBy(const std::vector<fs::path> &changed, const CheckOptions &among, const KnownNames &known) {
   const Workload workload = loadWorkload(among, known);
-  const Callers callers(workload.items, among.jobs);
+  const Project project =
+      loadProject(workload.items, {.graphs = LoadGraphs::No, .jobs = among.jobs, .open = among.open});
+  const Callers callers(project);
   const Touch touch(changed, among.config);
   std::set<std::size_t> touched;
   for (std::size_t i = 0; i < workload.items.size(); ++i)

@@ -1,8 +1,8 @@
 // ConfigFinder: which `feedhold.toml` speaks for a file: the nearest one upwards from it, or the one that was named.
 #pragma once
 
-#include "findings/session/config.h"
-#include "findings/session/result.h"
+#include "findings/project/config.h"
+#include "findings/project/outcome.h"
 
 #include <map>
 #include <memory>
@@ -14,14 +14,14 @@ namespace feedhold {
 /// Where the configuration of a run comes from.
 enum class ConfigSource { Nearest, Named, None };
 
-struct ConfigWish {
+struct ConfigOptions {
   ConfigSource source = ConfigSource::Nearest;
   std::filesystem::path file = {}; // of Named
 };
 
 class ConfigFinder {
 public:
-  ConfigFinder(ConfigWish wish, KnownNames known) : wish_(std::move(wish)), known_(known) {}
+  ConfigFinder(ConfigOptions options, KnownNames known) : options_(std::move(options)), known_(known) {}
 
   /// Null when the nearest configuration has errors; see problems().
   const Config *forFolder(const std::filesystem::path &folder);
@@ -33,7 +33,7 @@ private:
   Found search(const std::filesystem::path &folder);
   Found load(const std::filesystem::path &file);
 
-  ConfigWish wish_;
+  ConfigOptions options_;
   KnownNames known_;
   std::map<std::filesystem::path, Found> byFolder_;
   std::vector<PathProblem> problems_;

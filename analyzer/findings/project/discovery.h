@@ -1,8 +1,8 @@
 // Discovery: from the paths that a person names to the files to look at, in a fixed order.
 #pragma once
 
-#include "findings/session/config_finder.h"
-#include "findings/session/result.h"
+#include "findings/project/config_finder.h"
+#include "findings/project/outcome.h"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
-#include "findings/session/sidecars.h"
+#include "findings/project/sidecars.h"
 
-#include "findings/session/content.h"
+#include "findings/project/content.h"
 
 #include <fmt/format.h>
 
