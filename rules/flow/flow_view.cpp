@@ -162,6 +162,10 @@ std::vector<Read> readsOf(const ProgramFile &file, ProgramId program) {
   return all;
 }
 
+const std::vector<Read> &readsOf(const FlowFacts &facts) {
+  return facts.derived<std::vector<Read>>([&] { return readsOf(facts.file, facts.program); });
+}
+
 std::vector<Read> readsIn(const ProgramFile &file, ExpressionId root, BlockId block) {
   return ReadCollector(file, block).run(root, ReadUse::Other);
 }

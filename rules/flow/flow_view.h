@@ -31,6 +31,8 @@ struct Read {
 std::vector<Read> readsOf(const ProgramFile &file, BlockId block);
 /// What a program reads, in order of the text.
 std::vector<Read> readsOf(const ProgramFile &file, ProgramId program);
+/// Of its program.
+const std::vector<Read> &readsOf(const FlowFacts &facts);
 /// What an expression reads.
 std::vector<Read> readsIn(const ProgramFile &file, ExpressionId root, BlockId block);
 

@@ -82,13 +82,7 @@ std::vector<std::vector<NodeId>> partsOf(const FlowFacts &facts, NodeId head, co
   return parts;
 }
 
-} // namespace
-
-std::string_view endlessnessOf(const LoopFlow &loop) {
-  return loop.mayStop ? "only an alarm ends this loop" : "this loop never ends";
-}
-
-std::vector<LoopFlow> loopsOf(const FlowFacts &facts) {
+std::vector<LoopFlow> findLoops(const FlowFacts &facts) {
   std::vector<LoopFlow> loops;
   const Wto wto(facts.file.cfg, *facts.file.model, facts.entry());
   for (const NodeId head : wto.order()) {
@@ -103,6 +97,16 @@ std::vector<LoopFlow> loopsOf(const FlowFacts &facts) {
       loops.push_back(described(facts, {head, std::move(nodes), {}}));
   }
   return loops;
+}
+
+} // namespace
+
+std::string_view endlessnessOf(const LoopFlow &loop) {
+  return loop.mayStop ? "only an alarm ends this loop" : "this loop never ends";
+}
+
+const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts) {
+  return facts.derived<std::vector<LoopFlow>>([&] { return findLoops(facts); });
 }
 
 std::optional<std::vector<LoopWrite>> writesTo(const FlowFacts &facts, const LoopFlow &loop, std::uint32_t variable) {

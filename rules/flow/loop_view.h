@@ -32,7 +32,7 @@ struct LoopFlow {
 std::string_view endlessnessOf(const LoopFlow &loop);
 
 /// The loops of a program, outer ones before those inside.
-std::vector<LoopFlow> loopsOf(const FlowFacts &facts);
+const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts);
 
 /// An assignment in the loop that may give the variable another value.
 struct LoopWrite {

@@ -36,7 +36,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (!isMainProgram(facts))
     return;
   std::vector<std::uint32_t> done;
-  for (const Read &read : readsOf(facts.file, facts.program)) {
+  for (const Read &read : readsOf(facts)) {
     // What a call passes is another rule's.
     if (!read.number || read.use == ReadUse::Argument || std::ranges::find(done, *read.number) != done.end() ||
         !isVacantAt(facts, read))

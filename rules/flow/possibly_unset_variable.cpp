@@ -62,7 +62,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if ((!isMain && !returns) || isTooLarge(facts))
     return;
   std::vector<std::uint32_t> done;
-  for (const Read &read : readsOf(facts.file, facts.program)) {
+  for (const Read &read : readsOf(facts)) {
     if (!read.number || read.use == ReadUse::Equality || std::ranges::find(done, *read.number) != done.end() ||
         !startsVacant(facts, isMain, *read.number))
       continue;

@@ -64,7 +64,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     return;
   const bool unseen = setsUnseen(facts, context);
   std::vector<std::uint32_t> done;
-  for (const Read &read : readsOf(facts.file, facts.program)) {
+  for (const Read &read : readsOf(facts)) {
     const auto kind = read.number ? commonKind(context, *read.number) : std::nullopt;
     if (!kind || std::ranges::find(done, *read.number) != done.end())
       continue;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace feedhold::rules {
 namespace {
@@ -17,13 +16,15 @@ public:
   ApproachBeforeLengthOffset(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!isForgotten(state) && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) && zWord(node))
-      approaches_.insert(node);
+    if (view_.mayHave(node, 'Z') && !isForgotten(state) && zWord(node) && !isBehind(node) &&
+        view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+      approaches_.push_back(node);
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     if (!usesLengthOffset(facts))
       return;
+    std::ranges::sort(approaches_);
     for (NodeId change = facts.entry(); change < facts.end(); change = change.next())
       if (facts.isReached(change) && view_.findAction(change, {CodeAction::ToolChange}) &&
           !view_.findAction(change, kOffsets)) // `T5 M6 G43`
@@ -50,24 +51,21 @@ private:
            std::holds_alternative<CallProgram>(view_.node(node).instruction);
   }
   void tell(NodeId change, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) const {
-    for (const NodeId node : approaches_) {
-      if (isBehind(node))
-        continue;
-      const auto way = findWay(facts, change, node, [&](NodeId other) { return isBehind(other); });
-      if (!way)
-        continue;
-      return reporter.report(
-          {.message = fmt::format("{} comes between the tool change and `G43`", context.quoted(zWord(node)->span())),
-           .span = zWord(node)->span(),
-           .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "the tool changes here"}},
-           .way = describeWay(facts, *way),
-           .notes = {"the length in force is that of the tool before, or none: the new tool may go into the part",
-                     "write G43 and H in the first block that moves Z"}});
-    }
+    const auto isOver = [&](NodeId other) { return isBehind(other); };
+    const auto node = firstReached(facts, change, approaches_, isOver);
+    if (!node)
+      return;
+    reporter.report(
+        {.message = fmt::format("{} comes between the tool change and `G43`", context.quoted(zWord(*node)->span())),
+         .span = zWord(*node)->span(),
+         .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "the tool changes here"}},
+         .way = describeWay(facts, *findWay(facts, change, *node, isOver)),
+         .notes = {"the length in force is that of the tool before, or none: the new tool may go into the part",
+                   "write G43 and H in the first block that moves Z"}});
   }
 
   MotionView view_;
-  std::set<NodeId> approaches_;
+  std::vector<NodeId> approaches_; // with a Z, and no offset in the same block
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -20,6 +20,7 @@ public:
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     std::ranges::sort(moves_);
+    moves_.erase(std::ranges::unique(moves_).begin(), moves_.end());
     for (NodeId home = facts.entry(); home < facts.end(); home = home.next()) {
       if (!facts.isReached(home) || !view_.findAction(home, {CodeAction::Incremental}) ||
           !view_.findAction(home, {CodeAction::ReferenceReturn, CodeAction::SecondReference}))
@@ -38,29 +39,27 @@ private:
   }
   /// The first one only: what comes behind it is of the same kind.
   void tell(NodeId home, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
-    for (const NodeId move : moves_) {
-      const auto way = findWay(facts, home, move, [&](NodeId node) {
-        return view_.sets(node, ModalKind::Distance) ||
-               std::holds_alternative<CallProgram>(view_.node(node).instruction);
-      });
-      if (!way || std::ranges::find(told_, move) != told_.end())
-        continue;
-      told_.push_back(move);
-      const Word &word = *firstLiteral(move);
-      return reporter.report(
-          {.message = fmt::format("{} is a distance: `G91` of the reference return is still in force",
-                                  context.quoted(word.span())),
-           .span = word.span(),
-           .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "in force since here"}},
-           .way = describeWay(facts, *way),
-           .notes = {"the tool goes by that much from the reference point, not to that place",
-                     "write G90 behind the reference return; where a distance is meant, say G91 in this block"}});
-    }
+    const auto isOver = [&](NodeId node) {
+      return view_.sets(node, ModalKind::Distance) || std::holds_alternative<CallProgram>(view_.node(node).instruction);
+    };
+    const auto move = firstReached(facts, home, moves_, isOver);
+    if (!move)
+      return;
+    const auto way = findWay(facts, home, *move, isOver);
+    std::erase(moves_, *move); // told once
+    const Word &word = *firstLiteral(*move);
+    reporter.report(
+        {.message = fmt::format("{} is a distance: `G91` of the reference return is still in force",
+                                context.quoted(word.span())),
+         .span = word.span(),
+         .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "in force since here"}},
+         .way = describeWay(facts, *way),
+         .notes = {"the tool goes by that much from the reference point, not to that place",
+                   "write G90 behind the reference return; where a distance is meant, say G91 in this block"}});
   }
 
   MotionView view_;
-  std::vector<NodeId> moves_;
-  std::vector<NodeId> told_;
+  std::vector<NodeId> moves_; // not told yet
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

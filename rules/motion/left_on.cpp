@@ -112,6 +112,8 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   const MotionView view(facts.program, context);
   if (isOnAtEntry(mode, view, facts))
     return;
+  if (std::ranges::none_of(facts.exits(), [&](const ExitFact &exit) { return leaves(exit, mode, view); }))
+    return;
   const std::vector<NodeId> switching = switchingNodes(mode, view, facts);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {

@@ -11,10 +11,14 @@ namespace {
 
 class LoopWithoutAdvance final : public FlowRule {
 public:
-  LoopWithoutAdvance(ProgramId program, const FileContext &context) : view_(program, context) {}
+  LoopWithoutAdvance(ProgramId program, const FileContext &context) : view_(program, context) {
+    for (const Loop &loop : context.model.loopsOf(program))
+      if (loop.endBlock)
+        lastEnd_ = std::max(lastEnd_, *loop.endBlock);
+  }
 
   void after(NodeId node, const AbstractState &state) override {
-    if (isForgotten(state) || !view_.inForce(state, ModalKind::Distance) ||
+    if (view_.node(node).block > lastEnd_ || isForgotten(state) || !view_.inForce(state, ModalKind::Distance) ||
         view_.surely(state, ModalKind::Distance, {CodeAction::Incremental}) || view_.modalMotionWords(node).empty())
       return;
     mayBeAbsolute_.insert(node);
@@ -87,6 +91,7 @@ private:
   }
 
   MotionView view_;
+  BlockId lastEnd_{0}; // of the loops: what a program without any does is not kept
   std::set<NodeId> mayBeAbsolute_;
   std::set<NodeId> absolute_;
 };

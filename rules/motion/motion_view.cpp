@@ -71,19 +71,27 @@ StartedBy startedBy(const FileContext &context, ProgramId program) {
 }
 
 MotionView::MotionView(ProgramId program, const FileContext &context)
-    : context_(context), program_(program), cfg_(context.programs->file(context.file).cfg), modes_(context.dialect) {}
+    : context_(context), program_(program), cfg_(context.programs->file(context.file).cfg),
+      modes_(context.modes ? context.modes : std::make_shared<const ModalTable>(context.dialect)) {}
 
 std::vector<const Word *> MotionView::wordsOf(NodeId id) const {
   std::vector<const Word *> words;
   const auto *execute = std::get_if<ExecuteWords>(&node(id).instruction);
   if (!execute)
     return words;
-  const BlockId block = node(id).block;
-  const BlockWords split(context_.tree, context_.model, context_.dialect, block);
-  for (const Word &word : context_.tree.wordsOf(block))
-    if (split.belongsTo(word, execute->which))
-      words.push_back(&word);
+  forEachExecutedWord(context_.tree, context_.model, context_.dialect, node(id).block, *execute,
+                      [&](const Word &word) { words.push_back(&word); });
   return words;
+}
+
+bool MotionView::mayDo(NodeId id, std::initializer_list<CodeAction> actions) const {
+  const auto *execute = std::get_if<ExecuteWords>(&node(id).instruction);
+  return execute && std::ranges::any_of(actions, [&](CodeAction action) { return execute->traits.mayDo(action); });
+}
+
+bool MotionView::mayHave(NodeId id, char address) const {
+  const auto *execute = std::get_if<ExecuteWords>(&node(id).instruction);
+  return execute && execute->traits.mayHave(address);
 }
 
 std::vector<const Word *> MotionView::axisWords(NodeId node) const { return endPoint(*this, node, takesAxisWords); }
@@ -93,6 +101,8 @@ std::vector<const Word *> MotionView::modalMotionWords(NodeId node) const {
 }
 
 const Word *MotionView::findAction(NodeId node, std::initializer_list<CodeAction> actions) const {
+  if (!mayDo(node, actions))
+    return nullptr;
   for (const Word *word : wordsOf(node))
     if (const Code *code = codeOf(*word, context_.dialect))
       if (std::ranges::find(actions, code->action) != actions.end())
@@ -101,8 +111,8 @@ const Word *MotionView::findAction(NodeId node, std::initializer_list<CodeAction
 }
 
 bool MotionView::sets(NodeId node, ModalKind kind) const {
-  const auto group = modes_.groupOf(kind);
-  return group && std::ranges::any_of(wordsOf(node), [&](const Word *word) {
+  const auto group = modes_->groupOf(kind);
+  return group && mayHave(node, 'G') && std::ranges::any_of(wordsOf(node), [&](const Word *word) {
            const Code *code = word->address() == 'G' ? codeOf(*word, context_.dialect) : nullptr;
            return code && code->group == *group;
          });
@@ -111,23 +121,23 @@ bool MotionView::sets(NodeId node, ModalKind kind) const {
 Span MotionView::blockSpan(NodeId id) const { return context_.tree.blocks[node(id).block].span(); }
 
 std::optional<CodeSet> MotionView::inForce(const AbstractState &state, ModalKind kind) const {
-  const auto group = modes_.groupOf(kind);
+  const auto group = modes_->groupOf(kind);
   return group ? std::optional(state.codes[*group]) : std::nullopt;
 }
 
 bool MotionView::wasSet(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
-  return codes && !isForgotten(state) && (codes->codes() & modes_.maskOf(kind, actions)) != 0;
+  return codes && !isForgotten(state) && (codes->codes() & modes_->maskOf(kind, actions)) != 0;
 }
 
 bool MotionView::surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
-  return codes && !codes->mayBeAtEntry() && (codes->codes() & ~modes_.maskOf(kind, actions)) == 0;
+  return codes && !codes->mayBeAtEntry() && (codes->codes() & ~modes_->maskOf(kind, actions)) == 0;
 }
 
 bool MotionView::mayBe(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
-  return codes && (codes->mayBeAtEntry() || (codes->codes() & modes_.maskOf(kind, actions)) != 0);
+  return codes && (codes->mayBeAtEntry() || (codes->codes() & modes_->maskOf(kind, actions)) != 0);
 }
 
 } // namespace feedhold::rules

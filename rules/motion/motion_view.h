@@ -19,7 +19,7 @@ public:
 
   ProgramId program() const { return program_; }
   const FileContext &context() const { return context_; }
-  const ModalTable &modes() const { return modes_; }
+  const ModalTable &modes() const { return *modes_; }
   const Cfg &cfg() const { return cfg_; }
   const Node &node(NodeId node) const { return cfg_.nodes[node]; }
 
@@ -32,6 +32,9 @@ public:
   std::vector<const Word *> modalMotionWords(NodeId node) const;
   /// The word of the node's block with a code that does one of the actions.
   const Word *findAction(NodeId node, std::initializer_list<CodeAction> actions) const;
+  /// False: the words of the node do none of the actions, or have no such address.  Much faster than a look at them.
+  bool mayDo(NodeId node, std::initializer_list<CodeAction> actions) const;
+  bool mayHave(NodeId node, char address) const;
   /// The node executes a code of the group that holds the kind.
   bool sets(NodeId node, ModalKind kind) const;
   Span blockSpan(NodeId node) const;
@@ -48,7 +51,7 @@ private:
   const FileContext &context_;
   ProgramId program_;
   const Cfg &cfg_;
-  ModalTable modes_;
+  std::shared_ptr<const ModalTable> modes_;
 };
 
 /// Something that the analysis does not follow has happened on some path: all is unknown behind it.

@@ -17,10 +17,11 @@ public:
     if (!asked_)
       return;
     mayBeStartedUnseen_ = mayBeStartedUnseen_ || hasOtherSpindleCode(node);
+    if (!state.spindle.mayBeAtEntry() && !state.spindle.contains(kStopped))
+      return;
     if (isForgotten(state) || view_.modalMotionWords(node).empty() || !cuts(state) || isAbovePart(node, state))
       return;
-    if (state.spindle.mayBeAtEntry() || state.spindle.contains(kStopped))
-      first_.note(node);
+    first_.note(node);
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
@@ -84,6 +85,8 @@ private:
   }
   /// M codes of the machine builder often start a spindle, an air turbine, a laser.  A probe cuts nothing.
   bool hasOtherSpindleCode(NodeId node) const {
+    if (!view_.mayHave(node, 'M') && !view_.mayHave(node, 'G'))
+      return false;
     for (const Word *word : view_.wordsOf(node)) {
       const Code *code = codeOf(*word, view_.context().dialect);
       if (word->address() == 'M' && !code)

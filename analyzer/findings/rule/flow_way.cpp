@@ -48,39 +48,68 @@ bool isExcluded(const FlowFacts &facts, NodeId node, NodeId next) {
   return (truth == Truth::True && next != test->taken) || (truth == Truth::False && next == test->taken);
 }
 
+/// Breadth first over what is reached, from behind a node on, not over what is blocked.
+class WaySearch {
+public:
+  WaySearch(const FlowFacts &facts, NodeId from) : facts_(facts), trail_(facts.trail()), from_(from), open_{from} {
+    trail_.start(facts.end().index() - facts.entry().index());
+  }
+
+  /// Enters what mayEnter(node) lets it enter, until it has come to `to`; false: it does not, or has no aim.
+  template <typename MayEnter> bool run(std::optional<NodeId> to, MayEnter &&mayEnter) {
+    while (!open_.empty()) {
+      const NodeId node = open_.front();
+      open_.pop_front();
+      forEachSuccessor(facts_.file.cfg, *facts_.file.model, node, ProgramUse::Called, [&](NodeId next) {
+        if (isNew(node, next) && mayEnter(next)) {
+          trail_.put(slotOf(next), node.index());
+          open_.push_back(next);
+        }
+      });
+      if (to && trail_.isKnown(slotOf(*to)))
+        return true;
+    }
+    return false;
+  }
+  bool hasReached(NodeId node) const { return trail_.isKnown(slotOf(node)); }
+  std::vector<NodeId> wayTo(NodeId to) const {
+    std::vector<NodeId> way{to};
+    do
+      way.push_back(NodeId(trail_.before(slotOf(way.back()))));
+    while (way.back() != from_);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+private:
+  std::size_t slotOf(NodeId node) const { return node.index() - facts_.entry().index(); }
+  bool isNew(NodeId node, NodeId next) const {
+    return next >= facts_.entry() && next < facts_.end() && !hasReached(next) && facts_.isReached(next) &&
+           !isExcluded(facts_, node, next);
+  }
+
+  const FlowFacts &facts_;
+  SearchTrail &trail_;
+  NodeId from_;
+  std::deque<NodeId> open_;
+};
+
 } // namespace
 
 std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, NodeId to,
                                            const std::function<bool(NodeId)> &blocked) {
-  const std::size_t first = facts.entry().index();
-  std::vector<std::uint32_t> before(facts.end().index() - first, 0xffffffff);
-  std::deque<NodeId> open{from};
-  const auto visit = [&](NodeId node, NodeId next) {
-    if (next.index() < first || next.index() - first >= before.size() || before[next.index() - first] != 0xffffffff ||
-        !facts.isReached(next) || (next != to && blocked(next)) || isExcluded(facts, node, next))
-      return;
-    before[next.index() - first] = node.index();
-    open.push_back(next);
-  };
-  bool found = false;
-  while (!open.empty() && !found) {
-    const NodeId node = open.front();
-    open.pop_front();
-    forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called,
-                     [&](NodeId next) { visit(node, next); });
-    found = before[to.index() - first] != 0xffffffff;
-  }
-  if (!found)
+  WaySearch search(facts, from);
+  if (!search.run(to, [&](NodeId next) { return next == to || !blocked(next); }))
     return std::nullopt;
-  std::vector<NodeId> way{to};
-  for (NodeId node = to; way.size() <= before.size();) {
-    node = NodeId(before[node.index() - first]);
-    way.push_back(node);
-    if (node == from)
-      break;
-  }
-  std::reverse(way.begin(), way.end());
-  return way;
+  return search.wayTo(to);
+}
+
+std::optional<NodeId> firstReached(const FlowFacts &facts, NodeId from, std::span<const NodeId> wanted,
+                                   const std::function<bool(NodeId)> &blocked) {
+  WaySearch search(facts, from);
+  search.run(std::nullopt, [&](NodeId next) { return !blocked(next); });
+  const auto found = std::find_if(wanted.begin(), wanted.end(), [&](NodeId node) { return search.hasReached(node); });
+  return found == wanted.end() ? std::nullopt : std::optional(*found);
 }
 
 std::vector<Label> describeWay(const FlowFacts &facts, std::span<const NodeId> way) {

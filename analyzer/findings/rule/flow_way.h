@@ -12,6 +12,10 @@ namespace feedhold {
 std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, NodeId to,
                                            const std::function<bool(NodeId)> &blocked);
 
+/// The first of some nodes, which ascend, to which there is such a way; one search for all of them.
+std::optional<NodeId> firstReached(const FlowFacts &facts, NodeId from, std::span<const NodeId> wanted,
+                                   const std::function<bool(NodeId)> &blocked);
+
 /// The places of a way where something is decided: branches with what they decided, jumps, calls.  For Diagnostic::way.
 std::vector<Label> describeWay(const FlowFacts &facts, std::span<const NodeId> way);
 

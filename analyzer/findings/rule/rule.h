@@ -55,6 +55,8 @@ struct FileContext {
   std::span<const FileContracts *const> contracts = {}; // by FileId; may be empty
   /// The text that findings are about: the program, or a file with its contracts (`source` is that file then).
   ContractSourceId contractSource = kProgramText;
+  /// Of the dialect, made once for all rules and programs; null: a rule that needs one makes its own.
+  std::shared_ptr<const ModalTable> modes = nullptr;
 
   std::string_view text(Span span) const { return source.text(span); }
   /// Null: the program has no clause, or contracts were not read.

@@ -192,11 +192,12 @@ void visitRuns(ProgramId program, std::span<const FlowListeners *const> lists, c
 }
 
 /// One analysis for each program; two where its contract speaks of its entry.
-void visitFlow(const HookLists &lists, const FileContext &context) {
+void visitFlow(const HookLists &lists, FileContext context) {
   const FlowListeners &allowed = lists.flow[static_cast<std::size_t>(FlowRuns::Allowed)];
   const FlowListeners &all = lists.flow[static_cast<std::size_t>(FlowRuns::All)];
   if (context.programs == nullptr || (allowed.empty() && all.empty()))
     return;
+  context.modes = std::make_shared<const ModalTable>(context.dialect);
   for (ProgramId program(0); program.index() < context.model.programs.size(); program = program.next()) {
     const Contract *contract = context.contractOf({context.file, program});
     if (!contract || !speaksOfEntry(*contract)) {

@@ -2,6 +2,7 @@
 
 #include "inference/absint/abstract_state.h"
 
+#include <bit>
 #include <cmath>
 
 namespace feedhold {
@@ -22,9 +23,8 @@ AbstractValue valueOf(const AbstractNumber &number) {
     return value.withOrigin(Origin{kZeroSymbol, number.grid().offset()});
   return value;
 }
-AbstractValue valueOf(const std::optional<AbstractNumber> &number) {
-  return valueOf(number.value_or(kNoNumber)); // no case is left: the alarm before it has said so
-}
+/// Where no case is left the alarm before it has said so.
+AbstractNumber orNone(const std::optional<AbstractNumber> &number) { return number.value_or(kNoNumber); }
 
 /// The origin of a value moved by a constant distance.
 std::optional<Origin> moved(const AbstractValue &value, const Grid &distance,
@@ -62,6 +62,15 @@ std::optional<AbstractNumber> functionOf(FunctionKind kind, const AbstractNumber
   return AbstractNumber::any();
 }
 
+/// In the order in which the machine computes: how many steps there are in 1 is whole, a step seldom a double.
+AbstractNumber roundedToStep(const AbstractNumber &number, Decimal step) {
+  const auto perUnit = feedhold::divide(AbstractNumber::constant(std::pow(10.0, step.scale())),
+                                        AbstractNumber::constant(static_cast<double>(step.mantissa())));
+  const auto rounded =
+      perUnit ? feedhold::divide(feedhold::round(feedhold::multiply(number, *perUnit)), *perUnit) : std::nullopt;
+  return rounded.value_or(number);
+}
+
 /// Copies and distances: two values of one symbol whose offsets differ are apart by that much.  The readings in exact
 /// numbers and in doubles may drift apart by roundings, so a distance below this share of the values decides nothing.
 constexpr double kDrift = 1e-9;
@@ -86,8 +95,15 @@ AbstractValue AbstractReading::withSymbol(Value value) {
 
 // ---- values --------------------------------------------------------------------------------------------------------
 
-AbstractValue AbstractReading::literal(Decimal value) const { return valueOf(AbstractNumber::constant(value)); }
-AbstractValue AbstractReading::number(double value) const { return valueOf(AbstractNumber::constant(value)); }
+AbstractValue AbstractReading::literal(Decimal value) const {
+  return memo_.constant(static_cast<std::uint64_t>(value.mantissa()), value.scale(),
+                        [&] { return valueOf(AbstractNumber::constant(value)); });
+}
+AbstractValue AbstractReading::number(double value) const {
+  constexpr std::uint8_t kDouble = 0xff; // no scale of a decimal
+  return memo_.constant(std::bit_cast<std::uint64_t>(value), kDouble,
+                        [&] { return valueOf(AbstractNumber::constant(value)); });
+}
 
 AbstractValue AbstractReading::asNumber(const Value &value) const {
   if (value.isNumber())
@@ -115,7 +131,8 @@ AbstractValue AbstractReading::either(const Value &first, const Value &second) c
 AbstractValue AbstractReading::add(const Value &a, const Value &b) const {
   const AbstractNumber &left = numberOf(a);
   const AbstractNumber &right = numberOf(b);
-  const AbstractValue sum = valueOf(feedhold::add(left, right));
+  const AbstractValue sum =
+      valueOf(memo_.of(NumberOperation::Add, left, right, [&] { return feedhold::add(left, right); }));
   if (sum.origin())
     return sum;
   if (const auto origin = moved(a, right.grid(), feedhold::add))
@@ -125,23 +142,33 @@ AbstractValue AbstractReading::add(const Value &a, const Value &b) const {
 AbstractValue AbstractReading::subtract(const Value &a, const Value &b) const {
   if (a.origin() && a.origin() == b.origin() && a.isNumber() && b.isNumber())
     return number(0);
-  const AbstractValue difference = valueOf(feedhold::subtract(numberOf(a), numberOf(b)));
+  const AbstractValue difference = valueOf(memo_.of(NumberOperation::Subtract, numberOf(a), numberOf(b),
+                                                    [&] { return feedhold::subtract(numberOf(a), numberOf(b)); }));
   return difference.origin() ? difference : difference.withOrigin(moved(a, numberOf(b).grid(), feedhold::subtract));
 }
 AbstractValue AbstractReading::multiply(const Value &a, const Value &b) const {
-  return valueOf(feedhold::multiply(numberOf(a), numberOf(b)));
+  return valueOf(memo_.of(NumberOperation::Multiply, numberOf(a), numberOf(b),
+                          [&] { return feedhold::multiply(numberOf(a), numberOf(b)); }));
 }
 AbstractValue AbstractReading::divide(const Value &a, const Value &b) const {
-  return valueOf(feedhold::divide(numberOf(a), numberOf(b)));
+  return valueOf(memo_.of(NumberOperation::Divide, numberOf(a), numberOf(b),
+                          [&] { return orNone(feedhold::divide(numberOf(a), numberOf(b))); }));
 }
-AbstractValue AbstractReading::negate(const Value &a) const { return valueOf(feedhold::negate(numberOf(a))); }
 AbstractValue AbstractReading::remainder(const Value &a, const Value &b) const {
-  return valueOf(remainderTruncated(numberOf(a), numberOf(b)));
+  return valueOf(memo_.of(NumberOperation::Remainder, numberOf(a), numberOf(b),
+                          [&] { return orNone(remainderTruncated(numberOf(a), numberOf(b))); }));
 }
-AbstractValue AbstractReading::fix(const Value &a) const { return valueOf(feedhold::fix(numberOf(a))); }
-AbstractValue AbstractReading::fup(const Value &a) const { return valueOf(feedhold::fup(numberOf(a))); }
-AbstractValue AbstractReading::floor(const Value &a) const { return valueOf(floorOf(numberOf(a))); }
-AbstractValue AbstractReading::ceiling(const Value &a) const { return valueOf(ceilOf(numberOf(a))); }
+AbstractValue AbstractReading::ofOne(NumberOperation operation, const Value &a,
+                                     AbstractNumber (*compute)(const AbstractNumber &)) const {
+  return valueOf(memo_.of(operation, numberOf(a), {}, [&] { return compute(numberOf(a)); }));
+}
+AbstractValue AbstractReading::negate(const Value &a) const {
+  return ofOne(NumberOperation::Negate, a, feedhold::negate);
+}
+AbstractValue AbstractReading::fix(const Value &a) const { return ofOne(NumberOperation::Fix, a, feedhold::fix); }
+AbstractValue AbstractReading::fup(const Value &a) const { return ofOne(NumberOperation::Fup, a, feedhold::fup); }
+AbstractValue AbstractReading::floor(const Value &a) const { return ofOne(NumberOperation::Floor, a, floorOf); }
+AbstractValue AbstractReading::ceiling(const Value &a) const { return ofOne(NumberOperation::Ceiling, a, ceilOf); }
 
 AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
   const AbstractNumber &number = numberOf(value);
@@ -151,23 +178,24 @@ AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
   if (number.isExact() && leq(number.grid(), Grid::of(*size, Rational())) && value.isNumber())
     return value; // a multiple of the step already
   if (step.scale() == 0 && step.mantissa() == 1)
-    return valueOf(feedhold::round(number));
-  // In the order in which the machine computes: how many steps there are in 1 is whole, a step seldom a double.
-  const auto perUnit = feedhold::divide(AbstractNumber::constant(std::pow(10.0, step.scale())),
-                                        AbstractNumber::constant(static_cast<double>(step.mantissa())));
-  const auto rounded =
-      perUnit ? feedhold::divide(feedhold::round(feedhold::multiply(number, *perUnit)), *perUnit) : std::nullopt;
-  return valueOf(rounded.value_or(number));
+    return ofOne(NumberOperation::Round, value, feedhold::round);
+  return valueOf(
+      memo_.of(NumberOperation::RoundTo, number, literal(step).number(), [&] { return roundedToStep(number, step); }));
 }
 
 AbstractValue AbstractReading::function(FunctionKind kind, const Value &argument) const {
-  return valueOf(functionOf(kind, numberOf(argument)));
+  const auto operation =
+      static_cast<NumberOperation>(static_cast<unsigned>(NumberOperation::FirstFunction) + static_cast<unsigned>(kind));
+  return valueOf(
+      memo_.of(operation, numberOf(argument), {}, [&] { return orNone(functionOf(kind, numberOf(argument))); }));
 }
 AbstractValue AbstractReading::atan2(const Value &y, const Value &x) const {
-  return valueOf(atan2Degrees(numberOf(y), numberOf(x)));
+  return valueOf(memo_.of(NumberOperation::Atan2, numberOf(y), numberOf(x),
+                          [&] { return atan2Degrees(numberOf(y), numberOf(x)); }));
 }
 AbstractValue AbstractReading::power(const Value &base, const Value &exponent) const {
-  return valueOf(pow(numberOf(base), numberOf(exponent)));
+  return valueOf(memo_.of(NumberOperation::Power, numberOf(base), numberOf(exponent),
+                          [&] { return orNone(pow(numberOf(base), numberOf(exponent))); }));
 }
 
 /// AND of non-negative numbers is at most either of them, OR and XOR are below the next power of two.

@@ -5,6 +5,7 @@
 // semantics then joins both sides.
 #pragma once
 
+#include "inference/absint/operation_memo.h"
 #include "inference/domain/code_set.h"
 #include "inference/domain/value.h"
 #include "meaning/semantics/step.h"
@@ -136,6 +137,7 @@ public:
 
 private:
   enum class Use : std::uint8_t { Read, Write };
+  Value ofOne(NumberOperation operation, const Value &a, AbstractNumber (*compute)(const AbstractNumber &)) const;
   void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
 
   const Dialect *dialect_;
@@ -145,6 +147,7 @@ private:
   std::optional<std::string_view> abandoned_;
   bool stopped_ = false;
   bool mayHaveDividedByZero_ = false;
+  mutable OperationMemo memo_;
 };
 
 } // namespace feedhold

@@ -3,6 +3,7 @@
 #include "meaning/cfg/reached_programs.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace feedhold {
 
@@ -23,6 +24,14 @@ std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
   return end - first;
 }
 
+/// Expressions stand in the order of the blocks.
+std::size_t firstExpressionOf(const ProgramFile &file, BlockId block) {
+  const std::uint32_t begin = file.tree->blocks[block].begin;
+  const auto first = std::partition_point(file.tree->expressions.begin(), file.tree->expressions.end(),
+                                          [&](const Expression &expression) { return expression.span.begin < begin; });
+  return static_cast<std::size_t>(first - file.tree->expressions.begin());
+}
+
 /// So much work that a program in use never needs it, so little that a hostile one ends soon.
 std::uint64_t factBudget(const ProgramFile &file) { return 300'000 + 5 * file.cfg.nodes.size(); }
 
@@ -30,17 +39,16 @@ std::uint64_t factBudget(const ProgramFile &file) { return 300'000 + 5 * file.cf
 
 FlowFacts::FlowFacts(const ProgramSet &set, FileId file_, ProgramId program_)
     : programs(set), file(set.file(file_)), program(program_), modes(*file.dialect),
-      first_(file.cfg.entryOf(program_).index()), reached_(nodesOf(file, program_)) {}
+      first_(file.cfg.entryOf(program_).index()), reached_(nodesOf(file, program_)),
+      values_(firstExpressionOf(file, file.model->programs[program_].first),
+              firstExpressionOf(file, file.model->programs[program_].last)) {}
 
 std::optional<Truth> FlowFacts::truthOf(NodeId test) const {
   const auto found = truths_.find(test.index());
   return found == truths_.end() ? std::nullopt : std::optional(found->second);
 }
 
-const AbstractValue *FlowFacts::valueOf(ExpressionId expression) const {
-  const auto found = values_.find(expression.index());
-  return found == values_.end() ? nullptr : &found->second;
-}
+const AbstractValue *FlowFacts::valueOf(ExpressionId expression) const { return values_.find(expression); }
 
 /// Fills in the facts while the analysis tells what it sees.
 class FactCollector : public AnalysisVisitor {
@@ -97,48 +105,42 @@ public:
     if (outer_)
       return;
     const bool always = truth == Truth::True;
-    for (AlarmFact &fact : facts_.alarms_)
-      if (fact.place == report.place && fact.kind == report.kind) {
-        fact.always = fact.always && always;
-        return;
-      }
-    facts_.alarms_.push_back({report.kind, report.place, place_.node, always});
+    const auto key = std::tuple(report.place.begin, report.place.end, report.kind);
+    const auto [known, isNew] = alarmAt_.emplace(key, facts_.alarms_.size());
+    if (isNew)
+      facts_.alarms_.push_back({report.kind, report.place, place_.node, always});
+    else
+      facts_.alarms_[known->second].always = facts_.alarms_[known->second].always && always;
   }
   void userAlarm(const AbstractValue &number, Span place) override {
     if (outer_)
       return;
-    for (UserAlarmFact &fact : facts_.userAlarms_)
-      if (fact.place == place) {
-        fact.number = join(fact.number, number);
-        return;
-      }
-    facts_.userAlarms_.push_back({place, place_.node, number});
+    const auto [known, isNew] = userAlarmAt_.emplace(std::pair(place.begin, place.end), facts_.userAlarms_.size());
+    if (isNew)
+      facts_.userAlarms_.push_back({place, place_.node, number});
+    else
+      facts_.userAlarms_[known->second].number = join(facts_.userAlarms_[known->second].number, number);
   }
   void notModelled(std::string_view reason, Span) override {
     const NodeId node = outer_.value_or(place_.node);
-    for (const NotModelledFact &fact : facts_.notModelled_)
-      if (fact.node == node && fact.reason == reason)
-        return;
-    facts_.notModelled_.push_back({node, reason});
+    if (notModelledAt_.emplace(node, reason).second)
+      facts_.notModelled_.push_back({node, reason});
   }
   void evaluated(ExpressionId expression, const AbstractValue &value) override {
     if (outer_)
       return noteVacantRead(expression, value);
-    const auto [found, isNew] = facts_.values_.emplace(expression.index(), value);
-    if (!isNew)
-      found->second = join(found->second, value);
+    facts_.values_.add(expression, value);
   }
   void ended(Place place, PathEnd end, const AbstractState &state) override {
     if (outer_)
       return;
     for (FlowWatch *watch : watches_)
       watch->ended(place.node, end, state);
-    for (ExitFact &fact : facts_.exits_)
-      if (fact.node == place.node) {
-        joinInto(reading_, fact.state, state);
-        return;
-      }
-    facts_.exits_.push_back({place.node, end, state});
+    const auto [known, isNew] = exitAt_.emplace(place.node, facts_.exits_.size());
+    if (isNew)
+      facts_.exits_.push_back({place.node, end, state});
+    else
+      joinInto(reading_, facts_.exits_[known->second].state, state);
   }
   void called(Place place, const CallRequest<AbstractReading> &request) override {
     if (outer_)
@@ -146,14 +148,15 @@ public:
     const auto *instruction = std::get_if<CallProgram>(&facts_.node(place.node).instruction);
     if (!instruction)
       return;
-    for (CallFact &fact : facts_.calls_)
-      if (fact.node == place.node) {
-        for (std::size_t i = 0; i < fact.request.locals.size(); ++i)
-          fact.request.locals[i] = join(fact.request.locals[i], request.locals[i]);
-        fact.request.repeats = join(fact.request.repeats, request.repeats);
-        return;
-      }
-    facts_.calls_.push_back({place.node, instruction->call, request});
+    const auto [known, isNew] = callAt_.emplace(place.node, facts_.calls_.size());
+    if (isNew) {
+      facts_.calls_.push_back({place.node, instruction->call, request});
+      return;
+    }
+    CallRequest<AbstractReading> &all = facts_.calls_[known->second].request;
+    for (std::size_t i = 0; i < all.locals.size(); ++i)
+      all.locals[i] = join(all.locals[i], request.locals[i]);
+    all.repeats = join(all.repeats, request.repeats);
   }
 
   void finish(bool complete) {
@@ -194,6 +197,12 @@ private:
   std::span<FlowWatch *const> watches_;
   Place place_{FileId(0), NodeId(0)};
   std::optional<NodeId> outer_; // the call of this program through which the present place is reached
+  // Which of the facts is about a place: a program of a million blocks may have one for each.
+  std::map<std::tuple<std::uint32_t, std::uint32_t, AlarmKind>, std::size_t> alarmAt_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> userAlarmAt_;
+  std::set<std::pair<NodeId, std::string_view>> notModelledAt_;
+  std::map<NodeId, std::size_t> exitAt_;
+  std::map<NodeId, std::size_t> callAt_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> readAsVacant_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> readAsNumber_;
 };

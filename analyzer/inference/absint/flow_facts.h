@@ -5,8 +5,10 @@
 #include "meaning/cfg/program_set.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <typeindex>
 #include <unordered_map>
 #include <vector>
 
@@ -53,6 +55,55 @@ struct NotModelledFact {
   std::string_view reason;
 };
 
+/// From where a search has come to the nodes of a program.  One search after the other uses the same memory: a program
+/// of a million blocks is searched from each of its tool changes, mostly a few blocks far.
+class SearchTrail {
+public:
+  void start(std::size_t nodes) {
+    places_.resize(nodes);
+    ++search_;
+  }
+  bool isKnown(std::size_t node) const { return places_[node].search == search_; }
+  std::uint32_t before(std::size_t node) const { return places_[node].before; }
+  void put(std::size_t node, std::uint32_t before) { places_[node] = {before, search_}; }
+
+private:
+  struct Place {
+    std::uint32_t before;
+    std::uint32_t search; // that has put it
+  };
+  std::vector<Place> places_;
+  std::uint32_t search_ = 0;
+};
+
+/// Values of expressions, joined over all their evaluations.  The expressions of a program stand together in its file:
+/// its own are a list, those of programs inside or around it are looked up.
+class ExpressionValues {
+public:
+  /// `first` to, not including, `last`: of the program.
+  ExpressionValues(std::size_t first, std::size_t last) : first_(first), own_(last - first) {}
+
+  void add(ExpressionId expression, const AbstractValue &value) {
+    std::optional<AbstractValue> &known =
+        isOwn(expression) ? own_[expression.index() - first_] : others_[expression.index()];
+    known = known ? join(*known, value) : value;
+  }
+  const AbstractValue *find(ExpressionId expression) const {
+    if (isOwn(expression))
+      return pointerTo(own_[expression.index() - first_]);
+    const auto found = others_.find(expression.index());
+    return found == others_.end() ? nullptr : pointerTo(found->second);
+  }
+
+private:
+  bool isOwn(ExpressionId expression) const { return expression.index() - first_ < own_.size(); }
+  static const AbstractValue *pointerTo(const std::optional<AbstractValue> &value) { return value ? &*value : nullptr; }
+
+  std::size_t first_;
+  std::vector<std::optional<AbstractValue>> own_;
+  std::unordered_map<std::uint32_t, std::optional<AbstractValue>> others_;
+};
+
 class FlowWatch;
 
 class FlowFacts {
@@ -85,6 +136,16 @@ public:
   const std::vector<VacantReadInCall> &vacantReads() const { return vacantReads_; }
   const std::vector<NotModelledFact> &notModelled() const { return notModelled_; }
 
+  /// What several rules derive from these facts: make() for the first of them.
+  template <typename Derived, typename Make> const Derived &derived(Make &&make) const {
+    auto &known = derived_[typeid(Derived)];
+    if (!known)
+      known = std::make_shared<const Derived>(make());
+    return *static_cast<const Derived *>(known.get());
+  }
+  /// Of searches through the graph: one at a time.
+  SearchTrail &trail() const { return trail_; }
+
 private:
   friend class FactCollector;
   friend FlowFacts collectFacts(const ProgramSet &, FileId, ProgramId, std::span<FlowWatch *const>,
@@ -93,14 +154,16 @@ private:
   std::size_t first_;
   std::vector<bool> reached_;
   std::array<CodeSet, kModalGroups> entryCodes_{};
-  std::unordered_map<std::uint32_t, Truth> truths_;         // by node
-  std::unordered_map<std::uint32_t, AbstractValue> values_; // by expression
+  std::unordered_map<std::uint32_t, Truth> truths_; // by node
+  ExpressionValues values_;
   std::vector<AlarmFact> alarms_;
   std::vector<UserAlarmFact> userAlarms_;
   std::vector<ExitFact> exits_;
   std::vector<CallFact> calls_;
   std::vector<VacantReadInCall> vacantReads_;
   std::vector<NotModelledFact> notModelled_;
+  mutable SearchTrail trail_;
+  mutable std::map<std::type_index, std::shared_ptr<const void>> derived_;
   bool complete_ = true;
 };
 

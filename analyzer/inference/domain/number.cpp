@@ -1,7 +1,6 @@
 // Numbers: construction, the order, and what a comparison leaves of them.
 #include "inference/domain/number.h"
 
-#include "inference/domain/number_parts.h"
 #include "inference/domain/rounding.h"
 
 #include <algorithm>
@@ -10,10 +9,6 @@
 namespace feedhold {
 
 namespace {
-
-NumberParts partsOf(const AbstractNumber &value) {
-  return {value.interval(), value.grid(), value.set(), value.isExact() ? Exactness::Exact : Exactness::Rounded};
-}
 
 /// Of two numbers of the same exactness.
 std::optional<AbstractNumber> meetOfAlike(const NumberParts &left, const NumberParts &right, const Interval &interval) {
@@ -39,7 +34,7 @@ std::optional<AbstractNumber> meetOfMixed(const NumberParts &exact, const Number
 std::optional<AbstractNumber> within(const AbstractNumber &value, const Interval &bounds) {
   if (bounds.contains(value.interval()))
     return value;
-  NumberParts parts = partsOf(value);
+  NumberParts parts = value.parts();
   const auto interval = meet(parts.interval, bounds);
   if (!interval)
     return std::nullopt;
@@ -53,7 +48,7 @@ bool isRealConstant(const AbstractNumber &value, const Rational &taken) {
 
 /// Without one member of a grid that is an end of the interval.
 std::optional<AbstractNumber> withoutEnd(const AbstractNumber &value, const Rational &taken, double end) {
-  NumberParts parts = partsOf(value);
+  NumberParts parts = value.parts();
   if (parts.grid.isAny() || !parts.grid.contains(taken))
     return value;
   const bool isLow = parts.interval.lo == end;
@@ -164,18 +159,18 @@ std::optional<AbstractNumber> AbstractNumber::of(const Interval &interval, const
 }
 
 std::optional<double> AbstractNumber::constantValue() const {
-  return isConstant() ? std::optional(set_.values().front()) : std::nullopt;
+  return isConstant() ? std::optional(set().values().front()) : std::nullopt;
 }
 
 bool AbstractNumber::contains(double value) const {
-  return interval_.contains(value) && set_.contains(value) && !(isExact() && grid_.excludes(value));
+  return interval().contains(value) && set().contains(value) && !(isExact() && grid().excludes(value));
 }
 
 bool AbstractNumber::containsExactly(const Rational &value) const {
-  if (compare(value, interval_.lo) < 0 || compare(value, interval_.hi) > 0 || !grid_.contains(value))
+  if (compare(value, interval().lo) < 0 || compare(value, interval().hi) > 0 || !grid().contains(value))
     return false;
   const Interval near = Interval::of(value);
-  return !isExact() || set_.isMany() || (near.isConstant() && set_.contains(near.lo));
+  return !isExact() || set().isMany() || (near.isConstant() && set().contains(near.lo));
 }
 
 bool leq(const AbstractNumber &left, const AbstractNumber &right) {
@@ -202,9 +197,9 @@ std::optional<AbstractNumber> meet(const AbstractNumber &left, const AbstractNum
   if (right.isInterval())
     return within(left, *interval);
   if (left.isExact() == right.isExact())
-    return meetOfAlike(partsOf(left), partsOf(right), *interval);
-  return left.isExact() ? meetOfMixed(partsOf(left), partsOf(right), *interval)
-                        : meetOfMixed(partsOf(right), partsOf(left), *interval);
+    return meetOfAlike(left.parts(), right.parts(), *interval);
+  return left.isExact() ? meetOfMixed(left.parts(), right.parts(), *interval)
+                        : meetOfMixed(right.parts(), left.parts(), *interval);
 }
 
 AbstractNumber widen(const AbstractNumber &old, const AbstractNumber &next, std::span<const double> thresholds) {
@@ -248,7 +243,7 @@ std::optional<AbstractNumber> remove(const AbstractNumber &value, double taken) 
   const auto set = value.set().filter([&](double member) { return member != taken; });
   const auto exact = Rational::fromDouble(taken);
   const bool noReal = exact && isRealConstant(value, *exact);
-  NumberParts parts = partsOf(value);
+  NumberParts parts = value.parts();
   if (!set && (value.isExact() || noReal))
     return std::nullopt;
   if (set)

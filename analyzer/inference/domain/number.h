@@ -3,27 +3,21 @@
 
 #include "base/support/decimal.h"
 #include "base/support/truth.h"
-#include "inference/domain/finite_set.h"
-#include "inference/domain/grid.h"
-#include "inference/domain/interval.h"
+#include "inference/domain/number_parts.h"
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace feedhold {
 
-/// A program may be read with exact real numbers or with doubles, and how a control computes is not published.  Both
-/// readings are kept: the interval holds the values of both.  Exact: grid and set do so too.  Rounded: the readings
-/// may differ (as they do from 0.1 on); then the grid speaks of the real value alone, and the set of the computed one.
-enum class Exactness : std::uint8_t { Exact, Rounded };
-
-/// Never empty; the parts are reduced against each other.  No heap.
+/// Never empty; the parts are reduced against each other.  They never change, and all copies share them: a state holds
+/// some two hundred numbers, and from one block to the next nearly all of them stay what they are.
 class AbstractNumber {
 public:
   /// Any number.
-  constexpr AbstractNumber() = default;
-  static constexpr AbstractNumber any() { return {}; }
+  AbstractNumber() = default;
+  static AbstractNumber any() { return {}; }
   static AbstractNumber constant(const Decimal &value);
   static AbstractNumber constant(double value);
   static AbstractNumber inInterval(const Interval &interval);
@@ -33,33 +27,43 @@ public:
   static std::optional<AbstractNumber> of(const Interval &interval, const Grid &grid, const FiniteSet &set,
                                           Exactness exactness);
 
-  constexpr const Interval &interval() const { return interval_; }
-  constexpr const Grid &grid() const { return grid_; }
-  constexpr const FiniteSet &set() const { return set_; }
-  constexpr bool isExact() const { return exactness_ == Exactness::Exact; }
+  const NumberParts &parts() const { return parts_ ? *parts_ : kAnyParts; }
+  const Interval &interval() const { return parts().interval; }
+  const Grid &grid() const { return parts().grid; }
+  const FiniteSet &set() const { return parts().set; }
+  bool isExact() const { return parts().exactness == Exactness::Exact; }
   /// Only the interval says anything.
-  constexpr bool isInterval() const { return grid_.isAny() && set_.isMany(); }
+  bool isInterval() const { return grid().isAny() && set().isMany(); }
   /// One computed value alone (and one real value, near it or equal).
-  constexpr bool isConstant() const { return set_.isConstant(); }
+  bool isConstant() const { return set().isConstant(); }
   /// The computed value of a constant.
   std::optional<double> constantValue() const;
   /// Whole in both readings.
-  constexpr bool isWhole() const { return isExact() && grid_.isWhole(); }
+  bool isWhole() const { return isExact() && grid().isWhole(); }
   /// May be a computed value.
   bool contains(double value) const;
   /// May be a real value.
   bool containsExactly(const Rational &value) const;
 
-  friend bool operator==(const AbstractNumber &, const AbstractNumber &) = default;
+  /// Copies of one number.  No: they may be equal all the same.
+  bool isCopyOf(const AbstractNumber &other) const { return parts_ == other.parts_; }
+  /// Of copies the same; for tables.
+  std::size_t hash() const { return std::hash<const NumberParts *>{}(parts_.get()); }
+  friend bool operator==(const AbstractNumber &left, const AbstractNumber &right) {
+    return left.isCopyOf(right) || left.parts() == right.parts();
+  }
 
 private:
   friend struct NumberParts;
+  static constexpr NumberParts kAnyParts{};
 
-  Interval interval_;
-  Grid grid_;
-  FiniteSet set_;
-  Exactness exactness_ = Exactness::Exact;
+  std::shared_ptr<const NumberParts> parts_; // null: any number
 };
+
+/// Of what is computed from two numbers.
+inline Exactness both(const AbstractNumber &left, const AbstractNumber &right) {
+  return left.isExact() && right.isExact() ? Exactness::Exact : Exactness::Rounded;
+}
 
 bool leq(const AbstractNumber &left, const AbstractNumber &right);
 AbstractNumber join(const AbstractNumber &left, const AbstractNumber &right);

@@ -1,7 +1,6 @@
 // Numbers: arithmetic, rounding to whole numbers, and functions.
 #include "inference/domain/number.h"
 
-#include "inference/domain/number_parts.h"
 #include "inference/domain/rounding.h"
 
 #include <cmath>
@@ -11,8 +10,6 @@ namespace feedhold {
 namespace {
 
 using rounding::Bounds;
-
-Exactness exactnessOf(const AbstractNumber &value) { return value.isExact() ? Exactness::Exact : Exactness::Rounded; }
 
 /// Every pair of members has an exact result.
 template <typename Operation> bool areExact(const FiniteSet &left, const FiniteSet &right, Operation &&bounds) {
@@ -101,7 +98,7 @@ std::optional<AbstractNumber> remainderTruncated(const AbstractNumber &left, con
 
 AbstractNumber negate(const AbstractNumber &value) {
   return NumberParts{negate(value.interval()), negate(value.grid()), value.set().map([](double a) { return -a; }),
-                     exactnessOf(value)}
+                     value.parts().exactness}
       .asGiven();
 }
 
@@ -111,7 +108,7 @@ AbstractNumber absolute(const AbstractNumber &value) {
   if (value.interval().hi <= 0)
     return negate(value);
   return NumberParts{absolute(value.interval()), join(value.grid(), negate(value.grid())),
-                     value.set().map([](double a) { return std::abs(a); }), exactnessOf(value)}
+                     value.set().map([](double a) { return std::abs(a); }), value.parts().exactness}
       .result();
 }
 

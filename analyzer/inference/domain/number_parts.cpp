@@ -1,6 +1,8 @@
 // The reduction of interval, grid and set against each other.
 #include "inference/domain/number_parts.h"
 
+#include "inference/domain/number.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -163,12 +165,13 @@ std::optional<AbstractNumber> reducedRounded(const NumberParts &parts) {
 } // namespace
 
 AbstractNumber NumberParts::asGiven() const {
-  AbstractNumber number;
-  number.interval_ = interval;
-  number.grid_ = grid;
-  number.set_ = set;
+  NumberParts parts = *this;
   // Where neither grid nor set says anything, they hold for both readings.
-  number.exactness_ = grid.isAny() && set.isMany() ? Exactness::Exact : exactness;
+  if (grid.isAny() && set.isMany())
+    parts.exactness = Exactness::Exact;
+  AbstractNumber number;
+  if (parts != AbstractNumber::kAnyParts)
+    number.parts_ = std::make_shared<const NumberParts>(parts);
   return number;
 }
 

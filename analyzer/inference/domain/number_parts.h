@@ -1,9 +1,21 @@
-// NumberParts: the parts of an abstract number while they are put together.
+// NumberParts: what is known of a number, part by part: its bounds, its grid, and its few possible values.
 #pragma once
 
-#include "inference/domain/number.h"
+#include "inference/domain/finite_set.h"
+#include "inference/domain/grid.h"
+#include "inference/domain/interval.h"
+
+#include <cstdint>
+#include <optional>
 
 namespace feedhold {
+
+class AbstractNumber;
+
+/// A program may be read with exact real numbers or with doubles, and how a control computes is not published.  Both
+/// readings are kept: the interval holds the values of both.  Exact: grid and set do so too.  Rounded: the readings
+/// may differ (as they do from 0.1 on); then the grid speaks of the real value alone, and the set of the computed one.
+enum class Exactness : std::uint8_t { Exact, Rounded };
 
 struct NumberParts {
   Interval interval;
@@ -17,12 +29,9 @@ struct NumberParts {
   std::optional<AbstractNumber> reduced() const;
   /// Of parts that have a common member because their operands had.
   AbstractNumber result() const;
-};
 
-/// Exact when both are.
-constexpr Exactness both(const AbstractNumber &left, const AbstractNumber &right) {
-  return left.isExact() && right.isExact() ? Exactness::Exact : Exactness::Rounded;
-}
+  friend bool operator==(const NumberParts &, const NumberParts &) = default;
+};
 
 /// Doubles hold every member of the grid inside the interval.
 bool fitsDoubles(const Grid &grid, const Interval &interval);

@@ -29,16 +29,16 @@ AbstractValue AbstractValue::vacant() {
   return value;
 }
 
-AbstractValue AbstractValue::number(const AbstractNumber &number) {
+AbstractValue AbstractValue::number(AbstractNumber number) {
   AbstractValue value;
-  value.number_ = number;
+  value.number_ = std::move(number);
   value.mayBeVacant_ = false;
   return value;
 }
 
-AbstractValue AbstractValue::vacantOr(const AbstractNumber &number) {
+AbstractValue AbstractValue::vacantOr(AbstractNumber number) {
   AbstractValue value;
-  value.number_ = number;
+  value.number_ = std::move(number);
   return value;
 }
 

@@ -25,8 +25,8 @@ public:
   static AbstractValue any() { return {}; }
   static AbstractValue vacant();
   static AbstractValue anyNumber() { return number(AbstractNumber::any()); }
-  static AbstractValue number(const AbstractNumber &number);
-  static AbstractValue vacantOr(const AbstractNumber &number);
+  static AbstractValue number(AbstractNumber number);
+  static AbstractValue vacantOr(AbstractNumber number);
 
   bool mayBeVacant() const { return mayBeVacant_; }
   bool mayBeNumber() const { return mayBeNumber_; }

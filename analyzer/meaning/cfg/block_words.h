@@ -30,6 +30,21 @@ private:
   bool data_;
 };
 
+/// Calls visit(word) for each word of a block that the instruction executes.
+template <typename Visit>
+void forEachExecutedWord(const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect, BlockId block,
+                         const ExecuteWords &execute, Visit &&visit) {
+  if (execute.isWholeBlock) { // nearly every block of a tool path
+    for (const Word &word : tree.wordsOf(block))
+      visit(word);
+    return;
+  }
+  const BlockWords split(tree, model, dialect, block);
+  for (const Word &word : tree.wordsOf(block))
+    if (split.belongsTo(word, execute.which))
+      visit(word);
+}
+
 /// G65, G66, G66.1, or a code that passes arguments: all words behind the code are the call's.
 bool takesArguments(const Call &call, const SyntaxTree &tree, const Dialect &dialect);
 

@@ -8,6 +8,7 @@
 #include "language/dialect/dialect.h"
 #include "language/model/model.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,10 +36,35 @@ enum class WordChoice : std::uint8_t {
   WithSkipped,    // Always and those behind a `/` in mid-block
   UnderCondition, // the words of `IF [..] THEN S900`, `[..] M99`
 };
+/// Which addresses and codes the words of a node may have, one bit for several of them: most questions of a rule about
+/// a block of a tool path are answered by no without a look at its words.
+class WordTraits {
+public:
+  void add(const Word &word, const Code *code) {
+    letters_ |= bitOf(word.address());
+    if (code)
+      actions_[halfOf(code->action)] |= bitOf(code->action);
+  }
+  bool mayHave(char address) const { return (letters_ & bitOf(address)) != 0; }
+  bool mayDo(CodeAction action) const { return (actions_[halfOf(action)] & bitOf(action)) != 0; }
+
+private:
+  static constexpr std::uint32_t bitOf(char address) { return std::uint32_t{1} << (address & 31); }
+  static constexpr std::uint32_t bitOf(CodeAction action) {
+    return std::uint32_t{1} << (static_cast<unsigned>(action) & 31);
+  }
+  static constexpr std::size_t halfOf(CodeAction action) { return static_cast<std::size_t>(action) >> 5 & 1; }
+
+  std::uint32_t letters_ = 0;
+  std::array<std::uint32_t, 2> actions_{};
+};
+
 /// The NC words of the block that BlockWords (block_words.h) gives to the choice: modal codes, offsets, motion, dwell,
 /// spindle.
 struct ExecuteWords {
   WordChoice which;
+  bool isWholeBlock = false; // all words of the block are among them
+  WordTraits traits = {};
 };
 
 /// `#1=2`; several in one block only where the control reads the whole line first (all read the old values).

@@ -25,13 +25,25 @@ void Lowering::block(BlockId id) {
 }
 
 void Lowering::plainBlock(BlockId id) {
-  const std::span<const Word> all = tree_.wordsOf(id);
   const bool data = tree_.blocks[id].has(Block::kData);
-  const bool acts = std::any_of(all.begin(), all.end(), [&](const Word &word) {
+  executeWords(WordChoice::Always, [&](const Word &word) {
     return data || word.has(Word::kComma) || (word.address() != 'N' && word.address() != 'O' && word.address() != '<');
   });
-  if (acts)
-    emit(ExecuteWords{WordChoice::Always});
+}
+
+/// A node for the words of the block for which isOwn(word) holds, where there is one.
+template <typename IsOwn> void Lowering::executeWords(WordChoice which, IsOwn &&isOwn) {
+  const std::span<const Word> all = tree_.wordsOf(block_);
+  ExecuteWords execute{.which = which};
+  std::size_t count = 0;
+  for (const Word &word : all)
+    if (isOwn(word)) {
+      ++count;
+      execute.traits.add(word, codeOf(word, dialect_));
+    }
+  execute.isWholeBlock = count == all.size();
+  if (count > 0)
+    emit(execute);
 }
 
 /// Nothing but words of which none calls, jumps, returns or ends: nearly every block that is not of a macro.
@@ -91,24 +103,21 @@ void Lowering::brokenBlock(const BlockWords &words) {
 
 /// With a `/` in mid-block: the words before it, or all.
 void Lowering::words(const BlockWords &words) {
-  bool always = false;
-  bool skipped = false;
-  for (const Word &word : tree_.wordsOf(block_)) {
-    const bool free = words.belongsTo(word, WordChoice::Always);
-    always = always || free;
-    skipped = skipped || (!free && words.belongsTo(word, WordChoice::WithSkipped));
-  }
-  if (!skipped) {
-    if (always)
-      emit(ExecuteWords{WordChoice::Always});
-    return;
-  }
+  const auto isOf = [&words](WordChoice which) {
+    return [&words, which](const Word &word) { return words.belongsTo(word, which); };
+  };
+  const std::span<const Word> all = tree_.wordsOf(block_);
+  const bool skipped = std::any_of(all.begin(), all.end(), [&](const Word &word) {
+    return !words.belongsTo(word, WordChoice::Always) && words.belongsTo(word, WordChoice::WithSkipped);
+  });
+  if (!skipped)
+    return executeWords(WordChoice::Always, isOf(WordChoice::Always));
   const NodeId skip = emit(BlockSkip{levelOf(innerSkip()), end()});
-  const NodeId all = emit(ExecuteWords{WordChoice::WithSkipped});
+  const NodeId whole = end();
+  executeWords(WordChoice::WithSkipped, isOf(WordChoice::WithSkipped));
   closeSkip(skip);
-  if (always)
-    emit(ExecuteWords{WordChoice::Always});
-  setNext(all, end());
+  executeWords(WordChoice::Always, isOf(WordChoice::Always));
+  setNext(whole, end());
 }
 
 void Lowering::calls(const BlockWords &words) {
@@ -220,10 +229,8 @@ void Lowering::leave(const BlockWords &words) {
 void Lowering::wordsUnderCondition(std::optional<ExpressionId> condition) {
   const BlockWords words(tree_, model_, dialect_, block_);
   const NodeId test = emitTest(condition);
-  const std::span<const Word> all = tree_.wordsOf(block_);
-  if (std::any_of(all.begin(), all.end(),
-                  [&](const Word &word) { return words.belongsTo(word, WordChoice::UnderCondition); }))
-    emit(ExecuteWords{WordChoice::UnderCondition});
+  executeWords(WordChoice::UnderCondition,
+               [&](const Word &word) { return words.belongsTo(word, WordChoice::UnderCondition); });
   for (const Call &each : words.calls())
     if (each.kind != CallKind::OWord && tree_.words[each.code].has(Word::kAfterThen))
       call(each);

@@ -31,6 +31,7 @@ private:
   void block(BlockId id);
   bool isPlain(BlockId id);
   void plainBlock(BlockId id);
+  template <typename IsOwn> void executeWords(WordChoice which, IsOwn &&isOwn);
   void wholeBlock(BlockId id);
   void brokenBlock(const BlockWords &words);
   void words(const BlockWords &words);

@@ -57,7 +57,7 @@ template <typename R> struct ExecutedWords {
 };
 
 /// Fills `words`; codes that call, return or end are left out: they are nodes of their own.
-template <ValueAlgebra R> void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words);
+template <ValueAlgebra R> void readWords(StepContext<R> &context, const ExecuteWords &execute, ExecutedWords<R> &words);
 
 /// The least input increment of an address, in the units in force.
 template <ValueAlgebra R>
@@ -110,14 +110,15 @@ typename R::Truth isWordPresent(StepContext<R> &context, ExpressionId expression
 
 template <ValueAlgebra R> class WordReader {
 public:
-  WordReader(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words)
-      : context_(context), reading_(context.reading), choice_(choice), words_(words) {}
+  WordReader(StepContext<R> &context, ExecutedWords<R> &words)
+      : context_(context), reading_(context.reading), words_(words) {}
 
-  void run() {
-    const BlockWords split(context_.tree(), *context_.file.model, context_.dialect(), context_.block);
-    for (const Word &word : context_.tree().wordsOf(context_.block))
-      if (split.belongsTo(word, choice_) && !word.has(Word::kComma))
-        read(word);
+  void run(const ExecuteWords &execute) {
+    forEachExecutedWord(context_.tree(), *context_.file.model, context_.dialect(), context_.block, execute,
+                        [this](const Word &word) {
+                          if (!word.has(Word::kComma))
+                            read(word);
+                        });
   }
 
 private:
@@ -234,7 +235,6 @@ private:
 
   StepContext<R> &context_;
   R &reading_;
-  WordChoice choice_;
   ExecutedWords<R> &words_;
 };
 
@@ -272,9 +272,10 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
   return context.reading.either(inIncrements, context.reading.literal(literal));
 }
 
-template <ValueAlgebra R> void readWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
+template <ValueAlgebra R>
+void readWords(StepContext<R> &context, const ExecuteWords &execute, ExecutedWords<R> &words) {
   words.clear();
-  detail::WordReader<R>(context, choice, words).run();
+  detail::WordReader<R>(context, words).run(execute);
 }
 
 } // namespace feedhold

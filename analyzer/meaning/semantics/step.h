@@ -63,16 +63,24 @@ template <ValueAlgebra R> void introduceName(StepContext<R> &context, Expression
 /// All right sides are read before the first assignment takes place.
 template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &assign) {
   const SyntaxTree &tree = context.tree();
-  std::vector<typename R::Value> values;
   const auto assignmentAt = [&](std::uint32_t i) {
     return std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
   };
+  const auto read = [&](const Assignment &assignment) {
+    if (context.behaviour().assignsAfterReading)
+      introduceName(context, assignment.target);
+    return evaluate(context, assignment.value);
+  };
+  if (const Assignment *only = assign.count == 1 ? assignmentAt(0) : nullptr) { // nearly always: no list is needed
+    auto value = read(*only);
+    if (!context.reading.stopped())
+      store(context, only->target, std::move(value));
+    return;
+  }
+  std::vector<typename R::Value> values;
   for (std::uint32_t i = 0; i < assign.count; ++i)
-    if (const Assignment *assignment = assignmentAt(i)) {
-      if (context.behaviour().assignsAfterReading)
-        introduceName(context, assignment->target);
-      values.push_back(evaluate(context, assignment->value));
-    }
+    if (const Assignment *assignment = assignmentAt(i))
+      values.push_back(read(*assignment));
   if (context.reading.stopped())
     return; // with an alarm, and nothing has been assigned
   auto value = values.begin();
@@ -87,8 +95,9 @@ void setNamed(StepContext<R> &context, std::string_view name, const typename R::
     context.state.variables.set(*number, value);
 }
 
-template <ValueAlgebra R> void executeWords(StepContext<R> &context, WordChoice choice, ExecutedWords<R> &words) {
-  readWords(context, choice, words);
+template <ValueAlgebra R>
+void executeWords(StepContext<R> &context, const ExecuteWords &execute, ExecutedWords<R> &words) {
+  readWords(context, execute, words);
   applyModes(context, words);
   applyMotion(context, words);
   if (words.mayTakeAxes) {
@@ -119,7 +128,7 @@ template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCo
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
   R &reading = context.reading;
   if (const auto *execute = std::get_if<ExecuteWords>(&instruction))
-    return detail::executeWords(context, execute->which, words);
+    return detail::executeWords(context, *execute, words);
   if (const auto *assign = std::get_if<Assign>(&instruction))
     return detail::assign(context, *assign);
   if (const auto *enter = std::get_if<EnterLoop>(&instruction))
