@@ -110,7 +110,8 @@ AbstractValue AbstractReading::asNumber(const Value &value) const {
     return value;
   if (value.isVacant())
     return number(0);
-  return valueOf(feedhold::join(value.number(), AbstractNumber::constant(0.0)));
+  return valueOf(
+      memo_.of(NumberOperation::OrZero, value.number(), {}, [&] { return feedhold::join(value.number(), kNoNumber); }));
 }
 
 std::optional<double> AbstractReading::constantOf(const Value &value) const {
@@ -302,6 +303,27 @@ std::optional<std::pair<std::uint8_t, CodeSet>> AbstractReading::codeFrom(const 
     found = std::pair{code->group, found ? joined(found->second, one) : one};
   }
   return value.mayBeVacant() ? std::nullopt : found;
+}
+
+std::optional<AbstractValue> AbstractReading::recalled(const ProgramFile &file, const State &state,
+                                                       ExpressionId expression) {
+  if (observer_) // it is told of all that is evaluated
+    return std::nullopt;
+  const auto evaluation = evaluations_.recall(*file.tree, *file.dialect, expression, [&](std::uint32_t variable) {
+    if (variable <= kLocalVariables)
+      return state.locals[variable];
+    const AbstractValue *written = state.variables.find(variable);
+    return written ? *written : unwritten(state, variable);
+  });
+  if (!evaluation)
+    return std::nullopt;
+  mayHaveDividedByZero_ = mayHaveDividedByZero_ || evaluation->mayHaveDividedByZero;
+  return evaluation->value;
+}
+
+void AbstractReading::remember(const ProgramFile &file, ExpressionId expression, const Value &value) {
+  if (!observer_ && !stopped_)
+    evaluations_.remember(*file.tree, expression, {value, mayHaveDividedByZero_});
 }
 
 // ---- what happens --------------------------------------------------------------------------------------------------

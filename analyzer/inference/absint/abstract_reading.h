@@ -5,6 +5,7 @@
 // semantics then joins both sides.
 #pragma once
 
+#include "inference/absint/evaluation_memo.h"
 #include "inference/absint/operation_memo.h"
 #include "inference/domain/code_set.h"
 #include "inference/domain/value.h"
@@ -135,6 +136,11 @@ public:
       observer_->evaluated(expression, value);
   }
 
+  /// The value of an assignment when it was carried out before, and its variables held the same; else absent.
+  std::optional<Value> recalled(const ProgramFile &file, const State &state, ExpressionId expression);
+  /// Of the one that recalled() has not known just now.
+  void remember(const ProgramFile &file, ExpressionId expression, const Value &value);
+
 private:
   enum class Use : std::uint8_t { Read, Write };
   Value ofOne(NumberOperation operation, const Value &a, AbstractNumber (*compute)(const AbstractNumber &)) const;
@@ -148,6 +154,7 @@ private:
   bool stopped_ = false;
   bool mayHaveDividedByZero_ = false;
   mutable OperationMemo memo_;
+  EvaluationMemo evaluations_;
 };
 
 } // namespace feedhold

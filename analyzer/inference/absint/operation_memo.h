@@ -13,6 +13,7 @@ namespace feedhold {
 
 enum class NumberOperation : std::uint8_t {
   None,
+  OrZero, // that number, or 0
   Add,
   Subtract,
   Multiply,

@@ -60,6 +60,19 @@ template <ValueAlgebra R> void introduceName(StepContext<R> &context, Expression
     context.state.variables.set(*number, context.reading.asNumber(storedValue(context, *number)));
 }
 
+/// A reading that goes through a program several times may know the value from the last time.
+template <ValueAlgebra R> typename R::Value assignedValue(StepContext<R> &context, ExpressionId expression) {
+  if constexpr (requires { context.reading.recalled(context.file, context.state, expression); }) {
+    if (auto known = context.reading.recalled(context.file, context.state, expression))
+      return *std::move(known);
+    auto value = evaluate(context, expression);
+    context.reading.remember(context.file, expression, value);
+    return value;
+  } else {
+    return evaluate(context, expression);
+  }
+}
+
 /// All right sides are read before the first assignment takes place.
 template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &assign) {
   const SyntaxTree &tree = context.tree();
@@ -69,7 +82,7 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
   const auto read = [&](const Assignment &assignment) {
     if (context.behaviour().assignsAfterReading)
       introduceName(context, assignment.target);
-    return evaluate(context, assignment.value);
+    return assignedValue(context, assignment.value);
   };
   if (const Assignment *only = assign.count == 1 ? assignmentAt(0) : nullptr) { // nearly always: no list is needed
     auto value = read(*only);
