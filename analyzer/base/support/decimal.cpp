@@ -68,6 +68,8 @@ std::strong_ordering operator<=>(const Decimal &left, const Decimal &right) {
 bool Decimal::isInteger() const { return shortest(*this).scale() == 0; }
 
 std::optional<std::int64_t> Decimal::asInteger() const {
+  if (scale_ == 0) // nearly every number of a variable
+    return mantissa_;
   const Decimal value = shortest(*this);
   if (value.scale() != 0)
     return std::nullopt;

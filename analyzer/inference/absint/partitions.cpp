@@ -89,13 +89,13 @@ void Partitions::merge(AbstractReading &reading) {
   merged_ = true;
 }
 
-void Partitions::add(AbstractReading &reading, std::uint64_t key, AbstractState state) {
+void Partitions::add(AbstractReading &reading, std::uint64_t key, AbstractState &&state) {
   if (Part *part = find(key)) {
     joinInto(reading, part->state, state);
     return;
   }
   const auto place = std::find_if(parts_.begin(), parts_.end(), [&](const Part &part) { return part.key > key; });
-  parts_.insert(place, {key, std::move(state)});
+  parts_.emplace(place, key, std::move(state));
   if (parts_.size() > kMost)
     merge(reading);
 }
@@ -106,7 +106,7 @@ bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, bool
   for (const Part &next : incoming.parts()) {
     Part *old = find(next.key);
     if (!old) {
-      add(reading, next.key, next.state);
+      add(reading, next.key, AbstractState(next.state));
       changed = true;
     } else if (!leq(reading, next.state, old->state)) {
       if (widening)

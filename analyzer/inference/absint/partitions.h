@@ -35,7 +35,7 @@ public:
   std::vector<Part> &parts() { return parts_; }
   const std::vector<Part> &parts() const { return parts_; }
 
-  void add(AbstractReading &reading, std::uint64_t key, AbstractState state);
+  void add(AbstractReading &reading, std::uint64_t key, AbstractState &&state);
   /// Old states that grow are widened, new ones are taken as they are; true when anything has changed.
   bool grow(AbstractReading &reading, const Partitions &incoming, bool widening, std::span<const double> thresholds);
   /// What has arrived in place of what was assumed, part by part, where it says more.

@@ -56,7 +56,7 @@ bool Propagation::isCut(NodeId node) const {
 }
 
 void Propagation::run() {
-  deliver(facts_.entry.entry, summary_.entry);
+  deliver(facts_.entry.entry, AbstractState(summary_.entry));
   while (!pending_.empty() && !engine_.gaveUp_) {
     auto first = pending_.begin();
     const std::uint32_t position = first->first;
@@ -73,10 +73,10 @@ void Propagation::restart() {
   visits_.clear();
   summary_.heads.clear();
   summary_.exits.clear();
-  deliver(facts_.entry.entry, summary_.entry);
+  deliver(facts_.entry.entry, AbstractState(summary_.entry));
 }
 
-void Propagation::deliver(NodeId node, AbstractState state) {
+void Propagation::deliver(NodeId node, AbstractState &&state) {
   const std::uint64_t key = keyOf(facts_.by, reading_, state);
   pending_[positionOf(node)].add(reading_, key, std::move(state));
 }
@@ -93,7 +93,7 @@ void Propagation::process(std::uint32_t position, Partitions states) {
     } else {
       Partitions &arrived = arrived_[position];
       for (const Partitions::Part &part : states.parts())
-        arrived.add(reading_, part.key, part.state);
+        arrived.add(reading_, part.key, AbstractState(part.state));
       if (!passed_.insert(position).second)
         return;
       states = summary_.heads[position];
@@ -104,18 +104,16 @@ void Propagation::process(std::uint32_t position, Partitions states) {
 }
 
 /// Straight on until a place where ways meet; side ways are put aside and followed afterwards.
-void Propagation::follow(NodeId node, AbstractState state) {
-  work_.push_back({node, std::move(state)});
+void Propagation::follow(NodeId node, AbstractState &&state) {
+  followOne(node, state);
   while (!work_.empty() && !engine_.gaveUp_) {
     Work next = std::move(work_.back());
     work_.pop_back();
-    followOne(std::move(next));
+    followOne(next.node, next.state);
   }
 }
 
-void Propagation::followOne(Work work) {
-  NodeId node = work.node;
-  AbstractState &state = work.state;
+void Propagation::followOne(NodeId node, AbstractState &state) {
   while (engine_.spend() && execute(node, state)) {
     const NodeId next = nodeAt(node).next;
     if (next == node)
@@ -126,11 +124,11 @@ void Propagation::followOne(Work work) {
   }
 }
 
-void Propagation::go(NodeId node, AbstractState state) {
+void Propagation::go(NodeId node, AbstractState &&state) {
   if (isCut(node))
     deliver(node, std::move(state));
   else
-    work_.push_back({node, std::move(state)});
+    work_.emplace_back(node, std::move(state));
 }
 
 bool Propagation::execute(NodeId node, AbstractState &state) {
@@ -140,7 +138,7 @@ bool Propagation::execute(NodeId node, AbstractState &state) {
   return match(
       nodeAt(node).instruction,
       [&](const BlockSkip &skip) {
-        go(skip.skipped, state);
+        go(skip.skipped, AbstractState(state));
         return true;
       },
       [&](const Test &condition) { return test(node, condition, state); },
@@ -190,9 +188,10 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
         assumeDiffers(context, divisor, 0);
     if (!target)
       continue;
-    if (*target <= kLocalVariables)
-      state.locals[*target] = reading_.withSymbol(state.locals[*target]);
-    else if (const AbstractValue *value = state.variables.find(*target); value && !value->origin())
+    if (*target <= kLocalVariables) {
+      if (AbstractValue &value = state.locals[*target]; !value.origin())
+        value = reading_.withSymbol(value);
+    } else if (const AbstractValue *value = state.variables.find(*target); value && !value->origin())
       state.variables.set(*target, reading_.withSymbol(*value));
   }
 }
@@ -287,7 +286,7 @@ bool Propagation::leave(NodeId node, const ReturnFromProgram &from, AbstractStat
 
 void Propagation::startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state) {
   for (const NodeId label : returnsWithin(facts_.file->cfg, *facts_.file->model, node))
-    go(label, state);
+    go(label, AbstractState(state));
   searchAlarms(node, target);
   reading_.start();
 }

@@ -34,10 +34,11 @@ private:
 
   void restart();
   void process(std::uint32_t position, Partitions states);
-  void follow(NodeId node, AbstractState state);
-  void followOne(Work work);
-  void deliver(NodeId node, AbstractState state);
-  void go(NodeId node, AbstractState state);
+  // A state is large, even to be moved: it is taken where it stands.
+  void follow(NodeId node, AbstractState &&state);
+  void followOne(NodeId node, AbstractState &state);
+  void deliver(NodeId node, AbstractState &&state);
+  void go(NodeId node, AbstractState &&state);
 
   /// Each leaves in `state` what goes on to the next node; false when nothing does.
   bool execute(NodeId node, AbstractState &state);

@@ -23,7 +23,7 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
   case CallAction::Operation: reading_.havoc(state, "an operation of Macro A", context.place()); return true;
   case CallAction::Enter: break;
   }
-  auto after = enter(node, request, state);
+  auto after = enter(node, request, std::move(state));
   if (!after)
     return false;
   state = std::move(*after);
@@ -211,7 +211,7 @@ void Propagation::returnTo(NodeId node, const AbstractValue &target, const Abstr
       summary_.forcedHeads.insert(positionOf(*place));
       startAgain_ = true;
     }
-    deliver(*place, state);
+    deliver(*place, AbstractState(state));
   }
   searchAlarms(node, target);
   reading_.start();
@@ -224,7 +224,9 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
   const Truth moves = movesAxis(context, words_);
   if (moves == Truth::False)
     return true;
-  AbstractState before = state;
+  std::optional<AbstractState> before; // where it may be needed again
+  if (moves == Truth::Maybe)
+    before = state;
   if (mayBeTrue(state.modalCallsUnknown)) {
     CallRequest<AbstractReading> unknown;
     unknown.freshLocals = true;
@@ -234,16 +236,17 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
     const std::size_t last = *modalCallOf(state, summary_.modalLimit);
     const CallRequest<AbstractReading> request = prepareModalCall(context, state.modalCalls[last]);
     const auto outer = std::exchange(modal_, last);
-    auto after = enter(node, request, state);
+    auto after = enter(node, request, std::move(state));
     modal_ = outer;
     if (!after) { // the block behind is reached only if nothing has moved
-      state = std::move(before);
-      return moves == Truth::Maybe;
+      if (before)
+        state = std::move(*before);
+      return before.has_value();
     }
     state = std::move(*after);
   }
-  if (moves == Truth::Maybe)
-    joinInto(reading_, state, before);
+  if (before)
+    joinInto(reading_, state, *before);
   return true;
 }
 

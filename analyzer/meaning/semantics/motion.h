@@ -196,8 +196,7 @@ private:
     if (context_.certain(turning))
       return roundTrip("a turning cycle that is repeated", context_.place());
     const Point start = state_.position;
-    const Point target = targetOf(context_, words_);
-    state_.position = target;
+    state_.position = targetOf(context_, words_);
     if (hasCommaWord("A")) {
       reading_.notModelled("a coordinate that an angle stands for", context_.place());
       forgetPosition(context_);

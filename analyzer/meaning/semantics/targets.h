@@ -200,7 +200,9 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   if (isMapped && context.modes.groupOf(ModalKind::Distance) && !reading.mayBe(detail::isAbsolute(context)) &&
       !reading.mayBe(detail::isPolar(context)))
     return detail::mappedIncrement(context, words);
-  auto target = toProgrammed(context, context.state.position);
+  auto target = context.state.position;
+  if (isMapped)
+    target = toProgrammed(context, std::move(target));
   const bool incrementsByLetter =
       context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
   for (const Axis axis : kAllAxes)
@@ -216,7 +218,8 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
         coordinate = reading.select(entry->present, reading.add(coordinate, entry->value), coordinate);
       }
   detail::fromPolar(context, words, target);
-  target = toWork(context, std::move(target));
+  if (isMapped)
+    target = toWork(context, std::move(target));
   if (isMapped && !incrementsByLetter)
     detail::keepUnnamed(context, words, target, taken);
   return target;
