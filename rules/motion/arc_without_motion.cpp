@@ -13,10 +13,10 @@ public:
   ArcWithoutMotion(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   /// An arc by R without a chord is told as a straight move: see the semantics of arcs.
-  void move(NodeId node, const Move<AbstractValue> &move) override {
+  void move(NodeId node, MoveKind kind) override {
     if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}))
       return;
-    const bool stands = move.kind == MoveKind::Feed;
+    const bool stands = kind == MoveKind::Feed;
     const auto [at, isNew] = places_.emplace(node, stands);
     at->second = at->second && (isNew || stands);
   }

@@ -345,7 +345,7 @@ void AbstractReading::userAlarm(const Value &number, Span place) {
 
 void AbstractReading::move(const Move<Value> &move) {
   if (observer_ && !stopped_)
-    observer_->move(move);
+    observer_->move(move.kind);
 }
 
 void AbstractReading::notModelled(std::string_view reason, Span place) {

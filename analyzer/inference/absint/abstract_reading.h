@@ -36,7 +36,7 @@ public:
   virtual ~StepObserver() = default;
   virtual void alarm(Truth, const AlarmReport &) {}
   virtual void userAlarm(const AbstractValue &, Span) {}
-  virtual void move(const Move<AbstractValue> &) {}
+  virtual void move(MoveKind) {}
   virtual void notModelled(std::string_view, Span) {}
   virtual void evaluated(ExpressionId, const AbstractValue &) {}
 };
@@ -125,6 +125,8 @@ public:
   void alarm(Truth truth, const AlarmReport &report);
   void userAlarm(const Value &number, Span place);
   bool wantsMoves() const { return observer_ != nullptr; }
+  /// Observers ask how a block moves; where it starts and ends is in the states.
+  static constexpr bool kAsksForKindsAlone = true;
   void move(const Move<Value> &move);
   void notModelled(std::string_view reason, Span place);
   void havoc(State &state, std::string_view reason, Span place);

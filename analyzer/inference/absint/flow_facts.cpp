@@ -89,10 +89,10 @@ public:
       for (FlowWatch *watch : watches_)
         watch->after(place.node, state);
   }
-  void move(const Move<AbstractValue> &move) override {
+  void move(MoveKind kind) override {
     if (!outer_)
       for (FlowWatch *watch : watches_)
-        watch->move(place_.node, move);
+        watch->move(place_.node, kind);
   }
   void branch(Place place, Truth truth) override {
     if (outer_)

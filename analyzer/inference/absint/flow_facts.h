@@ -173,7 +173,7 @@ public:
   virtual ~FlowWatch() = default;
   virtual void before(NodeId, const AbstractState &) {}
   virtual void after(NodeId, const AbstractState &) {} // of instructions with one successor
-  virtual void move(NodeId, const Move<AbstractValue> &) {}
+  virtual void move(NodeId, MoveKind) {}
   virtual void ended(NodeId, PathEnd, const AbstractState &) {}
 };
 

@@ -260,9 +260,11 @@ void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::V
     return;
   Move<typename R::Value> move;
   move.kind = kind;
-  move.start = start;
-  move.end = context.state.position;
-  move.feed = context.state.word('F');
+  if constexpr (!requires { requires R::kAsksForKindsAlone; }) { // most of the work for a line of a tool path
+    move.start = start;
+    move.end = context.state.position;
+    move.feed = context.state.word('F');
+  }
   tell(context, std::move(move));
 }
 
