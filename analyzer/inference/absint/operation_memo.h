@@ -38,9 +38,9 @@ public:
   const AbstractNumber &of(NumberOperation operation, const AbstractNumber &left, const AbstractNumber &right,
                            Compute &&compute) {
     if (results_.empty())
-      results_.resize(kEntries);
+      results_.resize(std::size_t{1} << kResultBits);
     const std::uint64_t key = left.hash() * 3 + right.hash() + static_cast<std::uint64_t>(operation);
-    Result &known = results_[slotOf(key)];
+    Result &known = results_[slotOf(key, kResultBits)];
     if (known.operation != operation || !known.left.isCopyOf(left) || !known.right.isCopyOf(right))
       known = {left, right, compute(), operation};
     return known.number;
@@ -49,19 +49,20 @@ public:
   /// Of a constant with these bits.
   template <typename Compute> const AbstractValue &constant(std::uint64_t bits, std::uint8_t kind, Compute &&compute) {
     if (constants_.empty())
-      constants_.resize(kEntries);
-    Constant &known = constants_[slotOf(bits + kind)];
+      constants_.resize(std::size_t{1} << kConstantBits);
+    Constant &known = constants_[slotOf(bits + kind, kConstantBits)];
     if (!known.isSet || known.bits != bits || known.kind != kind)
       known = {bits, kind, true, compute()};
     return known.value;
   }
 
 private:
-  static constexpr unsigned kBits = 8;
-  static constexpr std::size_t kEntries = std::size_t{1} << kBits;
+  static constexpr unsigned kResultBits =
+      10; // a program of a hundred statements has as many results, and some constants
+  static constexpr unsigned kConstantBits = 8;
   /// The highest bits of a product depend on all bits of the key (Knuth, The Art of Computer Programming 3, 6.4).
-  static std::size_t slotOf(std::uint64_t key) {
-    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> (64 - kBits));
+  static std::size_t slotOf(std::uint64_t key, unsigned bits) {
+    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> (64 - bits));
   }
 
   struct Result {
