@@ -45,6 +45,11 @@ public:
       visit(links_[at].value);
   }
   bool isEmpty(std::uint32_t list) const { return list >= first_.size() || first_[list] == kNone; }
+  bool isEmpty() const { return links_.empty(); }
+  void reserve(std::size_t size) {
+    first_.reserve(size);
+    links_.reserve(size);
+  }
 
 private:
   struct Link {
@@ -64,7 +69,11 @@ struct Edge {
 class Search {
 public:
   Search(const Cfg &cfg, const ProgramModel &model, ProgramUse use, NodeId first, std::size_t size)
-      : cfg_(cfg), model_(model), use_(use), first_(first), numbers_(size, kNone) {}
+      : cfg_(cfg), model_(model), use_(use), first_(first), numbers_(size, kNone) {
+    nodes.reserve(size);
+    postorder.reserve(size);
+    treeParent.reserve(size);
+  }
 
   void run(NodeId entry);
 
@@ -75,9 +84,9 @@ public:
   Lists<Edge> otherEdges;           // by the nearest node from which the search reached both ends
 
 private:
-  struct Frame {
+  struct Frame { // as many as a program without branches has nodes
     std::uint32_t number;
-    std::size_t firstSuccessor;
+    std::uint32_t firstSuccessor;
   };
 
   void enter(NodeId node);
@@ -118,7 +127,7 @@ void Search::enter(NodeId node) {
   nodes.push_back(node);
   isLeft_.push_back(false);
   leftInto_.add();
-  path_.push_back({number, successors_.size()});
+  path_.push_back({number, static_cast<std::uint32_t>(successors_.size())});
   forEachSuccessor(cfg_, model_, node, use_, [&](NodeId successor) { successors_.push_back(successor); });
 }
 
@@ -171,6 +180,13 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
   const std::size_t last = behind == cfg.entries.end() ? cfg.nodes.size() : behind->index();
   Search search(cfg, model, use, first_, last - first_.index());
   search.run(entry);
+  positions_.assign(last - first_.index(), kUnreachable);
+  reserve(search.nodes.size());
+  if (search.backSources.isEmpty()) { // a tool path: without loops, and without memory for them
+    for (auto number = search.postorder.rbegin(); number != search.postorder.rend(); ++number)
+      append(search.nodes[*number], std::nullopt, Head::No);
+    return;
+  }
   const std::vector<std::uint32_t> around = loopsAround(search);
 
   // By head, the last to be left last, so that `waiting` gives it back first; what is in no loop under `top`.
@@ -179,7 +195,6 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
   for (auto number = search.postorder.rbegin(); number != search.postorder.rend(); ++number)
     inside.add(around[*number] == kNone ? top : around[*number], *number);
 
-  positions_.assign(last - first_.index(), kUnreachable);
   std::vector<std::uint32_t> waiting;
   inside.forEach(top, [&](std::uint32_t number) { waiting.push_back(number); });
   while (!waiting.empty()) {
@@ -193,6 +208,14 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
   for (std::size_t position = order_.size(); position-- > 0;)
     if (arounds_[position] != kNone)
       ends_[arounds_[position]] = std::max(ends_[arounds_[position]], ends_[position]);
+}
+
+void Wto::reserve(std::size_t size) {
+  order_.reserve(size);
+  isHead_.reserve(size);
+  depths_.reserve(size);
+  arounds_.reserve(size);
+  ends_.reserve(size);
 }
 
 void Wto::append(NodeId node, std::optional<NodeId> around, Head head) {

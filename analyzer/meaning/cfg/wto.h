@@ -32,6 +32,7 @@ public:
 
 private:
   enum class Head : std::uint8_t { No, Yes };
+  void reserve(std::size_t size);
   void append(NodeId node, std::optional<NodeId> around, Head head);
 
   std::vector<NodeId> order_;
