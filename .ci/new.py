@@ -35,11 +35,15 @@ RULE_PAGE = """# {name}
 
 Reports SAY WHAT.
 
-## Why
+## Why it matters
 
 SAY WHAT HAPPENS ON THE MACHINE.
 
-## A PROGRAM THAT IS REPORTED
+## What to do
+
+SAY HOW TO CORRECT THE PROGRAM.
+
+## Reported: SAY WHAT IS WRONG
 
 ```nc fanuc-30i
 O1000
@@ -49,7 +53,7 @@ M30
 ```findings
 ```
 
-## A PROGRAM THAT IS FINE
+## Not reported: SAY WHAT IS DIFFERENT
 
 ```nc fanuc-30i
 O1000

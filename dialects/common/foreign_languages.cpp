@@ -58,22 +58,22 @@ constexpr std::array kSender = {
 };
 
 constexpr std::array kLanguages = {
-    ForeignLanguage{"Heidenhain Klartext", "Klartext has its own grammar, which is not read; leave these files out",
-                    kKlartext},
-    ForeignLanguage{"Sinumerik", "only a program in ISO dialect mode (`G291`) can be read, with `--dialect`",
+    ForeignLanguage{"Heidenhain Klartext", "Klartext has a grammar of its own; exclude these files", kKlartext},
+    ForeignLanguage{"Sinumerik",
+                    "only programs in ISO dialect mode (`G291`) can be read; name the control with `--dialect`",
                     kSinumerik},
-    ForeignLanguage{"Okuma user task", "OSP programs have named labels and variables, which are not read", kOkuma},
+    ForeignLanguage{"Okuma user task", "named labels and variables of OSP programs are not supported", kOkuma},
     ForeignLanguage{"RS274NGC of PlanetCNC or grblHAL",
-                    "only LinuxCNC's RS274NGC is read; `--dialect linuxcnc` does so where the two agree", kPlanet},
-    ForeignLanguage{"Syntec MACRO", "a program without `%@MACRO` is in ISO mode and can be read", kSyntec},
-    ForeignLanguage{"Fagor 8055", "statements in parentheses would be taken for comments", kFagor},
-    ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not read", kDollar},
-    ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not read", kFadal},
+                    "only LinuxCNC's RS274NGC is supported; try `--dialect linuxcnc` where the two agree", kPlanet},
+    ForeignLanguage{"Syntec MACRO", "only programs in ISO mode (without `%@MACRO`) can be read", kSyntec},
+    ForeignLanguage{"Fagor 8055", "statements in parentheses would be read as comments", kFagor},
+    ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not supported", kDollar},
+    ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not supported", kFadal},
     ForeignLanguage{"a macro language with C operators (DDCS, Centroid, Eding)",
-                    "only Macro B relations such as `EQ` and conditions in brackets are read", kCLike},
-    ForeignLanguage{"macro compiler source", "check the part programs, or the text after compilation", kCompiler},
+                    "only Macro B comparisons such as `EQ` and conditions in brackets are supported", kCLike},
+    ForeignLanguage{"macro compiler source", "check the part programs, or the compiled text", kCompiler},
     ForeignLanguage{"sender macro (CNCjs)",
-                    "lines that begin with `%` and a name are run by the sender, not by the control", kSender},
+                    "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };
 
 } // namespace

@@ -23,16 +23,17 @@ void check(const Statement &statement, BlockId block, const FileContext &context
   const std::size_t length = characters(messageOf(*alarm->comment, context));
   if (length <= limit)
     return;
-  reporter.report({.message = fmt::format("alarm message of {} characters where {} are shown", length, limit),
-                   .span = alarm->comment->span,
-                   .notes = {"the rest of the message is lost"}});
+  reporter.report(
+      {.message = fmt::format("this alarm message has {} characters, but the control shows {}", length, limit),
+       .span = alarm->comment->span,
+       .notes = {"the operator does not see the rest; shorten the message"}});
 }
 
 } // namespace
 
 extern const Rule alarmMessageTooLong;
 const Rule alarmMessageTooLong{.info = {"alarm-message-too-long", Category::Alarm, Severity::Info,
-                                        "Reports an alarm message that is longer than the control shows."},
+                                        "Reports an alarm message that is longer than the control displays."},
                                .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

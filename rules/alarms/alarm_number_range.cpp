@@ -25,16 +25,16 @@ void check(const Statement &statement, BlockId block, const FileContext &context
   if (Decimal::fromInteger(first) <= *alarm->number && *alarm->number <= Decimal::fromInteger(last))
     return;
   reporter.report(
-      {.message = fmt::format("alarm number {} where {} to {} are allowed", alarm->number->toString(), first, last),
+      {.message = fmt::format("alarm number {} is outside the range {} to {}", alarm->number->toString(), first, last),
        .span = alarm->numberSpan,
-       .notes = {"the control stops, but with an alarm of its own in place of this number and message"}});
+       .notes = {"the control stops, but with an alarm of its own instead of this number and message"}});
 }
 
 } // namespace
 
 extern const Rule alarmNumberRange;
 const Rule alarmNumberRange{.info = {"alarm-number-range", Category::Alarm, Severity::Error,
-                                     "Reports a `#3000=` with a number that the control does not take."},
+                                     "Reports a `#3000=` with an alarm number that the control does not accept."},
                             .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

@@ -14,14 +14,14 @@ void check(const Statement &statement, BlockId block, const FileContext &context
     return;
   reporter.report({.message = fmt::format("alarm {} has no message", context.quoted(alarm->numberSpan)),
                    .span = alarm->span,
-                   .notes = {"the operator sees a number only; put the reason in parentheses behind it"}});
+                   .notes = {"the operator sees only a number; write the reason in parentheses after it"}});
 }
 
 } // namespace
 
 extern const Rule alarmWithoutMessage;
 const Rule alarmWithoutMessage{.info = {"alarm-without-message", Category::Alarm, Severity::Warning,
-                                        "Reports a `#3000=` without a message in parentheses behind it."},
+                                        "Reports a `#3000=` without a message in parentheses after it."},
                                .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

@@ -30,11 +30,10 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
       const auto [first, isNew] = firstUses.try_emplace(*alarm->number, FirstUse{alarm->span, message});
       if (isNew || first->second.message == message)
         continue;
-      reporter.report(
-          {.message = fmt::format("alarm {} has another message here than before", alarm->number->toString()),
-           .span = cover(alarm->span, alarm->comment->span),
-           .labels = {{first->second.span, "first used here"}},
-           .notes = {"a number of its own for each fault lets the operator look it up"}});
+      reporter.report({.message = fmt::format("alarm {} has two different messages", alarm->number->toString()),
+                       .span = cover(alarm->span, alarm->comment->span),
+                       .labels = {{first->second.span, "first used here"}},
+                       .notes = {"give each fault its own number, so that the operator can look it up"}});
     }
   }
 }
@@ -43,7 +42,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule sharedAlarmNumber;
 const Rule sharedAlarmNumber{.info = {"shared-alarm-number", Category::Alarm, Severity::Info,
-                                      "Reports two alarms of a program that have one number but different messages."},
+                                      "Reports an alarm number that a program uses with different messages."},
                              .hooks = {.program = check}};
 
 } // namespace feedhold::rules

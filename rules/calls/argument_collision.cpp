@@ -42,10 +42,10 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       continue;
     const Span lost = wordOf(context, argument.word).span();
     const Span wins = wordOf(context, later.word).span();
-    reporter.report({.message = fmt::format("{} is lost: {} sets `#{}`, too", context.quoted(lost),
+    reporter.report({.message = fmt::format("{} is overwritten: {} sets `#{}`, too", context.quoted(lost),
                                             context.quoted(wins), argument.variable),
                      .span = lost,
-                     .labels = {{wins, "the later word wins"}},
+                     .labels = {{wins, "the later word"}},
                      .notes = notesFor(argument, later)});
   }
 }

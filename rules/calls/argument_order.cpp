@@ -45,9 +45,9 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       .message = fmt::format("{} sets `#{}`, not `#{}`: I, J and K are out of order", context.quoted(span),
                              shifted->variable, usual),
       .span = span,
-      .notes = {"out of order they are taken for a second set of I, J, K", "write I before J before K"}};
+      .notes = {"out of order, they are read as a second set of I, J, K", "write I before J before K"}};
   if (before)
-    diagnostic.labels.push_back({wordOf(context, before->word).span(), "must stand behind it"});
+    diagnostic.labels.push_back({wordOf(context, before->word).span(), "must come after it"});
   reporter.report(std::move(diagnostic));
 }
 
@@ -55,7 +55,7 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule argumentOrder;
 const Rule argumentOrder{.info = {"argument-order", Category::Call, Severity::Warning,
-                                  "Reports I, J, K of a macro call in an order that shifts them to other variables."},
+                                  "Reports I, J, K of a macro call in an order that moves them to other variables."},
                          .hooks = {.call = check}};
 
 } // namespace feedhold::rules

@@ -38,26 +38,23 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   if (first == call.arguments.end())
     return;
   Diagnostic diagnostic{
-      .message = fmt::format("argument {} is written without a decimal point",
-                             context.quoted(wordOf(context, first->word).span())),
+      .message = fmt::format("argument {} has no decimal point", context.quoted(wordOf(context, first->word).span())),
       .span = wordOf(context, first->word).span(),
       .notes = {dpi == Switch::Off
-                    ? "the control passes it in its least increment, a thousandth of a millimetre or degree"
-                    : "parameter 3401#0 decides whether the control passes it in its least increment, a "
-                      "thousandth of a millimetre or degree",
-                "with a point the value is the same on every machine"}};
+                    ? "the control reads it in least increments: thousandths of a millimetre or degree"
+                    : "parameter 3401#0 decides whether it is in whole units or in thousandths (least increments)",
+                "with a decimal point the value is the same on every machine"}};
   for (auto other = std::next(first); other != call.arguments.end(); ++other)
     if (lacksPoint(*other, context))
-      diagnostic.labels.push_back({wordOf(context, other->word).span(), "likewise"});
+      diagnostic.labels.push_back({wordOf(context, other->word).span(), "this one, too"});
   reporter.report(std::move(diagnostic));
 }
 
 } // namespace
 
 extern const Rule argumentWithoutPoint;
-const Rule argumentWithoutPoint{
-    .info = {"argument-without-point", Category::Call, Severity::Info,
-             "Reports a length or an angle that a macro call passes without a decimal point."},
-    .hooks = {.call = check}};
+const Rule argumentWithoutPoint{.info = {"argument-without-point", Category::Call, Severity::Info,
+                                         "Reports a length or angle that a macro call passes without a decimal point."},
+                                .hooks = {.call = check}};
 
 } // namespace feedhold::rules

@@ -27,18 +27,18 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const bool local = call.kind == CallKind::Local;
   reporter.report(
       {.message =
-           fmt::format("{} without the {} that it calls", context.quoted(code), local ? "sequence number" : "program"),
+           fmt::format("{} does not say which {} to call", context.quoted(code), local ? "sequence number" : "program"),
        .span = code,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, local ? AlarmKind::SequenceNotFound
                                                                                 : AlarmKind::ProgramNotFound)),
-                 "write it with P in the same block"}});
+                 "write its number with P in the same block"}});
 }
 
 } // namespace
 
 extern const Rule callWithoutProgram;
 const Rule callWithoutProgram{.info = {"call-without-program", Category::Call, Severity::Error,
-                                       "Reports a call that does not say what it calls."},
+                                       "Reports a call without the number of the program that it calls."},
                               .hooks = {.call = check}};
 
 } // namespace feedhold::rules

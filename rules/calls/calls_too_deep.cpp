@@ -19,9 +19,9 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   if (!macros && depth->total <= limits.totalCallDepth)
     return;
   reporter.report(
-      {.message = fmt::format("calls from here go {} levels deep, where {} {}are allowed",
+      {.message = fmt::format("calls are nested {} levels deep from here; this control allows {}{}",
                               macros ? depth->macro : depth->total,
-                              macros ? limits.macroCallDepth : limits.totalCallDepth, macros ? "macro calls " : ""),
+                              macros ? limits.macroCallDepth : limits.totalCallDepth, macros ? " macro calls" : ""),
        .span = context.model.programs[id].header,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, macros ? AlarmKind::MacroNesting
                                                                                  : AlarmKind::SubprogramNesting))}});
@@ -31,7 +31,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule callsTooDeep;
 const Rule callsTooDeep{.info = {"calls-too-deep", Category::Call, Severity::Error,
-                                 "Reports a program whose calls go deeper than the control allows."},
+                                 "Reports a program whose calls are nested deeper than the control allows."},
                         .hooks = {.program = check}};
 
 } // namespace feedhold::rules

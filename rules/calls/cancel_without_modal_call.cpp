@@ -57,7 +57,7 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule cancelWithoutModalCall;
 const Rule cancelWithoutModalCall{.info = {"cancel-without-modal-call", Category::Call, Severity::Warning,
-                                           "Reports a `G67` in a program where no modal macro call can be in force."},
+                                           "Reports a `G67` in a program where no modal macro call can be active."},
                                   .hooks = {.call = check}};
 
 } // namespace feedhold::rules

@@ -70,8 +70,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       {.message = fmt::format("{} is an operation of Macro A", context.quoted(span)),
        .span = span,
        .label = operation ? fmt::format("`{}`, where P, Q, R name p, q, r", operation->meaning) : "",
-       .notes = {"operations of Macro A are read but not analysed: they calculate in whole increments, by rules of "
-                 "their own"}});
+       .notes = {"Macro A operations are read but not analysed: they compute in whole increments by their own rules"}});
 }
 
 } // namespace

@@ -41,17 +41,18 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   const Call *call = leftInForce(context, program);
   if (!call || callerCancels(context, program))
     return;
-  reporter.report({.message = fmt::format("{} is never cancelled", context.quoted(call->span)),
-                   .span = call->span,
-                   .notes = {"every later move calls the macro again, the retract and the move to the tool change too",
-                             "cancel it by G67"}});
+  reporter.report(
+      {.message = fmt::format("{} is never cancelled", context.quoted(call->span)),
+       .span = call->span,
+       .notes = {"every later move calls the macro again, including the retract and the move to the tool change",
+                 "cancel it with G67"}});
 }
 
 } // namespace
 
 extern const Rule modalCallNotCancelled;
 const Rule modalCallNotCancelled{.info = {"modal-call-not-cancelled", Category::Call, Severity::Warning,
-                                          "Reports a modal macro call with no `G67` behind it."},
+                                          "Reports a modal macro call (`G66`) without a later `G67`."},
                                  .hooks = {.program = check}};
 
 } // namespace feedhold::rules

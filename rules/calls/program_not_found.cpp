@@ -23,9 +23,9 @@ void check(const FileContext &context, const Reporter &reporter) {
     const std::string name = toString(call.callee);
     if (!seen.insert(name).second)
       continue;
-    reporter.report({.message = fmt::format("`{}` is in none of the files", name),
+    reporter.report({.message = fmt::format("`{}` is in none of the checked files", name),
                      .span = call.programWord ? wordOf(context, *call.programWord).span() : call.span,
-                     .notes = {fmt::format("when it is not on the machine either, the control {}",
+                     .notes = {fmt::format("if it is not on the machine either, the control {}",
                                            stopsWith(context.dialect, AlarmKind::ProgramNotFound))}});
   }
 }
@@ -34,7 +34,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule programNotFound;
 const Rule programNotFound{.info = {"program-not-found", Category::Call, Severity::Info,
-                                    "Reports a call of a program that is in none of the files."},
+                                    "Reports a call to a program that is in none of the checked files."},
                            .hooks = {.file = check}};
 
 } // namespace feedhold::rules

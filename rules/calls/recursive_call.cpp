@@ -29,9 +29,9 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   if (!call || (call->kind == CallKind::OWord && BranchBlocks(context.model).contains(call->block)))
     return;
   reporter.report(
-      {.message = fmt::format("{} leads back to this program", context.quoted(call->span)),
+      {.message = fmt::format("{} calls this program again", context.quoted(call->span)),
        .span = call->span,
-       .notes = {chain(cycle, context), fmt::format("when nothing ends the chain, the control {}",
+       .notes = {chain(cycle, context), fmt::format("if nothing ends the chain, the control {}",
                                                     stopsWith(context.dialect, AlarmKind::SubprogramNesting))}});
 }
 
@@ -39,7 +39,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule recursiveCall;
 const Rule recursiveCall{.info = {"recursive-call", Category::Call, Severity::Warning,
-                                  "Reports a program that calls itself, directly or through others."},
+                                  "Reports a program that calls itself, directly or through other programs."},
                          .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -16,7 +16,7 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   if (beyond == call.arguments.end())
     return;
   const Span span = wordOf(context, beyond->word).span();
-  reporter.report({.message = fmt::format("{} begins a set of I, J, K beyond the last one, number {}",
+  reporter.report({.message = fmt::format("{} begins one set of I, J, K too many; the limit is {}",
                                           context.quoted(span), context.dialect.limits.ijkSets),
                    .span = span,
                    .labels = {{wordOf(context, call.code).span(), "the call"}},

@@ -29,11 +29,11 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
     return;
   const AlarmKind alarm = isMacroCall(call.kind) ? AlarmKind::TwoMacroCalls : AlarmKind::TwoSubprogramCalls;
   const Span code = wordOf(context, call.code).span();
-  reporter.report({.message = fmt::format("{} is the second call in this block", context.quoted(code)),
-                   .span = code,
-                   .labels = {{wordOf(context, before->code).span(), "the first"}},
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, alarm)),
-                             "give each call a block of its own"}});
+  reporter.report(
+      {.message = fmt::format("{} is the second call in this block", context.quoted(code)),
+       .span = code,
+       .labels = {{wordOf(context, before->code).span(), "the first one"}},
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, alarm)), "put each call in its own block"}});
 }
 
 } // namespace

@@ -12,13 +12,14 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   const std::uint32_t end = issue.other.begin + static_cast<std::uint32_t>(context.text(issue.other).find(')')) + 1;
   const Span rest{end, issue.other.end};
   const bool nothingLost = trimmed(context.text({rest.begin, rest.end - 1})).empty();
-  reporter.report({.message = fmt::format("{} stands outside of the comment", context.quoted(rest)),
-                   .span = rest,
-                   .labels = {{issue.span, "this `(` opens nothing"}, {{end - 1, end}, "the comment ends here"}},
-                   .notes = {"comments do not nest: the control reads what follows the first `)` as program"},
-                   .fixes = {{nothingLost ? FixSafety::Safe : FixSafety::NeedsReview,
-                              "take out the inner parentheses",
-                              {{issue.span, ""}, {{end - 1, end}, ""}}}}});
+  reporter.report(
+      {.message = fmt::format("{} is outside the comment", context.quoted(rest)),
+       .span = rest,
+       .labels = {{issue.span, "this `(` does not open a comment"}, {{end - 1, end}, "the comment ends here"}},
+       .notes = {"comments do not nest: the control reads the text after the first `)` as program"},
+       .fixes = {{nothingLost ? FixSafety::Safe : FixSafety::NeedsReview,
+                  "remove the inner parentheses",
+                  {{issue.span, ""}, {{end - 1, end}, ""}}}}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
@@ -26,9 +27,10 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
 } // namespace
 
 extern const Rule nestedComment;
-const Rule nestedComment{.info = {"nested-comment", Category::Comment, Severity::Error,
-                                  "Reports parentheses inside a comment: the comment ends at the first `)`, and what "
-                                  "follows is read as program."},
-                         .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule nestedComment{
+    .info =
+        {"nested-comment", Category::Comment, Severity::Error,
+         "Reports parentheses inside a comment: the comment ends at the first `)`, and the rest is read as program."},
+    .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -18,7 +18,7 @@ bool followsComment(const FileContext &context, Span parenthesis) {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   const bool direct = followsComment(context, issue.span);
-  reporter.report({.message = "a `)` without its `(`",
+  reporter.report({.message = "this `)` has no matching `(`",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
                    .fixes = {{direct ? FixSafety::Safe : FixSafety::NeedsReview, "remove `)`", {{issue.span, ""}}}}});
@@ -30,7 +30,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::StrayCloseParenthesis};
 
 extern const Rule strayCloseParenthesis;
 const Rule strayCloseParenthesis{
-    .info = {"stray-close-parenthesis", Category::Comment, Severity::Error, "Reports a `)` without its `(`."},
+    .info = {"stray-close-parenthesis", Category::Comment, Severity::Error, "Reports a `)` without a `(`."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

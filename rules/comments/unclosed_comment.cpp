@@ -5,9 +5,9 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
-  reporter.report({.message = "this comment has no `)`",
+  reporter.report({.message = "this comment has no closing `)`",
                    .span = issue.span,
-                   .notes = {"what follows the `(` is not run"},
+                   .notes = {"the control does not execute what follows the `(`"},
                    .fixes = {{.title = "insert `)`", .edits = {{{issue.span.end, issue.span.end}, ")"}}}}});
 }
 
@@ -17,8 +17,9 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnclosedComment};
 
 extern const Rule unclosedComment;
 const Rule unclosedComment{
-    .info = {"unclosed-comment", Category::Comment, Severity::Error,
-             "Reports a comment without its `)`: the rest of the line, and on some controls the next lines, are lost."},
+    .info =
+        {"unclosed-comment", Category::Comment, Severity::Error,
+         "Reports a comment without its `)`: the rest of the line, and on some controls the next lines, are ignored."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -14,10 +14,10 @@ bool isPlaceholder(std::string_view text) { return trimmed(text).find_first_not_
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isPlaceholder(context.text(issue.span)))
     return;
-  reporter.report({.message = fmt::format("{} is no program text", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} is not part of a word or statement", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
-                             "remarks stand in parentheses"}});
+                             "put remarks in parentheses"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnexpectedText};
@@ -26,7 +26,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnexpectedText};
 
 extern const Rule unexpectedText;
 const Rule unexpectedText{.info = {"unexpected-text", Category::Syntax, Severity::Error,
-                                   "Reports text that belongs to no word, statement or comment."},
+                                   "Reports text that is not part of a word, a statement or a comment."},
                           .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

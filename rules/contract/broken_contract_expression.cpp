@@ -7,7 +7,7 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("the expression cannot be read: {}", issue.detail),
+  reporter.report({.message = fmt::format("this expression cannot be read: {}", issue.detail),
                    .span = issue.span,
                    .notes = {std::string(kClauseNotUsed)}});
 }
@@ -19,7 +19,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Expression};
 extern const Rule brokenContractExpression;
 const Rule brokenContractExpression{
     .info = {"broken-contract-expression", Category::Contract, Severity::Error,
-             "Reports a condition or value of a contract that is no expression of the control."},
+             "Reports a condition or value in a contract that is not a valid expression."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

@@ -58,10 +58,9 @@ private:
   void tell(NodeId node, const Wrong &wrong, CodeMask others, const FlowFacts &facts, const Reporter &reporter) const {
     const bool always = !wrong.found.mayBeAtEntry() && others == wrong.found.codes();
     const std::string wanted = spelled(wrong.wanted->tenths);
-    Diagnostic diagnostic{.message =
-                              fmt::format("{} is called with {} in force{}, and its contract takes {} for granted",
-                                          nameOf(wrong.callee), namesOf(others, wrong.wanted->group),
-                                          always ? "" : " on some path", wanted),
+    Diagnostic diagnostic{.message = fmt::format("{} is called with {} active{}, but its contract requires {}",
+                                                 nameOf(wrong.callee), namesOf(others, wrong.wanted->group),
+                                                 always ? "" : " on some path", wanted),
                           .span = context_.model.calls[wrong.call].span};
     pointAtSetting(node, others, wrong.wanted->group, facts, diagnostic);
     pointAtContract(wrong.wanted->clause, wrong.callee.file, context_, diagnostic);
@@ -78,7 +77,7 @@ private:
       const auto way = word ? findWay(facts, node, call, sets) : std::nullopt;
       if (!way)
         continue;
-      diagnostic.labels.push_back({word->span(), "in force since here"});
+      diagnostic.labels.push_back({word->span(), "active since here"});
       diagnostic.way = wayFromEntry(facts, node);
       std::ranges::move(describeWay(facts, *way), std::back_inserter(diagnostic.way));
       return;
@@ -132,8 +131,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule callInWrongMode;
 const Rule callInWrongMode{.info = {"call-in-wrong-mode", Category::Contract, Severity::Error,
-                                    "Reports a call in another mode than the contract of the called program takes "
-                                    "for granted."},
+                                    "Reports a call in another mode than the contract of the called program requires."},
                            .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -70,7 +70,7 @@ public:
       return;
     for (const ContractCondition &requirement : contract.requirements)
       if (constantTruth(contracts_.tree, requirement.condition, valueOf_) == false)
-        report(fmt::format("{} requires what this call does not keep", name()), call_.span, requirement.clause);
+        report(fmt::format("this call does not meet a requirement of {}", name()), call_.span, requirement.clause);
   }
 
 private:
@@ -83,13 +83,12 @@ private:
     const bool mayMiss = call_.kind == CallKind::OWord && !context_.dialect.behaviour.variablesMayBeVacant;
     if (found == passed_.end()) {
       if (param.vacancy == Vacancy::Never && !mayMiss)
-        report(fmt::format("{} needs a value in {}, and this call passes none", name(), shown), call_.span,
-               param.clause);
+        report(fmt::format("{} needs {}, but this call does not pass it", name(), shown), call_.span, param.clause);
       return;
     }
     const std::vector<Rational> &values = found->second.values;
     if (!values.empty() && std::ranges::none_of(values, [&](const Rational &value) { return mayBe(param, value); }))
-      report(fmt::format("{} does not allow {} in {}", name(), context_.quoted(found->second.span), shown),
+      report(fmt::format("{} does not allow {} for {}", name(), context_.quoted(found->second.span), shown),
              found->second.span, param.clause);
   }
 

@@ -8,10 +8,10 @@ namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
   reporter.report(
-      {.message = fmt::format("the hint belongs to a loop: {}", issue.detail),
+      {.message = fmt::format("this hint is not at a loop: {}", issue.detail),
        .span = issue.span,
-       .notes = {"in a program it stands at the block where the loop begins or on the line above; in a file "
-                 "beside it `@AT N30` names the block"}});
+       .notes = {
+           "put it at the first block of the loop or on the line above; in a sidecar file write `@AT N30` before it"}});
 }
 
 constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Place};
@@ -20,7 +20,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Place};
 
 extern const Rule contractHintWithoutLoop;
 const Rule contractHintWithoutLoop{.info = {"contract-hint-without-loop", Category::Contract, Severity::Error,
-                                            "Reports an `@INVARIANT` or `@VARIANT` that does not stand at a loop."},
+                                            "Reports an `@INVARIANT` or `@VARIANT` that is not at a loop."},
                                    .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

@@ -7,10 +7,10 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("the contract of {} has the region `{}` and no tool",
+  reporter.report({.message = fmt::format("the contract of {} has the region `{}` but no tool",
                                           programOf(issue, context), issue.detail),
                    .span = issue.span,
-                   .notes = {"whether the tool stays there depends on its radius: `(@TOOL FLAT RADIUS #7)`"}});
+                   .notes = {"the proof needs the radius of the tool: add `(@TOOL FLAT RADIUS #7)`"}});
 }
 
 constexpr ContractIssueKind kKinds[] = {ContractIssueKind::RegionWithoutTool};
@@ -20,7 +20,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::RegionWithoutTool};
 extern const Rule contractRegionWithoutTool;
 const Rule contractRegionWithoutTool{
     .info = {"contract-region-without-tool", Category::Contract, Severity::Warning,
-             "Reports a region of a contract without the tool that has to stay in it or out of it."},
+             "Reports a contract with a region but without the tool that must stay inside or outside it."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

@@ -28,7 +28,7 @@ void pointAtContract(ClauseId id, FileId callee, const FileContext &context, Dia
   else
     diagnostic.notes.push_back(
         fmt::format("the contract says `{}` ({})", clause.text, contracts.source(clause.source).path()));
-  diagnostic.notes.push_back("the macro was proved, or tried, for the calls that its contract allows");
+  diagnostic.notes.push_back("the macro is proved only for the calls that its contract allows");
 }
 
 } // namespace feedhold::rules

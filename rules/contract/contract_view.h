@@ -10,7 +10,7 @@ namespace feedhold::rules {
 
 /// Behind a clause that could not be read.
 inline constexpr std::string_view kClauseNotUsed =
-    "the clause is not used, and nothing is proved from this contract until it is right";
+    "the clause is ignored, and nothing is proved from this contract until it is corrected";
 
 /// "O9100", or "the program" for one without a name.
 std::string programOf(const ContractIssue &issue, const FileContext &context);

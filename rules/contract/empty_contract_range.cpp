@@ -7,9 +7,9 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("no value is in this range: {}", issue.detail),
+  reporter.report({.message = fmt::format("this range contains no value: {}", issue.detail),
                    .span = issue.span,
-                   .notes = {"no call could keep the contract, and everything would hold of it"}});
+                   .notes = {"no call could satisfy the contract, so any claim about it would be true"}});
 }
 
 constexpr ContractIssueKind kKinds[] = {ContractIssueKind::EmptyRange};
@@ -18,7 +18,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::EmptyRange};
 
 extern const Rule emptyContractRange;
 const Rule emptyContractRange{.info = {"empty-contract-range", Category::Contract, Severity::Error,
-                                       "Reports a range of a contract that no value is in."},
+                                       "Reports a range in a contract that contains no value."},
                               .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

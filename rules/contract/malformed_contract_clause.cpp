@@ -20,7 +20,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Malformed};
 extern const Rule malformedContractClause;
 const Rule malformedContractClause{
     .info = {"malformed-contract-clause", Category::Contract, Severity::Error,
-             "Reports a clause of a contract that is not complete or says something that does not belong there."},
+             "Reports a contract clause that is incomplete or contains text that does not belong there."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

@@ -7,7 +7,7 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic diagnostic{.message = fmt::format("{} stands in the contract already", issue.detail), .span = issue.span};
+  Diagnostic diagnostic{.message = fmt::format("{} is already in the contract", issue.detail), .span = issue.span};
   if (issue.other)
     pointAt(*issue.other, "the first one", context, diagnostic);
   diagnostic.notes.push_back("only the first one is used");
@@ -19,8 +19,9 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Repeated};
 } // namespace
 
 extern const Rule repeatedContractClause;
-const Rule repeatedContractClause{.info = {"repeated-contract-clause", Category::Contract, Severity::Error,
-                                           "Reports a clause of a contract that says a second time what is said once."},
-                                  .hooks = {.contract = check, .contractKinds = kKinds}};
+const Rule repeatedContractClause{
+    .info = {"repeated-contract-clause", Category::Contract, Severity::Error,
+             "Reports a contract clause that states a second time what another clause already states."},
+    .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

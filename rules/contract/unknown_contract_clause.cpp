@@ -7,9 +7,9 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic diagnostic{.message = fmt::format("{} is no clause of a contract", context.quoted(issue.span)),
+  Diagnostic diagnostic{.message = fmt::format("{} is not a contract clause", context.quoted(issue.span)),
                         .span = issue.span,
-                        .notes = {"`@` begins a clause; leave it out of other comments"}};
+                        .notes = {"a comment that begins with `@` is read as a contract clause"}};
   // Only programs are repaired, not the files beside them.
   if (!issue.detail.empty() && issue.source != kProgramText)
     diagnostic.notes.push_back(fmt::format("did you mean `{}`?", issue.detail));
@@ -25,7 +25,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::UnknownClause};
 
 extern const Rule unknownContractClause;
 const Rule unknownContractClause{.info = {"unknown-contract-clause", Category::Contract, Severity::Error,
-                                          "Reports a comment that begins with `@` and is no clause of a contract."},
+                                          "Reports a comment that begins with `@` but is not a contract clause."},
                                  .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

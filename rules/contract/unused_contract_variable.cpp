@@ -7,10 +7,10 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("the contract names {}, and {} never {} it", context.quoted(issue.span),
+  reporter.report({.message = fmt::format("the contract names {}, but {} never {} it", context.quoted(issue.span),
                                           programOf(issue, context), issue.detail),
                    .span = issue.span,
-                   .notes = {"a contract about the wrong variable says nothing about the right one"}});
+                   .notes = {"probably another variable was meant, which is now without a clause"}});
 }
 
 constexpr ContractIssueKind kKinds[] = {ContractIssueKind::UnusedVariable};

@@ -7,7 +7,8 @@ namespace feedhold::rules {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic diagnostic{.message = fmt::format("{} cannot be promised: {}", context.quoted(issue.span), issue.detail),
+  Diagnostic diagnostic{.message =
+                            fmt::format("{} cannot be active here: {}", context.quoted(issue.span), issue.detail),
                         .span = issue.span};
   if (issue.other)
     pointAt(*issue.other, "the first one", context, diagnostic);
@@ -20,7 +21,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Code};
 
 extern const Rule wrongContractCode;
 const Rule wrongContractCode{.info = {"wrong-contract-code", Category::Contract, Severity::Error,
-                                      "Reports a code in a contract that cannot be in force."},
+                                      "Reports a code in a contract that cannot be active."},
                              .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules

@@ -17,7 +17,7 @@ void tooDeep(Span span, std::string seen, const FileContext &context, const Repo
   reporter.report({.message = std::move(seen),
                    .span = span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::BracketNesting)),
-                             "compute the inner part in a statement of its own before"}});
+                             "compute the inner part in a separate statement first"}});
 }
 
 /// The most brackets inside one another from `id` down.  The spans of nested nodes nest, and subexpressions() goes
@@ -45,13 +45,13 @@ void checkNode(ExpressionId id, BlockId, const FileContext &context, const Repor
   const bool canBeTooDeep = static_cast<std::size_t>(std::ranges::count(text, '[')) > limit;
   if (!canBeTooDeep || bracketDepth(context.tree, id) != limit + 1)
     return;
-  tooDeep(span, fmt::format("{} brackets inside one another, {} are the limit", limit + 1, limit), context, reporter);
+  tooDeep(span, fmt::format("brackets nested {} deep; this control allows {}", limit + 1, limit), context, reporter);
 }
 
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.text(issue.span) == "[") // checkNode() speaks of brackets
     return;
-  tooDeep(issue.span, "nested deeper, or longer, than can be read", context, reporter);
+  tooDeep(issue.span, "this expression is nested too deep, or too long, to be read", context, reporter);
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestingTooDeep};
@@ -61,7 +61,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestingTooDeep};
 extern const Rule bracketsTooDeep;
 const Rule bracketsTooDeep{
     .info = {"brackets-too-deep", Category::Expression, Severity::Error,
-             "Reports more brackets inside one another than the control can hold, function brackets included."},
+             "Reports brackets nested deeper than the control allows, function brackets included."},
     .hooks = {.issue = checkIssue,
               .issueKinds = kIssues,
               .expression = checkNode,

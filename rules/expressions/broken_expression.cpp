@@ -10,11 +10,11 @@ namespace {
 
 std::string whatIsWrong(Span span, const FileContext &context) {
   if (span.empty())
-    return "the expression stops before its operand";
+    return "an operand is missing here";
   const std::string_view before = trimmed(context.source.text().substr(0, span.begin));
   if (context.text(span) == "]" && before.ends_with('['))
-    return "nothing between the brackets";
-  return fmt::format("{} does not fit into the expression", context.quoted(span));
+    return "these brackets are empty";
+  return fmt::format("{} does not belong here in the expression", context.quoted(span));
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {

@@ -16,20 +16,17 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   const BinaryOperation *inner = outer ? bareRelation(context.tree, outer->left) : nullptr;
   if (!inner)
     return;
-  reporter.report({.message = "two comparisons in one without brackets",
+  reporter.report({.message = "each comparison needs its own brackets",
                    .span = context.tree.expressions[id].span,
                    .labels = {{inner->opSpan, "compared first"}, {outer->opSpan, "its result is compared again"}},
-                   .notes = {"`AND` and `OR` bind tighter than a comparison, so each comparison needs brackets of its "
-                             "own: `[#1 EQ 1] AND [#2 EQ 2]`"}});
+                   .notes = {"`AND` and `OR` bind tighter than a comparison; write `[#1 EQ 1] AND [#2 EQ 2]`"}});
 }
 
 } // namespace
 
 extern const Rule chainedComparison;
-const Rule chainedComparison{
-    .info =
-        {"chained-comparison", Category::Expression, Severity::Error,
-         "Reports a comparison whose operand is itself a comparison without brackets, as in `#1 EQ 1 AND #2 EQ 2`."},
-    .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
+const Rule chainedComparison{.info = {"chained-comparison", Category::Expression, Severity::Error,
+                                      "Reports two comparisons joined without brackets, as in `#1 EQ 1 AND #2 EQ 2`."},
+                             .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

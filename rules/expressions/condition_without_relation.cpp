@@ -26,10 +26,10 @@ bool compares(const SyntaxTree &tree, ExpressionId id) {
 void reportParts(ExpressionId id, const FileContext &context, const Reporter &reporter) {
   if (!compares(context.tree, id)) {
     const Span span = context.tree.expressions[id].span;
-    reporter.report({.message = fmt::format("{} compares nothing", context.quoted(span)),
+    reporter.report({.message = fmt::format("{} is not a comparison", context.quoted(span)),
                      .span = span,
                      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat)),
-                               "a value alone is no condition here; compare it: `#1 NE 0`"}});
+                               "a condition needs a comparison here, such as `#1 NE 0`"}});
     return;
   }
   if (const auto *both = joined(context.tree, id)) {
@@ -48,7 +48,7 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
 
 extern const Rule conditionWithoutRelation;
 const Rule conditionWithoutRelation{.info = {"condition-without-relation", Category::Expression, Severity::Error,
-                                             "Reports a condition, or a part of one, that compares nothing."},
+                                             "Reports a condition, or a part of one, that is not a comparison."},
                                     .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

@@ -35,7 +35,7 @@ bool isEndlessLoop(const Statement &statement, std::optional<bool> value) {
 
 std::string_view says(std::optional<bool> value) {
   if (!value)
-    return "is the same every time";
+    return "always gives the same result";
   return *value ? "is always true" : "is never true";
 }
 
@@ -49,14 +49,14 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
   const Span span = context.tree.expressions[*condition].span;
   reporter.report({.message = fmt::format("{} {}", context.quoted(span), says(value)),
                    .span = span,
-                   .notes = {"there is no variable in it; a `#` may be missing"}});
+                   .notes = {"it contains no variable; a `#` may be missing"}});
 }
 
 } // namespace
 
 extern const Rule constantCondition;
 const Rule constantCondition{.info = {"constant-condition", Category::Expression, Severity::Warning,
-                                      "Reports a condition without any variable: it is the same every time."},
+                                      "Reports a condition without any variable: it always gives the same result."},
                              .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

@@ -19,7 +19,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   const bool subtracts = operation->op == OperatorKind::Subtract;
   reporter.report({.message = fmt::format("{} is always {}", context.quoted(cover(left, right)), subtracts ? "0" : "1"),
                    .span = cover(left, right),
-                   .notes = {"one of the two was probably meant to be another variable"}});
+                   .notes = {"probably one of the two should be another variable"}});
 }
 
 } // namespace

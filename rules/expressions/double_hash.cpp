@@ -18,10 +18,10 @@ std::uint32_t endOfNumber(std::string_view text, std::uint32_t begin) {
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic found{.message = "`##` is no variable",
+  Diagnostic found{.message = "`##` is not a variable: brackets are missing",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
-                             "the variable whose number is in `#1` is `#[#1]`"}};
+                             "the variable whose number is in `#1` is written `#[#1]`"}};
   const std::uint32_t end = endOfNumber(context.source.text(), issue.span.end);
   if (end > issue.span.end)
     found.fixes = {{FixSafety::Safe, "write `#[#..]`", {{issue.span, "#[#"}, {{end, end}, "]"}}}};
@@ -34,7 +34,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::DoubleHash};
 
 extern const Rule doubleHash;
 const Rule doubleHash{.info = {"double-hash", Category::Expression, Severity::Error,
-                               "Reports `##1`: a variable number that is itself a variable needs brackets."},
+                               "Reports `##1`: a variable whose number is in a variable needs brackets."},
                       .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -32,7 +32,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
                    .span = context.tree.expressions[id].span,
                    .notes = {operation->op == OperatorKind::Equal ? "this comparison is never true"
                                                                   : "this comparison is always true",
-                             "ask each variable by itself, or compare with `0`"}});
+                             "test each variable by itself, or compare with `0`"}});
 }
 
 } // namespace
@@ -40,7 +40,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 extern const Rule equalityWithVacantArithmetic;
 const Rule equalityWithVacantArithmetic{
     .info = {"equality-with-vacant-arithmetic", Category::Expression, Severity::Warning,
-             "Reports a computed value or a number that is compared with the vacant constant: it is never vacant."},
+             "Reports a computed value or a number that is compared with `#0`: it is never vacant."},
     .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

@@ -10,8 +10,9 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   reporter.report(
       {.message = context.quoted(issue.span) + " is a comment, not an expression",
        .span = issue.span,
-       .notes = {"the control reads past parentheses; an operand is missing here", "brackets group: `[#1+2]`"},
-       .fixes = {{.title = "write brackets", .edits = {{open, "["}, {close, "]"}}}}});
+       .notes = {"the control skips text in parentheses, so an operand is missing here",
+                 "group expressions with brackets: `[#1+2]`"},
+       .fixes = {{.title = "replace the parentheses with brackets", .edits = {{open, "["}, {close, "]"}}}}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ExpressionInParentheses};
@@ -21,7 +22,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ExpressionInParentheses}
 extern const Rule expressionInParentheses;
 const Rule expressionInParentheses{
     .info = {"expression-in-parentheses", Category::Expression, Severity::Error,
-             "Reports an expression in parentheses where brackets are meant: to the control it is a comment."},
+             "Reports an expression in parentheses instead of brackets: to the control it is a comment."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -11,10 +11,10 @@ namespace {
 std::string_view wantedBy(FunctionForm form) {
   switch (form) {
   case FunctionForm::OneArgument: return "one argument";
-  case FunctionForm::OneOrTwo: return "one argument, or two as `[a]/[b]` or `[a,b]`";
-  case FunctionForm::TwoBySlash: return "two arguments as `[a]/[b]`";
-  case FunctionForm::TwoByComma: return "two arguments as `[a,b]`";
-  case FunctionForm::ParameterRead: return "`[number]`, `[number,bit]`, and `/[axis]` behind them";
+  case FunctionForm::OneOrTwo: return "one argument, or two: `[a]/[b]` or `[a,b]`";
+  case FunctionForm::TwoBySlash: return "two arguments: `[a]/[b]`";
+  case FunctionForm::TwoByComma: return "two arguments: `[a,b]`";
+  case FunctionForm::ParameterRead: return "`[number]` or `[number,bit]`, with `/[axis]` after it";
   }
   return {};
 }
@@ -45,7 +45,7 @@ void checkCall(ExpressionId id, BlockId, const FileContext &context, const Repor
 }
 
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} are not the arguments of a function", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} is not a valid list of function arguments", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = notesFor(context)});
 }
@@ -55,12 +55,11 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::FunctionArguments};
 } // namespace
 
 extern const Rule functionArguments;
-const Rule functionArguments{
-    .info = {"function-arguments", Category::Expression, Severity::Error,
-             "Reports a function with a number or form of arguments that the control does not take."},
-    .hooks = {.issue = checkIssue,
-              .issueKinds = kIssues,
-              .expression = checkCall,
-              .expressionNodes = nodeSet<FunctionCall>()}};
+const Rule functionArguments{.info = {"function-arguments", Category::Expression, Severity::Error,
+                                      "Reports a function with the wrong number or form of arguments."},
+                             .hooks = {.issue = checkIssue,
+                                       .issueKinds = kIssues,
+                                       .expression = checkCall,
+                                       .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

@@ -20,12 +20,12 @@ std::string_view complaint(FunctionDomain domain, const Decimal &value) {
   switch (domain) {
   case FunctionDomain::Any:
   case FunctionDomain::Exponent: return {};
-  case FunctionDomain::NotNegative: return value.isNegative() ? "takes no number below 0" : "";
-  case FunctionDomain::Bcd: return value.isNegative() ? "takes no number below 0" : "";
-  case FunctionDomain::Positive: return value <= Decimal() ? "takes numbers above 0 only" : "";
+  case FunctionDomain::NotNegative: return value.isNegative() ? "accepts no negative numbers" : "";
+  case FunctionDomain::Bcd: return value.isNegative() ? "accepts no negative numbers" : "";
+  case FunctionDomain::Positive: return value <= Decimal() ? "accepts only numbers above 0" : "";
   case FunctionDomain::MinusOneToOne:
-    return value > kOne || value.negated() > kOne ? "takes numbers from -1 to 1 only" : "";
-  case FunctionDomain::NotPole: return isPole(value) ? "has no value at a right angle" : "";
+    return value > kOne || value.negated() > kOne ? "accepts only numbers from -1 to 1" : "";
+  case FunctionDomain::NotPole: return isPole(value) ? "is not defined at odd multiples of 90 degrees" : "";
   }
   return {};
 }
@@ -48,7 +48,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 
 extern const Rule literalOutOfDomain;
 const Rule literalOutOfDomain{.info = {"literal-out-of-domain", Category::Expression, Severity::Error,
-                                       "Reports a function of a number for which it has no value, as `SQRT[-1]`."},
+                                       "Reports a function of a number for which it has no value, such as `SQRT[-1]`."},
                               .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

@@ -29,13 +29,13 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
     return;
   const bool off = setting == Switch::Off;
   reporter.report(
-      {.message = fmt::format("`{}` joins two comparisons", spellingOf(found->op)),
+      {.message = fmt::format("`{}` joins two comparisons, which needs parameter 6006#0 (MLG)", spellingOf(found->op)),
        .span = found->opSpan,
-       .notes = {off ? fmt::format("parameter 6006#0 (MLG) is off: the control {}",
+       .notes = {off ? fmt::format("the parameter is off: the control {}",
                                    stopsWith(context.dialect, AlarmKind::ExpressionFormat))
-                     : std::string("with parameter 6006#0 (MLG) off the control takes it for arithmetic and stops"),
-                 off ? "write two IF blocks, one behind the other"
-                     : "set `mlg` in feedhold.toml to what the machine has"}},
+                     : std::string("with the parameter off the control reads it as a bit operation and stops"),
+                 off ? "write two IF blocks, one after the other"
+                     : "set `mlg` in feedhold.toml to the machine's setting"}},
       off ? Severity::Error : Severity::Info);
 }
 
@@ -43,8 +43,8 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
 
 extern const Rule logicalOperatorNeedsSwitch;
 const Rule logicalOperatorNeedsSwitch{.info = {"logical-operator-needs-switch", Category::Expression, Severity::Info,
-                                               "Reports `AND`, `OR` or `XOR` between two comparisons where the setting "
-                                               "that allows it (parameter 6006#0, MLG) is off or not known."},
+                                               "Reports `AND`, `OR` or `XOR` between two comparisons where parameter "
+                                               "6006#0 (MLG), which allows it, is off or not known."},
                                       .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

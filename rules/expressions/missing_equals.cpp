@@ -20,9 +20,10 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MissingEquals};
 } // namespace
 
 extern const Rule missingEquals;
-const Rule missingEquals{.info = {"missing-equals", Category::Expression, Severity::Error,
-                                  "Reports an expression that stands where a macro statement is expected: its `=` is "
-                                  "missing or was typed as another sign."},
-                         .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule missingEquals{
+    .info =
+        {"missing-equals", Category::Expression, Severity::Error,
+         "Reports an expression where a macro statement is expected: its `=` is missing or was typed as another sign."},
+    .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

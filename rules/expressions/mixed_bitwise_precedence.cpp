@@ -26,10 +26,10 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   const Span group = context.tree.expressions[operand].span;
   reporter.report({.message = fmt::format("`{}` is computed before `{}`", spellingOf(inner->op), spellingOf(outer->op)),
                    .span = group,
-                   .label = "this is one operand",
-                   .labels = {{outer->opSpan, "of this"}},
-                   .notes = {"the control ranks `AND` with `*` and `OR`, `XOR` with `+`, then goes from left to right",
-                             "brackets say which is meant"},
+                   .label = "computed first",
+                   .labels = {{outer->opSpan, "computed second"}},
+                   .notes = {"the control ranks `AND` with `*`, and `OR` and `XOR` with `+`, from left to right",
+                             "brackets show which grouping is intended"},
                    .fixes = {{.title = "put brackets around what the control computes first",
                               .edits = {{{group.begin, group.begin}, "["}, {{group.end, group.end}, "]"}}}}});
 }
@@ -38,7 +38,7 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 
 extern const Rule mixedBitwisePrecedence;
 const Rule mixedBitwisePrecedence{.info = {"mixed-bitwise-precedence", Category::Expression, Severity::Warning,
-                                           "Reports `AND`, `OR` or `XOR` without brackets beside `+ - * /` where the "
+                                           "Reports `AND`, `OR` or `XOR` next to `+ - * /` without brackets, where the "
                                            "control groups them in an unexpected way."},
                                   .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 

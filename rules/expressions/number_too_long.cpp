@@ -25,11 +25,12 @@ void checkNode(ExpressionId id, BlockId, const FileContext &context, const Repor
   const std::string_view text = context.text(span);
   const auto digits = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), isDigit));
   if (digits > limit)
-    tooLong(span, fmt::format("{} has {} digits, {} are read", context.quoted(span), digits, limit), context, reporter);
+    tooLong(span, fmt::format("{} has {} digits; this control reads at most {}", context.quoted(span), digits, limit),
+            context, reporter);
 }
 
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  tooLong(issue.span, fmt::format("{} is longer than any control reads", context.quoted(issue.span)), context,
+  tooLong(issue.span, fmt::format("{} has more digits than any control reads", context.quoted(issue.span)), context,
           reporter);
 }
 
@@ -39,7 +40,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NumberTooLong};
 
 extern const Rule numberTooLong;
 const Rule numberTooLong{.info = {"number-too-long", Category::Expression, Severity::Error,
-                                  "Reports a number in a macro statement or an expression with more digits than the "
+                                  "Reports a number in a macro statement or expression with more digits than the "
                                   "control reads, zeros included."},
                          .hooks = {.issue = checkIssue,
                                    .issueKinds = kIssues,

@@ -18,19 +18,19 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   if (!onLeft && !isVacant(context, operation->right))
     return;
   const Span vacant = context.tree.expressions[onLeft ? operation->left : operation->right].span;
-  reporter.report({.message = fmt::format("`{}` takes {} for 0", spellingOf(operation->op), context.quoted(vacant)),
+  reporter.report({.message = fmt::format("`{}` reads {} as 0", spellingOf(operation->op), context.quoted(vacant)),
                    .span = context.tree.expressions[id].span,
-                   .notes = {"only `EQ` and `NE` tell a vacant variable from 0",
-                             "write `0` to compare with zero, or `EQ`/`NE` to ask whether a value is there"},
+                   .notes = {"only `EQ` and `NE` distinguish vacant from 0",
+                             "write `0` to compare with zero, or use `EQ` or `NE` to test for vacant"},
                    .fixes = {{FixSafety::Safe, "write `0`", {{vacant, "0"}}}}});
 }
 
 } // namespace
 
 extern const Rule orderingWithVacant;
-const Rule orderingWithVacant{.info = {"ordering-with-vacant", Category::Expression, Severity::Info,
-                                       "Reports a comparison by size with the vacant constant: it compares with 0 and "
-                                       "does not ask whether a value is there."},
-                              .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
+const Rule orderingWithVacant{
+    .info = {"ordering-with-vacant", Category::Expression, Severity::Info,
+             "Reports `GT`, `GE`, `LT` or `LE` with `#0`: the control compares with 0 and does not test for vacant."},
+    .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

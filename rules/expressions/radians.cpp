@@ -50,19 +50,18 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   if (found == parts.end())
     return;
   reporter.report(
-      {.message = fmt::format("`{}` takes degrees, this is an angle in radians", spellingOf(call->function)),
+      {.message = fmt::format("`{}` takes degrees, but this angle is in radians", spellingOf(call->function)),
        .span = context.tree.expressions[*found].span,
        .labels = {{context.tree.expressions[id].span, ""}},
-       .notes = {"the control does not stop: it computes with an angle that is about 57 times too small"}});
+       .notes = {"the control raises no alarm: it computes with an angle about 57 times too small"}});
 }
 
 } // namespace
 
 extern const Rule radians;
-const Rule radians{
-    .info =
-        {"radians", Category::Expression, Severity::Warning,
-         "Reports an angle that is turned into radians before `SIN`, `COS` or `TAN`: the control computes in degrees."},
-    .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
+const Rule radians{.info = {"radians", Category::Expression, Severity::Warning,
+                            "Reports an angle that is converted to radians before `SIN`, `COS` or `TAN`: the control "
+                            "computes in degrees."},
+                   .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
 } // namespace feedhold::rules

@@ -56,10 +56,11 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Statement *before = statement ? statementBefore(context.tree, block) : nullptr;
   if (!before || !sameText(context, before->span, statement->span) || !isIdempotent(context, *statement))
     return;
-  reporter.report({.message = fmt::format("{} stands twice, one behind the other", context.quoted(statement->span)),
-                   .span = statement->span,
-                   .labels = {{before->span, "the first"}},
-                   .notes = {"the second changes nothing; another variable or value was probably meant"}});
+  reporter.report(
+      {.message = fmt::format("{} repeats the statement before it without effect", context.quoted(statement->span)),
+       .span = statement->span,
+       .labels = {{before->span, "the first one"}},
+       .notes = {"the second one changes nothing; probably another variable or value was meant"}});
 }
 
 } // namespace
@@ -67,7 +68,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 extern const Rule repeatedStatement;
 const Rule repeatedStatement{
     .info = {"repeated-statement", Category::Expression, Severity::Info,
-             "Reports a macro statement that is the same as the one directly before it and changes nothing more."},
+             "Reports a macro statement that repeats the one directly before it without any effect."},
     .hooks = {.block = check}};
 
 } // namespace feedhold::rules

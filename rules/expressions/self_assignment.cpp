@@ -18,17 +18,17 @@ void check(const Statement &statement, BlockId block, const FileContext &context
     return;
   // `#1=#1 (START Y)` is how some writers note what an argument is.
   const bool saysWhy = !context.tree.commentsOf(block).empty();
-  reporter.report({.message = fmt::format("{} is set to itself", context.quoted(target)),
+  reporter.report({.message = fmt::format("{} is assigned to itself", context.quoted(target)),
                    .span = statement.span,
-                   .notes = {"nothing changes; another variable was probably meant"}},
+                   .notes = {"nothing changes; probably another variable was meant"}},
                   saysWhy ? Severity::Info : Severity::Warning);
 }
 
 } // namespace
 
 extern const Rule selfAssignment;
-const Rule selfAssignment{
-    .info = {"self-assignment", Category::Expression, Severity::Warning, "Reports a variable that is set to itself."},
-    .hooks = {.statement = check}};
+const Rule selfAssignment{.info = {"self-assignment", Category::Expression, Severity::Warning,
+                                   "Reports a variable that is assigned to itself."},
+                          .hooks = {.statement = check}};
 
 } // namespace feedhold::rules

@@ -34,10 +34,10 @@ std::vector<FixIt> fixesFor(std::string_view written, Span span) {
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} is no comparison", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} is not a comparison operator", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat)),
-                             "the comparisons are `EQ NE GT GE LT LE`"},
+                             "the comparison operators are `EQ NE GT GE LT LE`"},
                    .fixes = fixesFor(context.text(issue.span), issue.span)});
 }
 
@@ -48,7 +48,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::SymbolicComparison};
 extern const Rule symbolicComparison;
 const Rule symbolicComparison{
     .info = {"symbolic-comparison", Category::Expression, Severity::Error,
-             "Reports a comparison written with `=`, `<` or `>`: the control knows only `EQ NE GT GE LT LE`."},
+             "Reports a comparison written with `=`, `<` or `>`: the control only has `EQ NE GT GE LT LE`."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -8,13 +8,13 @@ namespace {
 
 void missingOpen(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   reporter.report(
-      {.message = fmt::format("no `[` after {}", context.quoted(issue.other)),
+      {.message = fmt::format("`[` is missing after {}", context.quoted(issue.other)),
        .span = issue.other,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingOpenBracket))}});
 }
 
 void missingClose(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = "a `[` without its `]`",
+  reporter.report({.message = "this `[` has no matching `]`",
                    .span = issue.other,
                    .labels = {{issue.span, "no `]` up to here"}},
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingCloseBracket))},
@@ -22,7 +22,7 @@ void missingClose(const SyntaxIssue &issue, const FileContext &context, const Re
 }
 
 void strayClose(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = "a `]` without its `[`",
+  reporter.report({.message = "this `]` has no matching `[`",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingOpenBracket))},
                    .fixes = {{.title = "remove `]`", .edits = {{issue.span, ""}}}}});
@@ -45,7 +45,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MissingOpenBracket, Synt
 extern const Rule unbalancedBrackets;
 const Rule unbalancedBrackets{
     .info = {"unbalanced-brackets", Category::Expression, Severity::Error,
-             "Reports a `[` without its `]`, a `]` without its `[`, and a function without brackets."},
+             "Reports a `[` without a `]`, a `]` without a `[`, and a function without brackets."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -17,7 +17,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   const auto letter = std::find_if(word.begin(), word.end(), isLetter);
   const auto before = equals != std::string_view::npos ? equals : static_cast<std::size_t>(letter - word.begin());
   const auto open = issue.other.begin + static_cast<std::uint32_t>(before) + 1;
-  reporter.report({.message = fmt::format("{} is an expression without brackets", context.quoted(issue.other)),
+  reporter.report({.message = fmt::format("{} needs brackets around the expression", context.quoted(issue.other)),
                    .span = issue.other,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
                    .fixes = {{FixSafety::Safe,
@@ -30,9 +30,8 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnbracketedExpression};
 } // namespace
 
 extern const Rule unbracketedExpression;
-const Rule unbracketedExpression{
-    .info = {"unbracketed-expression", Category::Expression, Severity::Error,
-             "Reports an expression after an address without the brackets that the control wants around it."},
-    .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule unbracketedExpression{.info = {"unbracketed-expression", Category::Expression, Severity::Error,
+                                          "Reports an expression after an address without the brackets that it needs."},
+                                 .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -34,11 +34,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     std::vector<Label> jumps;
     for (const Jump &jump : all)
       if (blockBehind(facts, jump) == use.block)
-        jumps.push_back({jump.span, "never leads there"});
-    reporter.report({.message = "this alarm never comes: no run reaches it",
-                     .span = span,
-                     .labels = std::move(jumps),
-                     .notes = {"the conditions in front of it have another outcome every time"}});
+        jumps.push_back({jump.span, "this jump is never taken"});
+    reporter.report(
+        {.message = "this alarm can never come up: no path reaches it",
+         .span = span,
+         .labels = std::move(jumps),
+         .notes = {"the conditions before it always come out the other way; check their comparisons and variables"}});
   }
 }
 
@@ -46,7 +47,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule alarmNeverFires;
 const Rule alarmNeverFires{.info = {"alarm-never-fires", Category::Flow, Severity::Info,
-                                    "Reports an alarm that the conditions before it never let come."},
+                                    "Reports an alarm that the conditions before it never let come up."},
                            .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

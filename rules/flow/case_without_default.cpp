@@ -76,9 +76,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     reporter.report(
         {.message = fmt::format("any other value of `#{}` runs into the first case", cases.front().variable),
          .span = cases.back().span,
-         .label = "the last case that is asked",
-         .labels = {{context.tree.blocks[behind].span(), "goes on here"}},
-         .notes = {"let an alarm or a GOTO stand behind the last case"}});
+         .label = "last comparison",
+         .labels = {{context.tree.blocks[behind].span(), "any other value continues here"}},
+         .notes = {"put an alarm or a GOTO after the last comparison"}});
   }
 }
 
@@ -87,7 +87,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule caseWithoutDefault;
 const Rule caseWithoutDefault{
     .info = {"case-without-default", Category::Flow, Severity::Info,
-             "Reports a chain of `IF[..EQ..]GOTO` whose leftover values run into the first case."},
+             "Reports a chain of `IF[..EQ..]GOTO` in which every other value runs into the first case."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -31,7 +31,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const Span span = context.tree.expressions[jump->target].span;
     const bool always = missing.size() == target->number().set().values().size();
     Diagnostic diagnostic{
-        .message = fmt::format("{} {} {:.6g} here, and there is no `N{:.6g}` in this program", context.quoted(span),
+        .message = fmt::format("{} {} {:.6g} here, but this program has no `N{:.6g}`", context.quoted(span),
                                always ? "is" : "can be", missing.front(), missing.front()),
         .span = span,
         .way = wayFromEntry(facts, node),

@@ -89,10 +89,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         continue;
       const Span span = context.tree.expressions[assignment.target].span;
       reporter.report(
-          {.message = fmt::format("this value of {} is overwritten before anything reads it", context.quoted(span)),
+          {.message = fmt::format("this value of {} is overwritten before it is read", context.quoted(span)),
            .span = span,
            .labels = {{context.tree.blocks[facts.node(*overwriter).block].span(), "overwritten here"}},
-           .notes = {"one of the two may have been meant for another variable"}});
+           .notes = {"one of the two assignments may have the wrong variable number"}});
     }
 }
 
@@ -100,7 +100,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule deadAssignment;
 const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::Info,
-                                   "Reports a value of a local variable that is overwritten before anything reads it."},
+                                   "Reports a value of a local variable that is overwritten before it is read."},
                           .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

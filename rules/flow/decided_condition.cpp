@@ -29,12 +29,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (isWhile || isAskedToBeSure(facts, *test->condition, block))
       continue;
     const Span span = context.tree.expressions[*test->condition].span;
-    reporter.report({.message = fmt::format("{} {} here", context.quoted(span),
-                                            *truth == Truth::True ? "always holds" : "never holds"),
-                     .span = span,
-                     .way = wayFromEntry(facts, node),
-                     .notes = {vacancy && *truth == Truth::False ? "it has been set before: it is a number"
-                                                                 : "what stands before it leaves no other outcome"}});
+    reporter.report(
+        {.message = fmt::format("{} {} here", context.quoted(span),
+                                *truth == Truth::True ? "is always true" : "is never true"),
+         .span = span,
+         .way = wayFromEntry(facts, node),
+         .notes = {vacancy && *truth == Truth::False ? "it has been set before, so it holds a number and is not vacant"
+                                                     : "the blocks before it leave no other outcome"}});
   }
 }
 
@@ -42,7 +43,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule decidedCondition;
 const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Info,
-                                     "Reports a condition that has the same outcome in all runs."},
+                                     "Reports a condition that always has the same outcome."},
                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

@@ -20,7 +20,7 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
   if (!alarm.always && !isProvablyPossible(*value))
     return;
   const auto variable = variableNumber(context.tree, unwrapped(context.tree, *divisor));
-  const std::string_view why = value->isVacant() && variable ? "is vacant here, which counts as 0" : "is 0 here";
+  const std::string_view why = value->isVacant() && variable ? "is vacant here and counts as 0" : "is 0 here";
   Diagnostic diagnostic{
       .message = alarm.always ? fmt::format("divides by zero: {} {}", context.quoted(alarm.place), why)
                               : fmt::format("may divide by zero: {} can be 0 here", context.quoted(alarm.place)),
@@ -43,7 +43,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule divisionByZero;
 const Rule divisionByZero{.info = {"division-by-zero", Category::Flow, Severity::Error,
-                                   "Reports a division whose divisor is 0 or vacant whenever it is reached."},
+                                   "Reports a division whose divisor is always 0 or vacant."},
                           .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

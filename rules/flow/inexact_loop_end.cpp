@@ -38,20 +38,23 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!size || !isInexact(*size) || std::ranges::find(done, exit.test) != done.end())
       continue;
     done.push_back(exit.test);
-    reporter.report({.message = fmt::format(
-                         "this loop ends only when `#{}` is exactly equal, and its step has no exact value", *variable),
-                     .span = context.tree.expressions[exit.condition].span,
-                     .labels = {{context.tree.expressions[step->size].span, "each pass adds a rounding"}},
-                     .notes = {"the sum may pass the limit without being equal, and the loop never ends",
-                               "compare with GT, GE, LT or LE, or count the passes in whole numbers"}});
+    reporter.report(
+        {.message = fmt::format(
+             "this loop may never end: it needs `#{}` to match exactly, but the step is not exact in binary",
+             *variable),
+         .span = context.tree.expressions[exit.condition].span,
+         .labels = {{context.tree.expressions[step->size].span, "each iteration adds a rounding error"}},
+         .notes = {"the sum may step past the limit without ever being equal to it",
+                   "compare with GT, GE, LT or LE, or count iterations in whole numbers"}});
   }
 }
 
 } // namespace
 
 extern const Rule inexactLoopEnd;
-const Rule inexactLoopEnd{.info = {"inexact-loop-end", Category::Flow, Severity::Warning,
-                                   "Reports a loop that ends when a sum of inexact steps is equal to its limit."},
-                          .hooks = {.flow = check}};
+const Rule inexactLoopEnd{
+    .info = {"inexact-loop-end", Category::Flow, Severity::Warning,
+             "Reports a loop that ends only when a sum of inexact steps exactly equals its limit."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -67,14 +67,14 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const Span span = context.tree.expressions[exit.condition].span;
     const Span step = context.tree.expressions[writes->front().assignment.target].span;
     const Span value = context.tree.expressions[writes->front().assignment.value].span;
-    reporter.report(
-        {.message = fmt::format("this loop runs in the wrong direction: `#{}` goes {} and never gets past {}",
-                                bound->variable, bound->goesOnBelow ? "down" : "up",
-                                context.quoted(context.tree.expressions[bound->limit].span)),
-         .span = span,
-         .labels = {{cover(step, value), "changes it"}},
-         .way = wayFromEntry(facts, exit.test),
-         .notes = {fmt::format("{} once it runs; turn the comparison or the sign of the step", endlessnessOf(loop))}});
+    reporter.report({.message = fmt::format("this loop runs in the wrong direction: `#{}` goes {}, away from {}",
+                                            bound->variable, bound->goesOnBelow ? "down" : "up",
+                                            context.quoted(context.tree.expressions[bound->limit].span)),
+                     .span = span,
+                     .labels = {{cover(step, value), "the step"}},
+                     .way = wayFromEntry(facts, exit.test),
+                     .notes = {fmt::format("{} once entered; reverse the comparison or the sign of the step",
+                                           endlessnessOf(loop))}});
   }
 }
 

@@ -38,10 +38,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const Span span = context.tree.expressions[*test->condition].span;
     const std::string values = valuesOf(facts, context, *test->condition, block);
-    reporter.report({.message = fmt::format("this loop is never entered: {} does not hold", context.quoted(span)),
+    reporter.report({.message = fmt::format("this loop is never entered: {} is always false", context.quoted(span)),
                      .span = span,
                      .label = values,
-                     .notes = {"what it should machine is left out, without an alarm"}});
+                     .notes = {"whatever the loop should machine is left out, without an alarm"}});
   }
 }
 
@@ -49,7 +49,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule loopNeverEntered;
 const Rule loopNeverEntered{.info = {"loop-never-entered", Category::Flow, Severity::Warning,
-                                     "Reports a `WHILE` whose condition does not hold in any run."},
+                                     "Reports a `WHILE` whose condition is never true."},
                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

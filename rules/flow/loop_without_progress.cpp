@@ -60,15 +60,14 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     done.push_back(exit.test);
     const Span span = context.tree.expressions[exit.condition].span;
     const Span head = context.tree.blocks[facts.node(loop.head).block].span();
-    Diagnostic diagnostic{.message = loop.exits.size() > 1
-                                         ? "nothing in this loop changes the variables that its exit conditions read"
+    Diagnostic diagnostic{
+        .message = loop.exits.size() > 1 ? "nothing in this loop changes the variables that its exit conditions read"
                                          : fmt::format("{} once {} {}", endlessnessOf(loop), context.quoted(span),
-                                                       exit.leavesWhenTrue ? "does not hold" : "holds"),
-                          .span = span,
-                          .way = wayFromEntry(facts, exit.test),
-                          .notes = {loop.mayStop ? "nothing in the loop changes a variable of its condition"
-                                                 : "nothing in the loop changes a variable of its condition; only "
-                                                   "reset stops it"}};
+                                                       exit.leavesWhenTrue ? "is false" : "is true"),
+        .span = span,
+        .way = wayFromEntry(facts, exit.test),
+        .notes = {loop.mayStop ? "nothing in the loop changes a variable of the condition"
+                               : "nothing in the loop changes a variable of the condition; only reset stops it"}};
     if (!head.contains(span))
       diagnostic.labels.push_back({head, "the loop begins here"});
     reporter.report(std::move(diagnostic));

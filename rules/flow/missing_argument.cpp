@@ -41,11 +41,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const std::string name = toString(file.model->programs[reader].name);
     reporter.report(
         {.message =
-             fmt::format("{} computes with `#{}` ({}), which this call does not pass", name, vacant.variable, *letter),
+             fmt::format("{} computes with `#{}` ({}), but this call does not pass it", name, vacant.variable, *letter),
          .span = call.span,
-         .labels = {{file.tree->expressions[vacant.expression].span, "vacant here, counts as 0", vacant.read.file}},
+         .labels = {{file.tree->expressions[vacant.expression].span, "vacant here, read as 0", vacant.read.file}},
          .way = wayFromEntry(facts, vacant.call),
-         .notes = {fmt::format("pass {}, or let {} ask `[#{} EQ #0]` first", *letter, name, vacant.variable)}});
+         .notes = {fmt::format("pass {}, or let {} check `[#{} EQ #0]` first", *letter, name, vacant.variable)}});
   }
 }
 

@@ -9,13 +9,13 @@ namespace {
 
 std::string_view effectOf(ReadUse use) {
   switch (use) {
-  case ReadUse::Word: return "the word counts as not written";
-  case ReadUse::Ordering: return "the comparison takes it for 0";
+  case ReadUse::Word: return "the control ignores this word";
+  case ReadUse::Ordering: return "the comparison reads it as 0";
   case ReadUse::Copied: return "the copy is vacant, too";
   case ReadUse::Equality:
   case ReadUse::Computed:
   case ReadUse::Argument:
-  case ReadUse::Other: return "it counts as 0 here";
+  case ReadUse::Other: return "it is read as 0 here";
   }
   return {};
 }
@@ -47,11 +47,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const bool never = isNeverSet(facts, *read.number);
     const Span span = context.tree.expressions[read.expression].span;
     reporter.report(
-        {.message = fmt::format("{} is used here and {}", context.quoted(span),
-                                never ? "never set" : "has not been set before"),
+        {.message =
+             fmt::format("{} is used here {}", context.quoted(span), never ? "but never set" : "before it is set"),
          .span = span,
-         .notes = {fmt::format("a local variable is vacant when the program starts: {}", effectOf(read.use)),
-                   "set it before, or name the variable that was meant"}});
+         .notes = {fmt::format("local variables are vacant when the program starts: {}", effectOf(read.use)),
+                   "set it before this block, or correct the variable number"}});
   }
 }
 
@@ -59,7 +59,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule neverSetVariable;
 const Rule neverSetVariable{.info = {"never-set-variable", Category::Flow, Severity::Warning,
-                                     "Reports a local variable that a main program uses before anything has set it."},
+                                     "Reports a local variable that a main program uses before it is set."},
                             .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -37,8 +37,8 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
     return;
   const Span inner = context.tree.expressions[unwrapped(context.tree, argument)].span;
   Diagnostic diagnostic{
-      .message = fmt::format("{} {} outside of what {} takes{}", context.quoted(inner), alarm.always ? "is" : "can be",
-                             spellingOf(call->function), shown(*value)),
+      .message = fmt::format("{}{} {} outside the range that {} accepts", context.quoted(inner), shown(*value),
+                             alarm.always ? "is" : "can be", spellingOf(call->function)),
       .span = alarm.place,
       .way = wayFromEntry(facts, alarm.node),
       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentOutOfDomain))}};
@@ -57,8 +57,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule outOfDomain;
-const Rule outOfDomain{.info = {"out-of-domain", Category::Flow, Severity::Error,
-                                "Reports a function whose argument is outside of its domain whenever it is reached."},
-                       .hooks = {.flow = check}};
+const Rule outOfDomain{
+    .info = {"out-of-domain", Category::Flow, Severity::Error,
+             "Reports a function whose argument is always outside the range that the function accepts."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

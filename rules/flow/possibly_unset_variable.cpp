@@ -47,13 +47,13 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
   if (!way)
     return;
   const Span span = context.tree.expressions[read.expression].span;
-  reporter.report({.message = fmt::format("{} is not set on every way that leads here", context.quoted(span)),
-                   .span = span,
-                   .labels = {{*setting, "set here"}},
-                   .way = describeWay(facts, *way),
-                   .notes = {"where it is not, it is vacant: arithmetic takes it for 0, and a word with it counts as "
-                             "not written"}},
-                  passesCases(facts, paths, *way) ? Severity::Info : Severity::Warning);
+  reporter.report(
+      {.message = fmt::format("{} is not set on every path to this block", context.quoted(span)),
+       .span = span,
+       .labels = {{*setting, "set here"}},
+       .way = describeWay(facts, *way),
+       .notes = {"where it is not set it is vacant: arithmetic reads it as 0, and the control ignores a word with it"}},
+      passesCases(facts, paths, *way) ? Severity::Info : Severity::Warning);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -79,7 +79,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule possiblyUnsetVariable;
 const Rule possiblyUnsetVariable{.info = {"possibly-unset-variable", Category::Flow, Severity::Warning,
-                                          "Reports a local variable that is not set on every way to its use."},
+                                          "Reports a local variable that is not set on every path to its use."},
                                  .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

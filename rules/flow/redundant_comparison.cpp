@@ -47,17 +47,17 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   const Span redundant = tree.expressions[secondIsImplied ? both->right : both->left].span;
   const Span other = tree.expressions[secondIsImplied ? both->left : both->right].span;
   reporter.report(
-      {.message = fmt::format("{} changes nothing beside {}", context.quoted(redundant), context.quoted(other)),
+      {.message = fmt::format("{} has no effect beside {}", context.quoted(redundant), context.quoted(other)),
        .span = redundant,
-       .labels = {{other, isOr ? "holds whenever it holds" : "holds only when it holds"}},
-       .notes = {"another comparison or another variable was probably meant"}});
+       .labels = {{other, isOr ? "true whenever the other one is" : "true only when the other one is"}},
+       .notes = {"probably another comparison or another variable was meant"}});
 }
 
 } // namespace
 
 extern const Rule redundantComparison;
 const Rule redundantComparison{.info = {"redundant-comparison", Category::Flow, Severity::Info,
-                                        "Reports one of two joined comparisons that the other makes needless."},
+                                        "Reports one of two joined comparisons that has no effect beside the other."},
                                .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
 } // namespace feedhold::rules

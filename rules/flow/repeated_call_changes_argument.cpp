@@ -51,9 +51,8 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
         {.message = fmt::format("this call repeats a macro that changes its argument `#{}`", argument.variable),
          .span = call.span,
          .labels = {{*update, "changed here", callee->file}},
-         .notes = {
-             "whether the second pass begins with the argument or with the changed value differs between controls",
-             "copy the argument to another variable in the macro, or write a loop"}});
+         .notes = {"controls differ: the second call may start with the argument or with the changed value",
+                   "copy the argument to another variable in the macro, or call the macro in a loop"}});
     return;
   }
 }
@@ -63,8 +62,9 @@ void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {
 } // namespace
 
 extern const Rule repeatedCallChangesArgument;
-const Rule repeatedCallChangesArgument{.info = {"repeated-call-changes-argument", Category::Flow, Severity::Warning,
-                                                "Reports a repeated macro call whose macro changes its arguments."},
-                                       .hooks = {.call = check, .flow = asksForPrograms}};
+const Rule repeatedCallChangesArgument{
+    .info = {"repeated-call-changes-argument", Category::Flow, Severity::Warning,
+             "Reports a repeated macro call (`L2` and up) of a macro that changes its arguments."},
+    .hooks = {.call = check, .flow = asksForPrograms}};
 
 } // namespace feedhold::rules

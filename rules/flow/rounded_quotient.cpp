@@ -50,16 +50,16 @@ void checkBlock(BlockId block, const FlowFacts &facts, const FileContext &contex
     if (isKnown && !whole)
       continue;
     const Span span = context.tree.expressions[id].span;
-    reporter.report(
-        {.message = whole
-                        ? fmt::format("{} is off by one: the quotient should be {} and is computed beside it",
-                                      context.quoted(span), *whole)
-                        : fmt::format("{} may be off by one where the quotient should be whole", context.quoted(span)),
-         .span = span,
-         .notes = {"0.6/0.2 need not be 3: decimal fractions have no exact value in the control, and FIX and FUP "
-                   "go to the whole number beside it",
-                   "add or subtract a small amount within the brackets, or ROUND"}},
-        whole ? Severity::Warning : Severity::Info);
+    reporter.report({.message = whole
+                                    ? fmt::format("{} is off by one: the quotient should be {}, but rounding misses it",
+                                                  context.quoted(span), *whole)
+                                    : fmt::format("{} may be off by one when the quotient should be a whole number",
+                                                  context.quoted(span)),
+                     .span = span,
+                     .notes = {"the control computes in binary: 0.6/0.2 may come out just above or below 3, and FIX or "
+                               "FUP is then off by one",
+                               "add or subtract a small amount inside the brackets, or use ROUND"}},
+                    whole ? Severity::Warning : Severity::Info);
   }
 }
 
@@ -77,7 +77,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule roundedQuotient;
 const Rule roundedQuotient{.info = {"rounded-quotient", Category::Flow, Severity::Info,
-                                    "Reports FIX and FUP of a quotient that need not be exact."},
+                                    "Reports `FIX` or `FUP` of a quotient that may not be exact."},
                            .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

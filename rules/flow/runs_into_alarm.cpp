@@ -75,11 +75,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const bool isCall = call && comesBack(facts, *call);
     if ((!isCall && !moves(context, last)) || isRetreat(facts, *before))
       continue;
-    reporter.report({.message = "the program runs into this alarm at its end",
+    reporter.report({.message = "the program runs on into this alarm at its end",
                      .span = alarm.place,
-                     .labels = {{context.tree.blocks[last].span(), "goes on into the alarm"}},
+                     .labels = {{context.tree.blocks[last].span(), "runs on into the alarm"}},
                      .way = wayFromEntry(facts, alarm.node),
-                     .notes = {"end the program before the alarms with M99 or M30, or jump over them"}});
+                     .notes = {"end the program with M99 or M30 before the alarms, or jump over them"}});
   }
 }
 

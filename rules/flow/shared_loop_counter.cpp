@@ -44,12 +44,11 @@ void checkPair(const Loop &outer, const Loop &inner, const FlowFacts &facts, con
   if (!outerStep)
     return;
   reporter.report(
-      {.message = fmt::format("`#{}` counts the loop around this one, and is changed in here, too", *counter),
+      {.message = fmt::format("`#{}` is the counter of the outer loop, but the inner loop changes it too", *counter),
        .span = *innerStep,
        .labels = {{*outerStep, "the step of the outer loop"},
-                  {context.tree.statements[inner.doStatement].span, "the loop inside"}},
-       .notes = {"the outer loop makes fewer passes than its step says; the loop inside needs a counter of "
-                 "its own"}});
+                  {context.tree.statements[inner.doStatement].span, "the inner loop"}},
+       .notes = {"the outer loop leaves out iterations; give the inner loop its own counter"}});
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -68,7 +67,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule sharedLoopCounter;
 const Rule sharedLoopCounter{.info = {"shared-loop-counter", Category::Flow, Severity::Warning,
-                                      "Reports a loop that steps the counter of the loop around it."},
+                                      "Reports an inner loop that changes the counter of the outer loop."},
                              .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

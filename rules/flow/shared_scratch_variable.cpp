@@ -88,12 +88,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       const auto after = use.writes.empty() ? std::nullopt : usedAfter(facts, use, node);
       if (!after || !done.insert(variable).second)
         continue;
-      reporter.report({.message = fmt::format("{} uses `#{}` for itself, and the value is needed after the call",
-                                              toString(file.model->programs[callee->program].name), variable),
-                       .span = call.span,
-                       .labels = {{context.tree.blocks[facts.node(*after).block].span(), "read here"}},
-                       .notes = {"common variables are the same in all programs: the call overwrites this one",
-                                 "use a local variable, which each macro has for itself"}});
+      reporter.report(
+          {.message = fmt::format("{} overwrites `#{}`, whose value is still needed after the call",
+                                  toString(file.model->programs[callee->program].name), variable),
+           .span = call.span,
+           .labels = {{context.tree.blocks[facts.node(*after).block].span(), "read here after the call"}},
+           .notes = {"all programs share the common variables", "use a local variable: each macro has its own"}});
     }
   }
 }
@@ -101,9 +101,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule sharedScratchVariable;
-const Rule sharedScratchVariable{.info = {"shared-scratch-variable", Category::Flow, Severity::Warning,
-                                          "Reports a call of a program that overwrites a common variable which its "
-                                          "caller goes on using."},
-                                 .hooks = {.flow = check}};
+const Rule sharedScratchVariable{
+    .info = {"shared-scratch-variable", Category::Flow, Severity::Warning,
+             "Reports a call to a program that overwrites a common variable which the caller still needs."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

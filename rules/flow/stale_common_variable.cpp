@@ -67,11 +67,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (comesAround || !way)
       continue;
     const Span span = context.tree.expressions[read.expression].span;
-    reporter.report({.message = fmt::format("{} is used here and set only further down", context.quoted(span)),
+    reporter.report({.message = fmt::format("{} is used here but only set later", context.quoted(span)),
                      .span = span,
                      .labels = {{context.tree.blocks[facts.node(writes->front()).block].span(), "set here"}},
                      .way = describeWay(facts, *way),
-                     .notes = {"the value is the one that the last run, or another program, has left there",
+                     .notes = {"here it still has the value from the last run or from another program",
                                "set it before its first use"}},
                     *kind == VariableKind::Common ? Severity::Warning : Severity::Info);
   }

@@ -29,11 +29,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const char letter = *letterOfArgument(*file.dialect, *missing->number);
     reporter.report(
-        {.message = fmt::format("{} reads `#{}` ({}), and M98 passes no arguments", toString(call.callee),
+        {.message = fmt::format("{} reads `#{}` ({}), but M98 passes no arguments", toString(call.callee),
                                 *missing->number, letter),
          .span = call.span,
          .labels = {{file.tree->expressions[missing->expression].span, "vacant here", callee->file}},
-         .notes = {"a subprogram works on the local variables of its caller, and nothing sets this one",
+         .notes = {"a subprogram uses the local variables of its caller, and nothing sets this one",
                    fmt::format("call it by G65 with {}, or set `#{}` before the call", letter, *missing->number)}});
   }
 }
@@ -42,7 +42,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule subprogramWithoutArguments;
 const Rule subprogramWithoutArguments{.info = {"subprogram-without-arguments", Category::Flow, Severity::Warning,
-                                               "Reports an M98 that calls a macro which reads arguments."},
+                                               "Reports an `M98` call of a macro that reads arguments."},
                                       .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -31,15 +31,15 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         isTested(facts.file, facts.program, *variable) || std::ranges::find(done, *argument) != done.end())
       continue;
     done.push_back(*argument);
-    reporter.report(
-        {.message = fmt::format("nothing makes sure that {} is not 0", describeVariable(context.dialect, *argument)),
-         .span = alarm.place,
-         .label = "divides by it",
-         .way = wayFromEntry(facts, alarm.node),
-         .notes = {
-             fmt::format("without the argument, or with 0, the control {}",
-                         stopsWith(context.dialect, AlarmKind::DivideByZero)),
-             fmt::format("ask `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program", *argument, *argument)}});
+    reporter.report({.message = fmt::format("{} may be 0 or vacant: nothing checks it before this division",
+                                            describeVariable(context.dialect, *argument)),
+                     .span = alarm.place,
+                     .label = "divides by it",
+                     .way = wayFromEntry(facts, alarm.node),
+                     .notes = {fmt::format("if it is not passed, or is 0, the control {}",
+                                           stopsWith(context.dialect, AlarmKind::DivideByZero)),
+                               fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
+                                           *argument, *argument)}});
   }
 }
 
@@ -47,7 +47,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule unguardedDivision;
 const Rule unguardedDivision{.info = {"unguarded-division", Category::Flow, Severity::Warning,
-                                      "Reports a division by an argument that nothing tests."},
+                                      "Reports a division by an argument that is never checked for 0."},
                              .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

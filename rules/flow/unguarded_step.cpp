@@ -42,13 +42,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (!found || std::ranges::find(done, found->argument) != done.end())
         continue;
       done.push_back(found->argument);
-      reporter.report({.message = fmt::format("nothing makes sure that {} is not 0: it is the step of a loop",
+      reporter.report({.message = fmt::format("{} is the step of a loop and may be 0 or vacant: nothing checks it",
                                               describeVariable(context.dialect, found->argument)),
                        .span = found->step,
-                       .labels = {{context.tree.expressions[exit.condition].span, "ends the loop"}},
+                       .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
                        .way = wayFromEntry(facts, exit.test),
-                       .notes = {"without the argument, or with 0, the loop never ends",
-                                 fmt::format("ask `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
+                       .notes = {"if it is not passed, or is 0, the loop never ends",
+                                 fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
                                              found->argument, found->argument)}});
     }
   }
@@ -58,7 +58,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule unguardedStep;
 const Rule unguardedStep{.info = {"unguarded-step", Category::Flow, Severity::Warning,
-                                  "Reports a loop whose step is an argument that nothing tests."},
+                                  "Reports a loop whose step is an argument that is never checked for 0."},
                          .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

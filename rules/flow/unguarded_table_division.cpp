@@ -71,22 +71,21 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     done.push_back(*cell);
     const Span span = context.tree.expressions[*cell].span;
     const std::string quoted = context.quoted(span);
-    reporter.report(
-        {.message = fmt::format("divides by what {} holds, and nothing makes sure that it is not 0", quoted),
-         .span = alarm.place,
-         .labels = {{span, "from a table of the control"}},
-         .notes = {fmt::format("while nobody has filled it in it is 0, and the control {}",
-                               stopsWith(context.dialect, AlarmKind::DivideByZero)),
-                   "ask for 0 first, and give an alarm that names the table"}});
+    reporter.report({.message = fmt::format("divides by the table entry {}, which nothing checks for 0", quoted),
+                     .span = alarm.place,
+                     .labels = {{span, "read from a table of the control"}},
+                     .notes = {fmt::format("an entry that nobody has filled in is 0: the control {}",
+                                           stopsWith(context.dialect, AlarmKind::DivideByZero)),
+                               "check for 0 first, and raise an alarm that names the table"}});
   }
 }
 
 } // namespace
 
 extern const Rule unguardedTableDivision;
-const Rule unguardedTableDivision{
-    .info = {"unguarded-table-division", Category::Flow, Severity::Warning,
-             "Reports a division by a cell of a table of the control that nothing tests."},
-    .hooks = {.flow = check}};
+const Rule unguardedTableDivision{.info = {"unguarded-table-division", Category::Flow, Severity::Warning,
+                                           "Reports a division by a table entry of the control (a tool offset, for "
+                                           "example) that is never checked for 0."},
+                                  .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -56,8 +56,8 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
     reporter.report({.message = fmt::format("{} never reads `#{}`: {} has no effect", toString(program.name),
                                             argument.variable, context.quoted(word.span())),
                      .span = word.span(),
-                     .labels = {{program.header, "this program is called", callee->file}},
-                     .notes = {"another letter was probably meant, or the macro no longer needs it"}});
+                     .labels = {{program.header, "the called program", callee->file}},
+                     .notes = {"probably another letter was meant, or the macro no longer needs it"}});
   }
 }
 

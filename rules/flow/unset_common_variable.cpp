@@ -52,11 +52,11 @@ std::string effectOn(const Read &read, const FileContext &context) {
     for (const Argument &argument : call.arguments) {
       const Word &word = context.tree.words[argument.word];
       if (word.form() == WordForm::Expression && word.span().contains(context.tree.expressions[read.expression].span))
-        return fmt::format("when it is vacant the call does not pass {}: `#{}` of the macro is then vacant, too",
+        return fmt::format("if it is vacant the call does not pass {}, and `#{}` of the macro is vacant too",
                            word.address(), argument.variable);
     }
-  return read.use == ReadUse::Word ? "when it is vacant the word counts as not written"
-                                   : "what an earlier program or the operator has left there counts";
+  return read.use == ReadUse::Word ? "if it is vacant the control ignores this word"
+                                   : "it has whatever value an earlier program or the operator left there";
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -77,10 +77,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         *kind == VariableKind::Common && !unseen && !isTested(facts.file, facts.program, *read.number);
     const Span span = context.tree.expressions[read.expression].span;
     reporter.report(
-        {.message = fmt::format("{} is {} here, and no program of this run sets it", context.quoted(span),
+        {.message = fmt::format("{} is {} here, but no checked program sets it", context.quoted(span),
                                 isPassed ? "passed" : "used"),
          .span = span,
-         .notes = {effectOn(read, context), "set it at the head of the program, or name the variable that was meant"}},
+         .notes = {effectOn(read, context), "set it at the head of the program, or correct the variable number"}},
         mustBeSet ? Severity::Warning : Severity::Info);
   }
 }
@@ -88,9 +88,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule unsetCommonVariable;
-const Rule unsetCommonVariable{.info = {"unset-common-variable", Category::Flow, Severity::Warning,
-                                        "Reports a common variable that a main program uses and no program of the run "
-                                        "sets."},
-                               .hooks = {.flow = check}};
+const Rule unsetCommonVariable{
+    .info = {"unset-common-variable", Category::Flow, Severity::Warning,
+             "Reports a common variable that a main program uses but no checked program sets."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -36,9 +36,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (std::ranges::any_of(uses, [&](const VariableUse &each) { return !each.write && each.number == use.number; }))
       continue;
     const Span span = context.tree.expressions[use.expression].span;
-    reporter.report({.message = fmt::format("{} is set and never used", context.quoted(span)),
+    reporter.report({.message = fmt::format("{} is set but never used", context.quoted(span)),
                      .span = span,
-                     .notes = {"the value has no effect on this program; a word or a call may name another variable"}});
+                     .notes = {"the value has no effect; a word or a call may have the wrong variable number"}});
   }
 }
 
@@ -46,7 +46,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule unusedVariable;
 const Rule unusedVariable{.info = {"unused-variable", Category::Flow, Severity::Info,
-                                   "Reports a local variable that a main program sets and never uses."},
+                                   "Reports a local variable that a main program sets but never uses."},
                           .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -20,7 +20,7 @@ void checkCall(const Call &call, const FlowFacts &facts, const FileContext &cont
          .labels = {{call.span, "in this call"}},
          .notes = {fmt::format("`#{}` of the macro stays vacant, as if {} were not written", argument.variable,
                                word.address()),
-                   "set the variable before the call, or name the one that was meant"}});
+                   "set the variable before the call, or correct its number"}});
   }
 }
 
@@ -33,7 +33,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule vacantArgument;
 const Rule vacantArgument{.info = {"vacant-argument", Category::Flow, Severity::Warning,
-                                   "Reports an argument of a macro call whose variable nothing ever sets."},
+                                   "Reports an argument of a macro call whose variable is never set."},
                           .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

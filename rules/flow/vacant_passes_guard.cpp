@@ -74,11 +74,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
           !argumentBehind(facts, *number) || isRefusedElsewhere(facts, *number))
         continue;
       const Span span = context.tree.expressions[part].span;
-      reporter.report({.message = fmt::format("{} lets the argument through that is not passed", context.quoted(span)),
-                       .span = span,
-                       .notes = {fmt::format("{} is vacant then, and vacant is not EQ 0: the alarm does not come",
-                                             describeVariable(context.dialect, *number)),
-                                 fmt::format("ask `[#{} EQ #0]` as well", *number)}});
+      reporter.report(
+          {.message = fmt::format("{} does not catch a missing {}", context.quoted(span),
+                                  describeVariable(context.dialect, *number)),
+           .span = span,
+           .notes = {"an argument that is not passed is vacant, and vacant is not equal to 0: no alarm comes up",
+                     fmt::format("check `[#{} EQ #0]` as well", *number)}});
     }
   }
 }
@@ -86,8 +87,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule vacantPassesGuard;
-const Rule vacantPassesGuard{.info = {"vacant-passes-guard", Category::Flow, Severity::Warning,
-                                      "Reports a check of an argument by `EQ 0` that a missing argument passes."},
-                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
+const Rule vacantPassesGuard{
+    .info = {"vacant-passes-guard", Category::Flow, Severity::Warning,
+             "Reports a check of an argument by `EQ 0` that does not catch a missing argument."},
+    .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules

@@ -61,13 +61,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (!way)
         continue;
       const Span span = context.tree.expressions[*test->condition].span;
-      reporter.report({.message = fmt::format("{} asks whether `#{}` is vacant, and it has been set to 0",
+      reporter.report({.message = fmt::format("{} tests whether `#{}` is vacant, but it was set to 0",
                                               context.quoted(span), *variable),
                        .span = span,
                        .labels = {{context.tree.blocks[facts.node(zero).block].span(), "set to 0 here"}},
                        .way = describeWay(facts, *way),
-                       .notes = {"0 is a number: on this way the variable is not vacant",
-                                 fmt::format("ask `[#{} EQ 0]`, or set it to `#0` before", *variable)}});
+                       .notes = {"0 is a number, so the variable is not vacant on this path",
+                                 fmt::format("test `[#{} EQ 0]`, or set it to `#0` instead of 0", *variable)}});
       break;
     }
   }
@@ -77,7 +77,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule zeroIsNotVacant;
 const Rule zeroIsNotVacant{.info = {"zero-is-not-vacant", Category::Flow, Severity::Warning,
-                                    "Reports a question for vacancy of a variable that was set to 0."},
+                                    "Reports a test for vacant of a variable that was set to 0."},
                            .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -56,11 +56,11 @@ private:
     if (!node)
       return;
     reporter.report(
-        {.message = fmt::format("{} comes between the tool change and `G43`", context.quoted(zWord(*node)->span())),
+        {.message = fmt::format("{} moves the new tool before its `G43`", context.quoted(zWord(*node)->span())),
          .span = zWord(*node)->span(),
-         .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "the tool changes here"}},
+         .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "tool change"}},
          .way = describeWay(facts, *findWay(facts, change, *node, isOver)),
-         .notes = {"the length in force is that of the tool before, or none: the new tool may go into the part",
+         .notes = {"the length offset is that of the previous tool, or none: the new tool may hit the part",
                    "write G43 and H in the first block that moves Z"}});
   }
 
@@ -77,7 +77,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 extern const Rule approachBeforeLengthOffset;
 const Rule approachBeforeLengthOffset{
     .info = {"approach-before-length-offset", Category::Motion, Severity::Warning,
-             "Reports a movement to a `Z` behind a tool change and before the `G43` of the new tool."},
+             "Reports a move in `Z` between a tool change and the `G43` of the new tool."},
     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

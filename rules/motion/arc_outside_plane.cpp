@@ -38,12 +38,12 @@ public:
       const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
       if (!outside || isZero(*outside))
         continue;
-      reporter.report({.message = fmt::format("{} belongs to no arc of `{}`, the plane in force",
+      reporter.report({.message = fmt::format("{} does not belong to an arc in `{}`, the active plane",
                                               context.quoted(outside->span()), plane->code),
                        .span = outside->span(),
                        .way = wayFromEntry(facts, node),
-                       .notes = {"the control stops, or cuts the arc in a plane where it was not meant",
-                                 "select the plane of the arc before it, by G17, G18 or G19"}});
+                       .notes = {"the control stops, or cuts the arc in the wrong plane",
+                                 "select the plane before the arc: G17, G18 or G19"}});
     }
   }
 
@@ -68,7 +68,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule arcOutsidePlane;
 const Rule arcOutsidePlane{.info = {"arc-outside-plane", Category::Motion, Severity::Warning,
-                                    "Reports an arc with a centre that does not lie in the plane in force."},
+                                    "Reports an arc whose centre (I, J, K) does not belong to the active plane."},
                            .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -21,11 +21,11 @@ public:
     for (const AlarmFact &alarm : facts.alarms()) {
       if (alarm.kind != AlarmKind::ArcRadius || !alarm.always || mapped_.contains(alarm.node))
         continue;
-      reporter.report({.message = "the end of this arc does not lie on the circle of its start",
+      reporter.report({.message = "the end point of this arc is not on the circle through its start point",
                        .span = alarm.place,
                        .way = wayFromEntry(facts, alarm.node),
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcRadius)),
-                                 "I, J and K are distances from the start of the arc to its centre"}});
+                                 "I, J and K are the distances from the start point to the centre"}});
     }
   }
 
@@ -38,8 +38,9 @@ std::unique_ptr<FlowRule> watch(ProgramId, const FileContext &) { return std::ma
 } // namespace
 
 extern const Rule arcRadiusDiffers;
-const Rule arcRadiusDiffers{.info = {"arc-radius-differs", Category::Motion, Severity::Error,
-                                     "Reports an arc whose radius at the start and at the end differs in every run."},
-                            .hooks = {.watch = watch}};
+const Rule arcRadiusDiffers{
+    .info = {"arc-radius-differs", Category::Motion, Severity::Error,
+             "Reports an arc whose radius at the end point always differs from the radius at the start point."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -25,11 +25,10 @@ public:
     for (const auto &[node, stands] : places_) {
       const Word *arc = view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
       if (stands)
-        reporter.report(
-            {.message = fmt::format("this {} with `R` ends where it starts, and does not move in its plane",
-                                    context.quoted(arc->span())),
-             .span = view_.blockSpan(node),
-             .notes = {"through one point there are many circles of a radius: a full circle needs I, J, K"}});
+        reporter.report({.message = fmt::format("this {} with `R` ends where it starts, so it cuts no arc",
+                                                context.quoted(arc->span())),
+                         .span = view_.blockSpan(node),
+                         .notes = {"R does not define a full circle; program it with I, J, K"}});
     }
   }
 
@@ -46,7 +45,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule arcWithoutMotion;
 const Rule arcWithoutMotion{.info = {"arc-without-motion", Category::Motion, Severity::Warning,
-                                     "Reports an arc with `R` whose end is its start in every run."},
+                                     "Reports an arc with `R` whose end point always equals its start point."},
                             .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

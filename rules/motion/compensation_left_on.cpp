@@ -5,13 +5,12 @@ namespace feedhold::rules {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
-  reportLeftOn(
-      {.kind = ModalKind::Compensation,
-       .actions = {CodeAction::CompensationLeft, CodeAction::CompensationRight},
-       .atProgramEnd = Severity::Warning,
-       .consequence = "the next movement is offset too, and the first one without compensation cuts into the part",
-       .remedy = "cancel it by G40 in a movement away from the part"},
-      facts, context, reporter);
+  reportLeftOn({.kind = ModalKind::Compensation,
+                .actions = {CodeAction::CompensationLeft, CodeAction::CompensationRight},
+                .atProgramEnd = Severity::Warning,
+                .consequence = "the next move is offset too, and the first move after G40 may cut into the part",
+                .remedy = "cancel it with G40 in a move away from the part"},
+               facts, context, reporter);
 }
 
 } // namespace
@@ -19,7 +18,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule compensationLeftOn;
 const Rule compensationLeftOn{
     .info = {"compensation-left-on", Category::Motion, Severity::Warning,
-             "Reports a cutter compensation that is still on when the program ends or returns, on some path."},
+             "Reports cutter compensation that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

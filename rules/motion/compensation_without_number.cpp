@@ -6,15 +6,14 @@ namespace {
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
   return watchForMissingNumber(
-      {{CodeAction::CompensationLeft, CodeAction::CompensationRight}, 'D', "the radius of the cutter"}, program,
-      context);
+      {{CodeAction::CompensationLeft, CodeAction::CompensationRight}, 'D', "the cutter radius"}, program, context);
 }
 
 } // namespace
 
 extern const Rule compensationWithoutNumber;
 const Rule compensationWithoutNumber{.info = {"compensation-without-number", Category::Motion, Severity::Warning,
-                                              "Reports a `G41` or `G42` of a main program that comes before any `D`."},
+                                              "Reports a `G41` or `G42` in a main program before any `D`."},
                                      .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -14,7 +14,7 @@ struct ControlSwitch {
 };
 // Source: macro variables of the operator's manuals; bits switch off single block, waiting for completion, feed hold,
 // override, exact stop.
-constexpr std::array kControlSwitches = {ControlSwitch{3003, "single block, or the wait for auxiliary functions"},
+constexpr std::array kControlSwitches = {ControlSwitch{3003, "single block or the wait for auxiliary functions"},
                                          ControlSwitch{3004, "feed hold, feed override or exact stop"}};
 
 /// Some path leaves a value other than 0 there, and the value is known: it is none that was saved at the head.
@@ -72,11 +72,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         continue;
       const MotionView view(facts.program, context);
       const Span place = context.tree.expressions[use->expression].span;
-      reporter.report({.message = fmt::format("`#{}` is not set back to 0 on a way to the end", which.variable),
+      reporter.report({.message = fmt::format("`#{}` is not reset to 0 on a path to this end", which.variable),
                        .span = place,
                        .labels = {{view.blockSpan(exit.node), "ends here"}},
                        .way = wayFromEntry(facts, exit.node),
-                       .notes = {fmt::format("{} stays switched off for all that runs afterwards", which.locks),
+                       .notes = {fmt::format("{} stays disabled for everything that runs afterwards", which.locks),
                                  fmt::format("write `#{}=0` before this end, too", which.variable)}});
       break;
     }
@@ -87,8 +87,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule controlSwitchLeftOn;
 const Rule controlSwitchLeftOn{.info = {"control-switch-left-on", Category::Motion, Severity::Warning,
-                                        "Reports a program that switches off single block, feed hold or override by "
-                                        "`#3003` or `#3004` and does not set it back on some path."},
+                                        "Reports a program that disables single block, feed hold or override with "
+                                        "`#3003` or `#3004` and does not reset it on some path."},
                                .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -11,16 +11,17 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                             CodeAction::CycleBore, CodeAction::CycleBoreStop, CodeAction::CycleBackBore,
                             CodeAction::CycleBoreManual, CodeAction::CycleBoreDwell, CodeAction::CycleFineBore},
                 .atProgramEnd = std::nullopt,
-                .consequence = "the caller's next block with an axis word drills one hole more",
-                .remedy = "cancel it by G80 before the return"},
+                .consequence = "the caller's next block with an axis word drills another hole",
+                .remedy = "cancel it with G80 before the return"},
                facts, context, reporter);
 }
 
 } // namespace
 
 extern const Rule cycleLeftOn;
-const Rule cycleLeftOn{.info = {"cycle-left-on", Category::Motion, Severity::Warning,
-                                "Reports a canned cycle that is still on when a called program returns, on some path."},
-                       .hooks = {.flow = check}};
+const Rule cycleLeftOn{
+    .info = {"cycle-left-on", Category::Motion, Severity::Warning,
+             "Reports a canned cycle that is still active when a called program returns, on some path."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

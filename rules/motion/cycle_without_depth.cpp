@@ -37,7 +37,7 @@ public:
                                                                                : "`R`"),
                        .span = cycle->span(),
                        .way = wayFromEntry(facts, node),
-                       .notes = {"the levels of an earlier cycle ended with it: the control stops, or drills to 0",
+                       .notes = {"depth and R of an earlier cycle no longer apply: the control stops, or drills to 0",
                                  "write the depth and R in the first block of the cycle"}});
     }
   }
@@ -64,9 +64,9 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule cycleWithoutDepth;
-const Rule cycleWithoutDepth{.info = {"cycle-without-depth", Category::Motion, Severity::Warning,
-                                      "Reports a canned cycle that starts without its depth or without `R`, although "
-                                      "none can be in force."},
-                             .hooks = {.watch = watch}};
+const Rule cycleWithoutDepth{
+    .info = {"cycle-without-depth", Category::Motion, Severity::Warning,
+             "Reports a canned cycle that starts without a depth or without `R` when neither can be active."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -25,19 +25,17 @@ public:
     const bool isMain = startedBy(context, view_.program()) == StartedBy::Operator;
     const Word &word = *view_.axisWords(*first_.node()).front();
     const auto sets = [&](NodeId node) { return view_.sets(node, ModalKind::Distance); };
-    Diagnostic diagnostic{
-        .message = fmt::format("{} is moved to before `G90` or `G91` is programmed", context.quoted(word.span())),
-        .span = word.span(),
-        .way = wayFromEntry(facts, *first_.node(), sets)};
+    Diagnostic diagnostic{.message =
+                              fmt::format("{} moves before `G90` or `G91` is programmed", context.quoted(word.span())),
+                          .span = word.span(),
+                          .way = wayFromEntry(facts, *first_.node(), sets)};
     if (isMain)
-      diagnostic.notes = {"what was in force when the program was started decides whether this is a coordinate or a "
-                          "distance",
+      diagnostic.notes = {"the mode left by the previous program decides whether this is a position or a distance",
                           "write G90 or G91 at the head of the program"};
     else
       diagnostic.notes = {
-          "the caller's mode decides whether this is a coordinate or a distance",
-          "save #4003, write G90 or G91, and restore the mode at the end; or say in a contract which mode the "
-          "caller has: `(@MODAL G90)`"};
+          "the caller's mode decides whether this is a position or a distance",
+          "save #4003, set G90 or G91 and restore it at the end, or state the caller's mode: `(@MODAL G90)`"};
     reporter.report(std::move(diagnostic),
                     isMain && !context.dialect.behaviour.endRestoresModes ? Severity::Warning : Severity::Info);
   }
@@ -54,9 +52,9 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule distanceModeNotSet;
-const Rule distanceModeNotSet{.info = {"distance-mode-not-set", Category::Motion, Severity::Warning,
-                                       "Reports the first movement of a program for which neither `G90` nor `G91` is "
-                                       "programmed on some path."},
-                              .hooks = {.watch = watch}};
+const Rule distanceModeNotSet{
+    .info = {"distance-mode-not-set", Category::Motion, Severity::Warning,
+             "Reports the first move of a program when neither `G90` nor `G91` is programmed before it on some path."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

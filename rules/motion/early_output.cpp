@@ -77,21 +77,21 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!dwell || limitsLookAhead(view, facts, *node))
       continue;
     const Span place = context.tree.expressions[use.expression].span;
-    reporter.report({.message = fmt::format("{} is written again before the dwell has passed", context.quoted(place)),
-                     .span = place,
-                     .labels = {{view.blockSpan(*dwell), "macro statements do not wait for it"}},
-                     .notes = {"a control that reads ahead executes both statements before it comes to the dwell: the "
-                               "output is not seen",
-                               "limit the look-ahead, or put an M code that is not buffered behind the dwell"}});
+    reporter.report(
+        {.message = fmt::format("{} is written again before the dwell is over", context.quoted(place)),
+         .span = place,
+         .labels = {{view.blockSpan(*dwell), "macro statements do not wait for this dwell"}},
+         .notes = {"the control reads ahead and executes both statements before the dwell: the pulse is lost",
+                   "limit the look-ahead, or put an unbuffered M code after the dwell"}});
   }
 }
 
 } // namespace
 
 extern const Rule earlyOutput;
-const Rule earlyOutput{.info = {"early-output", Category::Motion, Severity::Warning,
-                                "Reports an output that is written twice with only a dwell between, for which macro "
-                                "statements do not wait."},
-                       .hooks = {.flow = check}};
+const Rule earlyOutput{
+    .info = {"early-output", Category::Motion, Severity::Warning,
+             "Reports an output that is written twice with only a dwell between the two statements."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

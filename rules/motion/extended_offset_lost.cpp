@@ -42,20 +42,20 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   if (!extended)
     return;
   reporter.report(
-      {.message = fmt::format("{} with {} where this program says {} elsewhere", context.quoted(word.span()),
+      {.message = fmt::format("{} with {}, but this program uses {} elsewhere", context.quoted(word.span()),
                               context.quoted(number->span()), context.quoted(extended->span())),
        .span = word.span(),
-       .labels = {{extended->span(), "the extended offset"}},
-       .notes = {"many controls ignore the P here: the part is cut at the place of the first work offset",
+       .labels = {{extended->span(), "the extended work offset"}},
+       .notes = {"many controls ignore this P: the part is cut at the first work offset",
                  fmt::format("write {} if the extended offset is meant", context.quoted(extended->span()))}});
 }
 
 } // namespace
 
 extern const Rule extendedOffsetLost;
-const Rule extendedOffsetLost{.info = {"extended-offset-lost", Category::Motion, Severity::Warning,
-                                       "Reports a `P` beside `G54` to `G59` in a program that uses the code of the "
-                                       "extended work offsets elsewhere."},
-                              .hooks = {.word = check, .wordAddresses = "G"}};
+const Rule extendedOffsetLost{
+    .info = {"extended-offset-lost", Category::Motion, Severity::Warning,
+             "Reports a `P` with `G54` to `G59` in a program that uses the code for extended work offsets elsewhere."},
+    .hooks = {.word = check, .wordAddresses = "G"}};
 
 } // namespace feedhold::rules

@@ -36,8 +36,7 @@ public:
                                             context.quoted(word.span()), never_.node() == place ? "" : " on some path"),
                      .span = word.span(),
                      .way = way ? describeWay(facts, *way) : std::vector<Label>{},
-                     .notes = {"it cuts with the feed of the program that ran before, or the control stops for want of "
-                               "one",
+                     .notes = {"it uses the feed of the previous program, or the control stops because there is none",
                                "write F in the block of the first cutting move"}});
   }
 
@@ -63,9 +62,9 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule feedNotSet;
-const Rule feedNotSet{.info = {"feed-not-set", Category::Motion, Severity::Warning,
-                               "Reports the first cutting move of a main program that comes before any `F` on some "
-                               "path."},
-                      .hooks = {.watch = watch}};
+const Rule feedNotSet{
+    .info = {"feed-not-set", Category::Motion, Severity::Warning,
+             "Reports the first cutting move of a main program when no `F` comes before it on some path."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

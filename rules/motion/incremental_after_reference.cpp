@@ -49,13 +49,13 @@ private:
     std::erase(moves_, *move); // told once
     const Word &word = *firstLiteral(*move);
     reporter.report(
-        {.message = fmt::format("{} is a distance: `G91` of the reference return is still in force",
+        {.message = fmt::format("{} is incremental: the `G91` of the reference return is still active",
                                 context.quoted(word.span())),
          .span = word.span(),
-         .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "in force since here"}},
+         .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "active since here"}},
          .way = describeWay(facts, *way),
-         .notes = {"the tool goes by that much from the reference point, not to that place",
-                   "write G90 behind the reference return; where a distance is meant, say G91 in this block"}});
+         .notes = {"the tool moves this far from the reference point, not to this position",
+                   "write G90 after the reference return; if incremental is meant, write G91 in this block"}});
   }
 
   MotionView view_;
@@ -69,9 +69,8 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule incrementalAfterReference;
-const Rule incrementalAfterReference{
-    .info = {"incremental-after-reference", Category::Motion, Severity::Warning,
-             "Reports a movement under a `G91` that stands in the block of a reference return."},
-    .hooks = {.watch = watch}};
+const Rule incrementalAfterReference{.info = {"incremental-after-reference", Category::Motion, Severity::Warning,
+                                              "Reports a move under a `G91` that was written for a reference return."},
+                                     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

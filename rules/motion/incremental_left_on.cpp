@@ -8,8 +8,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Distance,
                 .actions = {CodeAction::Incremental},
                 .atProgramEnd = std::nullopt,
-                .consequence = "the caller's coordinates are taken for distances from here on",
-                .remedy = "restore what #4003 said at the head, or write G90"},
+                .consequence = "the caller's absolute coordinates would be read as incremental",
+                .remedy = "restore the mode that #4003 gave at the start, or write G90"},
                facts, context, reporter);
 }
 
@@ -17,7 +17,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule incrementalLeftOn;
 const Rule incrementalLeftOn{.info = {"incremental-left-on", Category::Motion, Severity::Warning,
-                                      "Reports a called program that returns with `G91` in force, on some path."},
+                                      "Reports a called program that returns with `G91` active, on some path."},
                              .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -27,13 +27,13 @@ public:
     for (const auto &[node, always] : places_) {
       const Word &word = *view_.modalMotionWords(node).front();
       const auto arc = arcBefore(node, facts);
-      reporter.report({.message = fmt::format("{} inherits `G02` or `G03`{}, and has neither `R` nor `I J K`",
+      reporter.report({.message = fmt::format("{} is moved under `G02` or `G03`{}, but has neither `R` nor `I J K`",
                                               context.quoted(word.span()), always ? "" : " on some path"),
                        .span = word.span(),
                        .labels = arc ? std::vector<Label>{arc->label} : std::vector<Label>{},
                        .way = arc ? arc->way : std::vector<Label>{},
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre)),
-                                 "for a straight move write G01 or G00 in this block"}},
+                                 "for a straight move write G00 or G01 in this block"}},
                       always ? Severity::Error : Severity::Warning);
     }
   }
@@ -62,7 +62,7 @@ private:
         continue;
       std::vector<Label> all = wayFromEntry(facts, arc);
       std::ranges::move(describeWay(facts, *way), std::back_inserter(all));
-      return ArcBefore{{word->span(), "in force since here"}, std::move(all)};
+      return ArcBefore{{word->span(), "active since here"}, std::move(all)};
     }
     return std::nullopt;
   }
@@ -79,7 +79,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule inheritedArc;
 const Rule inheritedArc{.info = {"inherited-arc", Category::Motion, Severity::Error,
-                                 "Reports axis words without `R` and `I J K` where an arc is still in force."},
+                                 "Reports axis words without `R` and `I J K` in a block where an arc is still active."},
                         .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

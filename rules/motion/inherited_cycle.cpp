@@ -28,11 +28,11 @@ public:
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
     for (const NodeId node : places_) {
       const Word &word = *view_.modalMotionWords(node).front();
-      reporter.report({.message = fmt::format("{} drills once more here: a canned cycle is still in force",
-                                              context.quoted(word.span())),
-                       .span = word.span(),
-                       .notes = {"the cycle takes Z as its new depth, and goes there at feed",
-                                 "to retract write G80 before, or G00 in this block"}});
+      reporter.report(
+          {.message = fmt::format("{} drills again here: a canned cycle is still active", context.quoted(word.span())),
+           .span = word.span(),
+           .notes = {"the cycle takes Z as its new depth and feeds to it",
+                     "to retract, write G80 before this block or G00 in it"}});
     }
   }
 
@@ -59,7 +59,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule inheritedCycle;
 const Rule inheritedCycle{.info = {"inherited-cycle", Category::Motion, Severity::Warning,
-                                   "Reports a Z alone in a block where a drilling cycle is still in force."},
+                                   "Reports a block with only a `Z` while a drilling cycle is still active."},
                           .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -8,7 +8,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::FeedMode,
                 .actions = {CodeAction::FeedInverse},
                 .atProgramEnd = Severity::Warning,
-                .consequence = "every later F is taken for moves per minute, and each cutting block needs one",
+                .consequence = "every later F is read as inverse time, and each cutting block needs its own F",
                 .remedy = "write G94 before the end"},
                facts, context, reporter);
 }
@@ -18,7 +18,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule inverseTimeLeftOn;
 const Rule inverseTimeLeftOn{
     .info = {"inverse-time-left-on", Category::Motion, Severity::Warning,
-             "Reports inverse time feed that is still on when the program ends or returns, on some path."},
+             "Reports inverse time feed that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

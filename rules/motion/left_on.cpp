@@ -97,7 +97,7 @@ Severity severityAt(const ExitFact &exit, const LeftOn &mode, const FlowFacts &f
 void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
           const FlowFacts &facts, const Reporter &reporter) {
   const bool returns = exit.end == PathEnd::Returns;
-  reporter.report({.message = fmt::format("{} is still in force when the program {}",
+  reporter.report({.message = fmt::format("{} is still active when the program {}",
                                           view.context().quoted(leaving.word->span()), returns ? "returns" : "ends"),
                    .span = leaving.word->span(),
                    .labels = {{view.blockSpan(leaving.exit), returns ? "returns here" : "ends here"}},

@@ -13,7 +13,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule lengthOffsetWithoutNumber;
 const Rule lengthOffsetWithoutNumber{.info = {"length-offset-without-number", Category::Motion, Severity::Warning,
-                                              "Reports a `G43` or `G44` of a main program that comes before any `H`."},
+                                              "Reports a `G43` or `G44` in a main program before any `H`."},
                                      .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -57,13 +57,12 @@ void checkPair(const Loop &outer, const Loop &inner, const FileContext &context,
       continue;
     const Span place = context.tree.expressions[other->expression].span;
     return reporter.report(
-        {.message =
-             fmt::format("{}, the counter of the outer loop, is stepped in the inner loop too", context.quoted(place)),
+        {.message = fmt::format("the inner loop also steps {}, the counter of the outer loop", context.quoted(place)),
          .span = place,
-         .labels = {{context.tree.statements[outer.doStatement].span, "counted by it"},
-                    {context.tree.expressions[own->expression].span, "stepped here already"}},
-         .notes = {"the outer loop skips what the inner one has stepped over: passes are missing",
-                   "give the inner loop a counter of its own"}});
+         .labels = {{context.tree.statements[outer.doStatement].span, "the outer loop counts with it"},
+                    {context.tree.expressions[own->expression].span, "the step of the outer loop"}},
+         .notes = {"the outer loop leaves out the levels that the inner loop has stepped over",
+                   "give the inner loop its own counter"}});
   }
 }
 
@@ -77,10 +76,8 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule loopCounterClobbered;
-const Rule loopCounterClobbered{
-    .info = {"loop-counter-clobbered", Category::Motion, Severity::Warning,
-             "Reports an inner loop that steps the counter of the outer loop, which steps it "
-             "itself."},
-    .hooks = {.file = check}};
+const Rule loopCounterClobbered{.info = {"loop-counter-clobbered", Category::Motion, Severity::Warning,
+                                         "Reports an inner loop that steps the counter of the outer loop as well."},
+                                .hooks = {.file = check}};
 
 } // namespace feedhold::rules

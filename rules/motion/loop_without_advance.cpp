@@ -44,13 +44,14 @@ private:
         std::ranges::any_of(words, [&](const Word *word) { return changes(*word, loop, context); }))
       return;
     reporter.report(
-        {.message = fmt::format("every pass of this loop moves to the same {}", context.quoted((*depth)->span())),
+        {.message = fmt::format("every iteration of this loop moves to the same {}", context.quoted((*depth)->span())),
          .span = (*depth)->span(),
          .labels = {{context.tree.statements[loop.doStatement].span, "the loop"}},
          .way = wayFromEntry(facts, *move),
-         .notes = {absolute_.contains(*move) ? "G90 is in force: the second pass does not move any more"
-                                             : "unless the caller has set G91, the second pass does not move any more",
-                   "for steps write G91 before the loop, or compute the coordinate from the counter"}});
+         .notes = {absolute_.contains(*move)
+                       ? "G90 is active: from the second iteration on, the axis does not move"
+                       : "unless the caller has set G91, the axis does not move from the second iteration on",
+                   "write G91 before the loop, or compute the coordinate from the counter"}});
   }
 
   /// The one node of the loop that moves: a loop with several goes out and back, and may well repeat that.
@@ -103,10 +104,9 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule loopWithoutAdvance;
-const Rule loopWithoutAdvance{
-    .info = {"loop-without-advance", Category::Motion, Severity::Warning,
-             "Reports a loop whose only movement goes to the same computed place in every pass, "
-             "unless `G91` is in force."},
-    .hooks = {.watch = watch}};
+const Rule loopWithoutAdvance{.info = {"loop-without-advance", Category::Motion, Severity::Warning,
+                                       "Reports a loop whose only move goes to the same computed position in every "
+                                       "iteration, unless `G91` is active."},
+                              .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

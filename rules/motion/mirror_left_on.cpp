@@ -8,8 +8,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Mirror,
                 .actions = {CodeAction::MirrorOn},
                 .atProgramEnd = Severity::Info,
-                .consequence = "every later movement is mirrored too",
-                .remedy = "cancel it by G50.1 before the end"},
+                .consequence = "every later move is mirrored too",
+                .remedy = "cancel it with G50.1 before the end"},
                facts, context, reporter);
 }
 
@@ -18,7 +18,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule mirrorLeftOn;
 const Rule mirrorLeftOn{
     .info = {"mirror-left-on", Category::Motion, Severity::Warning,
-             "Reports a mirror image that is still on when the program ends or returns, on some path."},
+             "Reports a mirror image that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

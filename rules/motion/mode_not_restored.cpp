@@ -89,12 +89,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (!change)
         continue;
       reporter.report(
-          {.message = fmt::format("the mode saved in `#{}` is not restored on a way to this end", saving.variable),
+          {.message = fmt::format("the mode saved in `#{}` is not restored on a path to this end", saving.variable),
            .span = view.blockSpan(exit.node),
            .labels = {{saving.place, "saved here"}, {view.blockSpan(change->first), "changed here"}},
            .way = describeWay(facts, change->second),
-           .notes = {"the caller goes on in another mode than it had",
-                     fmt::format("restore it by `G#{}` before this end, too", saving.variable)}});
+           .notes = {"the caller continues in another mode than before the call",
+                     fmt::format("restore it with `G#{}` before this end, too", saving.variable)}});
     }
 }
 
@@ -102,9 +102,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule modeNotRestored;
 const Rule modeNotRestored{
-    .info = {"mode-not-restored", Category::Motion, Severity::Warning,
-             "Reports a called program that saves a mode of its caller and returns, on some path, "
-             "without restoring it."},
+    .info =
+        {"mode-not-restored", Category::Motion, Severity::Warning,
+         "Reports a called program that saves a mode of its caller but, on some path, returns without restoring it."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -28,8 +28,8 @@ public:
         {.message = fmt::format("{} comes before any `G00`, `G01`, `G02` or `G03`", context.quoted(word.span())),
          .span = word.span(),
          .way = wayFromEntry(facts, *first_.node(), sets),
-         .notes = {"the block moves as the last movement before did: at rapid, at feed, or on an arc",
-                   "write the G code of the movement in this block"}},
+         .notes = {"the block moves like the last move before it: at rapid, at feed, or along an arc",
+                   "write the motion code in this block"}},
         isMain ? Severity::Warning : Severity::Info);
   }
 
@@ -46,8 +46,8 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule motionCodeNotSet;
 const Rule motionCodeNotSet{.info = {"motion-code-not-set", Category::Motion, Severity::Warning,
-                                     "Reports the first axis words of a program that come, on some path, before any "
-                                     "`G00`, `G01`, `G02` or `G03`."},
+                                     "Reports the first axis words of a program when no `G00`, `G01`, `G02` or `G03` "
+                                     "comes before them on some path."},
                             .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

@@ -26,12 +26,12 @@ public:
       if (!never)
         continue;
       const Word *word = findCode(node);
-      reporter.report(
-          {.message = fmt::format("{} has no `{}`, and none comes before it", context.quoted(word->span()), letter_),
-           .span = word->span(),
-           .way = wayFromEntry(facts, node),
-           .notes = {fmt::format("{} is that of the program that ran before, or none", offset_),
-                     fmt::format("write {} in this block", letter_)}});
+      reporter.report({.message = fmt::format("{} has no `{}`, and no earlier block sets it",
+                                              context.quoted(word->span()), letter_),
+                       .span = word->span(),
+                       .way = wayFromEntry(facts, node),
+                       .notes = {fmt::format("{} is whatever the previous program left active, or none", offset_),
+                                 fmt::format("write {} in this block", letter_)}});
     }
   }
 

@@ -37,11 +37,11 @@ public:
       if (!node || !compensated_.contains(*node))
         continue;
       const Span span = context.tree.expressions[use.expression].span;
-      reporter.report({.message = fmt::format("{} is written while G41 or G42 is in force", context.quoted(span)),
-                       .span = span,
-                       .notes = {"the control has computed the next blocks with the old offset already: from which "
-                                 "block on the new one counts differs",
-                                 "write it before the compensation is switched on, or behind G40"}});
+      reporter.report(
+          {.message = fmt::format("{} is written while G41 or G42 is active", context.quoted(span)),
+           .span = span,
+           .notes = {"the next blocks are already computed with the old offset; where the new one takes effect varies",
+                     "write it before G41 or G42, or after G40"}});
     }
   }
 
@@ -58,7 +58,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule offsetUnderCompensation;
 const Rule offsetUnderCompensation{.info = {"offset-under-compensation", Category::Motion, Severity::Warning,
-                                            "Reports a tool offset that is written while G41 or G42 is in force."},
+                                            "Reports a tool offset that is written while `G41` or `G42` is active."},
                                    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

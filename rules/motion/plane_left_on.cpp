@@ -8,8 +8,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Plane,
                 .actions = {CodeAction::PlaneZX, CodeAction::PlaneYZ},
                 .atProgramEnd = std::nullopt,
-                .consequence = "the caller's arcs, cycles and cutter compensation work in another plane from here on",
-                .remedy = "restore what #4002 said at the head, or write G17"},
+                .consequence = "the caller's arcs, canned cycles and cutter compensation would work in the wrong plane",
+                .remedy = "restore the plane that #4002 gave at the start, or write G17"},
                facts, context, reporter);
 }
 
@@ -17,7 +17,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule planeLeftOn;
 const Rule planeLeftOn{.info = {"plane-left-on", Category::Motion, Severity::Warning,
-                                "Reports a called program that returns with `G18` or `G19` in force, on some path."},
+                                "Reports a called program that returns with `G18` or `G19` active, on some path."},
                        .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

@@ -8,8 +8,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Polar,
                 .actions = {CodeAction::PolarOn},
                 .atProgramEnd = Severity::Info,
-                .consequence = "every later X and Y is a radius and an angle",
-                .remedy = "cancel it by G15 before the end"},
+                .consequence = "every later X is read as a radius and every Y as an angle",
+                .remedy = "cancel it with G15 before the end"},
                facts, context, reporter);
 }
 
@@ -18,7 +18,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule polarLeftOn;
 const Rule polarLeftOn{
     .info = {"polar-left-on", Category::Motion, Severity::Warning,
-             "Reports polar coordinates that are still on when the program ends or returns, on some path."},
+             "Reports polar coordinates that are still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

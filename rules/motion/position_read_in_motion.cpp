@@ -58,22 +58,22 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     told = use.block;
     const Span place = context.tree.expressions[use.expression].span;
-    reporter.report({.message = fmt::format("{} is read while the axes may still be moving", context.quoted(place)),
-                     .span = place,
-                     .labels = {{view.blockSpan(*movement), "this movement may not have ended"}},
-                     .notes = {"a control that reads ahead takes some place on the way",
-                               "read the end point of the block, #5001 and following, or let the control wait before "
-                               "it, by a dwell or an M code that is not buffered"}});
+    reporter.report(
+        {.message = fmt::format("{} is read while the axes may still be moving", context.quoted(place)),
+         .span = place,
+         .labels = {{view.blockSpan(*movement), "this move may not have finished"}},
+         .notes = {
+             "a control that reads ahead returns some position along the move",
+             "read the end point (#5001 and up), or make the control wait first: a dwell or an unbuffered M code"}});
   }
 }
 
 } // namespace
 
 extern const Rule positionReadInMotion;
-const Rule positionReadInMotion{
-    .info = {"position-read-in-motion", Category::Motion, Severity::Info,
-             "Reports a present position that is read right behind a movement, with nothing "
-             "between for which the control waits."},
-    .hooks = {.flow = check}};
+const Rule positionReadInMotion{.info = {"position-read-in-motion", Category::Motion, Severity::Info,
+                                         "Reports a current position that is read right after a move, with nothing in "
+                                         "between for which the control waits."},
+                                .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

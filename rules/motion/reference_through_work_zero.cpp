@@ -26,13 +26,12 @@ public:
         continue;
       const Word &word = *depthWord(node);
       reporter.report(
-          {.message =
-               fmt::format("{} under `G90` is a place on the way: the zero of the part", context.quoted(word.span())),
+          {.message = fmt::format("{} under `G90` makes part zero the intermediate point", context.quoted(word.span())),
            .span = word.span(),
            .way = wayFromEntry(facts, node),
-           .notes = {"the tool goes down to Z0 at rapid before it goes to the reference point",
-                     "write G91 in this block: Z0 is then no way at all"},
-           .fixes = {{.title = "write `G91` before it", .edits = {{{word.span().begin, word.span().begin}, "G91"}}}}});
+           .notes = {"the tool moves down to Z0 at rapid before it goes to the reference point",
+                     "write G91 in this block: the intermediate point is then the current position"},
+           .fixes = {{.title = "insert `G91`", .edits = {{{word.span().begin, word.span().begin}, "G91"}}}}});
     }
   }
 
@@ -58,7 +57,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule referenceThroughWorkZero;
 const Rule referenceThroughWorkZero{.info = {"reference-through-work-zero", Category::Motion, Severity::Warning,
-                                             "Reports a reference return by `Z0` while `G90` is in force."},
+                                             "Reports a reference return with `Z0` while `G90` is active."},
                                     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

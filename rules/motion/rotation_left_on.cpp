@@ -8,8 +8,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Rotation,
                 .actions = {CodeAction::RotationOn},
                 .atProgramEnd = Severity::Info,
-                .consequence = "every later movement is turned too",
-                .remedy = "cancel it by G69 before the end"},
+                .consequence = "every later move is rotated too",
+                .remedy = "cancel it with G69 before the end"},
                facts, context, reporter);
 }
 
@@ -18,7 +18,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule rotationLeftOn;
 const Rule rotationLeftOn{
     .info = {"rotation-left-on", Category::Motion, Severity::Warning,
-             "Reports a coordinate rotation that is still on when the program ends or returns, on some path."},
+             "Reports a coordinate rotation that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

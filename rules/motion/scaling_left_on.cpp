@@ -8,16 +8,17 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   reportLeftOn({.kind = ModalKind::Scaling,
                 .actions = {CodeAction::ScalingOn},
                 .atProgramEnd = Severity::Info,
-                .consequence = "every later movement is scaled too",
-                .remedy = "cancel it by G50 before the end"},
+                .consequence = "every later move is scaled too",
+                .remedy = "cancel it with G50 before the end"},
                facts, context, reporter);
 }
 
 } // namespace
 
 extern const Rule scalingLeftOn;
-const Rule scalingLeftOn{.info = {"scaling-left-on", Category::Motion, Severity::Warning,
-                                  "Reports a scaling that is still on when the program ends or returns, on some path."},
-                         .hooks = {.flow = check}};
+const Rule scalingLeftOn{
+    .info = {"scaling-left-on", Category::Motion, Severity::Warning,
+             "Reports scaling that is still active when the program ends or returns, on some path."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

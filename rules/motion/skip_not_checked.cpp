@@ -73,19 +73,19 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     return;
   const Span span = context.tree.expressions[read->expression].span;
   reporter.report(
-      {.message = fmt::format("{} is taken for a touch, and nothing asks whether there was one", context.quoted(span)),
+      {.message = fmt::format("{} is used, but nothing checks whether the skip signal came", context.quoted(span)),
        .span = span,
-       .labels = {{view.blockSpan(*skip), "without a signal this goes to its end point"}},
-       .notes = {"when the probe touches nothing the end point is taken for the surface",
-                 "compare the position with the end point, and give an alarm when they are equal"}});
+       .labels = {{view.blockSpan(*skip), "without a signal this moves to its end point"}},
+       .notes = {"if the probe touches nothing, the end point is taken as the surface",
+                 "compare the position with the end point, and raise an alarm when they are equal"}});
 }
 
 } // namespace
 
 extern const Rule skipNotChecked;
-const Rule skipNotChecked{.info = {"skip-not-checked", Category::Motion, Severity::Info,
-                                   "Reports a skip position that is used though nothing asks whether the skip signal "
-                                   "came."},
-                          .hooks = {.flow = check}};
+const Rule skipNotChecked{
+    .info = {"skip-not-checked", Category::Motion, Severity::Info,
+             "Reports a skip position that is used without a check whether the skip signal came."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules

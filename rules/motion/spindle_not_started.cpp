@@ -30,16 +30,16 @@ public:
     const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
     Diagnostic diagnostic{.message = {},
                           .span = view_.modalMotionWords(*first_.node()).front()->span(),
-                          .notes = {"the tool is pushed into the part while the spindle stands still"}};
+                          .notes = {"the tool is fed into the part with the spindle stopped"}};
     if (const auto stop = stopBefore(facts)) {
-      diagnostic.message = fmt::format("the cutting move to {} comes with the spindle stopped", move);
+      diagnostic.message = fmt::format("the spindle is stopped at the cutting move to {}", move);
       diagnostic.labels = {{view_.findAction(stop->node, {CodeAction::SpindleStop})->span(), "stopped here"}};
       diagnostic.way = describeWay(facts, stop->way);
-      diagnostic.notes.push_back("start it again by M03 before this cut");
+      diagnostic.notes.push_back("start it again with M03 before this cut");
     } else {
-      diagnostic.message = fmt::format("the cutting move to {} comes without `M03` or `M04` before it", move);
+      diagnostic.message = fmt::format("no `M03` or `M04` comes before the cutting move to {}", move);
       diagnostic.way = wayFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
-      diagnostic.notes.push_back("start the spindle by S and M03 before the first cut");
+      diagnostic.notes.push_back("start the spindle with S and M03 before the first cut");
     }
     reporter.report(std::move(diagnostic), speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
   }
@@ -111,8 +111,8 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule spindleNotStarted;
 const Rule spindleNotStarted{.info = {"spindle-not-started", Category::Motion, Severity::Warning,
-                                      "Reports the first cutting move of a main program for a mill that comes, on some "
-                                      "path, without `M03` or `M04`."},
+                                      "Reports the first cutting move of a main program on a mill when no `M03` or "
+                                      "`M04` comes before it on some path."},
                              .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules

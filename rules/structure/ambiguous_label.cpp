@@ -12,6 +12,9 @@
 namespace feedhold::rules {
 namespace {
 
+constexpr std::string_view kSearchOrder =
+    "the control searches from the GOTO to the end of the program, then from the top; parameters can change this";
+
 using Copies = std::span<const SequenceNumber>;
 
 /// The GOTOs of a program that find a block, by the number that they name.
@@ -34,14 +37,12 @@ const SequenceNumber &copyAt(Copies copies, BlockId block) {
 /// Some copy is found by no jump: it is a second use of the number, or a mistyped one.
 void reportNeverFound(const SequenceNumber &lost, Copies copies, const Jump &jump, const FileContext &context,
                       const Reporter &reporter) {
-  reporter.report(
-      {.message = fmt::format("`N{}` stands more than once, and no jump finds this one", lost.number),
-       .span = spanOf(lost, context),
-       .labels = {{jump.span, "jumps to the other one"},
-                  {spanOf(copyAt(copies, *jump.target), context), "this one is found"}},
-       .notes = {"the control takes the first one that it meets from the jump to the end of the program, then from "
-                 "the top; machine parameters can change the order",
-                 "give each target a number of its own"}});
+  const Span found = spanOf(copyAt(copies, *jump.target), context);
+  reporter.report({.message = fmt::format("{} goes to the `N{}` in line {}, never to this one",
+                                          context.quoted(jump.span), lost.number, context.source.lineOf(found.begin)),
+                   .span = spanOf(lost, context),
+                   .labels = {{jump.span, "this jump"}, {found, "found first"}},
+                   .notes = {std::string(kSearchOrder), "give each jump target its own sequence number"}});
 }
 
 /// A jump backward to a number of several blocks finds the first in the program, not the nearest before it.
@@ -51,13 +52,13 @@ void reportBackward(const Jump &jump, Copies copies, const FileContext &context,
   const SequenceNumber &nearest = *std::prev(behind);
   if (nearest.block == found.block)
     return;
+  const auto lineOf = [&](const SequenceNumber &copy) { return context.source.lineOf(spanOf(copy, context).begin); };
   reporter.report(
-      {.message = fmt::format("{} goes back to the first `N{}` of the program, not to the nearest",
-                              context.quoted(jump.span), found.number),
+      {.message = fmt::format("{} goes back to the `N{}` in line {}, not to the nearer one in line {}",
+                              context.quoted(jump.span), found.number, lineOf(found), lineOf(nearest)),
        .span = jump.span,
-       .labels = {{spanOf(found, context), "this one is found"}, {spanOf(nearest, context), "this one is nearer"}},
-       .notes = {"the search goes from the jump to the end of the program, then from the top",
-                 "give each target a number of its own"}});
+       .labels = {{spanOf(found, context), "found first"}, {spanOf(nearest, context), "nearer, but not found"}},
+       .notes = {std::string(kSearchOrder), "give each jump target its own sequence number"}});
 }
 
 void checkNumber(Copies copies, std::span<const Jump *const> jumps, const FileContext &context,
@@ -96,8 +97,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule ambiguousLabel;
 const Rule ambiguousLabel{.info = {"ambiguous-label", Category::Structure, Severity::Warning,
-                                   "Reports a jump target whose number several blocks of the program have, when a jump "
-                                   "may miss the block that was meant."},
+                                   "Reports a `GOTO` to a sequence number that several blocks of the program have, "
+                                   "when it may find the wrong one."},
                           .hooks = {.program = check}};
 
 } // namespace feedhold::rules

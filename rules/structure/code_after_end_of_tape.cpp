@@ -30,16 +30,17 @@ std::optional<BlockId> firstBlockBehind(const FileContext &context) {
 
 void reportJumps(const std::vector<const Jump *> &jumps, Span span, const FileContext &context,
                  const Reporter &reporter) {
-  Diagnostic diagnostic{.message = "the program jumps to blocks behind the closing `%`",
+  Diagnostic diagnostic{.message = "the program jumps to blocks after the closing `%`",
                         .span = span,
-                        .label = "not read by the control",
-                        .notes = {fmt::format("the blocks are not stored with the program: at the jump the control {}",
+                        .label = "the control does not read this",
+                        .notes = {fmt::format("blocks after the `%` are not stored: at the jump the control {}",
                                               stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
                                   "move the `%` to the end of the file"}};
   for (std::size_t i = 0; i < jumps.size() && i < kShownJumps; ++i)
-    diagnostic.labels.push_back({jumps[i]->span, fmt::format("`N{}` is behind the end", *targetNumber(*jumps[i]))});
+    diagnostic.labels.push_back(
+        {jumps[i]->span, fmt::format("`N{}` is after the closing `%`", *targetNumber(*jumps[i]))});
   if (jumps.size() > kShownJumps)
-    diagnostic.notes.push_back(fmt::format("{} more jumps go there", jumps.size() - kShownJumps));
+    diagnostic.notes.push_back(fmt::format("{} more jumps lead to blocks after the `%`", jumps.size() - kShownJumps));
   reporter.report(std::move(diagnostic));
 }
 
@@ -51,10 +52,11 @@ void check(const FileContext &context, const Reporter &reporter) {
   const auto jumps = lostJumps(context);
   if (!jumps.empty())
     return reportJumps(jumps, span, context, reporter);
-  reporter.report({.message = "text behind the closing `%` is not read by the control",
-                   .span = span,
-                   .notes = {"what stands here is not stored with the program"}},
-                  Severity::Info);
+  reporter.report(
+      {.message = "the control does not read text after the closing `%`",
+       .span = span,
+       .notes = {"these blocks are not stored in the control; delete them, or move the `%` to the end of the file"}},
+      Severity::Info);
 }
 
 } // namespace
@@ -62,7 +64,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 extern const Rule codeAfterEndOfTape;
 const Rule codeAfterEndOfTape{
     .info = {"code-after-end-of-tape", Category::Structure, Severity::Error,
-             "Reports program text behind the closing `%`; an error when the program jumps there."},
+             "Reports program text after the closing `%`; it is an error when the program jumps there."},
     .hooks = {.file = check}};
 
 } // namespace feedhold::rules

@@ -8,10 +8,11 @@ namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   reporter.report(
-      {.message = fmt::format("the number in {} is computed", context.quoted(issue.other)),
+      {.message =
+           fmt::format("{} must be a plain number, not a variable or an expression", context.quoted(issue.other)),
        .span = issue.span,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::NumberMissingAfterOOrN)),
-                 "O and N take a number only; a jump may be computed: `GOTO#1`"}});
+                 "`O` and `N` take a plain number only; compute the number in the jump instead: `GOTO#1`"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ComputedNumberForbidden};
@@ -21,7 +22,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ComputedNumberForbidden}
 extern const Rule computedProgramOrSequenceNumber;
 const Rule computedProgramOrSequenceNumber{
     .info = {"computed-program-or-sequence-number", Category::Structure, Severity::Error,
-             "Reports a program number or a sequence number that is a variable or an expression."},
+             "Reports a program number or sequence number that is a variable or an expression."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -21,14 +21,15 @@ void check(const FileContext &context, const Reporter &reporter) {
     for (std::size_t k = i + 1; k < loops.size() && isInside(loops[i], loops[k].doBlock); ++k) {
       if (!cross(loops[i], loops[k]))
         continue;
-      reporter.report({.message = fmt::format("loop {} ends while loop {}, begun inside it, is still open",
-                                              *loops[i].number, *loops[k].number),
-                       .span = span(*loops[i].endStatement, context),
-                       .labels = {{span(loops[i].doStatement, context), "the outer loop begins"},
-                                  {span(loops[k].doStatement, context), "the inner loop begins"},
-                                  {span(*loops[k].endStatement, context), "the inner loop ends too late"}},
-                       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd)),
-                                 "an inner loop must end before the loop around it"}});
+      reporter.report(
+          {.message = fmt::format("`END{0}` comes before `END{1}`, but loop {1} begins inside loop {0}",
+                                  *loops[i].number, *loops[k].number),
+           .span = span(*loops[i].endStatement, context),
+           .labels = {{span(loops[i].doStatement, context), "the outer loop begins here"},
+                      {span(loops[k].doStatement, context), "the inner loop begins here"},
+                      {span(*loops[k].endStatement, context), "the inner loop must end before the outer one"}},
+           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd)),
+                     "end the inner loop before the outer one"}});
       break; // one finding for each outer loop
     }
   }
@@ -38,7 +39,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule crossedLoops;
 const Rule crossedLoops{.info = {"crossed-loops", Category::Structure, Severity::Error,
-                                 "Reports two loops of which neither encloses the other."},
+                                 "Reports two loops that overlap, so that neither encloses the other."},
                         .hooks = {.file = check}};
 
 } // namespace feedhold::rules

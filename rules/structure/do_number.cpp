@@ -11,9 +11,9 @@ std::string stops(const FileContext &context) {
 }
 
 void checkMissing(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} without a number", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} has no loop number", context.quoted(issue.span)),
                    .span = issue.span,
-                   .notes = {stops(context), "DO and END find each other by their number"}});
+                   .notes = {stops(context), "write the number: `DO1` .. `END1`; DO and END are paired by it"}});
 }
 
 std::optional<ExpressionId> numberOf(const Statement &statement) {
@@ -34,17 +34,17 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
   const auto value = literalValue(context.tree, *number);
   const Span span = context.tree.expressions[*number].span;
   if (!value) {
-    reporter.report({.message = fmt::format("the loop number {} is computed", context.quoted(span)),
+    reporter.report({.message = fmt::format("loop number {} is not a plain number", context.quoted(span)),
                      .span = span,
-                     .notes = {stops(context), "DO and END take a number only"}});
+                     .notes = {stops(context), "DO and END take a plain number only, no variable or expression"}});
     return;
   }
   const bool fits = value->isInteger() && Decimal::fromInteger(1) <= *value && *value <= Decimal::fromInteger(last);
   if (!fits)
     reporter.report(
-        {.message = fmt::format("loop number {} where only 1 to {} exist", value->toString(), last),
+        {.message = fmt::format("loop number {} does not exist; this control has 1 to {}", value->toString(), last),
          .span = span,
-         .notes = {stops(context), "a number may be used again for a loop that does not enclose this one"}});
+         .notes = {stops(context), "reuse a number of a loop that does not enclose this one"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::DoWithoutNumber};
@@ -52,8 +52,9 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::DoWithoutNumber};
 } // namespace
 
 extern const Rule doNumber;
-const Rule doNumber{.info = {"do-number", Category::Structure, Severity::Error,
-                             "Reports a `DO` or `END` whose number the control does not have."},
-                    .hooks = {.issue = checkMissing, .issueKinds = kIssues, .statement = check}};
+const Rule doNumber{
+    .info = {"do-number", Category::Structure, Severity::Error,
+             "Reports a `DO` or `END` whose number is missing, computed, or not available on the control."},
+    .hooks = {.issue = checkMissing, .issueKinds = kIssues, .statement = check}};
 
 } // namespace feedhold::rules

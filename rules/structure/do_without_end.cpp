@@ -19,7 +19,7 @@ void addRepair(Diagnostic &diagnostic, const Loop &loop, const FileContext &cont
   if (!end)
     return;
   const Span span = context.tree.statements[end->statement].span;
-  diagnostic.labels.push_back({span, "no DO leads to this END"});
+  diagnostic.labels.push_back({span, "this END has no DO"});
   diagnostic.fixes.push_back(
       {.title = fmt::format("write `END{}`", *loop.number), .edits = {{span, fmt::format("END{}", *loop.number)}}});
 }
@@ -33,7 +33,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       dead.emplace(context, program);
     if (dead->contains(loop.doBlock))
       continue;
-    Diagnostic diagnostic{.message = fmt::format("`DO{}` without `END{}`", *loop.number, *loop.number),
+    Diagnostic diagnostic{.message = fmt::format("`DO{}` has no `END{}`", *loop.number, *loop.number),
                           .span = context.tree.statements[loop.doStatement].span,
                           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd))}};
     addRepair(diagnostic, loop, context);
@@ -45,7 +45,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule doWithoutEnd;
 const Rule doWithoutEnd{.info = {"do-without-end", Category::Structure, Severity::Error,
-                                 "Reports a `DO` with no `END` of its number behind it."},
+                                 "Reports a `DO` without a later `END` of the same number."},
                         .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -26,24 +26,25 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   std::vector<Label> labels;
   for (const ProgramRef &other : namesakes)
     if (other.file != program.file || other.program < program.program)
-      labels.push_back({context.callGraph.model(other.file).programs[other.program].header, "the other", other.file});
+      labels.push_back(
+          {context.callGraph.model(other.file).programs[other.program].header, "the other one", other.file});
   const bool inOneFile = std::ranges::any_of(namesakes, [&](const auto &other) { return other.file == program.file; });
   const bool isCalled = context.callGraph.isCalled(program);
-  reporter.report({.message = fmt::format("there is more than one `{}`", toString(its.name)),
-                   .span = its.header,
-                   .labels = std::move(labels),
-                   .notes = {isCalled ? "a call runs the one that is in the memory of the control: nothing is said "
-                                        "here of what it does"
-                                      : "the memory of the control holds one of them",
-                             "give each program a number of its own, or keep versions in folders of their own"}},
-                  inOneFile || isCalled ? Severity::Warning : Severity::Info);
+  reporter.report(
+      {.message = fmt::format("`{}` exists more than once", toString(its.name)),
+       .span = its.header,
+       .labels = std::move(labels),
+       .notes = {isCalled ? "a call runs whichever one is in the memory of the control, so what it does is unknown"
+                          : "the memory of the control holds only one of them",
+                 "give each program its own number, or keep versions in separate folders"}},
+      inOneFile || isCalled ? Severity::Warning : Severity::Info);
 }
 
 } // namespace
 
 extern const Rule duplicateProgram;
 const Rule duplicateProgram{.info = {"duplicate-program", Category::Structure, Severity::Warning,
-                                     "Reports programs of one file or one folder that have the same number or name."},
+                                     "Reports programs in one file or folder that have the same number or name."},
                             .hooks = {.program = check}};
 
 } // namespace feedhold::rules

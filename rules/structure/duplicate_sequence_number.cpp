@@ -47,14 +47,13 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     return;
   const Repeated &first = *std::ranges::min_element(repeated, {}, [](const Repeated &r) { return r.second.block; });
   const std::string message =
-      repeated.size() == 1 ? fmt::format("`N{}` stands more than once in this program", first.second.number)
-                           : fmt::format("`N{}` and {} other sequence number{} stand more than once in this program",
+      repeated.size() == 1 ? fmt::format("`N{}` occurs more than once in this program", first.second.number)
+                           : fmt::format("`N{}` and {} other sequence number{} occur more than once in this program",
                                          first.second.number, repeated.size() - 1, repeated.size() == 2 ? "" : "s");
-  reporter.report(
-      {.message = message,
-       .span = context.tree.words[first.second.word].span(),
-       .labels = {{context.tree.words[first.first.word].span(), "the first one"}},
-       .notes = {"no jump uses it, but a search for the number at the machine may stop at the wrong block"}});
+  reporter.report({.message = message,
+                   .span = context.tree.words[first.second.word].span(),
+                   .labels = {{context.tree.words[first.first.word].span(), "first used here"}},
+                   .notes = {"no jump uses it, but a sequence number search at the machine may find the wrong block"}});
 }
 
 } // namespace
@@ -62,7 +61,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 extern const Rule duplicateSequenceNumber;
 const Rule duplicateSequenceNumber{
     .info = {"duplicate-sequence-number", Category::Structure, Severity::Info,
-             "Reports sequence numbers that several blocks of a program have, though no jump uses them."},
+             "Reports a sequence number that several blocks of a program have, when no jump uses it."},
     .hooks = {.program = check}};
 
 } // namespace feedhold::rules

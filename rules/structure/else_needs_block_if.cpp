@@ -17,7 +17,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     const Span span = context.tree.statements[lines.parts.front()].span;
     reporter.report({.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(span)),
                      .span = span,
-                     .labels = {{context.tree.statements[lines.head].span, "belongs to this IF"}},
+                     .labels = {{context.tree.statements[lines.head].span, "the IF it belongs to"}},
                      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
                                "jump over the other branch with `IF[..]GOTO`"}});
   }
@@ -28,7 +28,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 extern const Rule elseNeedsBlockIf;
 const Rule elseNeedsBlockIf{
     .info = {"else-needs-block-if", Category::Structure, Severity::Error,
-             "Reports an `ELSE`, `ELSEIF` or `ENDIF` on a control that has the one-line `IF` only."},
+             "Reports `ELSE`, `ELSEIF` or `ENDIF` on a control that only has the one-line `IF`."},
     .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -27,9 +27,9 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       dead.emplace(context, program);
     if (dead->contains(end.block))
       continue;
-    reporter.report({.message = fmt::format("`END{}` without `DO{}`", *end.number, *end.number),
+    reporter.report({.message = fmt::format("`END{}` has no `DO{}`", *end.number, *end.number),
                      .span = context.tree.statements[end.statement].span,
-                     .notes = {fmt::format("when it is reached, the control {}",
+                     .notes = {fmt::format("when it reaches this block, the control {}",
                                            stopsWith(context.dialect, AlarmKind::MissingDo))}});
   }
 }
@@ -37,8 +37,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 } // namespace
 
 extern const Rule endWithoutDo;
-const Rule endWithoutDo{.info = {"end-without-do", Category::Structure, Severity::Error,
-                                 "Reports an `END` that no `DO` of its number leads to."},
-                        .hooks = {.program = check}};
+const Rule endWithoutDo{
+    .info = {"end-without-do", Category::Structure, Severity::Error, "Reports an `END` without a matching `DO`."},
+    .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -49,10 +49,10 @@ void check(const FileContext &context, const Reporter &reporter) {
     if (!loop.endBlock || hasCondition(context, loop) || hasWayOut(loop, context) || mayEnd(loop, context))
       continue;
     reporter.report(
-        {.message = "no way leads out of this loop: it has no condition and nothing inside leaves it",
+        {.message = "this loop never ends: it has no condition and nothing inside leaves it",
          .span = context.tree.statements[loop.doStatement].span,
-         .labels = {{context.tree.statements[*loop.endStatement].span, "goes back every time"}},
-         .notes = {"only reset or an alarm stops it; write `WHILE[..]` before the DO, or leave it by `IF[..]GOTO`"}});
+         .labels = {{context.tree.statements[*loop.endStatement].span, "always goes back to the DO"}},
+         .notes = {"only reset or an alarm stops it; add `WHILE[..]` before the DO, or leave with `IF[..]GOTO`"}});
   }
 }
 
@@ -60,7 +60,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule endlessLoop;
 const Rule endlessLoop{.info = {"endless-loop", Category::Structure, Severity::Warning,
-                                "Reports a `DO` without `WHILE` that nothing inside of it ever leaves."},
+                                "Reports a `DO` without `WHILE` that nothing inside the loop ever leaves."},
                        .hooks = {.file = check}};
 
 } // namespace feedhold::rules

@@ -29,11 +29,11 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     return;
   const Word *code = findCode(context.tree, block, context.dialect, CodeRole::DataSetting);
   const Word *kind = findWord(context.tree, block, 'L');
-  reporter.report({.message = fmt::format("{} {} is not ended by `G11`", context.quoted(code->span()),
-                                          context.quoted(kind->span())),
-                   .span = cover(code->span(), kind->span()),
-                   .notes = {"the control takes the blocks that follow for parameter data: their N is the number of a "
-                             "machine parameter"}});
+  reporter.report(
+      {.message =
+           fmt::format("{} {} has no `G11` after it", context.quoted(code->span()), context.quoted(kind->span())),
+       .span = cover(code->span(), kind->span()),
+       .notes = {"the control reads the blocks that follow as parameter data, with N as the parameter number"}});
 }
 
 } // namespace

@@ -27,16 +27,15 @@ std::string neighbours(const ProgramModel &model, ProgramId program, std::uint32
   if (!hasPrevious && !hasNext)
     return "the program has no sequence numbers";
   if (!hasPrevious)
-    return fmt::format("the lowest sequence number of the program is `N{}`", model.sequenceNumbers[*next].number);
+    return fmt::format("the lowest sequence number there is `N{}`", model.sequenceNumbers[*next].number);
   if (!hasNext)
-    return fmt::format("the highest sequence number of the program is `N{}`", model.sequenceNumbers[*previous].number);
-  return fmt::format("the nearest sequence numbers are `N{}` and `N{}`", model.sequenceNumbers[*previous].number,
+    return fmt::format("the highest sequence number there is `N{}`", model.sequenceNumbers[*previous].number);
+  return fmt::format("the nearest sequence numbers there are `N{}` and `N{}`", model.sequenceNumbers[*previous].number,
                      model.sequenceNumbers[*next].number);
 }
 
 Diagnostic missing(const Jump &jump, std::uint32_t number, const FileContext &context) {
-  return {.message =
-              fmt::format("{} has no target: there is no `N{}` in this program", context.quoted(jump.span), number),
+  return {.message = fmt::format("{} has no target: this program has no `N{}`", context.quoted(jump.span), number),
           .span = jump.targetSpan,
           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
                     neighbours(context.model, jump.program, number)}};

@@ -18,8 +18,8 @@ void check(const Jump &jump, const FileContext &context, const Reporter &reporte
   if (rounded >= first - 0.5 && rounded < last + 0.5)
     return;
   reporter.report(
-      {.message =
-           fmt::format("{} is no sequence number: they go from {} to {}", context.quoted(jump.targetSpan), first, last),
+      {.message = fmt::format("{} cannot be a sequence number; they go from {} to {}", context.quoted(jump.targetSpan),
+                              first, last),
        .span = jump.targetSpan,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceOutOfRange))}});
 }

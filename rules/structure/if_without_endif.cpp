@@ -14,11 +14,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   for (const IfLines &lines : ifStructures(context, program).structures) {
     if (lines.closed)
       continue;
-    Diagnostic diagnostic{.message = "this IF has no ENDIF",
+    Diagnostic diagnostic{.message = "this `IF` has no `ENDIF`",
                           .span = context.tree.statements[lines.head].span,
                           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}};
     if (!lines.parts.empty())
-      diagnostic.labels.push_back({context.tree.statements[lines.parts.back()].span, "its last branch"});
+      diagnostic.labels.push_back({context.tree.statements[lines.parts.back()].span, "its last branch begins here"});
     reporter.report(std::move(diagnostic));
   }
 }
@@ -27,7 +27,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule ifWithoutEndif;
 const Rule ifWithoutEndif{.info = {"if-without-endif", Category::Structure, Severity::Error,
-                                   "Reports an `IF` with its branches on lines of their own that no `ENDIF` closes."},
+                                   "Reports an `IF` over several lines that no `ENDIF` closes."},
                           .hooks = {.program = check}};
 
 } // namespace feedhold::rules

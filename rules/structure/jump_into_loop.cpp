@@ -12,11 +12,11 @@ void report(const Jump &jump, const Loop &loop, const FileContext &context, cons
   const std::string number = loop.number ? std::to_string(*loop.number) : "";
   reporter.report({.message = fmt::format("{} jumps into the loop `DO{}`", context.quoted(jump.span), number),
                    .span = jump.span,
-                   .labels = {{context.tree.statements[loop.doStatement].span, "the loop begins"},
-                              {context.tree.blocks[*jump.target].span(), "the jump comes in here"}},
-                   .notes = {fmt::format("at `END{}`, which no DO has opened, the control {}", number,
+                   .labels = {{context.tree.statements[loop.doStatement].span, "the loop begins here"},
+                              {context.tree.blocks[*jump.target].span(), "the jump arrives here"}},
+                   .notes = {fmt::format("the jump skips the DO: at `END{}` the control {}", number,
                                          stopsWith(context.dialect, AlarmKind::MissingDo)),
-                             "jump to a block before the DO"}});
+                             "jump to the DO, or to a block before it"}});
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
@@ -36,7 +36,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule jumpIntoLoop;
 const Rule jumpIntoLoop{.info = {"jump-into-loop", Category::Structure, Severity::Warning,
-                                 "Reports a jump from outside of a loop to a block inside of it."},
+                                 "Reports a jump from outside a loop to a block inside it."},
                         .hooks = {.program = check}};
 
 } // namespace feedhold::rules

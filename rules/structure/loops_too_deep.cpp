@@ -17,12 +17,12 @@ void check(const FileContext &context, const Reporter &reporter) {
     open.push_back(&loop);
     if (open.size() != limit + 1)
       continue;
-    Diagnostic diagnostic{.message =
-                              fmt::format("loop in {} others, where at most {} loops may be nested", limit, limit),
-                          .span = context.tree.statements[loop.doStatement].span,
-                          .labels = {{context.tree.statements[open.front()->doStatement].span, "the outermost loop"}},
-                          .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::LoopNumber)),
-                                    "move the inner loop to a macro of its own and call it"}};
+    Diagnostic diagnostic{
+        .message = fmt::format("this loop is inside {} others; this control nests at most {} loops", limit, limit),
+        .span = context.tree.statements[loop.doStatement].span,
+        .labels = {{context.tree.statements[open.front()->doStatement].span, "the outermost loop begins here"}},
+        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::LoopNumber)),
+                  "move the inner loop to a macro and call it"}};
     reporter.report(std::move(diagnostic));
   }
 }
@@ -31,7 +31,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule loopsTooDeep;
 const Rule loopsTooDeep{.info = {"loops-too-deep", Category::Structure, Severity::Error,
-                                 "Reports a loop inside of more loops than the control allows."},
+                                 "Reports loops nested deeper than the control allows."},
                         .hooks = {.file = check}};
 
 } // namespace feedhold::rules

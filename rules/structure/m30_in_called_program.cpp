@@ -22,14 +22,13 @@ std::optional<CallGraph::Caller> foreignCaller(const FileContext &context, Progr
 
 void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileContext &context, const Reporter &reporter) {
   const Call &call = context.callGraph.model(caller.file).calls[caller.call];
-  reporter.report(
-      {.message = fmt::format("{} in a program that is called ends the whole job", context.quoted(end.span())),
-       .span = end.span(),
-       .labels = {{call.span, "called here", caller.file}},
-       .notes = {"what the caller does behind the call is lost: restored modes, retracts, counters",
-                 call.kind == CallKind::OWord
-                     ? "a subroutine returns at its `endsub`"
-                     : "return with M99; raise an alarm by `#3000=` where the job must stop"}});
+  reporter.report({.message = fmt::format("{} in a called program ends the whole job", context.quoted(end.span())),
+                   .span = end.span(),
+                   .labels = {{call.span, "called here", caller.file}},
+                   .notes = {"the blocks after the call are never executed: retracts, restored modes, counters",
+                             call.kind == CallKind::OWord
+                                 ? "a subroutine returns at its `endsub`"
+                                 : "return with M99; where the job must stop, raise an alarm with `#3000=`"}});
 }
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {

@@ -37,9 +37,9 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   reporter.report(
       {.message = fmt::format("sequence number {} is not at the head of its block", context.quoted(word.span())),
        .span = word.span(),
-       .labels = {{*before, "stands before it"}},
+       .labels = {{*before, "comes before it"}},
        .notes = {"whether a jump finds the block depends on the control",
-                 "put it first, or on a line of its own if a line end was lost"}});
+                 "put it first, or on a new line if the line end was lost"}});
 }
 
 } // namespace

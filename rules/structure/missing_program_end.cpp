@@ -25,17 +25,17 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
   reporter.report({.message = fmt::format("`{}` can run past its last block", toString(program.name)),
                    .span = context.tree.blocks[*last].span(),
-                   .label = maySkip ? "the end is lost when this block is skipped" : "",
+                   .label = maySkip ? "with block skip on, the program does not end here" : "",
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
-                             "end a main program with M30, a called one with M99"}});
+                             "end a main program with M30, a subprogram or macro with M99"}});
 }
 
 } // namespace
 
 extern const Rule missingProgramEnd;
-const Rule missingProgramEnd{
-    .info = {"missing-program-end", Category::Structure, Severity::Warning,
-             "Reports a program whose last block is not `M02`, `M30`, `M99`, a jump or an alarm."},
-    .hooks = {.program = check}};
+const Rule missingProgramEnd{.info = {"missing-program-end", Category::Structure, Severity::Warning,
+                                      "Reports a program that can run past its last block, because that is not `M02`, "
+                                      "`M30`, `M99`, a jump or an alarm."},
+                             .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -26,11 +26,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     const Loop *outer = inner.number ? enclosing(nest, inner) : nullptr;
     if (!outer)
       continue;
-    reporter.report({.message = fmt::format("`DO{}` inside of a loop with the same number", *inner.number),
+    reporter.report({.message = fmt::format("`DO{}` is inside another loop with the same number", *inner.number),
                      .span = context.tree.statements[inner.doStatement].span,
                      .labels = {{context.tree.statements[outer->doStatement].span, "this loop is still open"}},
                      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MissingEnd)),
-                               fmt::format("number the inner loop differently, or put the missing `END{}` before it",
+                               fmt::format("give the inner loop another number, or add the missing `END{}` before it",
                                            *inner.number)}});
   }
 }
@@ -39,7 +39,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule repeatedLoopNumber;
 const Rule repeatedLoopNumber{.info = {"repeated-loop-number", Category::Structure, Severity::Error,
-                                       "Reports a loop inside of another loop with the same number."},
+                                       "Reports a loop inside another loop with the same number."},
                               .hooks = {.program = check}};
 
 } // namespace feedhold::rules

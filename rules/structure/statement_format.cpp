@@ -12,10 +12,10 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   const bool names = toUpper(context.text(issue.span)).starts_with('S');
   const std::string_view form = names ? "`SETVN 500[NAME,NAME]`" : "`DPRNT[X#1[44]]`";
   const AlarmKind alarm = names ? AlarmKind::SetVnFormat : AlarmKind::PrintFormat;
-  reporter.report({.message = fmt::format("{} is not complete", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} is incomplete", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, alarm)),
-                             fmt::format("it is written {}", form)}});
+                             fmt::format("the complete form is {}", form)}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::StatementFormat};
@@ -24,7 +24,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::StatementFormat};
 
 extern const Rule statementFormat;
 const Rule statementFormat{.info = {"statement-format", Category::Structure, Severity::Error,
-                                    "Reports a `SETVN`, `BPRNT` or `DPRNT` that is not complete."},
+                                    "Reports an incomplete `SETVN`, `BPRNT` or `DPRNT` statement."},
                            .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -9,7 +9,7 @@ namespace feedhold::rules {
 namespace {
 
 Diagnostic withoutIf(Span span, const FileContext &context) {
-  return {.message = fmt::format("{} without an IF", context.quoted(span)),
+  return {.message = fmt::format("{} has no `IF`", context.quoted(span)),
           .span = span,
           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}};
 }
@@ -29,7 +29,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithoutIf};
 
 extern const Rule thenElseWithoutIf;
 const Rule thenElseWithoutIf{.info = {"then-else-without-if", Category::Structure, Severity::Error,
-                                      "Reports a `THEN`, `ELSE` or `ENDIF` that belongs to no `IF`."},
+                                      "Reports a `THEN`, `ELSE` or `ENDIF` without an `IF`."},
                              .hooks = {.issue = checkThen, .issueKinds = kIssues, .program = checkLines}};
 
 } // namespace feedhold::rules

@@ -55,10 +55,9 @@ std::string_view headOf(OWordKind kind) {
 void reportLone(const OWordUse &use, const FileContext &context, const Reporter &reporter) {
   const Span span = context.tree.statements[use.statement].span;
   reporter.report(
-      {.message = fmt::format("{} belongs to no `{}` of that label", context.quoted(span), headOf(use.kind)),
+      {.message = fmt::format("{} has no `{}` with the same label", context.quoted(span), headOf(use.kind)),
        .span = span,
-       .notes = {"the interpreter stops here, or takes the next construct for this one",
-                 "compare the labels: the two ends of a construct have the same"}});
+       .notes = {"the interpreter stops here, or pairs it with the wrong block", "use the same label for both ends"}});
 }
 
 /// A label that is no number stands in angle brackets.
@@ -68,10 +67,10 @@ std::string spelled(const std::string &label) {
 
 void reportOpen(const OWordUse &head, const FileContext &context, const Reporter &reporter) {
   const Span span = context.tree.statements[head.statement].span;
-  reporter.report({.message = fmt::format("{} is never closed by `o{} {}`", context.quoted(span), spelled(head.label),
-                                          endOf(head.kind)),
-                   .span = span,
-                   .notes = {"the interpreter reads on to the end of the file for it and stops there"}});
+  reporter.report(
+      {.message = fmt::format("{} has no `o{} {}`", context.quoted(span), spelled(head.label), endOf(head.kind)),
+       .span = span,
+       .notes = {"the interpreter searches for it to the end of the file and stops there"}});
 }
 
 /// A subroutine that is left by `return` works without its `endsub`.
@@ -112,8 +111,8 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule unmatchedOWord;
-const Rule unmatchedOWord{
-    .info = {"unmatched-o-word", Category::Structure, Severity::Error, "Reports o-words whose other end is missing."},
-    .hooks = {.file = check}};
+const Rule unmatchedOWord{.info = {"unmatched-o-word", Category::Structure, Severity::Error,
+                                   "Reports an O-word block whose beginning or end is missing."},
+                          .hooks = {.file = check}};
 
 } // namespace feedhold::rules

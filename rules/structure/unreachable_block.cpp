@@ -35,11 +35,12 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
     const std::uint32_t last = context.source.lineOf(context.tree.blocks[run.last].begin);
-    reporter.report({.message = first == last ? "this block is never run"
-                                              : fmt::format("the blocks from here to line {} are never run", last),
-                     .span = context.tree.blocks[*start].span(),
-                     .labels = {{context.tree.blocks[run.ender].span(), "control does not go on behind this block"}},
-                     .notes = {"no jump leads here either"}});
+    reporter.report(
+        {.message = first == last ? "this block is never executed"
+                                  : fmt::format("the blocks from here to line {} are never executed", last),
+         .span = context.tree.blocks[*start].span(),
+         .labels = {{context.tree.blocks[run.ender].span(), "the program never goes on from here to the next block"}},
+         .notes = {"no jump leads here; delete the blocks or correct the jump that should"}});
   }
 }
 
@@ -47,8 +48,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule unreachableBlock;
 const Rule unreachableBlock{.info = {"unreachable-block", Category::Structure, Severity::Info,
-                                     "Reports blocks that are never run: they stand behind a block that control leaves "
-                                     "for good, and no jump leads to them."},
+                                     "Reports blocks that are never executed: the block before them always goes "
+                                     "elsewhere, and no jump leads to them."},
                             .hooks = {.program = check}};
 
 } // namespace feedhold::rules

@@ -12,9 +12,9 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   // A second N word is no sequence number; misplaced-sequence-number reports it.
   if (findWord(context.tree, block, 'N') != &word)
     return;
-  reporter.report({.message = fmt::format("{} is no sequence number: they begin at 1", context.quoted(word.span())),
+  reporter.report({.message = fmt::format("{} is not a sequence number; they begin at 1", context.quoted(word.span())),
                    .span = word.span(),
-                   .notes = {"a jump or a search does not find this block"}});
+                   .notes = {"no jump and no sequence number search finds this block"}});
 }
 
 } // namespace

@@ -5,7 +5,7 @@ namespace feedhold::rules {
 
 extern const Rule suppressionWithoutReason;
 const Rule suppressionWithoutReason{.info = {"suppression-without-reason", Category::Suppression, Severity::Warning,
-                                             "Reports an `@ALLOW` without a reason behind the rule."},
+                                             "Reports an `@ALLOW` without a reason after the rule."},
                                     .hooks = {}};
 
 } // namespace feedhold::rules

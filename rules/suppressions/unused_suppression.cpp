@@ -5,7 +5,7 @@ namespace feedhold::rules {
 
 extern const Rule unusedSuppression;
 const Rule unusedSuppression{.info = {"unused-suppression", Category::Suppression, Severity::Warning,
-                                      "Reports an `@ALLOW` that holds back nothing."},
+                                      "Reports an `@ALLOW` that suppresses nothing."},
                              .hooks = {}};
 
 } // namespace feedhold::rules

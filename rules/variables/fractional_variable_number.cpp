@@ -11,10 +11,10 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   if (!variable || context.dialect.grammar.fractionalVariable || variable->number.isInteger())
     return;
   const Span span = context.tree.expressions[id].span;
-  reporter.report({.message = fmt::format("{} is no variable: its number has a fraction", context.quoted(span)),
+  reporter.report({.message = fmt::format("{} is not a variable: its number must be whole", context.quoted(span)),
                    .span = span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::VariableNotAvailable)),
-                             "an operator may be missing between the variable and the number behind it"}});
+                             "an operator may be missing between the variable and the number after it"}});
 }
 
 } // namespace

@@ -11,7 +11,7 @@ void check(const VariableUse &use, const FileContext &context, const Reporter &r
   if (!range || range->access != VariableAccess::WriteOnly)
     return;
   const Span span = context.tree.expressions[use.expression].span;
-  reporter.report({.message = fmt::format("{} can only be set", context.quoted(span)),
+  reporter.report({.message = fmt::format("{} can only be written, not read", context.quoted(span)),
                    .span = span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ReadProtected))}});
 }
@@ -21,7 +21,7 @@ void check(const VariableUse &use, const FileContext &context, const Reporter &r
 extern const Rule readOfWriteOnly;
 const Rule readOfWriteOnly{
     .info = {"read-of-write-only", Category::Variable, Severity::Error,
-             "Reports the reading of a system variable that can only be set, as the alarm number."},
+             "Reports a read of a system variable that can only be written, such as the alarm number."},
     .hooks = {.variable = check}};
 
 } // namespace feedhold::rules

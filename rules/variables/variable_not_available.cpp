@@ -21,8 +21,8 @@ std::string neighbours(const Dialect &dialect, std::uint32_t number) {
                                        : fmt::format("#{}-#{}", range->first, range->last);
   };
   if (!below || !above)
-    return fmt::format("the {} one is {}", below ? "last" : "first", shown(below ? below : above));
-  return fmt::format("the nearest are {} and {}", shown(below), shown(above));
+    return fmt::format("the {} variables are {}", below ? "last" : "first", shown(below ? below : above));
+  return fmt::format("the nearest variables are {} and {}", shown(below), shown(above));
 }
 
 void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {

@@ -7,7 +7,7 @@ namespace feedhold::rules {
 namespace {
 
 std::string contents(const VariableRange &range) {
-  return range.meaning.empty() ? std::string("it can only be read") : fmt::format("it holds: {}", range.meaning);
+  return range.meaning.empty() ? std::string("it is read-only") : fmt::format("it holds: {}", range.meaning);
 }
 
 void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
@@ -15,7 +15,7 @@ void check(const VariableUse &use, const FileContext &context, const Reporter &r
   if (!range || range->access != VariableAccess::ReadOnly || range->kind == VariableKind::Vacant)
     return;
   const Span span = context.tree.expressions[use.expression].span;
-  reporter.report({.message = fmt::format("{} can only be read", context.quoted(span)),
+  reporter.report({.message = fmt::format("{} can only be read, not written", context.quoted(span)),
                    .span = span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),
                              contents(*range)}});

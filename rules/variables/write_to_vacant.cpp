@@ -11,17 +11,17 @@ void check(const VariableUse &use, const FileContext &context, const Reporter &r
   if (!range || range->kind != VariableKind::Vacant)
     return;
   const Span span = context.tree.expressions[use.expression].span;
-  reporter.report({.message = fmt::format("{} is always vacant and cannot be set", context.quoted(span)),
+  reporter.report({.message = fmt::format("{} is always vacant and cannot be written", context.quoted(span)),
                    .span = span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WriteProtected)),
-                             "to clear a variable write it the other way round: `#1=#0`"}});
+                             "to clear a variable, write it the other way round: `#1=#0`"}});
 }
 
 } // namespace
 
 extern const Rule writeToVacant;
 const Rule writeToVacant{.info = {"write-to-vacant", Category::Variable, Severity::Error,
-                                  "Reports an assignment to the vacant constant `#0`."},
+                                  "Reports an assignment to `#0`, which is always vacant."},
                          .hooks = {.variable = check}};
 
 } // namespace feedhold::rules

@@ -23,7 +23,7 @@ void check(const FileContext &context, const Reporter &reporter) {
     const std::string_view meant = longForm(context, span);
     reporter.report({.message = fmt::format("{} is short for `{}`", context.quoted(span), meant),
                      .span = span,
-                     .notes = {"other makers' controls, and people, may not know it"},
+                     .notes = {"other controls, and other people, may not know the short form"},
                      .fixes = {{FixSafety::Safe, fmt::format("write `{}`", meant), {{span, std::string(meant)}}}}});
   }
 }
@@ -32,7 +32,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 
 extern const Rule abbreviatedWord;
 const Rule abbreviatedWord{.info = {"abbreviated-word", Category::Word, Severity::Info,
-                                    "Reports a word of the macro language in its short form, as `WH` for `WHILE`."},
+                                    "Reports a macro keyword in its short form, such as `WH` for `WHILE`."},
                            .hooks = {.file = check}};
 
 } // namespace feedhold::rules

@@ -7,7 +7,7 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} is no block skip", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("{} is not a valid block skip", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {"the levels are `/1` to `/9`; two levels are written `/1/3`"}});
 }

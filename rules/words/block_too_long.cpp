@@ -8,7 +8,7 @@ void check(const SyntaxIssue &issue, const FileContext &, const Reporter &report
   reporter.report({.message = "this block has more words than any control reads",
                    .span = issue.span,
                    .label = "reading stopped here",
-                   .notes = {"the line ends of the file are probably lost; the rest of the block is not analysed"}});
+                   .notes = {"the line ends of the file are probably lost; the rest of this block is not checked"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::BlockTooLong};
@@ -17,7 +17,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::BlockTooLong};
 
 extern const Rule blockTooLong;
 const Rule blockTooLong{.info = {"block-too-long", Category::Syntax, Severity::Error,
-                                 "Reports a block of thousands of words, as a file without line ends has."},
+                                 "Reports a block of thousands of words, as in a file that has lost its line ends."},
                         .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

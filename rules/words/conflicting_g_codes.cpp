@@ -11,13 +11,13 @@ namespace {
 void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
   const bool alarm = context.dialect.switches.ad2 == Switch::On;
   reporter.report(
-      {.message =
-           fmt::format("{} and {} exclude each other", context.quoted(first.span()), context.quoted(second.span())),
+      {.message = fmt::format("{} and {} exclude each other: both are in one modal group", context.quoted(first.span()),
+                              context.quoted(second.span())),
        .span = second.span(),
-       .labels = {{first.span(), "the first"}},
-       .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
-                       : std::string("both are of one modal group; the control takes the last one for the "
-                                     "whole block, whatever stands before it")}},
+       .labels = {{first.span(), "the first one"}},
+       .notes = {alarm
+                     ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
+                     : std::string("the control uses the last one for the whole block, also for the words before it")}},
       alarm ? Severity::Error : Severity::Warning);
 }
 

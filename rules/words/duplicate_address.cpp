@@ -17,11 +17,11 @@ bool counts(const Word &word, const FileContext &context) {
 void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
   const bool alarm = context.dialect.switches.ad2 == Switch::On;
   reporter.report(
-      {.message = fmt::format("`{}` stands twice in one block", second.address()),
+      {.message = fmt::format("`{}` occurs twice in one block", second.address()),
        .span = second.span(),
-       .labels = {{first.span(), "the first"}},
+       .labels = {{first.span(), "the first one"}},
        .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
-                       : std::string("the control takes the last one and says nothing")}},
+                       : std::string("the control uses the last one, without any message")}},
       alarm ? Severity::Error : Severity::Warning);
 }
 
@@ -47,7 +47,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 
 extern const Rule duplicateAddress;
 const Rule duplicateAddress{.info = {"duplicate-address", Category::Word, Severity::Warning,
-                                     "Reports an address that stands twice in one block."},
+                                     "Reports an address that occurs twice in one block."},
                             .hooks = {.block = check}};
 
 } // namespace feedhold::rules

@@ -21,12 +21,12 @@ std::optional<Span> letterBefore(std::uint32_t end, std::string_view text) {
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic found{.message = "this GOTO names no sequence number",
+  Diagnostic found{.message = "this GOTO has no sequence number",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound))}};
   if (const auto letter = letterBefore(issue.span.end, context.source.text())) {
     found.message = "GOTO takes the number alone, without `N`";
-    found.fixes = {{FixSafety::Safe, "take out the `N`", {{*letter, ""}}}};
+    found.fixes = {{FixSafety::Safe, "remove the `N`", {{*letter, ""}}}};
   }
   reporter.report(std::move(found));
 }
@@ -37,7 +37,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::GotoWithoutTarget};
 
 extern const Rule gotoWithoutTarget;
 const Rule gotoWithoutTarget{.info = {"goto-without-target", Category::Syntax, Severity::Error,
-                                      "Reports a `GOTO` that does not say where to go."},
+                                      "Reports a `GOTO` without a sequence number, or with an `N` before it."},
                              .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

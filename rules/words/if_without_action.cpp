@@ -7,10 +7,10 @@ namespace feedhold::rules {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = "this IF has nothing to do",
+  reporter.report({.message = "this IF has no action",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
-                             "the next block is run whether the condition holds or not"}});
+                             "the next block is executed whether the condition is true or not"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutAction};
@@ -19,7 +19,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutAction};
 
 extern const Rule ifWithoutAction;
 const Rule ifWithoutAction{.info = {"if-without-action", Category::Syntax, Severity::Error,
-                                    "Reports an `IF` with a condition and nothing to do behind it."},
+                                    "Reports an `IF` with a condition but without an action."},
                            .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

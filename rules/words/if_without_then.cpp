@@ -26,7 +26,7 @@ bool mayFollowCondition(Span action, const FileContext &context) {
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.thenMayBeOmitted && mayFollowCondition(issue.span, context))
     return;
-  reporter.report({.message = fmt::format("no `THEN` before {}", context.quoted(issue.span)),
+  reporter.report({.message = fmt::format("`THEN` is missing before {}", context.quoted(issue.span)),
                    .span = issue.span,
                    .labels = {{issue.other, "the IF"}},
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}});

@@ -41,14 +41,14 @@ void check(const FileContext &context, const Reporter &reporter) {
   const auto &runs = context.tree.lowerCase;
   if (runs.empty() || context.dialect.grammar.smallLetters)
     return;
-  FixIt fix{FixSafety::Safe, "write capital letters", {}};
+  FixIt fix{FixSafety::Safe, "convert to upper case", {}};
   for (const Span run : runs)
     addEdits(run, context, fix.edits);
   reporter.report({.message = runs.size() == 1
-                                  ? std::string("small letters outside of a comment")
-                                  : fmt::format("small letters outside of comments, in {} blocks", runs.size()),
+                                  ? std::string("lower-case letters outside a comment")
+                                  : fmt::format("lower-case letters outside comments, in {} blocks", runs.size()),
                    .span = runs.front(),
-                   .notes = {"older controls do not take them"},
+                   .notes = {"older controls stop at them"},
                    .fixes = {std::move(fix)}});
 }
 

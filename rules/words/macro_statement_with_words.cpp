@@ -21,7 +21,7 @@ bool takesWords(const Statement &statement) {
 
 std::vector<std::string> notesFor(const FileContext &context) {
   return {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MixedBlock)),
-          "give the macro statement a block of its own"};
+          "put the macro statement in its own block"};
 }
 
 void checkStatement(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -31,10 +31,11 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
   for (const Word &word : context.tree.wordsOf(block)) {
     if (mayStandBeside(word))
       continue;
-    reporter.report({.message = fmt::format("{} shares its block with a macro statement", context.quoted(word.span())),
-                     .span = word.span(),
-                     .labels = {{statement.span, "the statement"}},
-                     .notes = notesFor(context)});
+    reporter.report(
+        {.message = fmt::format("{} is in the same block as a macro statement", context.quoted(word.span())),
+         .span = word.span(),
+         .labels = {{statement.span, "the macro statement"}},
+         .notes = notesFor(context)});
     return;
   }
 }
@@ -44,7 +45,7 @@ void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Repo
     return;
   reporter.report({.message = "two macro statements in one block",
                    .span = issue.span,
-                   .labels = {{issue.other, "the first"}},
+                   .labels = {{issue.other, "the first one"}},
                    .notes = notesFor(context)});
 }
 

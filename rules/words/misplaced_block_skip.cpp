@@ -6,9 +6,9 @@ namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
   reporter.report(
-      {.message = "block skip in mid-block",
+      {.message = "block skip within a block",
        .span = issue.span,
-       .notes = {"with the switch on, only what stands before it is run; on some machines the whole block counts"}});
+       .notes = {"with the switch on, the words before it are still executed; some machines skip the whole block"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MisplacedBlockSkip};
@@ -16,9 +16,9 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MisplacedBlockSkip};
 } // namespace
 
 extern const Rule misplacedBlockSkip;
-const Rule misplacedBlockSkip{.info = {"misplaced-block-skip", Category::Word, Severity::Info,
-                                       "Reports a `/` in mid-block: with the switch on, the control skips what stands "
-                                       "behind it and runs what stands before."},
-                              .hooks = {.issue = check, .issueKinds = kIssues}};
+const Rule misplacedBlockSkip{
+    .info = {"misplaced-block-skip", Category::Word, Severity::Info,
+             "Reports a `/` within a block: with the switch on, only the words before it are executed."},
+    .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

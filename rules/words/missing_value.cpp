@@ -18,7 +18,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   if (isPlaceholder(context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end})))
     return;
   reporter.report(
-      {.message = fmt::format("no number after {}", context.quoted(issue.span)),
+      {.message = fmt::format("{} has no number", context.quoted(issue.span)),
        .span = issue.span,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::NoDataAfterAddress))}});
 }
@@ -29,7 +29,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MissingValue};
 
 extern const Rule missingValue;
 const Rule missingValue{
-    .info = {"missing-value", Category::Word, Severity::Error, "Reports an address without a number behind it."},
+    .info = {"missing-value", Category::Word, Severity::Error, "Reports an address without a number."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -46,11 +46,11 @@ Lengths lengthsOf(const FileContext &context) {
 void reportWord(const Word &word, const FileContext &context, const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
   reporter.report(
-      {.message = fmt::format("{} has no decimal point, the lengths around it have one", context.quoted(word.span())),
+      {.message = fmt::format("{} has no decimal point, but the lengths around it do", context.quoted(word.span())),
        .span = word.span(),
-       .notes = {fmt::format("{}the control counts it in least increments: `2` is 0.002 mm or 0.0002 inch",
+       .notes = {fmt::format("{}the control reads it in least increments: `2` is 0.002 mm or 0.0002 inch",
                              sure ? "" : "with parameter 3401#0 (DPI) off ")},
-       .fixes = {{.title = "write the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
+       .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 
 void check(const FileContext &context, const Reporter &reporter) {
@@ -68,7 +68,7 @@ void check(const FileContext &context, const Reporter &reporter) {
 extern const Rule numberWithoutPoint;
 const Rule numberWithoutPoint{
     .info = {"number-without-point", Category::Word, Severity::Warning,
-             "Reports a length without a decimal point in a program that writes its decimal points everywhere else."},
+             "Reports a length without a decimal point in a program that writes decimal points everywhere else."},
     .hooks = {.file = check}};
 
 } // namespace feedhold::rules

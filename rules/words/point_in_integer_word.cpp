@@ -44,7 +44,7 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
       {.message = fmt::format("{} takes no decimal point", context.quoted(word.span())),
        .span = word.span(),
        .notes = {knownToStop ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MisplacedPoint))
-                             : std::string("other controls stop here; whether this one does is not documented")},
+                             : std::string("other controls stop here; the manual of this one does not say")},
        .fixes = fixesFor(word, knownToStop ? FixSafety::Safe : FixSafety::NeedsReview)},
       knownToStop ? Severity::Error : Severity::Info);
 }
@@ -52,8 +52,9 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
 } // namespace
 
 extern const Rule pointInIntegerWord;
-const Rule pointInIntegerWord{.info = {"point-in-integer-word", Category::Word, Severity::Error,
-                                       "Reports a decimal point in a word that takes whole numbers only, as `M3.0`."},
-                              .hooks = {.word = check, .wordAddresses = "BDHLMNOPSTG"}};
+const Rule pointInIntegerWord{
+    .info = {"point-in-integer-word", Category::Word, Severity::Error,
+             "Reports a decimal point in a word that takes whole numbers only, such as `M3.0`."},
+    .hooks = {.word = check, .wordAddresses = "BDHLMNOPSTG"}};
 
 } // namespace feedhold::rules

@@ -27,20 +27,19 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const bool sure = setting == Switch::Off || count > mostEver;
   reporter.report({.message = fmt::format("{} M codes in one block", count),
                    .span = last->span(),
-                   .labels = {{first->span(), "the first"}},
-                   .notes = {count > mostEver ? fmt::format("no setting of the control takes more than {}", mostEver)
-                             : sure           ? "the control takes the last one only (parameter 3404#7, M3B, is off)"
-                                              : "with parameter 3404#7 (M3B) off the control takes the last one only"}},
+                   .labels = {{first->span(), "the first one"}},
+                   .notes = {count > mostEver ? fmt::format("no setting of the control allows more than {}", mostEver)
+                             : sure           ? "the control executes only the last one (parameter 3404#7, M3B, is off)"
+                                    : "with parameter 3404#7 (M3B) off the control executes only the last one"}},
                   sure ? Severity::Warning : Severity::Info);
 }
 
 } // namespace
 
 extern const Rule severalMCodes;
-const Rule severalMCodes{
-    .info =
-        {"several-m-codes", Category::Word, Severity::Info,
-         "Reports more M codes in a block than every machine takes: one, or three where parameter 3404#7 (M3B) is on."},
-    .hooks = {.block = check}};
+const Rule severalMCodes{.info = {"several-m-codes", Category::Word, Severity::Info,
+                                  "Reports more M codes in a block than every machine executes: one, or three where "
+                                  "parameter 3404#7 (M3B) is on."},
+                         .hooks = {.block = check}};
 
 } // namespace feedhold::rules

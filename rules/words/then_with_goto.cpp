@@ -10,7 +10,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   reporter.report({.message = "`THEN` before `GOTO`",
                    .span = issue.other,
                    .labels = {{issue.span, "the jump"}},
-                   .notes = {"not every version of the control takes it; `IF[..]GOTO n` is right on all"},
+                   .notes = {"some versions of the control stop here; `IF[..]GOTO n` works on all"},
                    .fixes = {{FixSafety::Safe, "remove `THEN`", {{issue.other, ""}}}}});
 }
 
@@ -20,7 +20,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithGoto};
 
 extern const Rule thenWithGoto;
 const Rule thenWithGoto{.info = {"then-with-goto", Category::Syntax, Severity::Warning,
-                                 "Reports `THEN GOTO`: some versions of the control take it, others stop."},
+                                 "Reports `THEN GOTO`: some versions of the control accept it, others stop."},
                         .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -17,12 +17,11 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   if (context.dialect.grammar.thenMayBeWords)
     return;
   const Span words = wordsFrom(issue.span.begin, context);
-  reporter.report({.message = fmt::format("{} is no macro statement", context.quoted(words)),
+  reporter.report({.message = fmt::format("{} after THEN is not a macro statement", context.quoted(words)),
                    .span = words,
                    .labels = {{issue.other, "the THEN"}},
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
-                             "jump over a block that holds the words, or set a variable here and write the word with "
-                             "it"}});
+                             "jump over a block with these words, or set a variable here and use it in the word"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithWords};
@@ -31,7 +30,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithWords};
 
 extern const Rule thenWithWords;
 const Rule thenWithWords{.info = {"then-with-words", Category::Syntax, Severity::Error,
-                                  "Reports NC words behind `THEN`, where the control takes one macro statement only."},
+                                  "Reports NC words after `THEN`, where the control accepts one macro statement only."},
                          .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

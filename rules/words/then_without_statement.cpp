@@ -9,10 +9,10 @@ namespace {
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.blockIf)
     return;
-  reporter.report({.message = "nothing behind this THEN",
+  reporter.report({.message = "there is no statement after this THEN",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
-                             "the action must stand in the same block"}});
+                             "the statement must be in the same block"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithoutStatement};
@@ -21,7 +21,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::ThenWithoutStatement};
 
 extern const Rule thenWithoutStatement;
 const Rule thenWithoutStatement{
-    .info = {"then-without-statement", Category::Syntax, Severity::Error, "Reports a `THEN` with nothing behind it."},
+    .info = {"then-without-statement", Category::Syntax, Severity::Error, "Reports a `THEN` with nothing after it."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

@@ -14,9 +14,9 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
     return;
   reporter.report({.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(word.span())),
                    .span = word.span(),
-                   .notes = {fmt::format("the control {}, unless the machine turns the code into a call",
+                   .notes = {fmt::format("the control {}, unless a parameter makes the code a call",
                                          stopsWith(context.dialect, AlarmKind::GCodeNotUsable)),
-                             "a code that calls a program belongs into `[[code-calls]]` of feedhold.toml"}});
+                             "if the code calls a program, list it under `[[code-calls]]` in feedhold.toml"}});
 }
 
 } // namespace
@@ -24,7 +24,7 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
 extern const Rule unknownGCode;
 const Rule unknownGCode{
     .info = {"unknown-g-code", Category::Word, Severity::Info,
-             "Reports a G code that the control does not have and that feedhold.toml does not name as a call."},
+             "Reports a G code that the control does not have and that `feedhold.toml` does not list as a call."},
     .hooks = {.word = check, .wordAddresses = "G"}};
 
 } // namespace feedhold::rules

@@ -10,7 +10,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   reporter.report({.message = "this WHILE has no condition",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WhileFormat)),
-                             "a loop without a condition is `DO1` .. `END1`"}});
+                             "write a loop without a condition as `DO1` .. `END1`"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::WhileWithoutCondition};

@@ -18,7 +18,7 @@ constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::WhileWithoutDo};
 
 extern const Rule whileWithoutDo;
 const Rule whileWithoutDo{.info = {"while-without-do", Category::Syntax, Severity::Error,
-                                   "Reports a `WHILE` without `DO` behind its condition."},
+                                   "Reports a `WHILE` without a `DO` after its condition."},
                           .hooks = {.issue = check, .issueKinds = kIssues}};
 
 } // namespace feedhold::rules

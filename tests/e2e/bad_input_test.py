@@ -49,7 +49,7 @@ class BadInput(Scratch):
         self.write("bad.contract", "@REQUIRE #21 GT 0\n")
         result = self.check_beside_bad("bad.contract")
         self.assertExit(result, 2)
-        self.assertIn("bad.contract: holds contracts, which are read with their program", result.stderr)
+        self.assertIn("bad.contract: is a contract file; name its program instead", result.stderr)
         self.assertNotIn("macro compiler", result.stdout)
 
     def test_binary_file(self):

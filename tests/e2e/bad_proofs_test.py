@@ -63,7 +63,7 @@ class BadProofs(Scratch):
         self.write("both.nc", f"O1\n{clauses}\n{LOOP}O2\n#1=1\nM30\n")
         result = self.prove("both.nc")
         self.assertExit(result, 2)
-        self.assertIn("both.nc: the contract of O1 has mistakes, so that it is not proved", result.stderr)
+        self.assertIn("both.nc: the contract of O1 has errors, so nothing is proved", result.stderr)
         self.assertEqual(set(self.obligations("both.nc")), {"O2.program-ends"})
         self.assertRegex(self.check("both.nc").stdout, r"contract[a-z-]*\]\n --> both.nc:[23]:")
 

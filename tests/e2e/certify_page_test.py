@@ -237,8 +237,8 @@ class Against(Page):
     def test_one_of_two(self):
         result = self.against(("right/O1.nc", 2))
         self.assertExit(result, 3)
-        self.assertIn("1 source as named", result.stdout)
-        self.assertIn("`../nc/left/O1.nc` is not there", result.stderr)
+        self.assertIn("1 source unchanged", result.stdout)
+        self.assertIn("`../nc/left/O1.nc` is missing", result.stderr)
 
     def test_one_that_may_be_either(self):
         result = self.against(("O1.nc", 1))

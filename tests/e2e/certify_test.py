@@ -230,7 +230,7 @@ class Certify(Scratch):
         self.write("nc/O9103.nc", "O9103\n(@PARAM #1 LENGTH 5..ABC MM)\nM99\n")
         result = self.certify()
         self.assertExit(result, 2)
-        self.assertIn("the contract of O9103 has mistakes", result.stderr)
+        self.assertIn("the contract of O9103 has errors", result.stderr)
         self.assertSameBytes()
         self.assertExit(self.certify(paths=["missing.nc"], output="fresh"), 2)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["feedhold.toml", "nc", "report"])
@@ -239,7 +239,7 @@ class Certify(Scratch):
         self.write("other/notes.txt", "mine")
         result = self.certify(output="other")
         self.assertExit(result, 2)
-        self.assertIn("holds other files", result.stderr)
+        self.assertIn("contains other files", result.stderr)
         self.assertExit(self.certify(paths=["-"]), 2)
         self.assertEqual(self.files(self.folder / "other"), {"notes.txt": b"mine"})
 
@@ -248,8 +248,8 @@ class Certify(Scratch):
     def test_nothing_changed(self):
         result = self.feedhold("recheck", "report")
         self.assertExit(result, 0)
-        self.assertRegex(result.stdout, r"all as it was: 4 sources as named, [1-9][0-9]* obligations proved again\n"
-                                        r"evidence: [1-9][0-9]* questions, [1-9][0-9]* certificates followed")
+        self.assertRegex(result.stdout, r"no differences: 4 sources unchanged, [1-9][0-9]* obligations proved again\n"
+                                        r"evidence: [1-9][0-9]* questions, [1-9][0-9]* certificates verified")
         self.assertExit(self.feedhold("recheck", "../report", cwd=self.folder / "nc"), 0)
 
     def test_report_moves_with_its_programs(self):
@@ -266,7 +266,7 @@ class Certify(Scratch):
         result = self.feedhold("recheck", "report")
         self.assertExit(result, 3)
         self.assertIn("nothing proved again", result.stdout)
-        self.assertIn("`../nc/O9100.nc` is not there", result.stderr)
+        self.assertIn("`../nc/O9100.nc` is missing", result.stderr)
         self.write("away/feedhold.toml", 'dialect = "fanuc-30i"\n[switches]\nnat = true\n')
         self.assertExit(self.feedhold("recheck", "report", "--against", "away"), 3)
         self.change("away/O9100.nc", "F100.", "F101.")
@@ -287,7 +287,7 @@ class Certify(Scratch):
         self.assertDetected("O9102.nc")
         (self.folder / "nc/O9102.nc").unlink()
         (self.folder / "nc/O9100.contract").unlink()
-        self.assertDetected("`../nc/O9100.contract` was read for the proof and is gone")
+        self.assertDetected("`../nc/O9100.contract` was read for the proof but is missing now")
 
     def test_forged_verdict(self):
         self.change("report/certificate.json", '"verdict": "refuted"', '"verdict": "proved"')
@@ -343,7 +343,7 @@ class Certify(Scratch):
         self.write("none/index.html", "of some other program")
         result = self.feedhold("recheck", "none")
         self.assertExit(result, 2)
-        self.assertIn("there is no certificate.json and no index.json", result.stderr)
+        self.assertIn("no certificate.json and no index.json", result.stderr)
 
 
 class QuestionsToSolvers(Scratch):
@@ -363,7 +363,7 @@ class QuestionsToSolvers(Scratch):
         self.assertExit(result, 0)
         asked = len(self.questions)
         self.assertGreater(asked, 1)
-        self.assertIn(f"{asked} questions, {asked - 1} certificates followed by the checker, {asked} asked again",
+        self.assertIn(f"{asked} questions, {asked - 1} certificates verified by the checker, {asked} asked again",
                       result.stdout)
         for solver in ("z3", "cvc5"):
             said = re.search(solver + r" [0-9.]+ refutes (\d+)(?:, gives no answer to (\d+))?[;)]", result.stdout)

@@ -153,7 +153,7 @@ class Changed(Scratch):
         for command in ("check", "prove"):
             result = self.feedhold(command, "--changed-since", "HEAD", cwd=outside)
             self.assertExit(result, 2)
-            self.assertIn("no git repository", result.stderr)
+            self.assertIn("not in a git repository", result.stderr)
 
     def test_no_git(self):
         result = self.prove("--changed-since", "HEAD", environment={"PATH": str(self.cache)})

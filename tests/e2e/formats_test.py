@@ -60,11 +60,11 @@ class Formats(Scratch):
         rule = ("--select", "possibly-unset-variable", "way.nc")
         finding = json.loads(self.check("--format", "json", *rule).stdout)["findings"][0]
         self.assertEqual([(step["path"], step["line"], step["message"]) for step in finding["way"]],
-                         [("way.nc", 2, "the condition holds")])
+                         [("way.nc", 2, "the condition is true")])
         result = json.loads(self.check("--format", "sarif", *rule).stdout)["runs"][0]["results"][0]
         steps = result["codeFlows"][0]["threadFlows"][0]["locations"]
         self.assertEqual([step["location"]["physicalLocation"]["region"]["startLine"] for step in steps], [2, 4])
-        self.assertIn("the way there: line 2 `IF[#100EQ1]GOTO10`: the condition holds", self.check(*rule).stdout)
+        self.assertIn("path: line 2 `IF[#100EQ1]GOTO10`: the condition is true", self.check(*rule).stdout)
 
     def test_sarif_has_what_its_readers_need(self):
         run = json.loads(self.output("sarif"))["runs"][0]

@@ -103,7 +103,7 @@ class Prove(Scratch):
         self.write("O1.nc", COUNTS.replace("O1\n", "O1\n(@PARM #1 DEPTH 1..2)\n"))
         result = self.prove("O1.nc")
         self.assertExit(result, 2)
-        self.assertIn("the contract of O1 has mistakes", result.stderr)
+        self.assertIn("the contract of O1 has errors", result.stderr)
 
     # ---- which programs ----
 

@@ -101,7 +101,7 @@ class Recheck(Scratch):
         self.write("other/notes.txt", "mine")
         result = self.feedhold("prove", "nc", "--certificate", "other")
         self.assertExit(result, 2)
-        self.assertIn("holds other files", result.stderr)
+        self.assertIn("contains other files", result.stderr)
         self.assertExit(self.feedhold("prove", "nc", "--certificate", "nc/O9100.nc"), 2)
         self.assertExit(self.feedhold("prove", "-", "--certificate", "fresh"), 2)
 
@@ -110,8 +110,8 @@ class Recheck(Scratch):
     def test_nothing_changed(self):
         result = self.recheck()
         self.assertExit(result, 0)
-        self.assertRegex(result.stdout, r"all as it was: [1-9][0-9]* obligations proved again")
-        self.assertRegex(result.stdout, r"[1-9][0-9]* certificates followed by the checker")
+        self.assertRegex(result.stdout, r"no differences: [1-9][0-9]* obligations proved again")
+        self.assertRegex(result.stdout, r"[1-9][0-9]* certificates verified by the checker")
 
     def test_bundle_and_programs_may_move_together(self):
         other = self.folder / "elsewhere"
@@ -146,7 +146,7 @@ class Recheck(Scratch):
 
     def test_contract_that_goes_or_comes(self):
         self.contract.unlink()
-        self.assertDetected("`../nc/O9100.contract` was read for the proof and is gone")
+        self.assertDetected("`../nc/O9100.contract` was read for the proof but is missing now")
         self.contract.write_text(CONTRACT)
         self.write("nc/O9100.nc.contract", "@GLOBAL #500 MODE 0..6\n")
         self.assertDetected("`../nc/O9100.nc.contract` is new beside the program")
@@ -167,8 +167,8 @@ class Recheck(Scratch):
         result = self.feedhold("recheck", "proofs", "-v")
         self.assertExit(result, 1)
         name = path.with_suffix(".smt2").relative_to(self.bundle).as_posix()
-        self.assertIn(f"{name}: its certificate fails, Z3 is not asked, cvc5 is not asked\n", result.stdout)
-        self.assertIn(f" {questions - 1} certificates followed by the checker", result.stdout)
+        self.assertIn(f"{name}: certificate rejected, Z3 is not asked, cvc5 is not asked\n", result.stdout)
+        self.assertIn(f" {questions - 1} certificates verified by the checker", result.stdout)
 
     def test_claim_made_easier(self):
         """A claim that contradicts itself has a certificate, but it is not what the program has to keep."""

@@ -94,7 +94,7 @@ class EditorSession:
 
     def test_messages(self):
         (missing,) = (it for it in self.seen["diagnostics"] if it["code"] == "goto-missing-label")
-        self.assertIn("there is no `N99` in this program", missing["message"])
+        self.assertIn("this program has no `N99`", missing["message"])
 
     def test_hover_tells_what_the_variable_is_here(self):
         self.assertIn("#100", self.seen["hover"])

@@ -92,7 +92,7 @@ public:
     if (!way.empty() || !diagnostic.notes.empty() || !diagnostic.fixes.empty())
       gutterLine("", {});
     if (!way.empty())
-      addNote("the way there", way);
+      addNote("path", way);
     for (const std::string &note : diagnostic.notes)
       addNote("note", note);
     for (const FixIt &fix : diagnostic.fixes)

@@ -78,30 +78,30 @@ std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   std::error_code error;
   const fs::path target = fs::canonical(path, error);
   if (error)
-    return Error{fmt::format("cannot be found any more: {}", error.message())};
+    return Error{fmt::format("no longer exists: {}", error.message())};
   struct stat original {};
   if (::stat(target.c_str(), &original) != 0)
-    return systemError("cannot be asked for its permissions");
+    return systemError("its permissions cannot be read");
   if (!S_ISREG(original.st_mode)) // a device would be gone behind the rename
-    return Error{"is no regular file"};
+    return Error{"is not a regular file"};
   if (::access(target.c_str(), W_OK) != 0)
     return systemError("cannot be written");
   TemporaryFile file(target);
   if (!file.isOpen())
-    return systemError("no file can be made in its folder");
+    return systemError("no file can be created in its folder");
   if (!file.write(text) || !file.takeOwnerAndMode(original) || !file.flush())
     return systemError("the new text cannot be written");
   if (!file.renameTo(target))
-    return systemError("the new text cannot be put in place");
+    return systemError("the file cannot be replaced");
   return std::nullopt;
 }
 
 std::optional<Error> putFile(const fs::path &path, std::string_view text) {
   TemporaryFile file(path);
   if (!file.isOpen())
-    return systemError("no file can be made in its folder");
+    return systemError("no file can be created in its folder");
   if (!file.write(text) || !file.renameTo(path))
-    return systemError("the text cannot be put in place");
+    return systemError("the file cannot be replaced");
   return std::nullopt;
 }
 
@@ -111,11 +111,11 @@ std::optional<Error> saveFile(const fs::path &path, std::string_view text) {
     return replaceFile(path, text);
   TemporaryFile file(path);
   if (!file.isOpen())
-    return systemError("no file can be made in its folder");
+    return systemError("no file can be created in its folder");
   if (!file.write(text) || !file.takeUsualMode() || !file.flush())
     return systemError("the text cannot be written");
   if (!file.renameTo(path))
-    return systemError("the text cannot be put in place");
+    return systemError("the file cannot be replaced");
   return std::nullopt;
 }
 

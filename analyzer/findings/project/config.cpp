@@ -165,7 +165,7 @@ private:
     call.address = text.front();
     call.tenths = static_cast<std::uint16_t>(number * 10 + static_cast<std::uint32_t>(tenths.front() - '0'));
     if (number > 6553)
-      addError(node.source(), "the number of `code` is larger than any control has");
+      addError(node.source(), "the number of `code` is larger than any G, M or T code");
   }
 
   std::uint32_t programNumber(const toml::node &node) {
@@ -173,7 +173,7 @@ private:
     const std::optional<std::int64_t> value = node.value_exact<std::int64_t>();
     if (value && *value >= 1 && *value <= kLast)
       return static_cast<std::uint32_t>(*value);
-    addError(node.source(), "`program` must be a program number: 9010, say");
+    addError(node.source(), "`program` must be a program number, such as 9010");
     return 0;
   }
 
@@ -197,7 +197,7 @@ private:
       return *value ? Switch::On : Switch::Off;
     if (node.value_exact<std::string>() == "unknown")
       return Switch::Unknown;
-    addError(node.source(), "a switch is true, false or \"unknown\"");
+    addError(node.source(), "expected true, false or \"unknown\"");
     return Switch::Unknown;
   }
 
@@ -249,7 +249,7 @@ private:
   template <typename Visit> void forEachString(const toml::node &node, Visit visit) {
     const toml::array *array = node.as_array();
     if (array == nullptr) {
-      addError(node.source(), "a list of texts is wanted here: [\"..\", \"..\"]");
+      addError(node.source(), "expected a list of strings: [\"..\", \"..\"]");
       return;
     }
     for (const toml::node &element : *array)
@@ -261,7 +261,7 @@ private:
     std::vector<Row> rows;
     const toml::array *array = node.as_array();
     if (array == nullptr || !array->is_array_of_tables()) {
-      addError(node.source(), "a list of tables is wanted here: write the head with two brackets, [[..]]");
+      addError(node.source(), "expected a list of tables: write the header with two brackets, [[..]]");
       return rows;
     }
     for (const toml::node &element : *array)
@@ -273,7 +273,7 @@ private:
     static const toml::table kNone;
     if (const toml::table *found = node.as_table())
       return *found;
-    addError(node.source(), "a table is wanted here");
+    addError(node.source(), "expected a table");
     return kNone;
   }
 
@@ -281,14 +281,14 @@ private:
   std::string string(const toml::node &node) {
     std::string value = node.value_exact<std::string>().value_or("");
     if (value.empty())
-      addError(node.source(), "a text in quotes is wanted here");
+      addError(node.source(), "expected a string in quotes");
     return value;
   }
 
   bool boolean(const toml::node &node) {
     const std::optional<bool> value = node.value_exact<bool>();
     if (!value)
-      addError(node.source(), "true or false is wanted here");
+      addError(node.source(), "expected true or false");
     return value.value_or(false);
   }
 
@@ -298,7 +298,7 @@ private:
   }
 
   void unknownKey(const toml::key &key, std::span<const std::string_view> known) {
-    addError(key.source(), withSuggestion(fmt::format("there is no setting `{}` here", key.str()), key.str(), known));
+    addError(key.source(), withSuggestion(fmt::format("unknown setting `{}`", key.str()), key.str(), known));
   }
 
   void addError(const toml::source_region &where, std::string message) {

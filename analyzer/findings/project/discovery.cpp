@@ -60,8 +60,7 @@ public:
     if (fs::is_directory(status))
       addFolder(path);
     else if (fs::exists(status) && isSidecarName(path))
-      result_.problems.push_back(
-          {shownPath(path), "holds contracts, which are read with their program; name that one"});
+      result_.problems.push_back({shownPath(path), "is a contract file; name its program instead"});
     else if (fs::exists(status))
       take(path, FoundBy::Name, configs_.forFolder(folderOf(path)));
     else

@@ -19,7 +19,7 @@ Result<std::optional<std::string>> git(const fs::path &folder, std::vector<std::
   words.insert(words.begin(), {"git", "-C", folder.string()});
   Result<ProcessOutput> run = runProgram(words, "", {});
   if (!run)
-    return Error{"git is needed to know what has changed: " + run.error().message};
+    return Error{"--changed-since needs git: " + run.error().message};
   if (run.value().end != ProcessOutput::End::Exited || run.value().exitCode != 0)
     return std::optional<std::string>();
   return std::optional(run.take().output);
@@ -89,10 +89,9 @@ Result<std::vector<fs::path>> changedSince(const std::string &revision, const st
     if (!up)
       return up.error();
     if (!up.value())
-      return Error{
-          fmt::format("{}: is in no git repository, or in one that git refuses to read (`git status` there says "
-                      "why); --changed-since asks git",
-                      folder.generic_string())};
+      return Error{fmt::format(
+          "{}: is not in a git repository that git can read (`git status` there says why); --changed-since needs one",
+          folder.generic_string())};
     repositories.insert(fs::absolute(folder / withoutLineEnd(*up.value())).lexically_normal() / "");
   }
   std::set<fs::path> changed;

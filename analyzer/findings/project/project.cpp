@@ -139,7 +139,7 @@ Result<std::unique_ptr<const Project>> loadProject(const ProgramOptions &options
     return whyNothing(workload, options.path);
   const WorkItem &item = workload.items.front();
   if (item.foreign)
-    return Error{fmt::format("{}: this is {}, which is not read here", item.shown, item.foreign->name)};
+    return Error{fmt::format("{}: this is {}, which Feedhold does not read", item.shown, item.foreign->name)};
   return loadProject(item, options, known);
 }
 

@@ -147,7 +147,7 @@ std::optional<std::string> whySkipped(const Candidate &candidate, DialectChoice 
   const bool dialectIsSet = choice == DialectChoice::Option || choice == DialectChoice::Config;
   if (dialectIsSet && candidate.found.foundBy != FoundBy::Content)
     return std::nullopt;
-  return "does not look like an NC program; --dialect with the file's name checks it all the same";
+  return "does not look like an NC program; to check it anyway, name the file and give --dialect";
 }
 
 /// Turns candidates into work, one after the other, in their order.
@@ -177,7 +177,8 @@ private:
     std::shared_ptr<const Profile> profile = settler_.profileFor(*candidate.found.config, settings);
     const ForeignLanguage *foreign = isInsistedOn(candidate, settings.choice) ? nullptr : candidate.guess.foreign;
     if (foreign != nullptr && !runsForeignRule(*profile)) {
-      result_.skipped.push_back({candidate.found.shown, fmt::format("{}, which is not read", foreign->name)});
+      result_.skipped.push_back(
+          {candidate.found.shown, fmt::format("{}, which Feedhold does not read", foreign->name)});
       return;
     }
     std::vector<std::string_view> reasons;

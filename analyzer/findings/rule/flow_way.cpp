@@ -28,12 +28,12 @@ std::string decision(const FlowFacts &facts, NodeId node, NodeId next) {
   if (const auto *test = std::get_if<Test>(&here.instruction)) {
     if (facts.truthOf(node).value_or(Truth::Maybe) != Truth::Maybe)
       return {};
-    return next == test->taken ? "the condition holds" : "the condition does not hold";
+    return next == test->taken ? "the condition is true" : "the condition is false";
   }
   if (const auto *skip = std::get_if<BlockSkip>(&here.instruction))
     return next == skip->skipped ? "the block is skipped" : "";
   if (const auto *count = std::get_if<CountDown>(&here.instruction))
-    return next == count->taken ? "another pass" : "no pass is left";
+    return next == count->taken ? "repeats once more" : "no repetition is left";
   if (std::holds_alternative<JumpTo>(here.instruction))
     return "jumps to " + labelName(facts, node, next);
   return {};

@@ -72,10 +72,9 @@ private:
   void reviewName(const Suppression &suppression, std::vector<RawFinding> &into) const {
     if (findRule(registry_, suppression.rule) != nullptr)
       return;
-    Diagnostic diagnostic{.message = fmt::format("there is no rule `{}` to allow", suppression.rule),
-                          .span = suppression.span};
+    Diagnostic diagnostic{.message = fmt::format("there is no rule `{}`", suppression.rule), .span = suppression.span};
     if (suppression.rule.empty())
-      diagnostic.message = "the suppression names no rule";
+      diagnostic.message = "this suppression names no rule";
     diagnostic.notes.push_back(adviceFor(suppression));
     report("unknown-suppressed-rule", std::move(diagnostic), into);
   }
@@ -98,18 +97,19 @@ private:
   static Diagnostic withoutReason(const Suppression &suppression) {
     return {.message = fmt::format("`{}` is allowed without a reason", suppression.rule),
             .span = suppression.span,
-            .notes = {"the next reader must know why: " + written(suppression, suppression.rule)}};
+            .notes = {"tell the next reader why: " + written(suppression, suppression.rule)}};
   }
 
   Diagnostic unused(const Suppression &suppression, std::span<const Suppression> all) const {
     if (!suppression.missing.empty())
-      return {.message = fmt::format("`{}` is allowed where nothing is: there is no {}", suppression.rule,
-                                     suppression.missing),
+      return {.message =
+                  fmt::format("`{}` cannot be allowed here: there is no {}", suppression.rule, suppression.missing),
               .span = suppression.span};
-    const std::string_view where = suppression.wholeProgram ? "this program" : "this place";
-    Diagnostic diagnostic{.message = fmt::format("`{}` is allowed here and finds nothing", suppression.rule),
-                          .span = suppression.span,
-                          .notes = {fmt::format("left in, it would hide the next finding of this rule at {}", where)}};
+    const std::string_view where = suppression.wholeProgram ? "this program" : "this block";
+    Diagnostic diagnostic{
+        .message = fmt::format("`{}` is allowed here but reports nothing", suppression.rule),
+        .span = suppression.span,
+        .notes = {fmt::format("left in place, it would hide the next finding of this rule in {}", where)}};
     if (suppression.source != kProgramText)
       return diagnostic; // only programs are repaired, not the files beside them
     const auto sameComment = std::count_if(all.begin(), all.end(), [&](const Suppression &other) {
@@ -117,7 +117,7 @@ private:
     });
     if (sameComment == 1)
       diagnostic.fixes = {{isOnScreen(suppression.span) ? FixSafety::NeedsReview : FixSafety::Safe,
-                           "take the comment out",
+                           "delete the comment",
                            {{suppression.span, ""}}}};
     return diagnostic;
   }

@@ -153,7 +153,7 @@ std::vector<Finding> refuse(const WorkItem &item) {
                                  [](const Rule *candidate) { return candidate->info.name == kForeignLanguageRule; });
   FEEDHOLD_CHECK(rule != item.profile->rules.end(), "a foreign file came through without the rule that reports it");
   RawFinding finding{&(*rule)->info, (*rule)->info.severity, {}};
-  finding.diagnostic.message = fmt::format("this is {}, which is not read here", item.foreign->name);
+  finding.diagnostic.message = fmt::format("this is {}, which Feedhold does not read", item.foreign->name);
   finding.diagnostic.span = firstLineWithText(item.source);
   if (!item.reasons.empty())
     finding.diagnostic.notes.push_back(fmt::format("recognised by: {}", fmt::join(item.reasons, "; ")));

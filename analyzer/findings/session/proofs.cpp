@@ -24,9 +24,9 @@ std::optional<PathProblem> contractMistake(const ProjectFile &file, ProgramId pr
   });
   if (contract == nullptr || (contract->isSound && !namesOthers))
     return std::nullopt;
-  return PathProblem{file.shown, fmt::format("the contract of {} has mistakes, so that it is not proved; `feedhold "
-                                             "check` shows them",
-                                             toString(file.model.programs[program].name))};
+  return PathProblem{file.shown,
+                     fmt::format("the contract of {} has errors, so nothing is proved; `feedhold check` reports them",
+                                 toString(file.model.programs[program].name))};
 }
 
 struct Job {
@@ -92,7 +92,7 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
   std::vector<const WorkItem *> items;
   for (const WorkItem &item : workload.items)
     if (item.foreign != nullptr)
-      result.skipped.push_back({item.shown, fmt::format("{}, which is not read", item.foreign->name)});
+      result.skipped.push_back({item.shown, fmt::format("{}, which Feedhold does not read", item.foreign->name)});
     else
       items.push_back(&item);
 

@@ -54,7 +54,7 @@ Result<BlockStates> rangesOf(const Project &programs, const RangesOptions &optio
   if (options.program) {
     const auto start = startOf(programs, options.program);
     if (!start)
-      return Error{fmt::format("no program `{}` in it", *options.program)};
+      return Error{fmt::format("contains no program `{}`", *options.program)};
     starts.push_back(*start);
   } else {
     starts = allStarts(programs);
@@ -64,7 +64,7 @@ Result<BlockStates> rangesOf(const Project &programs, const RangesOptions &optio
   if (options.line) {
     block = blockAt(file, *options.line);
     if (!block || *options.line == 0)
-      return Error{fmt::format("nothing is executed in line {} or behind it", *options.line)};
+      return Error{fmt::format("no block is executed in line {} or after it", *options.line)};
   }
   const auto wants = [&](FileId at, BlockId which) {
     return (at == kFirstFile || (options.files == RangesOptions::Files::All && !block)) && (!block || *block == which);

@@ -98,10 +98,10 @@ private:
           continue;
         if (promised != LengthSystem::None && promised != system)
           issue(ContractIssueKind::Unit, entry.clause, entry.unitSpan,
-                fmt::format("`@MODAL` promises {}", promised == LengthSystem::Inch ? "inches" : "millimetres"));
+                fmt::format("`@MODAL` says {}", promised == LengthSystem::Inch ? "inches" : "millimetres"));
         else if (first && systemOf(first->unit) != system)
           issue(ContractIssueKind::Unit, entry.clause, entry.unitSpan,
-                fmt::format("`#{}` is in `{}`, and a program computes in one of them", first->variable,
+                fmt::format("`#{}` is in `{}`, and a program uses only one of the two", first->variable,
                             nameOf(first->unit)));
         first = first ? first : &entry;
       }
@@ -119,7 +119,7 @@ private:
     for (const ExpressionId value : values)
       if (const auto number = constantValue(reading_.result.tree, value); number && !number->isInteger())
         return issue(ContractIssueKind::Unit, entry.clause, entry.unitSpan,
-                     fmt::format("it says whole numbers, and {} is none",
+                     fmt::format("it means whole numbers, and {} is not whole",
                                  reading_.result.source(clause(entry.clause).source)
                                      .text(reading_.result.tree.expressions[value].span)));
   }

@@ -285,7 +285,7 @@ Range ClauseReader::range(std::string_view what) {
   }
   if (isAmbiguous)
     fail(ContractIssueKind::Malformed, {begin, operandEnd(at_)},
-         "a blank before or behind `..`, which tells whose decimal point the third one is");
+         "a blank before or after `..`, to show which number the third point belongs to");
   if (const std::uint32_t dotsEnd = at_; !hasUpperEnd(spaced))
     at_ = dotsEnd;
   else
@@ -331,7 +331,8 @@ ExpressionId ClauseReader::parsed(Span part, FindReserved reserved) {
       fail(ContractIssueKind::Expression, part, "a part of it could not be read");
     if (std::holds_alternative<NamedVariable>(expression.node) && sourceId_ != kProgramText)
       fail(ContractIssueKind::Expression, expression.span,
-           "names of variables are known in the program only; write the number here, or the clause as a comment there");
+           "names of variables are known only in the program; write the number here, or move the clause into the "
+           "program");
   }
   return result;
 }
@@ -342,8 +343,8 @@ void ClauseReader::refuseSyntax(const SyntaxIssue &issue) {
   const bool deep = issue.kind == SyntaxIssueKind::NestingTooDeep;
   fail(ContractIssueKind::Expression, issue.span,
        open     ? "`]` is missing here"
-       : symbol ? "comparisons are written as in the program: `EQ NE GT GE LT LE`"
-       : deep   ? "too long or too deep"
+       : symbol ? "write comparisons as in the program: `EQ NE GT GE LT LE`"
+       : deep   ? "it is too long, or nested too deep"
                 : "an operand of the macro language was expected here");
 }
 
@@ -373,7 +374,7 @@ void ClauseReader::refuseNumber(ExpressionId id) {
     const auto *operation = std::get_if<BinaryOperation>(&expression.node);
     if (operation && isRelation(operation->op))
       return fail(ContractIssueKind::Expression, expression.span,
-                  "each comparison needs brackets of its own: `[#1 GT 0] AND [#2 GT 0]`");
+                  "each comparison needs its own brackets: `[#1 GT 0] AND [#2 GT 0]`");
   }
 }
 

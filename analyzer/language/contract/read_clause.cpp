@@ -112,10 +112,10 @@ private:
       reader_.fail(ContractIssueKind::Malformed, value.variableSpan, "a variable that this control has");
     else if (isParam && !isLocal)
       reader_.fail(ContractIssueKind::Malformed, value.variableSpan,
-                   "a local variable, since a call passes its arguments in these; `@GLOBAL` is for the others");
+                   "a local variable, which holds an argument; `@GLOBAL` is for other variables");
     else if (!isParam && isLocal)
       reader_.fail(ContractIssueKind::Malformed, value.variableSpan,
-                   "a common variable; `@PARAM` is for the arguments in local variables");
+                   "a common variable; `@PARAM` is for arguments, in local variables");
   }
 
   AllowedValues readValues(std::string_view name) {
@@ -173,7 +173,7 @@ private:
       ContractIssue issue{ContractIssueKind::Code,
                           source(),
                           code.span,
-                          fmt::format("`{}` stands already, and only one code of a group is in force", other),
+                          fmt::format("`{}` is already there, and only one code of a group can be active", other),
                           first->clause,
                           contract_.program};
       contract_.isSound = false;
@@ -208,7 +208,7 @@ private:
     if (!code)
       reader_.fail(ContractIssueKind::Code, span, "this control has no such code");
     else if (code->group == 0)
-      reader_.fail(ContractIssueKind::Code, span, "it acts in its block only and is never in force behind it");
+      reader_.fail(ContractIssueKind::Code, span, "it acts only in its own block and is not modal");
     return {id_, letter, tenths.value_or(0), code ? code->group : std::uint8_t{0}, span};
   }
 
@@ -248,7 +248,7 @@ private:
     const bool isShape = reader_.at("BOX") || reader_.at("CYLINDER") || reader_.at("SPHERE") || reader_.at("POLYGON") ||
                          reader_.at("WHERE");
     if (isShape)
-      reader_.expected("a name for the region in front of its shape");
+      reader_.expected("a name for the region before its shape");
     const Span name = reader_.name("a name for the region");
     Region read{id_, reading_.result.source(source()).utf8(name), readShape(reader_)};
     if (isRead())
@@ -319,7 +319,7 @@ private:
         const std::uint32_t last = isRange ? reader_.variable().number : first;
         if (last < first)
           reader_.fail(ContractIssueKind::EmptyRange, reading_.result.clauses[id_].span,
-                       fmt::format("`#{}` comes behind `#{}`", first, last));
+                       fmt::format("`#{}` comes after `#{}`", first, last));
         assigns.variables.push_back({first, last});
       } while (!reader_.failed() && !reader_.atEnd());
     if (isRead())
@@ -387,7 +387,7 @@ private:
     const Span clause = reading_.result.clauses[id_].span;
     if (!raw_.number) {
       reader_.fail(ContractIssueKind::Place, clause,
-                   "it needs the sequence number of its loop in front: `@AT N30 ...`");
+                   "in a sidecar file it needs the sequence number of the loop: `@AT N30 ...`");
       return std::nullopt;
     }
     const std::string_view text = reading_.result.source(source()).text(*raw_.number);
@@ -403,8 +403,8 @@ private:
     if (found.size() == 1)
       return found.front().block;
     reader_.fail(ContractIssueKind::Place, *raw_.number,
-                 found.empty() ? fmt::format("there is no N{} in the program", number)
-                               : fmt::format("N{} stands in the program {} times", number, found.size()));
+                 found.empty() ? fmt::format("the program has no N{}", number)
+                               : fmt::format("the program has N{} {} times", number, found.size()));
     return std::nullopt;
   }
 
@@ -481,15 +481,15 @@ void readClause(ContractReading &reading, const RawClause &raw) {
   const bool inProgram = raw.source == kProgramText;
   if (isSuppression(head.name) && raw.number)
     return refuse(reading, raw, *raw.number,
-                  fmt::format("no `@AT`; the place stands behind the rule: `{} rule N30 reason`", head.name));
+                  fmt::format("no `@AT`; the place comes after the rule: `{} rule N30 reason`", head.name));
   if (isSuppression(head.name) && !inProgram)
     reading.result.allowances.push_back({raw.source, raw.span, raw.program});
   if (isSuppression(head.name))
     return; // read by those who suppress
   if (head.name == "@AT")
-    return refuse(reading, raw, head.keyword, "a clause without its place, which is where the comment stands");
+    return refuse(reading, raw, head.keyword, "a clause without `@AT`, since a comment already has a place");
   if (raw.number && raw.span.empty())
-    return refuse(reading, raw, raw.span, "a clause behind the place");
+    return refuse(reading, raw, raw.span, "a clause after the place");
   const auto found = std::ranges::find(kClauseNames, head.name);
   if (found == std::end(kClauseNames))
     return refuseUnknown(reading, raw, head, source.text());
@@ -497,7 +497,7 @@ void readClause(ContractReading &reading, const RawClause &raw) {
   const ClauseId id = reading.result.clauses.add({kind, raw.source, raw.span, source.utf8(raw.span), raw.program});
   if (raw.number && kind != ClauseKind::Invariant && kind != ClauseKind::Variant) {
     return refuse(reading, raw, *raw.number,
-                  fmt::format("no `@AT`, since `{}` speaks of the whole program", head.name));
+                  fmt::format("no `@AT`, since `{}` applies to the whole program", head.name));
   }
   ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
 }

@@ -84,7 +84,7 @@ std::vector<AxisValue> readAxisValues(ClauseReader &reader, std::string_view axe
   std::vector<AxisValue> values;
   while (const std::optional<char> axis = reader.peekLetter(axes)) {
     if (std::ranges::find(values, *axis, &AxisValue::axis) != values.end()) {
-      reader.expected(fmt::format("each axis once, and {} stands twice", *axis));
+      reader.expected(fmt::format("each axis only once, but {} occurs twice", *axis));
       return values;
     }
     reader.takeLetter(axes);
@@ -97,7 +97,7 @@ Box readBox(ClauseReader &reader) {
   Box box;
   while (const std::optional<char> axis = reader.peekLetter(kSpace)) {
     if (std::ranges::find(box.sides, *axis, &AxisRange::axis) != box.sides.end()) {
-      reader.expected(fmt::format("each axis once, and {} stands twice", *axis));
+      reader.expected(fmt::format("each axis only once, but {} occurs twice", *axis));
       return box;
     }
     reader.takeLetter(kSpace);

@@ -54,7 +54,7 @@ template <typename Entry> std::vector<Entry> readAll(const Json &document, const
   std::vector<Entry> entries;
   const Json &rows = document.at(key);
   if (!rows.is_array())
-    throw std::invalid_argument(fmt::format("`{}` is no list", key));
+    throw std::invalid_argument(fmt::format("`{}` is not a list", key));
   for (const Json &row : rows) {
     try {
       read(row, entries.emplace_back());
@@ -71,13 +71,13 @@ Result<Baseline> parse(std::string_view text) {
     const Json document = Json::parse(text);
     const int version = document.at("version");
     if (version != kVersion)
-      return Error{fmt::format("is a baseline of version {}, and this program reads version {}; use the version of "
-                               "feedhold that wrote it, or write it anew with --update-baseline",
+      return Error{fmt::format("is a baseline of version {}, but this feedhold reads version {}; use the version that "
+                               "wrote it, or rewrite it with --update-baseline",
                                version, kVersion)};
     return Baseline{readAll<KnownFinding>(document, "findings"), readAll<KnownObligation>(document, "obligations")};
   } catch (const std::exception &error) {
-    return Error{fmt::format("is no baseline, or a damaged one: {}; take it from your version control, or delete it "
-                             "and write it anew with --update-baseline",
+    return Error{fmt::format("is not a valid baseline: {}; restore it from version control, or delete it and rewrite "
+                             "it with --update-baseline",
                              error.what())};
   }
 }
@@ -99,8 +99,9 @@ std::string told(std::size_t hidden, const std::vector<Entry> &gone, const Basel
   std::string text = fmt::format("{} hidden by {}\n", counted(hidden, one, many), options.file);
   if (gone.empty())
     return text;
-  text += fmt::format("{} of {} {} gone; --update-baseline takes {} out:\n", counted(gone.size(), "entry", "entries"),
-                      options.file, gone.size() == 1 ? "is" : "are", gone.size() == 1 ? "it" : "them");
+  text += fmt::format("{} of {} no longer occur{}; --update-baseline removes {}:\n",
+                      counted(gone.size(), "entry", "entries"), options.file, gone.size() == 1 ? "s" : "",
+                      gone.size() == 1 ? "it" : "them");
   for (std::size_t i = 0; i < std::min(gone.size(), kGoneShown); ++i)
     text += fmt::format("  {}\n", nameOf(gone[i]));
   if (gone.size() > kGoneShown)
@@ -122,7 +123,7 @@ Result<Baseline> readBaseline(const BaselineOptions &options) {
   if (!fs::exists(options.file, error)) {
     if (options.update)
       return Baseline{};
-    return Error{options.file + ": no such baseline; --update-baseline writes it"};
+    return Error{options.file + ": no such baseline file; create it with --update-baseline"};
   }
   const Result<SourceFile> file = SourceFile::open(options.file);
   if (!file)
@@ -149,8 +150,10 @@ std::string toldOfUpdate(const Baseline &before, const Baseline &after, const Ba
 } // namespace
 
 void addBaselineOptions(CLI::App &app, BaselineOptions &options) {
-  CLI::Option *file = app.add_option("--baseline", options.file, "report only what is not in this file");
-  app.add_flag("--update-baseline", options.update, "write what there is now to the baseline, instead of reporting it")
+  CLI::Option *file =
+      app.add_option("--baseline", options.file, "report only what is not in this baseline file")->type_name("FILE");
+  app.add_flag("--update-baseline", options.update,
+               "write the current results to the baseline instead of reporting them")
       ->needs(file);
 }
 

@@ -43,9 +43,9 @@ std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view ma
   if (!fs::exists(folder, error))
     return std::nullopt;
   if (!fs::is_directory(folder, error))
-    return Error{"is no folder"};
+    return Error{"is not a folder"};
   if (!fs::is_empty(folder, error) && !fs::exists(folder / mark, error))
-    return Error{fmt::format("holds other files; name a new folder or one with a {}", mark)};
+    return Error{fmt::format("contains other files; choose a new folder, or one with a {}", mark)};
   return error ? std::optional(Error{error.message()}) : std::nullopt;
 }
 

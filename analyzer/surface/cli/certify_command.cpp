@@ -4,6 +4,7 @@
 #include "surface/cli/commands.h"
 #include "surface/cli/kind_options.h"
 #include "surface/cli/report_run.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 
 #include <fmt/chrono.h>
@@ -24,23 +25,23 @@ struct CertifyArguments {
   std::vector<std::string> only;
   std::string output;
   std::string dialect;
-  std::string config;
+  ConfigArguments config;
   std::string date;
   unsigned jobs = 0;
-  bool isolated = false;
   bool quiet = false;
 };
 
 void addOptions(CLI::App &app, CertifyArguments &arguments) {
-  app.add_option("paths", arguments.paths, "files and folders (default: the current folder)");
-  app.add_option("-o,--output", arguments.output, "the folder of the report; a report in it is replaced")->required();
+  app.add_option("paths", arguments.paths, "files and folders (default: current folder)")->type_name("PATH");
+  app.add_option("-o,--output", arguments.output, "folder of the report; an existing report there is replaced")
+      ->type_name("FOLDER")
+      ->required();
   addOnlyKinds(app, arguments.only);
-  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
-  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
-  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
-  app.add_option("--date", arguments.date,
-                 "the date of the report, as it is to stand there (default: that of SOURCE_DATE_EPOCH, or none)");
-  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
+  addDialect(app, arguments.dialect);
+  addConfiguration(app, arguments.config);
+  app.add_option("--date", arguments.date, "date printed on the report (default: from SOURCE_DATE_EPOCH, else none)")
+      ->type_name("TEXT");
+  addJobs(app, arguments.jobs);
   app.add_flag("-q,--quiet", arguments.quiet, "print no summary");
 }
 
@@ -55,7 +56,7 @@ Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
   std::uint32_t seconds = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (error != std::errc() || end != text.data() + text.size())
-    return Error{fmt::format("SOURCE_DATE_EPOCH is `{}`, which is no number of seconds", text)};
+    return Error{fmt::format("SOURCE_DATE_EPOCH is `{}`, which is not a number of seconds", text)};
   return std::optional(fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(seconds))));
 }
 
@@ -65,11 +66,11 @@ std::filesystem::path plainPath(const std::string &path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
-Result<ReportOptions> wishOf(const CertifyArguments &arguments) {
+Result<ReportOptions> optionsOf(const CertifyArguments &arguments) {
   ReportOptions options;
   for (const std::string &path : arguments.paths) {
     if (path == "-")
-      return Error{"standard input cannot be found again, so that there is nothing to certify"};
+      return Error{"certify needs named files: standard input cannot be read again"};
     options.paths.push_back(plainPath(path));
   }
   if (options.paths.empty())
@@ -79,9 +80,9 @@ Result<ReportOptions> wishOf(const CertifyArguments &arguments) {
       return Error{*complaint};
     options.reading.dialect = arguments.dialect;
   }
-  options.reading.isolated = arguments.isolated;
-  if (!arguments.config.empty())
-    options.reading.config = arguments.config;
+  options.reading.isolated = arguments.config.isolated;
+  if (!arguments.config.file.empty())
+    options.reading.config = arguments.config.file;
   options.reading.only = kindsFrom(arguments.only);
   const auto date = dateOf(arguments);
   if (!date)
@@ -101,7 +102,7 @@ int exitCodeOf(ReleaseStatus status) {
 }
 
 Result<int> certify(const CertifyArguments &arguments) {
-  const Result<ReportOptions> options = wishOf(arguments);
+  const Result<ReportOptions> options = optionsOf(arguments);
   if (!options)
     return options.error();
   if (const auto refusal = whyNoBundleFits(arguments.output, kReportDocument))
@@ -110,7 +111,7 @@ Result<int> certify(const CertifyArguments &arguments) {
   for (const PathProblem &problem : run.problems)
     printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())
-    return Error{"no report is written: it would not speak of all that was named"};
+    return Error{"no report was written, since it would not cover all of the named files"};
   if (const auto error = writeBundle(arguments.output, run.report))
     return Error{arguments.output + ": " + error->message};
   if (!arguments.quiet)
@@ -130,7 +131,7 @@ int certifyOrComplain(const CertifyArguments &arguments) {
 } // namespace
 
 Command addCertifyCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("certify", "write a report of proofs for who releases programs");
+  CLI::App *app = parent.add_subcommand("certify", "write a release report of all proofs, to be signed");
   const auto arguments = std::make_shared<CertifyArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] { return certifyOrComplain(*arguments); }};

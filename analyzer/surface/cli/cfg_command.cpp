@@ -16,7 +16,7 @@ std::string dumpCfg(const SourceFile &source, const Dialect &dialect) {
 } // namespace
 
 Command addCfgCommand(CLI::App &parent) {
-  return addDumpCommand(parent, "cfg", "print what a program executes, and what may come next", dumpCfg);
+  return addDumpCommand(parent, "cfg", "print the control-flow graph of a program", dumpCfg);
 }
 
 } // namespace feedhold

@@ -6,20 +6,21 @@ namespace feedhold {
 
 void addChangedSince(CLI::App &app, ChangeOptions &change) {
   app.add_option("--changed-since", change.since,
-                 "only programs that differ from where the branch left this revision, and all that call them");
+                 "only programs changed since the branch left this git revision, and programs that call them")
+      ->type_name("REVISION");
 }
 
 void addWithCallers(CLI::App &app, ChangeOptions &change) {
   CLI::Option *callers =
       app.add_flag("--with-callers", change.withCallers,
-                   "the paths are changed programs and contracts: also all programs of their folders that call them");
+                   "the paths are changed files: include the programs in their folders that call them");
   callers->excludes(app.get_option("--changed-since"));
 }
 
 std::optional<std::string> complaintAbout(const ChangeOptions &change, const CheckOptions &options) {
   if (!change.isAsked() || !options.piped)
     return std::nullopt;
-  return "standard input has neither a history nor a folder; name files for --changed-since and --with-callers";
+  return "--changed-since and --with-callers need named files, not standard input";
 }
 
 Result<Affected> affected(const ChangeOptions &change, const CheckOptions &options, const KnownNames &known) {

@@ -10,6 +10,7 @@
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/sink.h"
 
@@ -33,11 +34,10 @@ struct CheckArguments {
   std::vector<std::string> select;
   std::vector<std::string> ignore;
   std::string errorOn;
-  std::string config;
+  ConfigArguments config;
   std::string stdinFilename = "<stdin>";
   std::string color = "auto";
   unsigned jobs = 0;
-  bool isolated = false;
   bool fix = false;
   bool unsafeFixes = false;
   bool diff = false;
@@ -51,33 +51,34 @@ struct CheckArguments {
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
-  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: the current folder)");
-  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
-  app.add_option("--format", arguments.format, "text, concise, json, sarif, junit or github")
-      ->check(CLI::IsMember({"text", "concise", "json", "sarif", "junit", "github"}));
-  app.add_option("--output", arguments.output, "write the findings to this file");
-  app.add_option("--select", arguments.select, "run only these rules or categories")
+  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: current folder)")
+      ->type_name("PATH");
+  addDialect(app, arguments.dialect);
+  addFormat(app, arguments.format, {"text", "concise", "json", "sarif", "junit", "github"});
+  app.add_option("--output", arguments.output, "write the findings to this file")->type_name("FILE");
+  app.add_option("--select", arguments.select, "check only these rules or categories (comma-separated, or repeated)")
+      ->type_name("RULE")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--ignore", arguments.ignore, "leave out these rules or categories")
+  app.add_option("--ignore", arguments.ignore, "skip these rules or categories (comma-separated, or repeated)")
+      ->type_name("RULE")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--error-on", arguments.errorOn, "exit 1 from this severity on: error, warning (default) or info")
+  app.add_option("--error-on", arguments.errorOn, "lowest severity that gives exit code 1 (default: warning)")
+      ->type_name("SEVERITY")
       ->check(CLI::IsMember({"error", "warning", "info"}));
-  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
-  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
-  app.add_flag("--fix", arguments.fix, "repair what can be repaired safely");
-  app.add_flag("--unsafe-fixes", arguments.unsafeFixes, "with --fix or --diff: also repairs that need your review");
-  app.add_flag("--diff", arguments.diff, "show the repairs as a unified diff and change nothing");
-  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
-  app.add_option("--color", arguments.color, "auto, always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}));
-  app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
-  app.add_flag("--show-suppressed", arguments.showSuppressed, "show findings that are allowed, too");
+  addConfiguration(app, arguments.config);
+  app.add_flag("--fix", arguments.fix, "apply safe fixes to the files");
+  app.add_flag("--unsafe-fixes", arguments.unsafeFixes, "with --fix or --diff: include fixes that need your review");
+  app.add_flag("--diff", arguments.diff, "print the fixes as a unified diff and change no file");
+  addJobs(app, arguments.jobs);
+  addColor(app, arguments.color);
+  addStdinFilename(app, arguments.stdinFilename);
+  app.add_flag("--show-suppressed", arguments.showSuppressed, "also print findings that @ALLOW suppresses");
   app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
-  app.add_flag("--statistics", arguments.statistics, "print the number of findings of each rule instead of them");
-  app.add_flag("--exit-zero", arguments.exitZero, "exit 0 even with findings");
-  app.add_flag("--watch", arguments.watch, "check again whenever a file changes, until Ctrl-C");
+  app.add_flag("--statistics", arguments.statistics, "print the number of findings per rule instead of the findings");
+  app.add_flag("--exit-zero", arguments.exitZero, "exit with 0 even if there are findings");
+  app.add_flag("--watch", arguments.watch, "check again whenever a file changes; stop with Ctrl-C");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
 }
@@ -98,22 +99,14 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
       return complaint;
   const bool isPiped = std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end();
   if (isPiped && arguments.fix && !arguments.diff)
-    return "standard input cannot be repaired in place; --diff shows the repairs";
+    return "--fix cannot change standard input; use --diff to see the fixes";
   if (arguments.baseline.isAsked() && (arguments.fix || arguments.diff))
-    return "--baseline is for reports; repairs are made in all findings, so give one or the other";
+    return "--baseline cannot be combined with --fix or --diff, which fix all findings";
   if (arguments.watch && (isPiped || arguments.fix || arguments.diff || arguments.baseline.update))
-    return "--watch reports on files; it goes with neither standard input, --fix, --diff nor --update-baseline";
+    return "--watch cannot be combined with standard input, --fix, --diff or --update-baseline";
   if (arguments.unsafeFixes && !arguments.fix && !arguments.diff)
-    return "--unsafe-fixes says which repairs; add --fix to make them or --diff to see them";
+    return "--unsafe-fixes needs --fix to apply the fixes, or --diff to print them";
   return std::nullopt;
-}
-
-ConfigOptions configOptions(const CheckArguments &arguments) {
-  if (arguments.isolated)
-    return {ConfigSource::None};
-  if (!arguments.config.empty())
-    return {ConfigSource::Named, arguments.config};
-  return {};
 }
 
 CheckOptions toOptions(const CheckArguments &arguments) {
@@ -128,7 +121,7 @@ CheckOptions toOptions(const CheckArguments &arguments) {
   options.select = arguments.select;
   options.ignore = arguments.ignore;
   options.errorOn = severityFromName(arguments.errorOn);
-  options.config = configOptions(arguments);
+  options.config = configFrom(arguments.config);
   options.jobs = arguments.jobs;
   return options;
 }
@@ -178,7 +171,7 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
                       .root = std::filesystem::current_path(),
                       .exitCode = exitCode,
                       .showSuppressed = arguments.showSuppressed ? ShowSuppressed::Yes : ShowSuppressed::No,
-                      .colour = arguments.output.empty() && useColour(colourWishFrom(arguments.color))};
+                      .colour = arguments.output.empty() && useColour(colourOptionFrom(arguments.color))};
   const std::string text = arguments.statistics ? statistics(report) : write(format, report);
   printProblems(result.errors);
   if (arguments.output.empty()) {
@@ -218,7 +211,7 @@ int repair(const CheckOptions &options, const CheckArguments &arguments, Progres
   for (const FixedFile &file : fixed.files)
     repairs += file.fixes;
   if (repairs != 0 && !arguments.quiet)
-    printAside(fmt::format("made {} repair{} in {} file{}\n", repairs, repairs == 1 ? "" : "s", fixed.files.size(),
+    printAside(fmt::format("applied {} fix{} in {} file{}\n", repairs, repairs == 1 ? "" : "es", fixed.files.size(),
                            fixed.files.size() == 1 ? "" : "s"));
   return present(fixed.remaining, arguments);
 }
@@ -304,14 +297,17 @@ int watch(const CheckArguments &arguments) {
     runCheck(arguments);
     if (!outputArrived())
       return kExitCouldNotRun;
-    printAside(fmt::format("--- watching {} file{}; Ctrl-C ends ---\n", stamps.size(), stamps.size() == 1 ? "" : "s"));
+    printAside(
+        fmt::format("--- watching {} file{}; stop with Ctrl-C ---\n", stamps.size(), stamps.size() == 1 ? "" : "s"));
   }
 }
 
 } // namespace
 
 Command addCheckCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("check", "find mistakes in programs");
+  CLI::App *app = parent.add_subcommand("check", "report mistakes in programs");
+  app->footer("Exit codes: 0 no findings, 1 findings, 2 the command could not run.\n"
+              "Example: feedhold check --fix nc/");
   const auto arguments = std::make_shared<CheckArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] {

@@ -9,9 +9,12 @@
 namespace feedhold {
 
 Command addCompletionsCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("completions", "print a script that completes commands in a shell");
+  CLI::App *app = parent.add_subcommand("completions", "print a completion script for a shell");
   const auto shell = std::make_shared<std::string>();
-  app->add_option("shell", *shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  app->add_option("shell", *shell, "shell that the script is for")
+      ->type_name("SHELL")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   return {app, [shell, &parent] {
             const CommandTable table = commandTable(parent);
             print(*shell == "bash"  ? bashCompletions(table)
@@ -22,7 +25,7 @@ Command addCompletionsCommand(CLI::App &parent) {
 }
 
 Command addManCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("man", "print the manual page, for `man -l`");
+  CLI::App *app = parent.add_subcommand("man", "print the manual page; read it with `feedhold man | man -l -`");
   return {app, [&parent] {
             print(manPage(commandTable(parent), FEEDHOLD_VERSION));
             return kExitClean;

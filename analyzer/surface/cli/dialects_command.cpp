@@ -1,6 +1,7 @@
 // `feedhold dialects`: the controls that can be read for.
 #include "dialects/registry.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 
 #include <fmt/format.h>
@@ -45,9 +46,9 @@ std::string dialectsAsJson() {
 } // namespace
 
 Command addDialectsCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("dialects", "list the dialects: the controls that programs are read for");
+  CLI::App *app = parent.add_subcommand("dialects", "list the supported controls (dialects)");
   const auto format = std::make_shared<std::string>("text");
-  app->add_option("--format", *format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  addFormat(*app, *format, {"text", "json"});
   return {app, [format] {
             print(*format == "json" ? dialectsAsJson() : dialectsAsText());
             return kExitClean;

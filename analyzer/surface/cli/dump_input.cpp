@@ -45,8 +45,9 @@ Command addDumpCommand(CLI::App &parent, const std::string &name, const std::str
                        std::string (*dump)(const SourceFile &, const Dialect &)) {
   CLI::App *app = parent.add_subcommand(name, description);
   const auto arguments = std::make_shared<DumpArguments>();
-  app->add_option("file", arguments->path, "a program; - is standard input")->required();
-  app->add_option("--dialect", arguments->dialect, "the control to read for (default: guessed)");
+  app->add_option("file", arguments->path, "program file; - is standard input")->type_name("FILE")->required();
+  app->add_option("--dialect", arguments->dialect, "control to assume (default: detected); see `feedhold dialects`")
+      ->type_name("DIALECT");
   return {app, [arguments, dump] { return runDump(*arguments, dump); }};
 }
 

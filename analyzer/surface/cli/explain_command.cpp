@@ -27,9 +27,9 @@ int explain(const std::string &asked) {
 } // namespace
 
 Command addExplainCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("explain", "print what a rule is about, with examples");
+  CLI::App *app = parent.add_subcommand("explain", "explain a rule, with examples");
   const auto name = std::make_shared<std::string>();
-  app->add_option("rule", *name, "name of the rule")->required();
+  app->add_option("rule", *name, "name of the rule, such as missing-equals")->type_name("RULE")->required();
   return {app, [name] { return explain(*name); }};
 }
 

@@ -10,7 +10,8 @@ void addOnlyKinds(CLI::App &app, std::vector<std::string> &names) {
   std::vector<std::string> known;
   for (const prove::ObligationKind kind : prove::kObligationKinds)
     known.emplace_back(nameOf(kind));
-  app.add_option("--only", names, "prove only this kind of obligation (may be given again)")
+  app.add_option("--only", names, "prove only these kinds of obligations (comma-separated, or repeated)")
+      ->type_name("KIND")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(known));

@@ -3,6 +3,7 @@
 #include "rules/registry.h"
 #include "surface/cli/cache_place.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shared_options.h"
 #include "surface/lsp/server.h"
 
 #include <iostream>
@@ -13,18 +14,17 @@ namespace feedhold {
 namespace {
 
 struct LspArguments {
-  std::string cacheFolder;
+  CacheArguments cache;
   std::string clientProcess;
   bool stdio = false;
-  bool withoutCache = false;
 };
 
 int runLsp(const LspArguments &arguments) {
   const std::optional<std::filesystem::path> folder =
-      arguments.cacheFolder.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.cacheFolder);
+      arguments.cache.folder.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.cache.folder);
   lsp::ServerOptions options{
       .known = {allDialects(), allRules()}, .version = FEEDHOLD_VERSION, .cache = std::nullopt, .pages = std::nullopt};
-  if (!arguments.withoutCache)
+  if (!arguments.cache.off)
     options.cache = proofCache(folder);
   if (options.cache)
     options.pages = std::filesystem::absolute(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
@@ -36,13 +36,11 @@ int runLsp(const LspArguments &arguments) {
 } // namespace
 
 Command addLspCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("lsp", "run the language server for editors, on standard input and output");
+  CLI::App *app = parent.add_subcommand("lsp", "run the language server for editors on standard input and output");
   const auto arguments = std::make_shared<LspArguments>();
-  app->add_flag("--stdio", arguments->stdio, "the only way to speak to it; editors like to say so");
-  app->add_option("--clientProcessId", arguments->clientProcess, "taken because editors pass it");
-  CLI::Option *cache =
-      app->add_option("--cache-dir", arguments->cacheFolder, "keep verdicts here (default: the cache of the user)");
-  app->add_flag("--no-cache", arguments->withoutCache, "keep nothing on disk")->excludes(cache);
+  app->add_flag("--stdio", arguments->stdio, "accepted for editors; the server always uses standard input and output");
+  app->add_option("--clientProcessId", arguments->clientProcess, "accepted for editors, and ignored")->type_name("PID");
+  addCache(*app, arguments->cache);
   return {app, [arguments] { return runLsp(*arguments); }};
 }
 

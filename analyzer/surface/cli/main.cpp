@@ -9,9 +9,10 @@ namespace {
 
 int run(int argc, char **argv) {
   using namespace feedhold;
-  CLI::App app("Static analyser for CNC macro programs", "feedhold");
+  CLI::App app("Static analyser, linter and prover for CNC macro programs", "feedhold");
   app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION);
   app.require_subcommand(1);
+  app.footer("`feedhold COMMAND --help` describes the options of a command; `feedhold check FOLDER` is a good start.");
   const std::vector<Command> commands = {addCheckCommand(app),       addRunCommand(app),     addPlotCommand(app),
                                          addExplainCommand(app),     addRulesCommand(app),   addDialectsCommand(app),
                                          addTokensCommand(app),      addTreeCommand(app),    addModelCommand(app),

@@ -49,13 +49,13 @@ std::string sectionOf(const CommandRow &command) {
 constexpr std::string_view kTail = R"(.SH EXIT STATUS
 .TP
 0
-Nothing was found, or everything is proved.
+No findings, or everything is proved.
 .TP
 1
-Something was found, or refuted.
+Findings, or something is refuted.
 .TP
 2
-The command could not run: a mistake in the call, a file that cannot be read, a configuration with errors.
+The command could not run: a wrong option, a file that cannot be read, a configuration with errors.
 .TP
 3
 Of \fBprove\fR: nothing is refuted, but not everything is proved.
@@ -65,17 +65,17 @@ Of \fBprove\fR: a run contradicts a verdict, which is a defect of Feedhold; plea
 .SH FILES
 .TP
 feedhold.toml
-The configuration; the nearest one above a program counts.
+The configuration: the nearest one in the folder of a program or above.
 .TP
 O9100.contract, part.contract
-Contracts and suppressions of a program, beside it.
+Contracts and suppressions of a program, in a sidecar file beside it.
 .SH ENVIRONMENT
 .TP
 NO_COLOR
-When set, no colours.
+When set, the output has no colours.
 .TP
 XDG_CACHE_HOME
-Where proofs are remembered, in \fIfeedhold\fR.
+Verdicts are cached in its folder \fIfeedhold\fR.
 )";
 
 } // namespace

@@ -15,7 +15,7 @@ std::string dumpModel(const SourceFile &source, const Dialect &dialect) {
 } // namespace
 
 Command addModelCommand(CLI::App &parent) {
-  return addDumpCommand(parent, "model", "print what the names of a program mean", dumpModel);
+  return addDumpCommand(parent, "model", "print programs, jumps, loops, calls and variables of a file", dumpModel);
 }
 
 } // namespace feedhold

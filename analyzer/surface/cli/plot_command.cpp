@@ -24,9 +24,14 @@ struct PlotArguments {
 
 void addOptions(CLI::App &app, PlotArguments &arguments) {
   addRunInput(app, arguments.input);
-  app.add_option("-o,--output", arguments.output, "write to this file (default: standard output)");
-  app.add_option("--compare", arguments.compare, "draw the run of this file over it, with the same arguments");
-  app.add_option("--compare-arg", arguments.compareArguments, "an argument that the second run has instead: A=12")
+  app.add_option("-o,--output", arguments.output, "write the image to this file (default: standard output)")
+      ->type_name("FILE");
+  app.add_option("--compare", arguments.compare,
+                 "draw the run of a second file over the first, with the same arguments")
+      ->type_name("FILE");
+  app.add_option("--compare-arg", arguments.compareArguments,
+                 "argument of the second run where it differs: A=12 (may be repeated)")
+      ->type_name("LETTER=VALUE")
       ->allow_extra_args(false);
 }
 
@@ -128,7 +133,7 @@ int plotOrComplain(const PlotArguments &arguments) {
 } // namespace
 
 Command addPlotCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("plot", "draw the tool path of a run as an SVG");
+  CLI::App *app = parent.add_subcommand("plot", "execute a program and draw its tool path as an SVG image");
   const auto arguments = std::make_shared<PlotArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] { return plotOrComplain(*arguments); }};

@@ -7,6 +7,7 @@
 #include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/kind_options.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
 
@@ -28,41 +29,37 @@ struct ProveArguments {
   std::vector<std::string> paths;
   std::vector<std::string> only;
   std::string dialect;
-  std::string config;
+  ConfigArguments config;
   std::string certificate;
-  std::string cacheFolder;
+  CacheArguments cache;
   std::string format = "text";
   std::string color = "auto";
   std::string stdinFilename = "<stdin>";
   unsigned jobs = 0;
-  bool isolated = false;
   bool verbose = false;
   bool quiet = false;
-  bool withoutCache = false;
   bool statistics = false;
   BaselineOptions baseline;
   ChangeOptions change;
 };
 
 void addOptions(CLI::App &app, ProveArguments &arguments) {
-  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: the current folder)");
+  app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: current folder)")
+      ->type_name("PATH");
   addOnlyKinds(app, arguments.only);
-  app.add_option("--dialect", arguments.dialect, "the control to read for; `feedhold dialects` lists them");
-  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration for all files");
-  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
+  addDialect(app, arguments.dialect);
+  addConfiguration(app, arguments.config);
   app.add_option("--certificate", arguments.certificate,
-                 "write the evidence of all proofs to this folder, for `feedhold recheck`");
-  app.add_option("--format", arguments.format, "text, json or sarif")->check(CLI::IsMember({"text", "json", "sarif"}));
-  CLI::Option *folder =
-      app.add_option("--cache-dir", arguments.cacheFolder, "keep verdicts here (default: the cache of the user)");
-  app.add_flag("--no-cache", arguments.withoutCache, "prove everything anew, and keep nothing")->excludes(folder);
-  app.add_option("--jobs", arguments.jobs, "number of threads (default: one per processor)");
-  app.add_option("--color", arguments.color, "auto, always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}));
-  app.add_option("--stdin-filename", arguments.stdinFilename, "the path that standard input stands for");
-  app.add_flag("-v,--verbose", arguments.verbose, "show how each proof was found and what it cost");
-  app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no files that were passed over");
-  app.add_flag("--statistics", arguments.statistics, "print the number of verdicts of each kind instead of them");
+                 "write the evidence of all proofs to this folder, for `feedhold recheck`")
+      ->type_name("FOLDER");
+  addFormat(app, arguments.format, {"text", "json", "sarif"});
+  addCache(app, arguments.cache);
+  addJobs(app, arguments.jobs);
+  addColor(app, arguments.color);
+  addStdinFilename(app, arguments.stdinFilename);
+  app.add_flag("-v,--verbose", arguments.verbose, "print how each proof was found and what it cost");
+  app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no skipped files");
+  app.add_flag("--statistics", arguments.statistics, "print the number of verdicts per kind instead of the verdicts");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
   addWithCallers(app, arguments.change);
@@ -70,9 +67,9 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
 
 /// The evidence is not in the cache.
 std::optional<ProofCache> cacheFor(const ProveArguments &arguments) {
-  if (arguments.withoutCache || !arguments.certificate.empty())
+  if (arguments.cache.off || !arguments.certificate.empty())
     return std::nullopt;
-  return proofCache(arguments.cacheFolder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cacheFolder));
+  return proofCache(arguments.cache.folder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cache.folder));
 }
 
 ProofOptions proofOptionsOf(const ProveArguments &arguments) {
@@ -84,10 +81,7 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
     options.files.paths = {"."};
   if (!arguments.dialect.empty())
     options.files.dialect = arguments.dialect;
-  if (arguments.isolated)
-    options.files.config.source = ConfigSource::None;
-  else if (!arguments.config.empty())
-    options.files.config = {ConfigSource::Named, arguments.config};
+  options.files.config = configFrom(arguments.config);
   options.files.jobs = arguments.jobs;
   options.cache = cacheFor(arguments);
   if (!arguments.certificate.empty())
@@ -109,10 +103,10 @@ std::string readingOptions(const ProveArguments &arguments) {
   std::string text;
   if (!arguments.dialect.empty())
     text += " --dialect " + arguments.dialect;
-  if (arguments.isolated)
+  if (arguments.config.isolated)
     text += " --isolated";
-  else if (!arguments.config.empty())
-    text += " --config " + arguments.config;
+  else if (!arguments.config.file.empty())
+    text += " --config " + arguments.config.file;
   return text;
 }
 
@@ -152,7 +146,7 @@ std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
   if (arguments.certificate.empty())
     return std::nullopt;
   if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
-    return "standard input cannot be found again, so that --certificate has nothing to speak of";
+    return "--certificate needs named files: standard input cannot be read again";
   if (const auto refusal = whyNoBundleFits(arguments.certificate, kBundleIndex))
     return arguments.certificate + ": " + refusal->message;
   return std::nullopt;
@@ -166,7 +160,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .exitCode = exitCodeOf(result),
                            .readingOptions = readingOptions(arguments),
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
-                           .colour = useColour(colourWishFrom(arguments.color))};
+                           .colour = useColour(colourOptionFrom(arguments.color))};
   printProblems(result.errors);
   printAside(defectsText(report));
   print(arguments.statistics          ? proveStatistics(report)
@@ -234,7 +228,10 @@ int runProve(const ProveArguments &arguments) {
 } // namespace
 
 Command addProveCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("prove", "prove what programs promise, for every input");
+  CLI::App *app =
+      parent.add_subcommand("prove", "prove contracts, and that programs end and raise no alarm, for all inputs");
+  app->footer("Exit codes: 0 all proved, 1 something is refuted, 2 the command could not run, 3 something is unknown.\n"
+              "Example: feedhold prove O9100.nc");
   const auto arguments = std::make_shared<ProveArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] { return runProve(*arguments); }};

@@ -3,6 +3,7 @@
 #include "findings/session/ranges.h"
 #include "rules/registry.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/ranges_sink.h"
 
@@ -22,20 +23,20 @@ struct RangesArguments {
   std::string program;
   bool calls = false;
   std::string dialect;
-  std::string config;
-  bool isolated = false;
+  ConfigArguments config;
   std::string format = "text";
 };
 
 void addOptions(CLI::App &app, RangesArguments &arguments) {
-  app.add_option("file", arguments.path, "FILE or FILE:LINE; programs that it calls are found in its folder")
+  app.add_option("file", arguments.path, "program file, or FILE:LINE; called programs are found in its folder")
+      ->type_name("FILE")
       ->required();
-  app.add_option("--program", arguments.program, "start at this program of the file (default: all that nothing calls)");
-  app.add_flag("--calls", arguments.calls, "show the blocks of called programs in other files, too");
-  app.add_option("--dialect", arguments.dialect, "the control that runs it; `feedhold dialects` lists them");
-  CLI::Option *config = app.add_option("--config", arguments.config, "use this configuration");
-  app.add_flag("--isolated", arguments.isolated, "use no configuration")->excludes(config);
-  app.add_option("--format", arguments.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--program", arguments.program, "program of the file to start (default: all that no other calls)")
+      ->type_name("PROGRAM");
+  app.add_flag("--calls", arguments.calls, "also print the blocks of called programs in other files");
+  addDialect(app, arguments.dialect);
+  addConfiguration(app, arguments.config);
+  addFormat(app, arguments.format, {"text", "json"});
 }
 
 struct PathAndLine {
@@ -66,10 +67,7 @@ Result<std::string> ranges(const RangesArguments &arguments) {
       return Error{*complaint};
     options.dialect = arguments.dialect;
   }
-  if (arguments.isolated)
-    options.config.source = ConfigSource::None;
-  else if (!arguments.config.empty())
-    options.config = {ConfigSource::Named, arguments.config};
+  options.config = configFrom(arguments.config);
   const auto loaded = loadProject(options, {allDialects(), allRules()});
   if (!loaded)
     return loaded.error();
@@ -100,7 +98,7 @@ int rangesOrComplain(const RangesArguments &arguments) {
 } // namespace
 
 Command addRangesCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("ranges", "print what is known before each block, for all inputs");
+  CLI::App *app = parent.add_subcommand("ranges", "print the possible values before each block, over all inputs");
   const auto arguments = std::make_shared<RangesArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] { return rangesOrComplain(*arguments); }};

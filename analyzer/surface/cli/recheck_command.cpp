@@ -6,6 +6,7 @@
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/report_run.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/evidence/evidence_check.h"
 
@@ -28,7 +29,7 @@ struct RecheckArguments {
   bool verbose = false;
 };
 
-ProofOptions wishFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
+ProofOptions optionsFrom(const BundleOrigin &origin, const RecheckArguments &arguments) {
   ProofOptions options;
   for (const std::filesystem::path &path : origin.paths)
     options.files.paths.push_back(path.generic_string());
@@ -45,7 +46,7 @@ ProofOptions wishFrom(const BundleOrigin &origin, const RecheckArguments &argume
 
 std::optional<std::string> complaintAbout(const BundleOrigin &origin) {
   if (origin.paths.empty())
-    return "nothing is proved in it";
+    return "it contains no proofs";
   return origin.reading.dialect ? complaintAboutDialect(*origin.reading.dialect, allDialects()) : std::nullopt;
 }
 
@@ -85,7 +86,7 @@ std::string agreementOf(std::string_view name, const std::vector<Question> &ques
   if (silent > 0)
     text += fmt::format(", gives no answer to {}", silent);
   if (contradicts > 0)
-    text += fmt::format(", says that {} can be satisfied", contradicts);
+    text += fmt::format(", finds {} satisfiable", contradicts);
   return text;
 }
 
@@ -94,7 +95,7 @@ std::string summaryOf(const std::vector<Question> &questions) {
       std::count_if(questions.begin(), questions.end(), [](const Question &question) { return question.isFollowed; }));
   const std::size_t asked = questions.size() - countOf(questions, &Question::z3, SolverSays::NotAsked);
   return fmt::format(
-      "evidence: {}, {} followed by the checker, {} asked again ({}; {})\n", counted(questions.size(), "question"),
+      "evidence: {}, {} verified by the checker, {} asked again ({}; {})\n", counted(questions.size(), "question"),
       counted(followed, "certificate"), asked, agreementOf(smt::z3Version(), questions, &Question::z3),
       agreementOf(smt::cvc5Version().value_or("cvc5, which is not installed,"), questions, &Question::cvc5));
 }
@@ -102,7 +103,7 @@ std::string summaryOf(const std::vector<Question> &questions) {
 std::string_view toldOfReport(const Question &question) {
   if (!question.hasCertificate)
     return "";
-  return question.isFollowed ? "the checker follows its certificate, " : "its certificate fails, ";
+  return question.isFollowed ? "certificate verified, " : "certificate rejected, ";
 }
 
 void printEach(const std::vector<Question> &questions, std::string_view folder) {
@@ -119,7 +120,7 @@ int present(const Findings &findings, const std::string &told, std::string_view 
     print(problem + "\n");
   if (!arguments.quiet)
     print(fmt::format("{}: {}\n{}",
-                      findings.problems.empty() ? "all as it was" : counted(findings.problems.size(), "difference"),
+                      findings.problems.empty() ? "no differences" : counted(findings.problems.size(), "difference"),
                       told, summaryOf(findings.questions)));
   return findings.problems.empty() ? whenSame : kExitFindings;
 }
@@ -127,7 +128,7 @@ int present(const Findings &findings, const std::string &told, std::string_view 
 void addVersion(Findings &findings, const std::string &version) {
   if (version != FEEDHOLD_VERSION)
     findings.problems.push_back(
-        fmt::format("it was made by feedhold {}, and this is feedhold {}", version, FEEDHOLD_VERSION));
+        fmt::format("it was made by feedhold {}, but this is feedhold {}", version, FEEDHOLD_VERSION));
 }
 
 Result<int> recheckBundle(const Bundle &stored, const RecheckArguments &arguments) {
@@ -139,7 +140,7 @@ Result<int> recheckBundle(const Bundle &stored, const RecheckArguments &argument
 
   Findings findings = evidenceFindings(stored, "", arguments);
   addVersion(findings, origin.value().version);
-  const ProofsResult result = proveAll(wishFrom(origin.value(), arguments), {allDialects(), allRules()});
+  const ProofsResult result = proveAll(optionsFrom(origin.value(), arguments), {allDialects(), allRules()});
   for (const PathProblem &problem : result.errors)
     findings.problems.push_back(problem.path + ": " + problem.message);
   findings.add(differences(stored, makeBundle(result, origin.value().reading, FEEDHOLD_VERSION, arguments.folder)));
@@ -166,14 +167,14 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   const auto place = arguments.against.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.against);
   const SourceCheck sources = checkSources(stored, arguments.folder, place);
   findings.add(sources.changed);
-  const std::string compared = counted(sources.same, "source") + " as named";
+  const std::string compared = counted(sources.same, "source") + " unchanged";
   if (place || (sources.same == 0 && sources.changed.empty())) {
     for (const std::string &gone : sources.gone)
-      printAside(fmt::format("`{}` is not there: it is not compared\n", gone));
+      printAside(fmt::format("`{}` is missing and was not compared\n", gone));
     return present(findings, compared + ", nothing proved again", kEvidenceFolder, arguments, kExitUnknown);
   }
   for (const std::string &gone : sources.gone)
-    findings.problems.push_back(fmt::format("`{}` was read for the proof and is gone", gone));
+    findings.problems.push_back(fmt::format("`{}` was read for the proof but is missing now", gone));
   const ReportRun run = runReport(origin.value().options, arguments.folder, arguments.jobs);
   for (const PathProblem &problem : run.problems)
     findings.problems.push_back(problem.path + ": " + problem.message);
@@ -192,10 +193,9 @@ Result<int> recheck(const RecheckArguments &arguments) {
   if (stored.value().contains(std::string(kReportDocument)))
     return recheckReport(stored.value(), arguments);
   if (!stored.value().contains(std::string(kBundleIndex)))
-    return Error{
-        fmt::format("holds neither a report nor proofs: there is no {} and no {}", kReportDocument, kBundleIndex)};
+    return Error{fmt::format("contains neither a report nor proofs: no {} and no {}", kReportDocument, kBundleIndex)};
   if (!arguments.against.empty())
-    return Error{"--against is for reports of `feedhold certify`"};
+    return Error{"--against works only with reports of `feedhold certify`"};
   return recheckBundle(stored.value(), arguments);
 }
 
@@ -211,16 +211,20 @@ int recheckOrComplain(const RecheckArguments &arguments) {
 
 Command addRecheckCommand(CLI::App &parent) {
   CLI::App *app =
-      parent.add_subcommand("recheck", "prove again what `certify` or `prove --certificate` has written, and compare");
+      parent.add_subcommand("recheck", "verify a release report or certificates, and report every difference");
   const auto arguments = std::make_shared<RecheckArguments>();
-  app->add_option("folder", arguments->folder, "what was named to `certify -o` or `prove --certificate`")->required();
+  app->add_option("folder", arguments->folder, "folder written by `certify -o` or `prove --certificate`")
+      ->type_name("FOLDER")
+      ->required();
   app->add_option("--against", arguments->against,
-                  "of a report: compare the programs of this folder, where those that were proved are not at hand");
+                  "for reports: compare with the programs in this folder when the originals are unavailable")
+      ->type_name("FOLDER");
   app->add_option("--solvers", arguments->solvers,
-                  "which questions Z3 and cvc5 are asked: all, or those that have no certificate (needed)")
+                  "ask Z3 and cvc5 all questions, or only those without a certificate (default: all)")
+      ->type_name("WHICH")
       ->check(CLI::IsMember({"all", "needed"}));
-  app->add_option("--jobs", arguments->jobs, "number of threads (default: one per processor)");
-  app->add_flag("-v,--verbose", arguments->verbose, "print what became of each question");
+  addJobs(*app, arguments->jobs);
+  app->add_flag("-v,--verbose", arguments->verbose, "print the result of each question");
   app->add_flag("-q,--quiet", arguments->quiet, "print differences only");
   return {app, [arguments] { return recheckOrComplain(*arguments); }};
 }

@@ -1,6 +1,7 @@
 // `feedhold rules`: the list of all rules.
 #include "rules/registry.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ std::string rulesAsJson() {
 }
 
 std::string rulesAsMarkdown() {
-  std::string text = "| rule | category | severity | what it says |\n|---|---|---|---|\n";
+  std::string text = "| rule | category | severity | summary |\n|---|---|---|---|\n";
   for (const RegisteredRule &entry : allRules().rules) {
     const RuleInfo &info = entry.rule->info;
     text +=
@@ -56,9 +57,9 @@ int listRules(const std::string &format) {
 } // namespace
 
 Command addRulesCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("rules", "list the rules");
+  CLI::App *app = parent.add_subcommand("rules", "list all rules");
   const auto format = std::make_shared<std::string>("text");
-  app->add_option("--format", *format, "text, json or markdown")->check(CLI::IsMember({"text", "json", "markdown"}));
+  addFormat(*app, *format, {"text", "json", "markdown"});
   return {app, [format] { return listRules(*format); }};
 }
 

@@ -1,6 +1,7 @@
 // `feedhold run FILE`: executes a program with the numbers given, and prints what the machine does.
 #include "surface/cli/commands.h"
 #include "surface/cli/run_input.h"
+#include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/run_sink.h"
 
@@ -20,8 +21,8 @@ struct RunArguments {
 
 void addOptions(CLI::App &app, RunArguments &arguments) {
   addRunInput(app, arguments.input);
-  app.add_flag("--trace", arguments.trace, "show every block that is executed");
-  app.add_option("--format", arguments.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  app.add_flag("--trace", arguments.trace, "print every block that is executed");
+  addFormat(app, arguments.format, {"text", "json"});
 }
 
 /// Takes down each block as it begins.
@@ -73,7 +74,7 @@ int runOrComplain(const RunArguments &arguments) {
 } // namespace
 
 Command addRunCommand(CLI::App &parent) {
-  CLI::App *app = parent.add_subcommand("run", "execute a program: tool path, variables, alarms");
+  CLI::App *app = parent.add_subcommand("run", "execute a program; print its tool path, variables and alarms");
   const auto arguments = std::make_shared<RunArguments>();
   addOptions(*app, *arguments);
   return {app, [arguments] { return runOrComplain(*arguments); }};

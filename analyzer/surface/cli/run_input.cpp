@@ -36,7 +36,7 @@ Result<Setting> settingFrom(const std::string &text) {
   const std::size_t equals = text.rfind('=');
   const auto value = equals == std::string::npos ? std::nullopt : numberFrom(text.substr(equals + 1));
   if (!value)
-    return Error{fmt::format("`{}` is no NAME=NUMBER", text)};
+    return Error{fmt::format("`{}` is not of the form NAME=VALUE", text)};
   return Setting{std::string(trimmed(text.substr(0, equals))), *value};
 }
 
@@ -68,7 +68,7 @@ Result<GivenVariables> givenVariables(const RunInput &input, const Project &prog
       return Error{"--arg: " + setting.error().message};
     const auto variable = argumentVariable(programs.dialect(), setting.value().name);
     if (!variable)
-      return Error{fmt::format("--arg: `{}` is no letter that can be an argument here; --var sets any variable",
+      return Error{fmt::format("--arg: `{}` is not an argument letter of this control; use --var to set any variable",
                                setting.value().name)};
     given.set(*variable, ConcreteValue::of(setting.value().value));
   }
@@ -91,7 +91,7 @@ Result<std::array<double, kAxisCount>> startPosition(const RunInput &input) {
     const auto axis = axisOf(toUpper(word.front()));
     const auto value = axis ? numberFrom(std::string_view(word).substr(1)) : std::nullopt;
     if (!value)
-      return Error{fmt::format("--start: `{}` is no coordinate such as X10.5", word)};
+      return Error{fmt::format("--start: `{}` is not a coordinate such as X10.5", word)};
     start[indexOf(*axis)] = *value;
   }
   return start;
@@ -106,28 +106,31 @@ Result<std::unique_ptr<const Project>> load(const RunInput &input) {
       return Error{*complaint};
     options.dialect = input.dialect;
   }
-  if (input.isolated)
-    options.config.source = ConfigSource::None;
-  else if (!input.config.empty())
-    options.config = {ConfigSource::Named, input.config};
+  options.config = configFrom(input.config);
   return loadProject(options, {allDialects(), allRules()});
 }
 
 } // namespace
 
 void addRunInput(CLI::App &app, RunInput &input) {
-  app.add_option("file", input.path, "a program; others are found in its folder; - is standard input")->required();
-  app.add_option("--program", input.program, "start at this program of the file (default: its first)");
-  app.add_option("--arg", input.arguments, "an argument as a call passes it: A=10")->allow_extra_args(false);
-  app.add_option("--var", input.variables, "a variable at the start: 500=3, <depth>=2.5")->allow_extra_args(false);
-  app.add_option("--start", input.start, "where the tool stands at the start: X0 Y0 Z5");
-  app.add_option("--fuel", input.fuel, "give up after this many instructions")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_flag("--block-skip", input.blockSkip, "pass over blocks with a /");
-  app.add_option("--dialect", input.dialect, "the control that runs it; `feedhold dialects` lists them");
-  CLI::Option *config = app.add_option("--config", input.config, "use this configuration");
-  app.add_flag("--isolated", input.isolated, "use no configuration")->excludes(config);
+  app.add_option("file", input.path, "program file; called programs are found in its folder; - is standard input")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--program", input.program, "program of the file to start (default: the first)")->type_name("PROGRAM");
+  app.add_option("--arg", input.arguments, "pass an argument, as a macro call does: A=10 (may be repeated)")
+      ->type_name("LETTER=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--var", input.variables, "set a variable at the start: 500=3 or <depth>=2.5 (may be repeated)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--start", input.start, "position of the tool at the start: X0 Y0 Z5")->type_name("POSITION");
+  app.add_option("--fuel", input.fuel,
+                 fmt::format("stop after this many instructions (default: {})", RunOptions{}.fuel))
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--block-skip", input.blockSkip, "turn the block skip switch on");
+  addDialect(app, input.dialect);
+  addConfiguration(app, input.config);
 }
 
 Result<PreparedRun> prepareRun(const RunInput &input) {
@@ -138,8 +141,8 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
   const auto name = input.program.empty() ? std::nullopt : std::optional(input.program);
   const std::optional<Callee> start = startOf(programs, name);
   if (!start)
-    return Error{name ? fmt::format("{}: no program `{}` in it", input.path, *name)
-                      : fmt::format("{}: no program in it", input.path)};
+    return Error{name ? fmt::format("{}: contains no program `{}`", input.path, *name)
+                      : fmt::format("{}: contains no program", input.path)};
   Result<GivenVariables> variables = givenVariables(input, programs);
   if (!variables)
     return variables.error();

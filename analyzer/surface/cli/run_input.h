@@ -4,6 +4,7 @@
 #include "findings/project/project.h"
 #include "meaning/machine/machine.h"
 #include "proof/replay/example_run.h"
+#include "surface/cli/shared_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -21,8 +22,7 @@ struct RunInput {
   std::vector<std::string> start;
   std::uint64_t fuel = RunOptions{}.fuel;
   std::string dialect;
-  std::string config;
-  bool isolated = false;
+  ConfigArguments config;
   bool blockSkip = false;
 };
 

@@ -14,7 +14,7 @@ void writeTo(std::FILE *stream, std::string_view text) { std::fwrite(text.data()
 
 } // namespace
 
-ColourOption colourWishFrom(std::string_view name) {
+ColourOption colourOptionFrom(std::string_view name) {
   return name == "always" ? ColourOption::Always : name == "never" ? ColourOption::Never : ColourOption::Auto;
 }
 

@@ -12,7 +12,7 @@ namespace feedhold {
 enum class ColourOption { Auto, Always, Never };
 
 /// From `auto`, `always` or `never`.
-ColourOption colourWishFrom(std::string_view name);
+ColourOption colourOptionFrom(std::string_view name);
 /// Auto: standard output is a terminal and NO_COLOR is not set (no-color.org).
 bool useColour(ColourOption options);
 bool isErrorTerminal();

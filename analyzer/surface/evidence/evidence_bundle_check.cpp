@@ -50,7 +50,7 @@ private:
     const auto oldSources = rowsBy(before.at("sources"), "path");
     for (const auto &[path, source] : oldSources)
       if (const auto known = newSources.find(path); known == newSources.end())
-        say("`{}` was read for the proof and is gone", path);
+        say("`{}` was read for the proof but is missing now", path);
       else if (known->second.at("sha256") != source.at("sha256"))
         say("`{}` is not what it was when it was proved", path);
     for (const auto &[path, source] : newSources)

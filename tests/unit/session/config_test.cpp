@@ -61,10 +61,10 @@ TEST(Config, EverySetting) {
 }
 
 TEST(Config, UnknownKeysHaveASuggestion) {
-  EXPECT_EQ(errorOf("\ndialct = \"fanuc-0i\"\n"), "2:1 there is no setting `dialct` here; did you mean `dialect`?");
-  EXPECT_EQ(errorOf("[switches]\n  dip = true\n"), "2:3 there is no setting `dip` here; did you mean `dpi`?");
+  EXPECT_EQ(errorOf("\ndialct = \"fanuc-0i\"\n"), "2:1 unknown setting `dialct`; did you mean `dialect`?");
+  EXPECT_EQ(errorOf("[switches]\n  dip = true\n"), "2:3 unknown setting `dip`; did you mean `dpi`?");
   EXPECT_EQ(errorOf("[[files]]\npath = \"x\"\nignor = []\n"),
-            "3:1 there is no setting `ignor` here; did you mean `ignore`?");
+            "3:1 unknown setting `ignor`; did you mean `ignore`?");
 }
 
 TEST(Config, UnknownNamesHaveASuggestion) {
@@ -77,12 +77,12 @@ TEST(Config, UnknownNamesHaveASuggestion) {
 }
 
 TEST(Config, WrongValues) {
-  EXPECT_EQ(errorOf("ignore = \"syntax\"\n"), "1:10 a list of texts is wanted here: [\"..\", \"..\"]");
-  EXPECT_EQ(errorOf("[switches]\ndpi = 1\n"), "2:7 a switch is true, false or \"unknown\"");
+  EXPECT_EQ(errorOf("ignore = \"syntax\"\n"), "1:10 expected a list of strings: [\"..\", \"..\"]");
+  EXPECT_EQ(errorOf("[switches]\ndpi = 1\n"), "2:7 expected true, false or \"unknown\"");
   EXPECT_EQ(errorOf("[[code-calls]]\ncode = \"X1\"\nprogram = 1\n"),
             "2:8 `code` must be a G, M or T code, such as \"G100\" or \"M6\"");
   EXPECT_EQ(errorOf("[[code-calls]]\ncode = \"G1\"\nprogram = -1\n"),
-            "3:11 `program` must be a program number: 9010, say");
+            "3:11 `program` must be a program number, such as 9010");
   EXPECT_EQ(errorOf("[[files]]\ndialect = \"fanuc-0i\"\n"),
             "1:1 [[files]] needs a `path`: the pattern of the files it is for");
 }

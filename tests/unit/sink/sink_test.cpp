@@ -67,7 +67,7 @@ TEST_F(Sink, TextHasRuleCaretsAndPlace) {
   const std::string text = writeText(report());
   EXPECT_NE(text.find("[missing-equals]"), std::string::npos);
   EXPECT_NE(text.find("cell 1/part.nc:2:1"), std::string::npos);
-  EXPECT_NE(text.find("the way there: line 1 `"), std::string::npos);
+  EXPECT_NE(text.find("path: line 1 `"), std::string::npos);
   EXPECT_NE(text.find("^^^^^^^"), std::string::npos);
   EXPECT_EQ(text.find("plain-style"), std::string::npos);
 }

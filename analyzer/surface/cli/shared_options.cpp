@@ -1,0 +1,52 @@
+#include "surface/cli/shared_options.h"
+
+namespace feedhold {
+
+void addDialect(CLI::App &app, std::string &dialect) {
+  app.add_option("--dialect", dialect,
+                 "control to assume (default: feedhold.toml, else detected); see `feedhold dialects`")
+      ->type_name("DIALECT");
+}
+
+void addConfiguration(CLI::App &app, ConfigArguments &arguments) {
+  CLI::Option *config = app.add_option("--config", arguments.file, "use this feedhold.toml instead of the nearest one")
+                            ->type_name("FILE");
+  app.add_flag("--isolated", arguments.isolated, "ignore every feedhold.toml")->excludes(config);
+}
+
+ConfigOptions configFrom(const ConfigArguments &arguments) {
+  if (arguments.isolated)
+    return {ConfigSource::None};
+  if (!arguments.file.empty())
+    return {ConfigSource::Named, arguments.file};
+  return {};
+}
+
+void addFormat(CLI::App &app, std::string &format, const std::vector<std::string> &known) {
+  app.add_option("--format", format, "output format (default: " + format + ")")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember(known));
+}
+
+void addJobs(CLI::App &app, unsigned &jobs) {
+  app.add_option("--jobs", jobs, "number of threads (default: one per processor)")->type_name("N");
+}
+
+void addColor(CLI::App &app, std::string &when) {
+  app.add_option("--color", when, "colour the output (default: " + when + ")")
+      ->type_name("WHEN")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+}
+
+void addStdinFilename(CLI::App &app, std::string &path) {
+  app.add_option("--stdin-filename", path, "file name to show for standard input")->type_name("PATH");
+}
+
+void addCache(CLI::App &app, CacheArguments &arguments) {
+  CLI::Option *folder =
+      app.add_option("--cache-dir", arguments.folder, "keep verdicts here (default: user cache folder)")
+          ->type_name("FOLDER");
+  app.add_flag("--no-cache", arguments.off, "neither read nor write cached verdicts")->excludes(folder);
+}
+
+} // namespace feedhold

@@ -1,0 +1,43 @@
+// The options that several commands have, so that they mean and say the same everywhere.
+#pragma once
+
+#include "findings/project/config_finder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// `--dialect`: empty when it is not given.
+void addDialect(CLI::App &app, std::string &dialect);
+
+/// `--config` and `--isolated`.
+struct ConfigArguments {
+  std::string file;
+  bool isolated = false;
+};
+void addConfiguration(CLI::App &app, ConfigArguments &arguments);
+ConfigOptions configFrom(const ConfigArguments &arguments);
+
+/// `--format`; `format` holds the default.
+void addFormat(CLI::App &app, std::string &format, const std::vector<std::string> &known);
+
+/// `--jobs`: 0 is one thread for each processor.
+void addJobs(CLI::App &app, unsigned &jobs);
+
+/// `--color`; `when` holds the default.
+void addColor(CLI::App &app, std::string &when);
+
+/// `--stdin-filename`; `path` holds the default.
+void addStdinFilename(CLI::App &app, std::string &path);
+
+/// `--cache-dir` and `--no-cache`.
+struct CacheArguments {
+  std::string folder;
+  bool off = false;
+};
+void addCache(CLI::App &app, CacheArguments &arguments);
+
+} // namespace feedhold
