@@ -10,15 +10,21 @@ namespace {
 int run(int argc, char **argv) {
   using namespace feedhold;
   CLI::App app("Static analyser, linter and prover for CNC macro programs", "feedhold");
-  app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION);
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", std::string("feedhold ") + FEEDHOLD_VERSION, "print the version and exit");
+  app.get_formatter()->label("Positionals", "Arguments");
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("Excludes", "not with");
+  app.get_formatter()->label("Needs", "needs");
   app.require_subcommand(1);
-  app.footer("`feedhold COMMAND --help` describes the options of a command; `feedhold check FOLDER` is a good start.");
   const std::vector<Command> commands = {addCheckCommand(app),       addRunCommand(app),     addPlotCommand(app),
                                          addExplainCommand(app),     addRulesCommand(app),   addDialectsCommand(app),
                                          addTokensCommand(app),      addTreeCommand(app),    addModelCommand(app),
                                          addCfgCommand(app),         addRangesCommand(app),  addProveCommand(app),
                                          addCertifyCommand(app),     addRecheckCommand(app), addLspCommand(app),
                                          addCompletionsCommand(app), addManCommand(app)};
+  // Only now: the commands would take it over.
+  app.footer("`feedhold COMMAND --help` describes the options of a command; `feedhold check FOLDER` is a good start.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

@@ -63,8 +63,7 @@ TEST(Config, EverySetting) {
 TEST(Config, UnknownKeysHaveASuggestion) {
   EXPECT_EQ(errorOf("\ndialct = \"fanuc-0i\"\n"), "2:1 unknown setting `dialct`; did you mean `dialect`?");
   EXPECT_EQ(errorOf("[switches]\n  dip = true\n"), "2:3 unknown setting `dip`; did you mean `dpi`?");
-  EXPECT_EQ(errorOf("[[files]]\npath = \"x\"\nignor = []\n"),
-            "3:1 unknown setting `ignor`; did you mean `ignore`?");
+  EXPECT_EQ(errorOf("[[files]]\npath = \"x\"\nignor = []\n"), "3:1 unknown setting `ignor`; did you mean `ignore`?");
 }
 
 TEST(Config, UnknownNamesHaveASuggestion) {
