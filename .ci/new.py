@@ -92,7 +92,8 @@ DIALECT_PARITY = """# {name}: what is modelled
 
 # A group of another name holds rules about expressions, until its author says otherwise.
 CATEGORIES = {"variables": "Variable", "alarms": "Alarm", "words": "Word", "calls": "Call",
-              "comments": "Comment", "structure": "Structure", "suppressions": "Suppression"}
+              "comments": "Comment", "structure": "Structure", "suppressions": "Suppression",
+              "flow": "Flow", "motion": "Motion", "contract": "Contract"}
 
 
 def symbol_of(name):
