@@ -11,7 +11,7 @@ RULE_CPP = """// {name}: SAY WHAT IT LOOKS FOR.
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {{
+namespace feedhold::rules::{file} {{
 namespace {{
 
 void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {{
@@ -28,7 +28,7 @@ extern const Rule {symbol};
 const Rule {symbol}{{.info = {{"{name}", Category::{category}, Severity::Warning, "Reports SAY WHAT."}},
                      .hooks = {{.statement = check}}}};
 
-}} // namespace feedhold::rules
+}} // namespace feedhold::rules::{file}
 """
 
 RULE_PAGE = """# {name}

@@ -9,7 +9,7 @@
 namespace feedhold {
 
 namespace rules {
-#define RULE(symbol, file) extern const Rule symbol;
+#define RULE(symbol, file) namespace file { extern const Rule symbol; }
 #include "rules/rules.def"
 #undef RULE
 } // namespace rules
@@ -25,7 +25,7 @@ std::string_view pageOf(std::string_view file) {
 
 std::vector<RegisteredRule> collect() {
   std::vector<RegisteredRule> all = {
-#define RULE(symbol, file) {&rules::symbol, pageOf(#file)},
+#define RULE(symbol, file) {&rules::file::symbol, pageOf(#file)},
 #include "rules/rules.def"
 #undef RULE
   };

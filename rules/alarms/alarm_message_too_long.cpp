@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::alarm_message_too_long {
 namespace {
 
 /// Characters, not bytes: the message may be written in Japanese.
@@ -36,4 +36,4 @@ const Rule alarmMessageTooLong{.info = {"alarm-message-too-long", Category::Alar
                                         "Reports an alarm message that is longer than the control displays."},
                                .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::alarm_message_too_long

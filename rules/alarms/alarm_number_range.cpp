@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::alarm_number_range {
 namespace {
 
 // 6008#1 (MCA): the number is shown as it is, and may go up to here.
@@ -37,4 +37,4 @@ const Rule alarmNumberRange{.info = {"alarm-number-range", Category::Alarm, Seve
                                      "Reports a `#3000=` with an alarm number that the control does not accept."},
                             .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::alarm_number_range

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::alarm_without_message {
 namespace {
 
 void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule alarmWithoutMessage{.info = {"alarm-without-message", Category::Alarm
                                         "Reports a `#3000=` without a message in parentheses after it."},
                                .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::alarm_without_message

@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::shared_alarm_number {
 namespace {
 
 struct FirstUse {
@@ -45,4 +45,4 @@ const Rule sharedAlarmNumber{.info = {"shared-alarm-number", Category::Alarm, Se
                                       "Reports an alarm number that a program uses with different messages."},
                              .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::shared_alarm_number

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::argument_collision {
 namespace {
 
 /// The word that wins: the last one of the variable.
@@ -57,4 +57,4 @@ const Rule argumentCollision{.info = {"argument-collision", Category::Call, Seve
                                       "Reports two words of a macro call that set the same local variable."},
                              .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::argument_collision

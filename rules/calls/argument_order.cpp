@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::argument_order {
 namespace {
 
 char letterOf(const Argument &argument, const FileContext &context) { return wordOf(context, argument.word).address(); }
@@ -58,4 +58,4 @@ const Rule argumentOrder{.info = {"argument-order", Category::Call, Severity::Wa
                                   "Reports I, J, K of a macro call in an order that moves them to other variables."},
                          .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::argument_order

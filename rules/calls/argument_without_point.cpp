@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::argument_without_point {
 namespace {
 
 bool isScaled(const Argument &argument, const FileContext &context) {
@@ -57,4 +57,4 @@ const Rule argumentWithoutPoint{.info = {"argument-without-point", Category::Cal
                                          "Reports a length or angle that a macro call passes without a decimal point."},
                                 .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::argument_without_point

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::call_without_program {
 namespace {
 
 /// `M98 (FOLDER/PART.NC)`: some controls take the path of a file in parentheses.
@@ -41,4 +41,4 @@ const Rule callWithoutProgram{.info = {"call-without-program", Category::Call, S
                                        "Reports a call without the number of the program that it calls."},
                               .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::call_without_program

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::calls_too_deep {
 namespace {
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
@@ -34,4 +34,4 @@ const Rule callsTooDeep{.info = {"calls-too-deep", Category::Call, Severity::Err
                                  "Reports a program whose calls are nested deeper than the control allows."},
                         .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::calls_too_deep

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::cancel_without_modal_call {
 namespace {
 
 bool hasModalCall(const ProgramModel &model, ProgramId program) {
@@ -60,4 +60,4 @@ const Rule cancelWithoutModalCall{.info = {"cancel-without-modal-call", Category
                                            "Reports a `G67` in a program where no modal macro call can be active."},
                                   .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::cancel_without_modal_call

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::forbidden_argument {
 namespace {
 
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
@@ -31,4 +31,4 @@ const Rule forbiddenArgument{.info = {"forbidden-argument", Category::Call, Seve
                                       "Reports a word in a macro call whose address cannot pass an argument."},
                              .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::forbidden_argument

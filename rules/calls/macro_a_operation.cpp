@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace feedhold::rules {
+namespace feedhold::rules::macro_a_operation {
 namespace {
 
 struct Operation {
@@ -80,4 +80,4 @@ const Rule macroAOperation{.info = {"macro-a-operation", Category::Call, Severit
                                     "Reports a program written in Macro A, whose operations are `G65 H..` blocks."},
                            .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::macro_a_operation

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::modal_call_not_cancelled {
 namespace {
 
 bool isModal(CallKind kind) { return kind == CallKind::Modal || kind == CallKind::ModalEach; }
@@ -55,4 +55,4 @@ const Rule modalCallNotCancelled{.info = {"modal-call-not-cancelled", Category::
                                           "Reports a modal macro call (`G66`) without a later `G67`."},
                                  .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::modal_call_not_cancelled

@@ -7,7 +7,7 @@
 
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::program_not_found {
 namespace {
 
 /// One finding for each missing program of a file: the first call of it.
@@ -37,4 +37,4 @@ const Rule programNotFound{.info = {"program-not-found", Category::Call, Severit
                                     "Reports a call to a program that is in none of the checked files."},
                            .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::program_not_found

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::recursive_call {
 namespace {
 
 /// "`O1` calls `O2` calls `O1`"
@@ -42,4 +42,4 @@ const Rule recursiveCall{.info = {"recursive-call", Category::Call, Severity::Wa
                                   "Reports a program that calls itself, directly or through other programs."},
                          .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::recursive_call

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::too_many_ijk_sets {
 namespace {
 
 void check(CallId id, const FileContext &context, const Reporter &reporter) {
@@ -31,4 +31,4 @@ const Rule tooManyIjkSets{
              "Reports a macro call with more sets of I, J, K than the control has variables for."},
     .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::too_many_ijk_sets

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::two_calls_in_block {
 namespace {
 
 bool counts(CallKind kind) { return namesProgram(kind) || kind == CallKind::Local; }
@@ -43,4 +43,4 @@ const Rule twoCallsInBlock{
     .info = {"two-calls-in-block", Category::Call, Severity::Error, "Reports a second call in one block."},
     .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::two_calls_in_block

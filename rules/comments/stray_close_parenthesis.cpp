@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::stray_close_parenthesis {
 namespace {
 
 /// The `)` stands directly behind a comment: a slip of the finger, nothing else can be meant.
@@ -33,4 +33,4 @@ const Rule strayCloseParenthesis{
     .info = {"stray-close-parenthesis", Category::Comment, Severity::Error, "Reports a `)` without a `(`."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::stray_close_parenthesis

@@ -1,7 +1,7 @@
 // unclosed-comment: `(` without `)`.
 #include "findings/rule/rule.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::unclosed_comment {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -22,4 +22,4 @@ const Rule unclosedComment{
          "Reports a comment without its `)`: the rest of the line, and on some controls the next lines, are ignored."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unclosed_comment

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unexpected_text {
 namespace {
 
 /// `X?` is how templates mark a number to be filled in.
@@ -29,4 +29,4 @@ const Rule unexpectedText{.info = {"unexpected-text", Category::Syntax, Severity
                                    "Reports text that is not part of a word, a statement or a comment."},
                           .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unexpected_text

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::broken_contract_expression {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -22,4 +22,4 @@ const Rule brokenContractExpression{
              "Reports a condition or value in a contract that is not a valid expression."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::broken_contract_expression

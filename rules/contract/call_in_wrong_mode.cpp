@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::call_in_wrong_mode {
 namespace {
 
 /// A call in which another code than the one of a clause is in force.
@@ -134,4 +134,4 @@ const Rule callInWrongMode{.info = {"call-in-wrong-mode", Category::Contract, Se
                                     "Reports a call in another mode than the contract of the called program requires."},
                            .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::call_in_wrong_mode

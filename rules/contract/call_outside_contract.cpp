@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::call_outside_contract {
 namespace {
 
 /// What a call passes in one variable, when that can be told.
@@ -160,4 +160,4 @@ const Rule callOutsideContract{.info = {"call-outside-contract", Category::Contr
                                         "Reports a call that the contract of the macro does not allow."},
                                .hooks = {.call = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::call_outside_contract

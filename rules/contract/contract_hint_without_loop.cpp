@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::contract_hint_without_loop {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -23,4 +23,4 @@ const Rule contractHintWithoutLoop{.info = {"contract-hint-without-loop", Catego
                                             "Reports an `@INVARIANT` or `@VARIANT` that is not at a loop."},
                                    .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::contract_hint_without_loop

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::contract_region_without_tool {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -23,4 +23,4 @@ const Rule contractRegionWithoutTool{
              "Reports a contract with a region but without the tool that must stay inside or outside it."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::contract_region_without_tool

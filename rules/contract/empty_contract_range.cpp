@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::empty_contract_range {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule emptyContractRange{.info = {"empty-contract-range", Category::Contrac
                                        "Reports a range in a contract that contains no value."},
                               .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::empty_contract_range

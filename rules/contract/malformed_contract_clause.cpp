@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::malformed_contract_clause {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -23,4 +23,4 @@ const Rule malformedContractClause{
              "Reports a contract clause that is incomplete or contains text that does not belong there."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::malformed_contract_clause

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::repeated_contract_clause {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule repeatedContractClause{
              "Reports a contract clause that states a second time what another clause already states."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::repeated_contract_clause

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unknown_contract_clause {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -28,4 +28,4 @@ const Rule unknownContractClause{.info = {"unknown-contract-clause", Category::C
                                           "Reports a comment that begins with `@` but is not a contract clause."},
                                  .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unknown_contract_clause

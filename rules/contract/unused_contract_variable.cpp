@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unused_contract_variable {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -22,4 +22,4 @@ const Rule unusedContractVariable{.info = {"unused-contract-variable", Category:
                                            "Reports a variable in a contract that the program does not use."},
                                   .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unused_contract_variable

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::wrong_contract_code {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule wrongContractCode{.info = {"wrong-contract-code", Category::Contract,
                                       "Reports a code in a contract that cannot be active."},
                              .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::wrong_contract_code

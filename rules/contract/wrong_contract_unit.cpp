@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::wrong_contract_unit {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -20,4 +20,4 @@ const Rule wrongContractUnit{.info = {"wrong-contract-unit", Category::Contract,
                                       "Reports a unit in a contract that does not exist or does not fit."},
                              .hooks = {.contract = check, .contractKinds = kKinds}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::wrong_contract_unit

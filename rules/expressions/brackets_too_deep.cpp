@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::brackets_too_deep {
 namespace {
 
 bool opensBracket(const SyntaxTree &tree, ExpressionId id) {
@@ -67,4 +67,4 @@ const Rule bracketsTooDeep{
               .expression = checkNode,
               .expressionNodes = nodeSet<Bracketed, FunctionCall, IndirectVariable>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::brackets_too_deep

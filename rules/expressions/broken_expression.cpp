@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::broken_expression {
 namespace {
 
 std::string whatIsWrong(Span span, const FileContext &context) {
@@ -32,4 +32,4 @@ const Rule brokenExpression{.info = {"broken-expression", Category::Expression, 
                                      "Reports an expression that lacks an operand or an operator."},
                             .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::broken_expression

@@ -3,7 +3,7 @@
 
 #include "rules/expressions/expression_view.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::chained_comparison {
 namespace {
 
 const BinaryOperation *bareRelation(const SyntaxTree &tree, ExpressionId id) {
@@ -29,4 +29,4 @@ const Rule chainedComparison{.info = {"chained-comparison", Category::Expression
                                       "Reports two comparisons joined without brackets, as in `#1 EQ 1 AND #2 EQ 2`."},
                              .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::chained_comparison

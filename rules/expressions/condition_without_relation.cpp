@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::condition_without_relation {
 namespace {
 
 const BinaryOperation *joined(const SyntaxTree &tree, ExpressionId id) {
@@ -51,4 +51,4 @@ const Rule conditionWithoutRelation{.info = {"condition-without-relation", Categ
                                              "Reports a condition, or a part of one, that is not a comparison."},
                                     .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::condition_without_relation

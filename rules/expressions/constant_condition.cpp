@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::constant_condition {
 namespace {
 
 /// What the control makes of a comparison of two numbers; absent when it is more than that.
@@ -59,4 +59,4 @@ const Rule constantCondition{.info = {"constant-condition", Category::Expression
                                       "Reports a condition without any variable: it always gives the same result."},
                              .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::constant_condition

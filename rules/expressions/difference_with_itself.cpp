@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::difference_with_itself {
 namespace {
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
@@ -29,4 +29,4 @@ const Rule differenceWithItself{.info = {"difference-with-itself", Category::Exp
                                          "Reports a value that is subtracted from itself or divided by itself."},
                                 .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::difference_with_itself

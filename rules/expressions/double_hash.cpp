@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::double_hash {
 namespace {
 
 /// The end of the digits, and blanks between them, behind `##`; `begin` when there are none.
@@ -37,4 +37,4 @@ const Rule doubleHash{.info = {"double-hash", Category::Expression, Severity::Er
                                "Reports `##1`: a variable whose number is in a variable needs brackets."},
                       .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::double_hash

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::equality_with_vacant_arithmetic {
 namespace {
 
 /// Arithmetic and functions make a number even of vacant variables.  A sign and the reading of a setting are left
@@ -43,4 +43,4 @@ const Rule equalityWithVacantArithmetic{
              "Reports a computed value or a number that is compared with `#0`: it is never vacant."},
     .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::equality_with_vacant_arithmetic

@@ -1,7 +1,7 @@
 // expression-in-parentheses: `#1=(#2+1)*2`, `IF(#1EQ0)`.
 #include "findings/rule/rule.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::expression_in_parentheses {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -25,4 +25,4 @@ const Rule expressionInParentheses{
              "Reports an expression in parentheses instead of brackets: to the control it is a comment."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::expression_in_parentheses

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::function_arguments {
 namespace {
 
 std::string_view wantedBy(FunctionForm form) {
@@ -62,4 +62,4 @@ const Rule functionArguments{.info = {"function-arguments", Category::Expression
                                        .expression = checkCall,
                                        .expressionNodes = nodeSet<FunctionCall>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::function_arguments

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::function_not_available {
 namespace {
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
@@ -25,4 +25,4 @@ const Rule functionNotAvailable{.info = {"function-not-available", Category::Exp
                                          "Reports a function that the control does not have."},
                                 .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::function_not_available

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::literal_division_by_zero {
 namespace {
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
@@ -29,4 +29,4 @@ const Rule literalDivisionByZero{.info = {"literal-division-by-zero", Category::
                                           "Reports a division, or a `MOD`, by the number 0."},
                                  .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::literal_division_by_zero

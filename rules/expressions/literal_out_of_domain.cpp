@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::literal_out_of_domain {
 namespace {
 
 const Decimal kOne = Decimal::fromInteger(1);
@@ -51,4 +51,4 @@ const Rule literalOutOfDomain{.info = {"literal-out-of-domain", Category::Expres
                                        "Reports a function of a number for which it has no value, such as `SQRT[-1]`."},
                               .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::literal_out_of_domain

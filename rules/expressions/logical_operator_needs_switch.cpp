@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::logical_operator_needs_switch {
 namespace {
 
 bool isComparison(const SyntaxTree &tree, ExpressionId id) {
@@ -47,4 +47,4 @@ const Rule logicalOperatorNeedsSwitch{.info = {"logical-operator-needs-switch", 
                                                "6006#0 (MLG), which allows it, is off or not known."},
                                       .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::logical_operator_needs_switch

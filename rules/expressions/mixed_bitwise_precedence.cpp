@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::mixed_bitwise_precedence {
 namespace {
 
 /// The operator of an operand that is written without brackets around it.
@@ -42,4 +42,4 @@ const Rule mixedBitwisePrecedence{.info = {"mixed-bitwise-precedence", Category:
                                            "control groups them in an unexpected way."},
                                   .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::mixed_bitwise_precedence

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::number_too_long {
 namespace {
 
 void tooLong(Span span, std::string seen, const FileContext &context, const Reporter &reporter) {
@@ -47,4 +47,4 @@ const Rule numberTooLong{.info = {"number-too-long", Category::Expression, Sever
                                    .expression = checkNode,
                                    .expressionNodes = nodeSet<NumberLiteral>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::number_too_long

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::ordering_with_vacant {
 namespace {
 
 bool isOrdering(OperatorKind op) { return isRelation(op) && op != OperatorKind::Equal && op != OperatorKind::NotEqual; }
@@ -33,4 +33,4 @@ const Rule orderingWithVacant{
              "Reports `GT`, `GE`, `LT` or `LE` with `#0`: the control compares with 0 and does not test for vacant."},
     .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::ordering_with_vacant

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::radians {
 namespace {
 
 struct Factor {
@@ -64,4 +64,4 @@ const Rule radians{.info = {"radians", Category::Expression, Severity::Warning,
                             "computes in degrees."},
                    .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::radians

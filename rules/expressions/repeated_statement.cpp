@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::repeated_statement {
 namespace {
 
 /// The only statement of a block that holds nothing else (comments and the action of an IF do not count).
@@ -71,4 +71,4 @@ const Rule repeatedStatement{
              "Reports a macro statement that repeats the one directly before it without any effect."},
     .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::repeated_statement

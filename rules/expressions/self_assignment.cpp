@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::self_assignment {
 namespace {
 
 void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -31,4 +31,4 @@ const Rule selfAssignment{.info = {"self-assignment", Category::Expression, Seve
                                    "Reports a variable that is assigned to itself."},
                           .hooks = {.statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::self_assignment

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::symbolic_comparison {
 namespace {
 
 struct Meaning {
@@ -51,4 +51,4 @@ const Rule symbolicComparison{
              "Reports a comparison written with `=`, `<` or `>`: the control only has `EQ NE GT GE LT LE`."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::symbolic_comparison

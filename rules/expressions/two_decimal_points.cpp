@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::two_decimal_points {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule twoDecimalPoints{.info = {"two-decimal-points", Category::Expression,
                                      "Reports a number with more than one decimal point."},
                             .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::two_decimal_points

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unbalanced_brackets {
 namespace {
 
 void missingOpen(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -48,4 +48,4 @@ const Rule unbalancedBrackets{
              "Reports a `[` without a `]`, a `]` without a `[`, and a function without brackets."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unbalanced_brackets

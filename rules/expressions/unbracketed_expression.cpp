@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unbracketed_expression {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -34,4 +34,4 @@ const Rule unbracketedExpression{.info = {"unbracketed-expression", Category::Ex
                                           "Reports an expression after an address without the brackets that it needs."},
                                  .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unbracketed_expression

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::alarm_never_fires {
 namespace {
 
 /// A jump to the block whose condition has its outcome for other reasons than a wrong check.
@@ -50,4 +50,4 @@ const Rule alarmNeverFires{.info = {"alarm-never-fires", Category::Flow, Severit
                                     "Reports an alarm that the conditions before it never let come up."},
                            .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::alarm_never_fires

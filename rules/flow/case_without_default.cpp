@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::case_without_default {
 namespace {
 
 struct Case {
@@ -90,4 +90,4 @@ const Rule caseWithoutDefault{
              "Reports a chain of `IF[..EQ..]GOTO` in which every other value runs into the first case."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::case_without_default

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::computed_goto_target {
 namespace {
 
 /// Of few possible values those that are no sequence number of the program.
@@ -51,4 +51,4 @@ const Rule computedGotoTarget{
              "Reports a computed `GOTO` to a sequence number that the program does not have."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::computed_goto_target

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::dead_assignment {
 namespace {
 
 /// From one assignment; programs that people write read or overwrite a variable long before.
@@ -103,4 +103,4 @@ const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::
                                    "Reports a value of a local variable that is overwritten before it is read."},
                           .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::dead_assignment

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::decided_condition {
 namespace {
 
 /// `#101EQ#0`: whether a variable is vacant is asked.
@@ -46,4 +46,4 @@ const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severi
                                      "Reports a condition that always has the same outcome."},
                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::decided_condition

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::division_by_zero {
 namespace {
 
 /// The program itself makes it 0 on some way: one of the few values that it can have.
@@ -46,4 +46,4 @@ const Rule divisionByZero{.info = {"division-by-zero", Category::Flow, Severity:
                                    "Reports a division whose divisor is always 0 or vacant."},
                           .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::division_by_zero

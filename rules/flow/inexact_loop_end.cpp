@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::inexact_loop_end {
 namespace {
 
 /// 0.1 has no exact value in a binary number; 0.5 and 0.25 have.
@@ -57,4 +57,4 @@ const Rule inexactLoopEnd{
              "Reports a loop that ends only when a sum of inexact steps exactly equals its limit."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::inexact_loop_end

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loop_in_wrong_direction {
 namespace {
 
 /// The variable that is compared with a limit, and whether the loop goes on while it is below.
@@ -85,4 +85,4 @@ const Rule loopInWrongDirection{.info = {"loop-in-wrong-direction", Category::Fl
                                          "Reports a loop whose counter moves away from the limit that ends it."},
                                 .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loop_in_wrong_direction

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loop_never_entered {
 namespace {
 
 std::string valuesOf(const FlowFacts &facts, const FileContext &context, ExpressionId condition, BlockId block) {
@@ -52,4 +52,4 @@ const Rule loopNeverEntered{.info = {"loop-never-entered", Category::Flow, Sever
                                      "Reports a `WHILE` whose condition is never true."},
                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loop_never_entered

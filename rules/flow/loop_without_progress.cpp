@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loop_without_progress {
 namespace {
 
 /// The condition can have another outcome in a later pass, or that cannot be told.
@@ -81,4 +81,4 @@ const Rule loopWithoutProgress{.info = {"loop-without-progress", Category::Flow,
                                         "Reports a loop in which no variable of its conditions changes."},
                                .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loop_without_progress

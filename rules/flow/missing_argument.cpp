@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::missing_argument {
 namespace {
 
 std::optional<Read> readAt(const ProgramFile &file, BlockId block, ExpressionId expression) {
@@ -56,4 +56,4 @@ const Rule missingArgument{.info = {"missing-argument", Category::Flow, Severity
                                     "Reports a macro call without an argument that the macro computes with."},
                            .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::missing_argument

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::never_set_variable {
 namespace {
 
 std::string_view effectOf(ReadUse use) {
@@ -62,4 +62,4 @@ const Rule neverSetVariable{.info = {"never-set-variable", Category::Flow, Sever
                                      "Reports a local variable that a main program uses before it is set."},
                             .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::never_set_variable

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::out_of_domain {
 namespace {
 
 /// The program itself has few values for it: that one of them is outside was not only not excluded.
@@ -62,4 +62,4 @@ const Rule outOfDomain{
              "Reports a function whose argument is always outside the range that the function accepts."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::out_of_domain

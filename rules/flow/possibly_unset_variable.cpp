@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::possibly_unset_variable {
 namespace {
 
 /// Nothing but the program itself can have set the variable before: it is a main program, or no letter passes it.
@@ -82,4 +82,4 @@ const Rule possiblyUnsetVariable{.info = {"possibly-unset-variable", Category::F
                                           "Reports a local variable that is not set on every path to its use."},
                                  .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::possibly_unset_variable

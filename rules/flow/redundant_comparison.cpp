@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::redundant_comparison {
 namespace {
 
 /// The outcomes of a comparison as bits: left is less, equal, greater.
@@ -60,4 +60,4 @@ const Rule redundantComparison{.info = {"redundant-comparison", Category::Flow, 
                                         "Reports one of two joined comparisons that has no effect beside the other."},
                                .hooks = {.expression = check, .expressionNodes = nodeSet<BinaryOperation>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::redundant_comparison

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::repeated_call_changes_argument {
 namespace {
 
 /// An assignment that computes the new value from the old one.
@@ -67,4 +67,4 @@ const Rule repeatedCallChangesArgument{
              "Reports a repeated macro call (`L2` and up) of a macro that changes its arguments."},
     .hooks = {.call = check, .flow = asksForPrograms}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::repeated_call_changes_argument

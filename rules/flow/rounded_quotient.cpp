@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::rounded_quotient {
 namespace {
 
 /// The division whose result is cut to a whole number, as it is or as a size.
@@ -80,4 +80,4 @@ const Rule roundedQuotient{.info = {"rounded-quotient", Category::Flow, Severity
                                     "Reports `FIX` or `FUP` of a quotient that may not be exact."},
                            .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::rounded_quotient

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::runs_into_alarm {
 namespace {
 
 /// A GOTO leads to the block, or to a lone sequence number before it.
@@ -90,4 +90,4 @@ const Rule runsIntoAlarm{.info = {"runs-into-alarm", Category::Flow, Severity::W
                                   "Reports an alarm block that the program runs into without a jump."},
                          .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::runs_into_alarm

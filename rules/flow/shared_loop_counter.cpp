@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::shared_loop_counter {
 namespace {
 
 std::optional<std::uint32_t> counterOf(const FlowFacts &facts, const Loop &loop) {
@@ -70,4 +70,4 @@ const Rule sharedLoopCounter{.info = {"shared-loop-counter", Category::Flow, Sev
                                       "Reports an inner loop that changes the counter of the outer loop."},
                              .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::shared_loop_counter

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::shared_scratch_variable {
 namespace {
 
 /// Common variables that the called program writes before it reads them, and reads itself: for its own use.
@@ -106,4 +106,4 @@ const Rule sharedScratchVariable{
              "Reports a call to a program that overwrites a common variable which the caller still needs."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::shared_scratch_variable

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::stale_common_variable {
 namespace {
 
 std::optional<VariableKind> commonKind(const FileContext &context, std::uint32_t variable) {
@@ -84,4 +84,4 @@ const Rule staleCommonVariable{.info = {"stale-common-variable", Category::Flow,
                                         "Reports a common variable that a main program uses before it sets it."},
                                .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::stale_common_variable

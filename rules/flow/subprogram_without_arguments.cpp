@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::subprogram_without_arguments {
 namespace {
 
 /// The first argument that the called program relies on, and that is vacant in a call without arguments.
@@ -45,4 +45,4 @@ const Rule subprogramWithoutArguments{.info = {"subprogram-without-arguments", C
                                                "Reports an `M98` call of a macro that reads arguments."},
                                       .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::subprogram_without_arguments

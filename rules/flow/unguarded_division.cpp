@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unguarded_division {
 namespace {
 
 /// By the analysis, or where that lost it, by the text.
@@ -50,4 +50,4 @@ const Rule unguardedDivision{.info = {"unguarded-division", Category::Flow, Seve
                                       "Reports a division by an argument that is never checked for 0."},
                              .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unguarded_division

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unguarded_step {
 namespace {
 
 struct Unguarded {
@@ -61,4 +61,4 @@ const Rule unguardedStep{.info = {"unguarded-step", Category::Flow, Severity::Wa
                                   "Reports a loop whose step is an argument that is never checked for 0."},
                          .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unguarded_step

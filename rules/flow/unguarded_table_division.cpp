@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unguarded_table_division {
 namespace {
 
 constexpr int kMostCopies = 4;
@@ -88,4 +88,4 @@ const Rule unguardedTableDivision{.info = {"unguarded-table-division", Category:
                                            "example) that is never checked for 0."},
                                   .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unguarded_table_division

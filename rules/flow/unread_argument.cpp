@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unread_argument {
 namespace {
 
 /// A read of `#[..]` may name the variable: only where the index says that it does not, the text tells.
@@ -70,4 +70,4 @@ const Rule unreadArgument{.info = {"unread-argument", Category::Flow, Severity::
                                    "Reports an argument of a macro call that the macro never reads."},
                           .hooks = {.call = check, .flow = asksForPrograms}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unread_argument

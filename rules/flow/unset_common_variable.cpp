@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unset_common_variable {
 namespace {
 
 // A T word that calls a program leaves its number in `#149`, other codes theirs in the three before it.
@@ -93,4 +93,4 @@ const Rule unsetCommonVariable{
              "Reports a common variable that a main program uses but no checked program sets."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unset_common_variable

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unused_variable {
 namespace {
 
 /// Nothing but the text of the program reads its local variables.
@@ -49,4 +49,4 @@ const Rule unusedVariable{.info = {"unused-variable", Category::Flow, Severity::
                                    "Reports a local variable that a main program sets but never uses."},
                           .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unused_variable

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::vacant_argument {
 namespace {
 
 void checkCall(const Call &call, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -36,4 +36,4 @@ const Rule vacantArgument{.info = {"vacant-argument", Category::Flow, Severity::
                                    "Reports an argument of a macro call whose variable is never set."},
                           .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::vacant_argument

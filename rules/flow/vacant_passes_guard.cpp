@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::vacant_passes_guard {
 namespace {
 
 /// `#18EQ0` or `0EQ#18`: the variable.
@@ -92,4 +92,4 @@ const Rule vacantPassesGuard{
              "Reports a check of an argument by `EQ 0` that does not catch a missing argument."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::vacant_passes_guard

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::zero_is_not_vacant {
 namespace {
 
 /// `#101EQ#0`: the variable.
@@ -80,4 +80,4 @@ const Rule zeroIsNotVacant{.info = {"zero-is-not-vacant", Category::Flow, Severi
                                     "Reports a test for vacant of a variable that was set to 0."},
                            .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::zero_is_not_vacant

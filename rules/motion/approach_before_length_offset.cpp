@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::approach_before_length_offset {
 namespace {
 
 constexpr std::initializer_list<CodeAction> kOffsets = {CodeAction::LengthPlus, CodeAction::LengthMinus,
@@ -80,4 +80,4 @@ const Rule approachBeforeLengthOffset{
              "Reports a move in `Z` between a tool change and the `G43` of the new tool."},
     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::approach_before_length_offset

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::arc_outside_plane {
 namespace {
 
 struct PlaneLetters {
@@ -71,4 +71,4 @@ const Rule arcOutsidePlane{.info = {"arc-outside-plane", Category::Motion, Sever
                                     "Reports an arc whose centre (I, J, K) does not belong to the active plane."},
                            .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::arc_outside_plane

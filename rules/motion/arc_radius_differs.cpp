@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::arc_radius_differs {
 namespace {
 
 /// The analysis has computed both radii; where it cannot tell them apart it is silent.
@@ -43,4 +43,4 @@ const Rule arcRadiusDiffers{
              "Reports an arc whose radius at the end point always differs from the radius at the start point."},
     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::arc_radius_differs

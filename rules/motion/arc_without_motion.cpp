@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::arc_without_motion {
 namespace {
 
 class ArcWithoutMotion final : public FlowRule {
@@ -48,4 +48,4 @@ const Rule arcWithoutMotion{.info = {"arc-without-motion", Category::Motion, Sev
                                      "Reports an arc with `R` whose end point always equals its start point."},
                             .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::arc_without_motion

@@ -1,7 +1,7 @@
 // compensation-left-on: G41 or G42 at the end.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::compensation_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule compensationLeftOn{
              "Reports cutter compensation that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::compensation_left_on

@@ -1,7 +1,7 @@
 // compensation-without-number: G41 before any D.
 #include "rules/motion/number_left_out.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::compensation_without_number {
 namespace {
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -16,4 +16,4 @@ const Rule compensationWithoutNumber{.info = {"compensation-without-number", Cat
                                               "Reports a `G41` or `G42` in a main program before any `D`."},
                                      .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::compensation_without_number

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::control_switch_left_on {
 namespace {
 
 struct ControlSwitch {
@@ -91,4 +91,4 @@ const Rule controlSwitchLeftOn{.info = {"control-switch-left-on", Category::Moti
                                         "`#3003` or `#3004` and does not reset it on some path."},
                                .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::control_switch_left_on

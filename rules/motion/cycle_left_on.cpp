@@ -1,7 +1,7 @@
 // cycle-left-on: a canned cycle at the end.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::cycle_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule cycleLeftOn{
              "Reports a canned cycle that is still active when a called program returns, on some path."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::cycle_left_on

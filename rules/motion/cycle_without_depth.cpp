@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::cycle_without_depth {
 namespace {
 
 constexpr std::initializer_list<CodeAction> kCycles = {
@@ -69,4 +69,4 @@ const Rule cycleWithoutDepth{
              "Reports a canned cycle that starts without a depth or without `R` when neither can be active."},
     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::cycle_without_depth

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::distance_mode_not_set {
 namespace {
 
 class DistanceModeNotSet final : public FlowRule {
@@ -57,4 +57,4 @@ const Rule distanceModeNotSet{
              "Reports the first move of a program when neither `G90` nor `G91` is programmed before it on some path."},
     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::distance_mode_not_set

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::early_output {
 namespace {
 
 constexpr std::size_t kMostBlocksBack = 8;
@@ -94,4 +94,4 @@ const Rule earlyOutput{
              "Reports an output that is written twice with only a dwell between the two statements."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::early_output

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::extended_offset_lost {
 namespace {
 
 bool isExtended(const Word &word, const FileContext &context) {
@@ -58,4 +58,4 @@ const Rule extendedOffsetLost{
              "Reports a `P` with `G54` to `G59` in a program that uses the code for extended work offsets elsewhere."},
     .hooks = {.word = check, .wordAddresses = "G"}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::extended_offset_lost

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::feed_not_set {
 namespace {
 
 class FeedNotSet final : public FlowRule {
@@ -67,4 +67,4 @@ const Rule feedNotSet{
              "Reports the first cutting move of a main program when no `F` comes before it on some path."},
     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::feed_not_set

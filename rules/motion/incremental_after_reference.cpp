@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::incremental_after_reference {
 namespace {
 
 class IncrementalAfterReference final : public FlowRule {
@@ -73,4 +73,4 @@ const Rule incrementalAfterReference{.info = {"incremental-after-reference", Cat
                                               "Reports a move under a `G91` that was written for a reference return."},
                                      .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::incremental_after_reference

@@ -1,7 +1,7 @@
 // incremental-left-on: G91 at the return.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::incremental_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -20,4 +20,4 @@ const Rule incrementalLeftOn{.info = {"incremental-left-on", Category::Motion, S
                                       "Reports a called program that returns with `G91` active, on some path."},
                              .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::incremental_left_on

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::inherited_arc {
 namespace {
 
 class InheritedArc final : public FlowRule {
@@ -82,4 +82,4 @@ const Rule inheritedArc{.info = {"inherited-arc", Category::Motion, Severity::Er
                                  "Reports axis words without `R` and `I J K` in a block where an arc is still active."},
                         .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::inherited_arc

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::inherited_cycle {
 namespace {
 
 constexpr std::initializer_list<CodeAction> kDrilling = {
@@ -62,4 +62,4 @@ const Rule inheritedCycle{.info = {"inherited-cycle", Category::Motion, Severity
                                    "Reports a block with only a `Z` while a drilling cycle is still active."},
                           .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::inherited_cycle

@@ -1,7 +1,7 @@
 // inverse-time-left-on: G93 at the end.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::inverse_time_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule inverseTimeLeftOn{
              "Reports inverse time feed that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::inverse_time_left_on

@@ -1,7 +1,7 @@
 // length-offset-without-number: G43 before any H.
 #include "rules/motion/number_left_out.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::length_offset_without_number {
 namespace {
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -16,4 +16,4 @@ const Rule lengthOffsetWithoutNumber{.info = {"length-offset-without-number", Ca
                                               "Reports a `G43` or `G44` in a main program before any `H`."},
                                      .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::length_offset_without_number

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loop_counter_clobbered {
 namespace {
 
 /// `#1 = #1 + ..`, `#1 = #1 - ..`
@@ -80,4 +80,4 @@ const Rule loopCounterClobbered{.info = {"loop-counter-clobbered", Category::Mot
                                          "Reports an inner loop that steps the counter of the outer loop as well."},
                                 .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loop_counter_clobbered

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loop_without_advance {
 namespace {
 
 class LoopWithoutAdvance final : public FlowRule {
@@ -109,4 +109,4 @@ const Rule loopWithoutAdvance{.info = {"loop-without-advance", Category::Motion,
                                        "iteration, unless `G91` is active."},
                               .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loop_without_advance

@@ -1,7 +1,7 @@
 // mirror-left-on: G51.1 at the end.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::mirror_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule mirrorLeftOn{
              "Reports a mirror image that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::mirror_left_on

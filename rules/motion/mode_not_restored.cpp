@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::mode_not_restored {
 namespace {
 
 /// `#3=#4003` at some place, and `G#3` at another.
@@ -107,4 +107,4 @@ const Rule modeNotRestored{
          "Reports a called program that saves a mode of its caller but, on some path, returns without restoring it."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::mode_not_restored

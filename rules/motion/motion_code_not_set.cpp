@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::motion_code_not_set {
 namespace {
 
 class MotionCodeNotSet final : public FlowRule {
@@ -50,4 +50,4 @@ const Rule motionCodeNotSet{.info = {"motion-code-not-set", Category::Motion, Se
                                      "comes before them on some path."},
                             .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::motion_code_not_set

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::offset_under_compensation {
 namespace {
 
 bool isToolOffset(const FileContext &context, std::uint32_t variable) {
@@ -61,4 +61,4 @@ const Rule offsetUnderCompensation{.info = {"offset-under-compensation", Categor
                                             "Reports a tool offset that is written while `G41` or `G42` is active."},
                                    .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::offset_under_compensation

@@ -1,7 +1,7 @@
 // plane-left-on: G18 or G19 at the return.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::plane_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -20,4 +20,4 @@ const Rule planeLeftOn{.info = {"plane-left-on", Category::Motion, Severity::War
                                 "Reports a called program that returns with `G18` or `G19` active, on some path."},
                        .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::plane_left_on

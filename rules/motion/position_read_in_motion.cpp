@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::position_read_in_motion {
 namespace {
 
 constexpr std::size_t kMostBlocksBack = 8;
@@ -76,4 +76,4 @@ const Rule positionReadInMotion{.info = {"position-read-in-motion", Category::Mo
                                          "between for which the control waits."},
                                 .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::position_read_in_motion

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace feedhold::rules {
+namespace feedhold::rules::reference_through_work_zero {
 namespace {
 
 class ReferenceThroughWorkZero final : public FlowRule {
@@ -60,4 +60,4 @@ const Rule referenceThroughWorkZero{.info = {"reference-through-work-zero", Cate
                                              "Reports a reference return with `Z0` while `G90` is active."},
                                     .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::reference_through_work_zero

@@ -1,7 +1,7 @@
 // scaling-left-on: G51 at the end.
 #include "rules/motion/left_on.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::scaling_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule scalingLeftOn{
              "Reports scaling that is still active when the program ends or returns, on some path."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::scaling_left_on

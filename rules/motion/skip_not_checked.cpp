@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::skip_not_checked {
 namespace {
 
 VariableRole roleOf(const FileContext &context, std::uint32_t variable) {
@@ -88,4 +88,4 @@ const Rule skipNotChecked{
              "Reports a skip position that is used without a check whether the skip signal came."},
     .hooks = {.flow = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::skip_not_checked

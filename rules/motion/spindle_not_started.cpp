@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::spindle_not_started {
 namespace {
 
 class SpindleNotStarted final : public FlowRule {
@@ -115,4 +115,4 @@ const Rule spindleNotStarted{.info = {"spindle-not-started", Category::Motion, S
                                       "`M04` comes before it on some path."},
                              .hooks = {.watch = watch}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::spindle_not_started

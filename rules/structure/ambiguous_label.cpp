@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::ambiguous_label {
 namespace {
 
 constexpr std::string_view kSearchOrder =
@@ -101,4 +101,4 @@ const Rule ambiguousLabel{.info = {"ambiguous-label", Category::Structure, Sever
                                    "when it may find the wrong one."},
                           .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::ambiguous_label

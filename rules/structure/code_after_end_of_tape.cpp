@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::code_after_end_of_tape {
 namespace {
 
 constexpr std::size_t kShownJumps = 3;
@@ -67,4 +67,4 @@ const Rule codeAfterEndOfTape{
              "Reports program text after the closing `%`; it is an error when the program jumps there."},
     .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::code_after_end_of_tape

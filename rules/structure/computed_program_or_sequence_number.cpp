@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::computed_program_or_sequence_number {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -25,4 +25,4 @@ const Rule computedProgramOrSequenceNumber{
              "Reports a program number or sequence number that is a variable or an expression."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::computed_program_or_sequence_number

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::crossed_loops {
 namespace {
 
 Span span(StatementId statement, const FileContext &context) { return context.tree.statements[statement].span; }
@@ -42,4 +42,4 @@ const Rule crossedLoops{.info = {"crossed-loops", Category::Structure, Severity:
                                  "Reports two loops that overlap, so that neither encloses the other."},
                         .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::crossed_loops

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::do_number {
 namespace {
 
 std::string stops(const FileContext &context) {
@@ -57,4 +57,4 @@ const Rule doNumber{
              "Reports a `DO` or `END` whose number is missing, computed, or not available on the control."},
     .hooks = {.issue = checkMissing, .issueKinds = kIssues, .statement = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::do_number

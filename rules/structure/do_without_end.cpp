@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::do_without_end {
 namespace {
 
 /// The END that was meant: the only one of the program that is left over.
@@ -48,4 +48,4 @@ const Rule doWithoutEnd{.info = {"do-without-end", Category::Structure, Severity
                                  "Reports a `DO` without a later `END` of the same number."},
                         .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::do_without_end

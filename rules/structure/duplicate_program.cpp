@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::duplicate_program {
 namespace {
 
 /// Programs of a file that stand before this one report nothing of it: the later one is loaded over them.
@@ -47,4 +47,4 @@ const Rule duplicateProgram{.info = {"duplicate-program", Category::Structure, S
                                      "Reports programs in one file or folder that have the same number or name."},
                             .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::duplicate_program

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-namespace feedhold::rules {
+namespace feedhold::rules::duplicate_sequence_number {
 namespace {
 
 std::unordered_set<std::uint32_t> jumpNumbers(ProgramId program, const FileContext &context) {
@@ -64,4 +64,4 @@ const Rule duplicateSequenceNumber{
              "Reports a sequence number that several blocks of a program have, when no jump uses it."},
     .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::duplicate_sequence_number

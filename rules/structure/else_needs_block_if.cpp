@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::else_needs_block_if {
 namespace {
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
@@ -31,4 +31,4 @@ const Rule elseNeedsBlockIf{
              "Reports `ELSE`, `ELSEIF` or `ENDIF` on a control that only has the one-line `IF`."},
     .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::else_needs_block_if

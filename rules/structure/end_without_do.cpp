@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::end_without_do {
 namespace {
 
 /// The first DO without an END: an END behind it may be its own with a mistyped number, and do-without-end says so.
@@ -41,4 +41,4 @@ const Rule endWithoutDo{
     .info = {"end-without-do", Category::Structure, Severity::Error, "Reports an `END` without a matching `DO`."},
     .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::end_without_do

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::endless_loop {
 namespace {
 
 /// A target in the loop, its DO included, keeps control inside.
@@ -63,4 +63,4 @@ const Rule endlessLoop{.info = {"endless-loop", Category::Structure, Severity::W
                                 "Reports a `DO` without `WHILE` that nothing inside the loop ever leaves."},
                        .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::endless_loop

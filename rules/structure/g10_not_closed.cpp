@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::g10_not_closed {
 namespace {
 
 bool opensData(const FileContext &context, BlockId block) {
@@ -43,4 +43,4 @@ const Rule g10NotClosed{.info = {"g10-not-closed", Category::Structure, Severity
                                  "Reports parameter input by `G10 L50` or `G10 L52` without the `G11` that ends it."},
                         .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::g10_not_closed

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::goto_missing_label {
 namespace {
 
 bool inRange(const FileContext &context, std::uint32_t number) {
@@ -108,4 +108,4 @@ const Rule gotoMissingLabel{.info = {"goto-missing-label", Category::Structure, 
                                      "Reports a jump to a sequence number that does not exist."},
                             .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::goto_missing_label

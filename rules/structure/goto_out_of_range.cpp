@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::goto_out_of_range {
 namespace {
 
 void check(const Jump &jump, const FileContext &context, const Reporter &reporter) {
@@ -31,4 +31,4 @@ const Rule gotoOutOfRange{.info = {"goto-out-of-range", Category::Structure, Sev
                                    "Reports a jump to a number that no block can have."},
                           .hooks = {.jump = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::goto_out_of_range

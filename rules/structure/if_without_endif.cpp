@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::if_without_endif {
 namespace {
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
@@ -30,4 +30,4 @@ const Rule ifWithoutEndif{.info = {"if-without-endif", Category::Structure, Seve
                                    "Reports an `IF` over several lines that no `ENDIF` closes."},
                           .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::if_without_endif

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::jump_into_loop {
 namespace {
 
 void report(const Jump &jump, const Loop &loop, const FileContext &context, const Reporter &reporter) {
@@ -39,4 +39,4 @@ const Rule jumpIntoLoop{.info = {"jump-into-loop", Category::Structure, Severity
                                  "Reports a jump from outside a loop to a block inside it."},
                         .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::jump_into_loop

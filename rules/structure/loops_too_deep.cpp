@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::loops_too_deep {
 namespace {
 
 void check(const FileContext &context, const Reporter &reporter) {
@@ -34,4 +34,4 @@ const Rule loopsTooDeep{.info = {"loops-too-deep", Category::Structure, Severity
                                  "Reports loops nested deeper than the control allows."},
                         .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::loops_too_deep

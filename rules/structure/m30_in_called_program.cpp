@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::m30_in_called_program {
 namespace {
 
 /// A call from another program that has more to do behind it; M97 and a program that calls itself are no proof that
@@ -59,4 +59,4 @@ const Rule m30InCalledProgram{.info = {"m30-in-called-program", Category::Struct
                                        "Reports `M02` or `M30` in a program that another program calls."},
                               .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::m30_in_called_program

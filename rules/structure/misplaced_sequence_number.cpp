@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::misplaced_sequence_number {
 namespace {
 
 /// Blocks in which N is data or an argument.
@@ -49,4 +49,4 @@ const Rule misplacedSequenceNumber{.info = {"misplaced-sequence-number", Categor
                                             "Reports a sequence number that is not at the head of its block."},
                                    .hooks = {.word = check, .wordAddresses = "N"}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::misplaced_sequence_number

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::missing_program_end {
 namespace {
 
 bool isClosedByPercent(const FileContext &context, BlockId last) {
@@ -38,4 +38,4 @@ const Rule missingProgramEnd{.info = {"missing-program-end", Category::Structure
                                       "`M30`, `M99`, a jump or an alarm."},
                              .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::missing_program_end

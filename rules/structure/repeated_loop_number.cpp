@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::repeated_loop_number {
 namespace {
 
 /// The nearest loop of the same number around a DO.
@@ -42,4 +42,4 @@ const Rule repeatedLoopNumber{.info = {"repeated-loop-number", Category::Structu
                                        "Reports a loop inside another loop with the same number."},
                               .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::repeated_loop_number

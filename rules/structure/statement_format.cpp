@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::statement_format {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -27,4 +27,4 @@ const Rule statementFormat{.info = {"statement-format", Category::Structure, Sev
                                     "Reports an incomplete `SETVN`, `BPRNT` or `DPRNT` statement."},
                            .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::statement_format

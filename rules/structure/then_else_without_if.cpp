@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::then_else_without_if {
 namespace {
 
 Diagnostic withoutIf(Span span, const FileContext &context) {
@@ -32,4 +32,4 @@ const Rule thenElseWithoutIf{.info = {"then-else-without-if", Category::Structur
                                       "Reports a `THEN`, `ELSE` or `ENDIF` without an `IF`."},
                              .hooks = {.issue = checkThen, .issueKinds = kIssues, .program = checkLines}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::then_else_without_if

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unmatched_o_word {
 namespace {
 
 std::string_view endOf(OWordKind kind) {
@@ -115,4 +115,4 @@ const Rule unmatchedOWord{.info = {"unmatched-o-word", Category::Structure, Seve
                                    "Reports an O-word block whose beginning or end is missing."},
                           .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unmatched_o_word

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unreachable_block {
 namespace {
 
 /// `#3000=1(..)`, then M00 or M30 behind it: a belt beside the braces.  A label between them shows that the block was
@@ -52,4 +52,4 @@ const Rule unreachableBlock{.info = {"unreachable-block", Category::Structure, S
                                      "elsewhere, and no jump leads to them."},
                             .hooks = {.program = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unreachable_block

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::zero_sequence_number {
 namespace {
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule zeroSequenceNumber{.info = {"zero-sequence-number", Category::Structu
                                        "Reports `N0` on a control whose sequence numbers begin at 1."},
                               .hooks = {.word = check, .wordAddresses = "N"}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::zero_sequence_number

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::fractional_variable_number {
 namespace {
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule fractionalVariableNumber{.info = {"fractional-variable-number", Categ
                                              "Reports a variable number with a fraction."},
                                     .hooks = {.expression = check, .expressionNodes = nodeSet<NumberedVariable>()}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::fractional_variable_number

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::read_of_write_only {
 namespace {
 
 void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule readOfWriteOnly{
              "Reports a read of a system variable that can only be written, such as the alarm number."},
     .hooks = {.variable = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::read_of_write_only

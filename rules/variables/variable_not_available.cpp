@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::variable_not_available {
 namespace {
 
 /// The nearest ranges around a number that is in none, for "the control has #1-#33 and #100-#199".
@@ -42,4 +42,4 @@ const Rule variableNotAvailable{.info = {"variable-not-available", Category::Var
                                          "Reports a variable number that no machine with this control has."},
                                 .hooks = {.variable = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::variable_not_available

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::write_to_read_only {
 namespace {
 
 std::string contents(const VariableRange &range) {
@@ -28,4 +28,4 @@ const Rule writeToReadOnly{.info = {"write-to-read-only", Category::Variable, Se
                                     "Reports an assignment to a system variable that can only be read."},
                            .hooks = {.variable = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::write_to_read_only

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::write_to_vacant {
 namespace {
 
 void check(const VariableUse &use, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule writeToVacant{.info = {"write-to-vacant", Category::Variable, Severit
                                   "Reports an assignment to `#0`, which is always vacant."},
                          .hooks = {.variable = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::write_to_vacant

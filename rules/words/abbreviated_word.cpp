@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::abbreviated_word {
 namespace {
 
 /// Read in its place: what follows a short form decides whether it is one.
@@ -35,4 +35,4 @@ const Rule abbreviatedWord{.info = {"abbreviated-word", Category::Word, Severity
                                     "Reports a macro keyword in its short form, such as `WH` for `WHILE`."},
                            .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::abbreviated_word

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::arc_without_centre {
 namespace {
 
 bool isEndPoint(const Word &word, const FileContext &context) {
@@ -37,4 +37,4 @@ const Rule arcWithoutCentre{.info = {"arc-without-centre", Category::Word, Sever
                                      "Reports an arc with an end point but without `R` and without `I J K`."},
                             .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::arc_without_centre

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::block_skip_level {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule blockSkipLevel{.info = {"block-skip-level", Category::Word, Severity:
                                    "Reports a block skip with a level that does not exist: `//`, `/0`."},
                           .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::block_skip_level

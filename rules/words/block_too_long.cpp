@@ -1,7 +1,7 @@
 // block-too-long: thousands of words without an end of block.
 #include "findings/rule/rule.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::block_too_long {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -20,4 +20,4 @@ const Rule blockTooLong{.info = {"block-too-long", Category::Syntax, Severity::E
                                  "Reports a block of thousands of words, as in a file that has lost its line ends."},
                         .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::block_too_long

@@ -5,7 +5,7 @@
 #include <array>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::conflicting_g_codes {
 namespace {
 
 void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
@@ -52,4 +52,4 @@ const Rule conflictingGCodes{.info = {"conflicting-g-codes", Category::Word, Sev
                                       "Reports two different G codes of one modal group in one block."},
                              .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::conflicting_g_codes

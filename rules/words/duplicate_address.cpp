@@ -6,7 +6,7 @@
 #include <array>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::duplicate_address {
 namespace {
 
 bool counts(const Word &word, const FileContext &context) {
@@ -50,4 +50,4 @@ const Rule duplicateAddress{.info = {"duplicate-address", Category::Word, Severi
                                      "Reports an address that occurs twice in one block."},
                             .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::duplicate_address

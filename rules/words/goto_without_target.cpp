@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::goto_without_target {
 namespace {
 
 /// The `N` of `GOTO N10`: the number is there, and a letter too many.
@@ -40,4 +40,4 @@ const Rule gotoWithoutTarget{.info = {"goto-without-target", Category::Syntax, S
                                       "Reports a `GOTO` without a sequence number, or with an `N` before it."},
                              .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::goto_without_target

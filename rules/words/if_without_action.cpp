@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::if_without_action {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -22,4 +22,4 @@ const Rule ifWithoutAction{.info = {"if-without-action", Category::Syntax, Sever
                                     "Reports an `IF` with a condition but without an action."},
                            .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::if_without_action

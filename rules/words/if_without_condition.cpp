@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::if_without_condition {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule ifWithoutCondition{.info = {"if-without-condition", Category::Syntax,
                                        "Reports an `IF` without a condition in brackets."},
                               .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::if_without_condition

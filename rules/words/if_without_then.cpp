@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::if_without_then {
 namespace {
 
 bool leaves(CodeRole role) {
@@ -41,4 +41,4 @@ const Rule ifWithoutThen{.info = {"if-without-then", Category::Syntax, Severity:
                                   "Reports an `IF` whose action follows the condition without `THEN` or `GOTO`."},
                          .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::if_without_then

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::lower_case {
 namespace {
 
 /// What must keep its letters: comments and printed text, in order of the text.
@@ -59,4 +59,4 @@ const Rule lowerCase{.info = {"lower-case", Category::Word, Severity::Info,
                               "Reports program text in lower case, which older controls do not read."},
                      .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::lower_case

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::macro_statement_with_words {
 namespace {
 
 bool mayStandBeside(const Word &word) {
@@ -59,4 +59,4 @@ const Rule macroStatementWithWords{
              "Reports a macro statement that shares its block with NC words or with another statement."},
     .hooks = {.issue = checkIssue, .issueKinds = kIssues, .statement = checkStatement}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::macro_statement_with_words

@@ -1,7 +1,7 @@
 // misplaced-block-skip: `Z-1.0/M08`.
 #include "findings/rule/rule.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::misplaced_block_skip {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule misplacedBlockSkip{
              "Reports a `/` within a block: with the switch on, only the words before it are executed."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::misplaced_block_skip

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::missing_value {
 namespace {
 
 /// `X?` is how templates mark a number to be filled in.
@@ -32,4 +32,4 @@ const Rule missingValue{
     .info = {"missing-value", Category::Word, Severity::Error, "Reports an address without a number."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::missing_value

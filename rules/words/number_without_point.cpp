@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::number_without_point {
 namespace {
 
 // So many whole lengths with a point must stand in the file for each one without before the latter is a slip.  In the
@@ -71,4 +71,4 @@ const Rule numberWithoutPoint{
              "Reports a length without a decimal point in a program that writes decimal points everywhere else."},
     .hooks = {.file = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::number_without_point

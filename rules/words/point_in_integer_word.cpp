@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace feedhold::rules {
+namespace feedhold::rules::point_in_integer_word {
 namespace {
 
 /// Safe only where the control stops at the point: another one might read the number in its own unit.
@@ -57,4 +57,4 @@ const Rule pointInIntegerWord{
              "Reports a decimal point in a word that takes whole numbers only, such as `M3.0`."},
     .hooks = {.word = check, .wordAddresses = "BDHLMNOPSTG"}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::point_in_integer_word

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::several_m_codes {
 namespace {
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -42,4 +42,4 @@ const Rule severalMCodes{.info = {"several-m-codes", Category::Word, Severity::I
                                   "parameter 3404#7 (M3B) is on."},
                          .hooks = {.block = check}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::several_m_codes

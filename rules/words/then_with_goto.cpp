@@ -1,7 +1,7 @@
 // then-with-goto: `IF[..]THEN GOTO10`.
 #include "findings/rule/rule.h"
 
-namespace feedhold::rules {
+namespace feedhold::rules::then_with_goto {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -23,4 +23,4 @@ const Rule thenWithGoto{.info = {"then-with-goto", Category::Syntax, Severity::W
                                  "Reports `THEN GOTO`: some versions of the control accept it, others stop."},
                         .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::then_with_goto

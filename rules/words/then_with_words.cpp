@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::then_with_words {
 namespace {
 
 /// The words behind THEN, up to the end of the block.
@@ -33,4 +33,4 @@ const Rule thenWithWords{.info = {"then-with-words", Category::Syntax, Severity:
                                   "Reports NC words after `THEN`, where the control accepts one macro statement only."},
                          .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::then_with_words

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::then_without_statement {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -24,4 +24,4 @@ const Rule thenWithoutStatement{
     .info = {"then-without-statement", Category::Syntax, Severity::Error, "Reports a `THEN` with nothing after it."},
     .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::then_without_statement

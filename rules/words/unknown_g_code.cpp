@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::unknown_g_code {
 namespace {
 
 void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {
@@ -27,4 +27,4 @@ const Rule unknownGCode{
              "Reports a G code that the control does not have and that `feedhold.toml` does not list as a call."},
     .hooks = {.word = check, .wordAddresses = "G"}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::unknown_g_code

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::while_without_condition {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -22,4 +22,4 @@ const Rule whileWithoutCondition{.info = {"while-without-condition", Category::S
                                           "Reports a `WHILE` without a condition in brackets."},
                                  .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::while_without_condition

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace feedhold::rules {
+namespace feedhold::rules::while_without_do {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
@@ -21,4 +21,4 @@ const Rule whileWithoutDo{.info = {"while-without-do", Category::Syntax, Severit
                                    "Reports a `WHILE` without a `DO` after its condition."},
                           .hooks = {.issue = check, .issueKinds = kIssues}};
 
-} // namespace feedhold::rules
+} // namespace feedhold::rules::while_without_do
