@@ -79,7 +79,6 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;
   dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
-  dialect.switches.ccv = Switch::On; // global variables survive power-off
   dialect.switches.v15 = Switch::On; // geometry stands before wear
   return dialect;
 }

@@ -41,11 +41,11 @@ std::shared_ptr<const ProjectFile> FileStore::read(const OpenedFile &file,
   if (file.path.empty())
     return readFile(file, open);
   const Key key{file.path, file.shown, std::string(file.dialect->id) + "\n" + textOf(file.dialect->switches)};
-  const auto known = [&] {
+  std::shared_ptr<const ProjectFile> known;
+  {
     const std::lock_guard lock(mutex_);
-    const auto found = files_.find(key);
-    return found == files_.end() ? nullptr : found->second;
-  }();
+    known = files_[key];
+  }
   if (known && isAsBefore(*known, file, open))
     return known;
   auto anew = readFile(file, open); // without the lock: two threads may read one file, and either reading serves

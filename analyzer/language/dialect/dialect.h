@@ -311,22 +311,14 @@ struct Switches {
   Switch ad2 = Switch::Off;     // 3403#6: a repeated address is an alarm
   Switch m3b = Switch::Unknown; // 3404#7: up to three M codes in a block
   Switch g67 = Switch::Unknown; // 6000#0: G67 without G66 is no alarm
-  Switch mgo = Switch::Off;     // 6000#1: jumps use stored sequence numbers
   Switch v15 = Switch::Off;     // 6000#3: tool offset numbering of Series 15
-  Switch hgo = Switch::Off;     // 6000#4: as mgo, for blocks read within the last hundred
-  Switch tcs = Switch::Off;     // 6001#5: T code calls O9000
-  Switch ccv = Switch::Unknown; // 6001#6: reset keeps #100..
-  Switch clv = Switch::Unknown; // 6001#7: reset keeps #1-#33
   Switch nat = Switch::Unknown; // 6004#0: range of ATAN and ASIN
-  Switch mfz = Switch::Unknown; // 6004#1: tiny results of SIN, COS, TAN become 0
   Switch sqc = Switch::Off;     // 6005#0: M98 Q starts at a sequence number
   Switch mlg = Switch::Unknown; // 6006#0: AND, OR, XOR join conditions
-  Switch cva = Switch::Unknown; // 6007#4: format in which arguments are passed
   Switch f16 = Switch::Off;     // 6008#0: value range and precision of Series 16
   Switch mca = Switch::Off;     // 6008#1: the number of `#3000=` is shown as it is, up to 4095
   Switch gmp = Switch::Off;     // 6008#6: code calls work inside programs called by a code
   Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
-  Switch amm = Switch::Off;     // 7712#4: M99 in a main program is an alarm
   Switch fxy = Switch::Unknown; // 5101#0: cycles drill along the normal of the plane (On) or along Z
   Switch ax1 =
       Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system

@@ -14,7 +14,7 @@ enum class TextSignal : std::uint8_t {
 };
 
 constexpr std::size_t kTextSignalCount = 0
-#define SIGNAL(kind, description) +1
+#define SIGNAL(kind, description) +1 // NOLINT(bugprone-macro-parentheses): a term of the sum
 #include "language/dialect/text_signals.def"
     ;
 

@@ -37,7 +37,7 @@ public:
   static constexpr ModalCode kNoCode = 0xff;
   using State = MachineState<ConcreteReading>;
 
-  ConcreteReading(const Dialect &dialect, GivenVariables given, WordRounding rounding = WordRounding::Increment)
+  ConcreteReading(const Dialect &dialect, const GivenVariables &given, WordRounding rounding = WordRounding::Increment)
       : dialect_(&dialect), given_(byCell(dialect, given)), rounding_(rounding) {}
 
   // ---- what happened, for the machine ----

@@ -5,6 +5,7 @@
 #include "meaning/semantics/evaluate.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace feedhold {
@@ -173,7 +174,7 @@ private:
     const auto value = evaluate(context_, word.expression());
     const std::optional<double> number = reading_.constantOf(reading_.roundTo(reading_.asNumber(value), Decimal(1, 1)));
     if (number && *number >= 0 && *number < 6000 && !reading_.mayBe(reading_.isVacant(value)))
-      return static_cast<std::uint16_t>(*number * 10 + 0.5);
+      return static_cast<std::uint16_t>(std::lround(*number * 10));
     if (context_.certain(reading_.isVacant(value)))
       return std::nullopt;
     const auto code = word.address() == 'G' ? reading_.codeFrom(value, context_.modes) : std::nullopt;
