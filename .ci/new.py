@@ -128,7 +128,7 @@ def new_rule(group, name):
     category = CATEGORIES.get(group, "Expression")
     file, symbol = name.replace("-", "_"), symbol_of(name)
     folder = ROOT / "rules" / group
-    create(folder / f"{file}.cpp", RULE_CPP.format(name=name, symbol=symbol, category=category))
+    create(folder / f"{file}.cpp", RULE_CPP.format(name=name, file=file, symbol=symbol, category=category))
     create(folder / f"{file}.md", RULE_PAGE.format(name=name))
     add_line(ROOT / "rules" / "rules.def", "RULE(", f"RULE({symbol}, {file})", sort=True)
     print("next: write both, then ./dev update-goldens rules and review `git diff`")
