@@ -9,7 +9,10 @@
 namespace feedhold {
 
 namespace rules {
-#define RULE(symbol, file) namespace file { extern const Rule symbol; }
+#define RULE(symbol, file)                                                                                             \
+  namespace file {                                                                                                     \
+  extern const Rule symbol;                                                                                            \
+  }
 #include "rules/rules.def"
 #undef RULE
 } // namespace rules
