@@ -33,7 +33,7 @@ class Told:
     """The answer for one program that is started; `numbers` are the variables that the texts name."""
 
     def __init__(self, answer: dict, numbers: set):
-        self.is_whole = answer["complete"] and not answer["gaveUp"] and not answer["notFollowed"]
+        self.is_whole = answer["complete"] and not answer["gaveUp"] and not answer["unmodelled"]
         self.contexts = {}
         names = set(numbers)
         for context in answer["contexts"]:

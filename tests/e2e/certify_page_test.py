@@ -81,13 +81,13 @@ class Calls(Page):
     def test_state_is_told_in_words_and_nodes_lead_to_sections(self):
         boxes = boxes_of(self.ring()[0])
         words = {"ready": "✓ proved", "open": "? not all proved", "alarms": "! alarm to decide on",
-                 "broken": "✗ refuted"}
+                 "refuted": "✗ refuted"}
         for name in ("O1", "O2", "O3"):
             _, word, link = boxes[name]
-            self.assertTrue(word.startswith(words[self.program(name)["standing"]]), (name, word))
-            self.assertEqual(word.endswith("in a ring"), name != "O1")
+            self.assertTrue(word.startswith(words[self.program(name)["status"]]), (name, word))
+            self.assertEqual(word.endswith("in a cycle"), name != "O1")
             self.assertIn(f'<section class="program" id="{link[1:]}"', self.page)
-        self.assertEqual(boxes["O9999"][1:], ("∅ not here", None))
+        self.assertEqual(boxes["O9999"][1:], ("∅ not supplied", None))
 
     def test_lines_lead_from_callers_to_callees(self):
         ring, alone = self.ring()
@@ -120,7 +120,7 @@ class Calls(Page):
         words = re.search(rf'<ul class="calls" id="{drawing.get("aria-describedby")}">(.*?)</ul>', self.page, re.DOTALL)
         plain = re.sub(r"<[^>]*>", "", words.group(1)).strip().splitlines()
         self.assertEqual(plain, ["O1 calls O2 lines 2, 4, O3 line 3", "O2 calls O3 line 3",
-                                 "O3 calls O2 line 3, O9999 (not here: it may do anything) line 4"])
+                                 "O3 calls O2 line 3, O9999 (not supplied: it may do anything) line 4"])
 
     def test_too_many_for_a_drawing(self):
         names = [f"O{number}" for number in range(100, 190)]
@@ -129,7 +129,7 @@ class Calls(Page):
         self.write("nc/O99.nc", "O99\nM99\n")
         self.certify("nc")
         self.assertEqual(Drawings(self.page).found, [])
-        self.assertIn("91 programs belong together here: too many for a drawing", self.page)
+        self.assertIn("91 programs are connected by calls: too many to draw", self.page)
         for name in names:
             self.assertRegex(self.page, rf">{name}</a> calls <a[^>]*>O99</a>")
 
@@ -152,12 +152,12 @@ class Alarms(Page):
     def test_alarm_that_nobody_speaks_of(self):
         self.assertExit(self.with_clauses(""), 1)
         self.assertEqual(self.alarm, {"number": 7, "message": "SIDE TOO SHORT"})
-        self.assertEqual((self.document["standing"], self.program("O7")["standing"]), ("alarms", "alarms"))
+        self.assertEqual((self.document["status"], self.program("O7")["status"]), ("alarms", "alarms"))
         self.assertIn("Decide before release", self.page)
         self.assertNotIn("Not fit for release", self.page)
-        self.assertIn("Alarm 7 (SIDE TOO SHORT) can come", self.page)
+        self.assertIn("Alarm 7 (SIDE TOO SHORT) can be raised", self.page)
         self.assertIn("<code>@ALARM 7 IFF ...</code>", self.page)
-        self.assertTrue(self.program("O7")["summary"].startswith("Decide first: alarm 7 can come"))
+        self.assertTrue(self.program("O7")["summary"].startswith("Decide first: alarm 7 can be raised"))
 
     def test_clause_that_is_shown_settles_it(self):
         self.with_clauses("")
@@ -169,13 +169,13 @@ class Alarms(Page):
         result = self.with_clauses("(@ALARM 7 IFF #1 LT 2)\n")
         self.assertExit(result, 0)
         self.assertIsNone(self.alarm)
-        self.assertEqual(self.document["standing"], "ready")
-        self.assertIn("Everything that was asked is proved", self.page)
+        self.assertEqual(self.document["status"], "ready")
+        self.assertIn("Ready for release: every claim is proved", self.page)
         self.assertExit(self.feedhold("prove", "O7.nc", "--dialect", "fanuc-30i"), 0)
 
     def test_alarm_that_comes_for_other_calls(self):
         self.assertExit(self.with_clauses("(@ALARM 7 IFF #1 LT 3)\n"), 1)
-        self.assertEqual(self.document["standing"], "broken")
+        self.assertEqual(self.document["status"], "refuted")
         self.assertIn("Not fit for release", self.page)
         self.assertIn("O7.alarm-iff.7", self.page)
 
@@ -184,7 +184,7 @@ class Alarms(Page):
         self.assertIsNone(self.alarm)
         self.assertExit(self.with_clauses("(@ALARM 7 IF #1 LT 2)\n", number="[7+#2]"), 1)
         self.assertIsNone(self.alarm["number"])
-        self.assertEqual(self.document["standing"], "broken", "the clause says which alarm comes")
+        self.assertEqual(self.document["status"], "refuted", "the clause says which alarm comes")
 
     def test_clause_for_another_alarm_says_nothing(self):
         self.with_clauses("(@ALARM 8 IFF #1 LT 0)\n")
@@ -195,17 +195,17 @@ class Unreadable(Page):
     def test_text_that_cannot_be_read_is_not_fit_for_release(self):
         self.write("O5.nc", "O5\n#1=1\n#2=[#1\nM99\n")
         self.assertExit(self.certify("O5.nc"), 3)
-        self.assertEqual((self.document["standing"], self.document["counts"]["unknown"]), ("open", 0))
+        self.assertEqual((self.document["status"], self.document["counts"]["unknown"]), ("open", 0))
         self.assertEqual(self.program("O5")["summary"], "Do not release yet: line 3 has text that cannot be read.")
-        self.assertNotIn("Everything that was asked is proved", self.page)
+        self.assertNotIn("Ready for release: every claim is proved", self.page)
 
 
 class NothingClaimed(Page):
     def test_report_without_claims_is_not_fit_for_release(self):
         self.write("O5.nc", "O5\nM99\n")
         self.assertExit(self.certify("O5.nc", "--only", "ensures"), 3)
-        self.assertEqual(self.document["standing"], "open")
-        self.assertNotIn("Everything that was asked is proved", self.page)
+        self.assertEqual(self.document["status"], "open")
+        self.assertNotIn("Ready for release: every claim is proved", self.page)
 
 
 class Against(Page):
@@ -232,7 +232,7 @@ class Against(Page):
         result = self.against(("left/O1.nc", 2), ("right/O1.nc", 1))
         self.assertExit(result, 1)
         for name in ("left", "right"):
-            self.assertIn(f"`../nc/{name}/O1.nc` is not what it was", result.stdout)
+            self.assertIn(f"`../nc/{name}/O1.nc` has changed", result.stdout)
 
     def test_one_of_two(self):
         result = self.against(("right/O1.nc", 2))

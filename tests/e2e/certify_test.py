@@ -147,7 +147,7 @@ class Certify(Scratch):
         finding = next(row for file in self.document["files"] for row in file["findings"] if row["suppressed"])
         self.assertEqual((finding["rule"], finding["reason"]), ("self-assignment", "KEPT FOR THE DISPLAY"))
         self.assertEqual([row["path"] for row in self.document["skipped"]], ["../nc/picture.nc"])
-        self.assertTrue(self.program("O9101")["unfollowed"])
+        self.assertTrue(self.program("O9101")["unmodelled"])
 
     def test_witness_commands_run_from_the_report(self):
         row = next(row for row in self.program("O9101")["obligations"]
@@ -155,7 +155,7 @@ class Certify(Scratch):
         command = row["witness"]["plot"].split()
         result = self.feedhold(*command[1:], cwd=self.report)
         self.assertExit(result, 1)
-        self.assertIn("outside of SLOT", result.stderr)
+        self.assertIn("outside SLOT", result.stderr)
 
     # ---- the page ----
 
@@ -183,7 +183,7 @@ class Certify(Scratch):
                 for row in program["clauses"]:
                     self.assertIn(row["text"], self.page)
         for words in ("SLOT &lt;1 &amp; 2&gt;", "KEPT FOR THE DISPLAY", "picture.nc", "Author", "Checker", "Approver",
-                      "no safety function", "Do not run", "nat = on", "O9999"):
+                      "not a safety function", "Do not run", "nat = on", "O9999"):
             self.assertTrue(words in self.page, words)
         for row in self.document["assumptions"]:
             self.assertIn(f'id="{row["id"]}"', self.page)
@@ -195,7 +195,7 @@ class Certify(Scratch):
         self.assertIn(".keep-in.", bad["witnessOf"])
         self.assertEqual(self.page.count("<svg xmlns"), 2)
         self.assertEqual(self.page.count("<style>"), 2, "the style of pictures stands there once")
-        self.assertIn("outside of SLOT", (self.report / bad["picture"]["file"]).read_text())
+        self.assertIn("outside SLOT", (self.report / bad["picture"]["file"]).read_text())
 
     # ---- the same each time ----
 
@@ -272,14 +272,14 @@ class Certify(Scratch):
         self.change("away/O9100.nc", "F100.", "F101.")
         result = self.feedhold("recheck", "report", "--against", "away")
         self.assertExit(result, 1)
-        self.assertIn("`../nc/O9100.nc` is not what it was", result.stdout)
+        self.assertIn("`../nc/O9100.nc` has changed", result.stdout)
 
     def test_changed_sources(self):
         for name, before, after in (("nc/O9100.nc", "(SLOT", "(SLIT"), ("nc/O9100.contract", "1..500", "1..600"),
                                     ("feedhold.toml", "nat = true", "nat = false")):
             with self.subTest(name=name):
                 self.change(name, before, after)
-                self.assertDetected(f"`../{name}` is not what it was when it was proved")
+                self.assertDetected(f"`../{name}` has changed since it was proved")
                 self.change(name, after, before)
 
     def test_source_that_goes_or_comes(self):
@@ -291,7 +291,7 @@ class Certify(Scratch):
 
     def test_forged_verdict(self):
         self.change("report/certificate.json", '"verdict": "refuted"', '"verdict": "proved"')
-        self.assertDetected("`index.html` is not the page of this `certificate.json`", "verdict` is not what a proof")
+        self.assertDetected("`index.html` is not the page of this `certificate.json`", "verdict` differs from a new proof")
 
     def test_forged_page(self):
         for before, after in (("✗ refuted", "✓ proved"), ("Not fit for release", "Fit for release"), ("A-3", "A-4")):
@@ -302,7 +302,7 @@ class Certify(Scratch):
 
     def test_forged_document_members(self):
         for before, after in (('"summary": "', '"summary": "Fine. '), ('"bytes": ', '"bytes": 1'),
-                              ('"chosenBy": "config"', '"chosenBy": "option"'), ('"version": 1', '"version":  1')):
+                              ('"chosenBy": "config"', '"chosenBy": "option"'), ('"version": 2', '"version":  2')):
             with self.subTest(before=before):
                 self.change("report/certificate.json", before, after)
                 self.assertDetected("certificate.json")
@@ -334,7 +334,7 @@ class Certify(Scratch):
         self.assertDetected("it was made by feedhold 9")
 
     def test_no_report(self):
-        for text in ("{", "[]", '{"version": 2}', '{"version": 1, "feedhold": 3}'):
+        for text in ("{", "[]", '{"version": 1}', '{"version": 2, "feedhold": 3}'):
             with self.subTest(text=text):
                 self.write("none/certificate.json", text)
                 self.assertExit(self.feedhold("recheck", "none"), 2)

@@ -37,8 +37,8 @@ class NastyPrograms(Scratch):
     def test_what_is_given_up_says_so(self):
         result = self.prove(nasty_programs.squares, SIZE)
         [program] = json.loads(result.stdout)["files"][0]["programs"]
-        self.assertIn("a value that is too large to reason about is taken as any number",
-                      [row["reason"] for row in program["unfollowed"]])
+        self.assertIn("a value whose formula is too large, and which is taken as any number",
+                      [row["reason"] for row in program["unmodelled"]])
 
     def test_same_with_any_number_of_threads(self):
         files = [self.write(f"{make.__name__}.nc", make(SIZE)) for make in

@@ -108,7 +108,7 @@ class Plot(Scratch):
         self.write("O1.nc", SLOT)
         result = self.plot("O1.nc", "--arg", "A=50", "--arg", "R=6", "--arg", "B=0.25")
         self.assertExit(result, 1)
-        said = "0.25 mm outside of CAVITY at N40"
+        said = "0.25 mm outside CAVITY at N40"
         self.assertEqual(result.stderr, said + "\n")
         picture = ElementTree.fromstring(result.stdout)
         self.assertIn(said, self.texts(picture))
@@ -122,7 +122,7 @@ class Plot(Scratch):
         result = self.plot("O1.nc", "--arg", "A=50", "--arg", "R=6")
         self.assertExit(result, 1)
         self.assertEqual(sorted(result.stderr.splitlines()),
-                         ["14 mm inside of CLAMP at N50", "500 mm outside of the travel at N60",
+                         ["14 mm inside CLAMP at N50", "500 mm outside the travel limits at N60",
                           "7 mm below the clearance height in a rapid move at N50"])
         self.assertLessEqual(set(result.stderr.splitlines()), set(self.texts(ElementTree.fromstring(result.stdout))))
 
@@ -130,8 +130,8 @@ class Plot(Scratch):
         self.write("O1.nc", SLOT)
         result = self.plot("O1.nc", "--arg", "A=50.0004", "--arg", "R=6.0008")
         self.assertExit(result, 0)
-        self.assertEqual(result.stderr, "0.0004 mm outside of CAVITY at N30, by the rounding of words to the least "
-                                        "increment alone\n")
+        self.assertEqual(result.stderr, "0.0004 mm outside CAVITY at N30, only because words are rounded to the least "
+                                        "increment\n")
 
     def test_starts_as_the_contract_says(self):
         plan, side = self.views(self.slot())
@@ -143,7 +143,7 @@ class Plot(Scratch):
     def test_without_what_the_contract_asks_for(self):
         self.write("O1.nc", SLOT)
         picture = self.picture("O1.nc", "--arg", "A=50")
-        self.assertIn("without the space of the contract, which asks for #18", self.texts(picture))
+        self.assertIn("regions of the contract are not drawn: they need #18", self.texts(picture))
         self.assertNotIn("keep in CAVITY", self.texts(picture))
 
     def test_region_without_a_shape(self):
@@ -154,7 +154,7 @@ class Plot(Scratch):
 
     def test_alarm(self):
         picture = self.picture(self.write("O3.nc", "O3\nG01 X10. F100.\nN7 #3000=5(STOP)\nM30\n"), code=1)
-        self.assertIn("O3: the run does not come to its end (alarm) but stops at N7", self.texts(picture))
+        self.assertIn("O3: the run does not finish (alarm); it stops at N7", self.texts(picture))
 
     def test_what_is_refused(self):
         self.write("O2.nc", ARCS)

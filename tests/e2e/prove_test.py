@@ -148,7 +148,7 @@ class Prove(Scratch):
 
     def test_why_a_loop_ends(self):
         self.write("O1.nc", COUNTS)
-        self.assertIn("at most `3` passes: `#1` falls by `1` each pass and the loop stops at `0`\n",
+        self.assertIn("at most `3` iterations: `#1` falls by `1` at every iteration, and the loop stops at `0`\n",
                       self.prove("O1.nc").stdout)
 
     def test_loop_that_may_wait_for_ever(self):
@@ -280,7 +280,7 @@ class Prove(Scratch):
         self.write("O3.nc", UNKNOWN)
         text = self.prove("O3.nc").stdout
         self.assertIn("unknown: it is not known whether this alarm can be raised [O3.alarm-unreachable.N90]", text)
-        self.assertIn("= note: a possible counterexample was found, but its run does not show the fault\n", text)
+        self.assertIn("= note: the solver's counterexample did not reproduce on the machine: ", text)
 
     def test_quiet_and_verbose(self):
         self.write("O1.nc", COUNTS)

@@ -77,7 +77,7 @@ class Ranges(Scratch):
     def test_one_program_of_a_file(self):
         self.write("both.nc", MAIN + SUB)
         self.assertIn("O2000, called from O1000 line 6\n", self.ranges("both.nc"))
-        self.assertTrue(self.ranges("both.nc", "--program", "O2000").startswith("O2000, whatever was before\n"))
+        self.assertTrue(self.ranges("both.nc", "--program", "O2000").startswith("O2000, for any start state\n"))
 
     def test_json_follows_its_schema(self):
         report = self.report("O1000.nc:7")
@@ -99,14 +99,14 @@ class Ranges(Scratch):
 
     def test_what_is_not_followed(self):
         self.write("call.nc", "O1\nG65 P1234\nX#100\nM30\n")
-        self.assertIn("not followed: ", self.ranges("call.nc"))
-        self.assertEqual(self.report("call.nc")["notFollowed"][0]["line"], 2)
+        self.assertIn("not modelled: ", self.ranges("call.nc"))
+        self.assertEqual(self.report("call.nc")["unmodelled"][0]["line"], 2)
 
     def test_giving_up_is_said(self):
         labels = 3000
         tangle = "".join(f"N{i} GOTO#{100 + i % 50}\n" for i in range(1, labels))
         self.write("tangle.nc", f"O1\n{tangle}M30\n")
-        self.assertIn("nothing is told: ", self.ranges("tangle.nc"))
+        self.assertIn("no ranges: ", self.ranges("tangle.nc"))
         report = self.report("tangle.nc")
         self.assertTrue(report["gaveUp"])
         self.assertEqual(report["contexts"], [])

@@ -134,22 +134,22 @@ class Recheck(Scratch):
 
     def test_changed_program(self):
         self.change(self.program, "(PECK)", "(PECKS)")
-        self.assertDetected("`../nc/O9100.nc` is not what it was when it was proved")
+        self.assertDetected("`../nc/O9100.nc` has changed since it was proved")
 
     def test_program_that_breaks_the_proof(self):
         self.change(self.program, "#10=#10-1", "#10=#10+1")
-        self.assertDetected("`../nc/O9100.nc`", "O9100.loop-ends.N20: the bundle says proved")
+        self.assertDetected("`../nc/O9100.nc`", "O9100.loop-ends.N20: the bundle says proved; it is now")
 
     def test_changed_contract(self):
         self.change(self.contract, "0.1..20.", "0...20.")
-        self.assertDetected("`../nc/O9100.contract` is not what it was when it was proved")
+        self.assertDetected("`../nc/O9100.contract` has changed since it was proved")
 
     def test_contract_that_goes_or_comes(self):
         self.contract.unlink()
         self.assertDetected("`../nc/O9100.contract` was read for the proof but is missing now")
         self.contract.write_text(CONTRACT)
         self.write("nc/O9100.nc.contract", "@GLOBAL #500 MODE 0..6\n")
-        self.assertDetected("`../nc/O9100.nc.contract` is new beside the program")
+        self.assertDetected("`../nc/O9100.nc.contract` is new in the folder of the program")
 
     def test_changed_certificate(self):
         for path in self.evidence("certificate"):
@@ -167,7 +167,7 @@ class Recheck(Scratch):
         result = self.feedhold("recheck", "proofs", "-v")
         self.assertExit(result, 1)
         name = path.with_suffix(".smt2").relative_to(self.bundle).as_posix()
-        self.assertIn(f"{name}: certificate rejected, Z3 is not asked, cvc5 is not asked\n", result.stdout)
+        self.assertIn(f"{name}: certificate rejected, Z3 was not asked, cvc5 was not asked\n", result.stdout)
         self.assertIn(f" {questions - 1} certificates verified by the checker", result.stdout)
 
     def test_claim_made_easier(self):
@@ -179,11 +179,11 @@ class Recheck(Scratch):
         self.assertNotEqual(path.read_text(), easy)
         path.write_text(easy)
         path.with_suffix(".certificate").write_text(certificate)
-        self.assertDetected(f"`{path.relative_to(self.bundle).as_posix()}` is not as it was written")
+        self.assertDetected(f"`{path.relative_to(self.bundle).as_posix()}` has been changed")
 
     def test_forged_verdict(self):
         self.change(self.bundle / "index.json", '"verdict": "refuted"', '"verdict": "proved"')
-        self.assertDetected("O9100.alarm-unreachable.N90: the bundle says proved, and it is refuted")
+        self.assertDetected("O9100.alarm-unreachable.N90: the bundle says proved; it is now refuted")
 
     def test_forged_bound_and_witness(self):
         index = self.bundle / "index.json"
@@ -197,7 +197,7 @@ class Recheck(Scratch):
     def test_obligation_left_out(self):
         self.index["files"][0]["obligations"].pop()
         (self.bundle / "index.json").write_text(json.dumps(self.index))
-        self.assertDetected("this obligation is missing in the bundle")
+        self.assertDetected("this obligation is missing from the bundle")
 
     def test_files_that_go_or_come(self):
         path = self.evidence("certificate")[0]
@@ -210,14 +210,14 @@ class Recheck(Scratch):
 
     def test_index_written_anew(self):
         (self.bundle / "index.json").write_text(json.dumps(self.index))
-        self.assertDetected("`index.json` is not as it was written")
+        self.assertDetected("`index.json` has been changed")
 
     def test_other_version(self):
         self.change(self.bundle / "index.json", '"feedhold": "', '"feedhold": "9')
         self.assertDetected("it was made by feedhold 9")
 
     def test_no_bundle(self):
-        for text in (None, "{", "[]", '{"version": 2}', '{"version": 1, "feedhold": 3, "reading": {}, "files": []}'):
+        for text in (None, "{", "[]", '{"version": 1}', '{"version": 2, "feedhold": 3, "options": {}, "files": []}'):
             with self.subTest(text=text):
                 folder = self.folder / "none"
                 shutil.rmtree(folder, ignore_errors=True)

@@ -8,7 +8,7 @@ namespace {
 
 std::string detailOf(const prove::Verdict &verdict) {
   if (!verdict.bound().empty())
-    return fmt::format("\n  at most `{}` passes", verdict.bound());
+    return fmt::format("\n  at most `{}` iterations", verdict.bound());
   if (verdict == prove::Verdict::Unknown)
     return fmt::format("\n  {}", verdict.reason());
   return verdict.witness() ? fmt::format("\n  {}", verdict.witness()->happened) : "";

@@ -10,7 +10,7 @@ namespace feedhold::proof_tests {
 
 struct ProofTally {
   std::uint64_t programs = 0;
-  std::uint64_t incomplete = 0; // of which not all ways were followed
+  std::uint64_t incomplete = 0; // of which not all paths were explored
   std::uint64_t obligations = 0;
   std::uint64_t proved = 0; // or unreachable
   std::uint64_t refuted = 0;

@@ -33,7 +33,7 @@ std::optional<Verdict> callVerdict(const std::string &text, const std::string &c
 }
 std::optional<Verdict> contractVerdict(const std::string &text) { return callVerdict(text, "satisfies the contract"); }
 
-const std::string kNoModalCall = "no modal call is in force";
+const std::string kNoModalCall = "no modal call is active";
 
 // ---- repetitions ----
 

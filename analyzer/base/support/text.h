@@ -19,6 +19,9 @@ std::string toUpper(std::string_view text);
 std::string toLower(std::string_view text);
 std::string_view trimmed(std::string_view text);
 
+/// As a control shows it: `12.5`, `-0.001`, `0`; no exponent, no zeros behind the last decimal, no `-0`.
+std::string decimalText(double value, int decimals);
+
 /// The candidate nearest to `word` by edit distance (a swap of two neighbours counts once), the first of equals, for
 /// "did you mean"; absent when none is near (distance over a third of the word).  Case counts.
 std::optional<std::string_view> nearestWord(std::string_view word, std::span<const std::string_view> candidates);

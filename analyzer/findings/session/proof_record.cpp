@@ -281,19 +281,19 @@ Obligation readObligation(Reader &reader) {
 } // namespace
 
 std::string writeProofRecord(const ProgramProof &proof) {
-  const auto &[obligations, unfollowed, incomplete, contradictions] = proof;
+  const auto &[obligations, unmodelled, incomplete, contradictions] = proof;
   static_cast<void>(contradictions); // a proof that has any is not kept
   Writer writer;
   writer.number(obligations.size());
   for (const Obligation &obligation : obligations)
     write(writer, obligation);
-  writer.number(unfollowed.size());
-  for (const prove::Unfollowed &each : unfollowed) {
+  writer.number(unmodelled.size());
+  for (const prove::Unmodelled &each : unmodelled) {
     writer.text(each.reason);
     writer.place(each.place);
     writer.span(each.span);
   }
-  writer.optional(incomplete, [&](std::string_view reason) { writer.text(reason); });
+  writer.optional(incomplete, [&](const std::string &reason) { writer.text(reason); });
   return writer.finish();
 }
 
@@ -305,7 +305,7 @@ std::optional<ProgramProof> readProofRecord(std::string_view record, const Progr
   for (std::uint64_t left = reader.count(); left > 0; --left) {
     const std::string_view reason = reader.text();
     const Place place = reader.place();
-    proof.unfollowed.push_back({reason, place, reader.span(place)});
+    proof.unmodelled.push_back({reason, place, reader.span(place)});
   }
   if (reader.isPresent())
     proof.incomplete = reader.text();

@@ -57,10 +57,10 @@ public:
   bool tellsCallsApart() const override { return true; }
   void leftOut(Place) override { result_.isCutShort = true; }
   void notModelled(std::string_view reason, Span) override {
-    const NotFollowedNote note{reason, place_};
-    if (result_.notFollowed.size() < kMostNotes &&
-        std::find(result_.notFollowed.begin(), result_.notFollowed.end(), note) == result_.notFollowed.end())
-      result_.notFollowed.push_back(note);
+    const UnmodelledNote note{reason, place_};
+    if (result_.unmodelled.size() < kMostNotes &&
+        std::find(result_.unmodelled.begin(), result_.unmodelled.end(), note) == result_.unmodelled.end())
+      result_.unmodelled.push_back(note);
   }
 
 private:

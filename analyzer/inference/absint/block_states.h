@@ -20,15 +20,15 @@ struct ContextStates {
   std::map<BlockId, KeptState> blocks; // over all runs that come to the block; absent: none does, or not asked for
 };
 
-struct NotFollowedNote {
+struct UnmodelledNote {
   std::string_view reason;
   Place place;
-  friend bool operator==(const NotFollowedNote &, const NotFollowedNote &) = default;
+  friend bool operator==(const UnmodelledNote &, const UnmodelledNote &) = default;
 };
 
 struct BlockStates {
   std::vector<ContextStates> contexts; // in the order in which they are reached
-  std::vector<NotFollowedNote> notFollowed;
+  std::vector<UnmodelledNote> unmodelled;
   std::optional<std::string_view> gaveUp; // then there are no contexts
   bool isCutShort = false;                // the states of all blocks would be more than kMostValues: some are left out
   static constexpr std::size_t kMostValues = 1'500'000; // of some 130 bytes each

@@ -48,7 +48,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
       engine_.unfollowed_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
     if (!request.possible.empty())
       return enterUnfollowed(node, request, std::move(state));
-    unknownCall(node, request, state, "a program that is not among these files");
+    unknownCall(node, request, state, "a program that was not supplied");
     return state;
   }
   const auto times = repeatsOf(reading_, request);

@@ -95,7 +95,7 @@ private:
   }
   /// The run is told up to where its state came back first.
   void endCircle() {
-    result_.circle.assign(circle_->places.begin(), circle_->places.end());
+    result_.cycle.assign(circle_->places.begin(), circle_->places.end());
     result_.steps = circle_->steps;
     result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(circle_->moves), result_.moves.end());
     end(RunEnd::Repeats);

@@ -81,7 +81,7 @@ struct RunResult {
   std::string alarmText;             // of UserAlarm: the comment
   Span alarmSpan;                    // of both: the words that it comes from
   std::vector<OpenCall> calls;       // the innermost last
-  std::vector<Place> circle;         // of Repeats: where in the started program the run goes round; empty: not known
+  std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed
   MachineState<ConcreteReading> state;
   std::vector<RecordedMove> moves;

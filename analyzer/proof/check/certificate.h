@@ -1,4 +1,4 @@
-// Certificate: why a claim is contradictory, in steps that exact arithmetic can follow.  No solver is needed.
+// Certificate: a refutation in steps that exact arithmetic verifies.  No solver is needed.
 #pragma once
 
 #include "proof/check/problem.h"

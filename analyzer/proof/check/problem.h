@@ -1,4 +1,4 @@
-// UnsatProblem: constraints over polynomials that are said to contradict one another.
+// UnsatProblem: constraints over polynomials that a certificate claims to be unsatisfiable.
 #pragma once
 
 #include "base/support/result.h"

@@ -1,4 +1,4 @@
-// The checker.  What it accepts is Proved, so it is short, exact, and knows no solver.
+// The solver-free checker.  What it accepts counts as proved, so it is short and exact.
 #include "base/support/match.h"
 #include "proof/check/certificate.h"
 

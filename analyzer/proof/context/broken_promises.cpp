@@ -8,37 +8,44 @@ namespace feedhold::prove {
 
 namespace {
 
-/// Broken where nothing had to be assumed to come there; more is not asked.
-bool isBrokenOutright(const smt::TermStore &store, const Question &question) {
-  return std::any_of(question.goals.begin(), question.goals.end(), [&](const PathGoal &each) {
+/// The goal that fails on a path without conditions, if any; other paths may be infeasible.
+const PathGoal *brokenOutright(const smt::TermStore &store, const Question &question) {
+  const auto found = std::find_if(question.goals.begin(), question.goals.end(), [&](const PathGoal &each) {
     return each.goal == store.no() && each.stops.value_or(store.yes()) == store.yes() &&
            std::all_of(each.conditions->begin(), each.conditions->end(),
                        [&](smt::TermId condition) { return condition == store.yes(); });
   });
+  return found == question.goals.end() ? nullptr : &*found;
 }
 
 } // namespace
 
-bool BrokenPromises::breaks(const GivenVariables &given, const Obligation &claim) {
+std::string BrokenPromises::howBroken(const GivenVariables &given, const Obligation &claim) {
+  const Broken *found = broken(given, claim);
+  return found ? found->how : std::string();
+}
+
+const BrokenPromises::Broken *BrokenPromises::broken(const GivenVariables &given, const Obligation &claim) {
   auto [known, isNew] = known_.try_emplace(keyOf(given));
   if (isNew)
     known->second = follow(given);
-  return std::any_of(known->second.begin(), known->second.end(), [&](const Obligation &each) {
-    return each.kind == claim.kind && each.claim == claim.claim && each.place == claim.place;
+  const auto found = std::find_if(known->second.begin(), known->second.end(), [&](const Broken &each) {
+    return each.claim.kind == claim.kind && each.claim.claim == claim.claim && each.claim.place == claim.place;
   });
+  return found == known->second.end() ? nullptr : &*found;
 }
 
 /// From these inputs alone.
-std::vector<Obligation> BrokenPromises::follow(const GivenVariables &given) const {
+std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables &given) const {
   const ProveOptions options{.guards = InferGuards::No, .contractsOf = subject_.options.contractsOf};
   const ProofSubject subject{subject_.programs, subject_.program, subject_.contracts, options};
   ProofStart start(subject, &given);
   const Exploration found = explore(start.reading(), subject.programs, subject.program, start.entry(),
                                     start.exploreOptions(subject, exactOptions()));
-  std::vector<Obligation> broken;
+  std::vector<Broken> broken;
   for (Question &question : promisesOf_({subject, start, found}))
-    if (question.open.empty() && isBrokenOutright(start.store(), question))
-      broken.push_back(std::move(question.row));
+    if (const PathGoal *goal = question.open.empty() ? brokenOutright(start.store(), question) : nullptr)
+      broken.push_back({std::move(question.row), goal->missedBy});
   return broken;
 }
 

@@ -1,5 +1,5 @@
-// ProofContext: all that an obligation of a program is settled with.  A stage of the work that differs in one of the
-// parts, such as an exploration under one more condition, has a context of its own.
+// ProofContext: everything that settles an obligation.  A stage that differs in one part, such as an exploration under
+// one more condition, has a context of its own.
 #pragma once
 
 #include "proof/context/broken_promises.h"
@@ -35,6 +35,7 @@ struct PathGoal {
   const std::vector<smt::TermId> *conditions; // of a path of the exploration
   smt::TermId goal;
   std::optional<smt::TermId> stops = {}; // one more condition
+  std::string missedBy = {};             // what a run does that misses it; empty: Question::broken says it
 };
 
 /// Runs from the start that the contract says, on plain numbers.
@@ -46,7 +47,7 @@ struct Question {
   std::vector<PathGoal> goals;
   /// What a run that breaks the claim does.
   Violation::Happened broken;
-  /// The run does not show it: whether the claim is broken is looked up by following the program in exact numbers.
+  /// The run does not show it: whether the claim is broken is decided by an exact run of the program.
   bool isJudgedExactly = false;
   /// Why it is not even asked; empty: it is.
   std::string open = {};

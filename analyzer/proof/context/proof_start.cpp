@@ -38,6 +38,16 @@ std::string ProofSubject::nameOf(const Callee &callee) const {
   return toString(programs.file(callee.file).model->programs[callee.program].name);
 }
 
+std::string ProofSubject::lineOf(Place place) const {
+  const ProgramFile &where = programs.file(place.file);
+  const BlockId block = programs.node(place).block;
+  const std::uint32_t line = where.source->lineOf(where.tree->blocks[block].span().begin);
+  const ProgramId owner = where.model->programOf(block);
+  return place.file == program.file && owner == program.program
+             ? fmt::format("line {}", line)
+             : fmt::format("line {} of {}", line, toString(where.model->programs[owner].name));
+}
+
 bool ProofSubject::isOwn(Place place) const {
   return place.file == program.file && file().model->programOf(programs.node(place).block) == program.program;
 }
@@ -131,7 +141,7 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
   return query;
 }
 
-/// Hints are tried, never believed: an invariant has to hold before each iteration, a measure has to fall.
+/// Hints are tried, never believed: an invariant has to hold before each iteration, a ranking function has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
   options.demands = [&subject](const Callee &callee) { return subject.contractsOf(callee) != nullptr; };
@@ -159,7 +169,7 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
     all.insert(all.end(), inSpace.begin(), inSpace.end());
     return all;
   };
-  options.measures = hintsOf(
+  options.rankingHints = hintsOf(
       contract->variants, [this](ExpressionId hint, const auto &state) { return terms_->number(hint, entry_, state); });
   return options;
 }

@@ -33,6 +33,8 @@ struct ProofSubject {
 
   bool isOwn(Place place) const;
   Span spanOf(Place place) const { return file().tree->blocks[programs.node(place).block].span(); }
+  /// `line 12`, or `line 12 of O9110` in another program.
+  std::string lineOf(Place place) const;
   Place head() const { return {program.file, program.entry}; }
   /// Without a verdict, which is Unknown.
   Obligation obligation(ObligationKind kind, Place place, Span span, std::string claim) const;

@@ -1,4 +1,4 @@
-// What a proof of one program is asked for.
+// ProveOptions: what to prove of one program, and how much work to spend.
 #pragma once
 
 #include "language/contract/contract.h"

@@ -1,4 +1,4 @@
-// How a question is answered: by a sampled run, by proofs of all its goals, by the replay of a counterexample.
+// Settles a question: by a sampled run, by proofs of all its goals, or by the replay of a counterexample.
 #include "proof/context/proof_context.h"
 
 namespace feedhold::prove {
@@ -27,7 +27,7 @@ Query queryOf(ProofStart &start, const PathGoal &goal) {
   return start.onPath(conditions, goal.goal);
 }
 
-/// One goal after another: what the proofs have come to, or why one failed.
+/// Discharges the goals in turn: collects the proofs, or why one failed.
 class Answer {
 public:
   Answer(const ProofContext &context, const Violation &violation, std::uint64_t &effort)
@@ -56,7 +56,8 @@ private:
       open_ = verdict::Unknown{};
     if (const smt::Model *model = outcome.counterexample()) {
       witness_ = context_.witnesses.fromModel(*model, violation_);
-      open_->reason = "a possible counterexample was found, but its run does not show the fault";
+      if (!witness_)
+        open_->reason = context_.witnesses.whyNotShown(*model);
     } else if (const auto *unknown = std::get_if<Unknown>(&outcome.answer)) {
       open_->reason = unknown->reason;
     }
@@ -107,6 +108,12 @@ Obligation settle(const ProofContext &context, const Question &question) {
     row.verdict = verdict::Unreachable{};
   else
     row.verdict = Answer(context, violation, row.effort).of(question.goals);
+  if (const Witness *witness = row.verdict.witness(); witness && question.isJudgedExactly)
+    if (std::string how = context.promises.howBroken(witness->variables, row); !how.empty()) {
+      Witness shown = *witness;
+      shown.happened = std::move(how);
+      row.verdict = std::move(shown);
+    }
   if (row.verdict == Verdict::Unknown && !question.whyOpen.empty())
     row.verdict = Verdict::unknown(question.whyOpen);
   return row;

@@ -1,4 +1,4 @@
-// Stopping a proof that nobody waits for any more: an editor's text has changed.
+// Cancelling a proof whose result is no longer needed, for example because the text in the editor has changed.
 #pragma once
 
 #include "base/support/process.h"

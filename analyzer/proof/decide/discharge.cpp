@@ -116,7 +116,7 @@ private:
         [&](const Found &found) -> std::optional<Outcome> {
           if (std::optional<Proved> proved = certified(claim.value(), found.certificate))
             return Outcome{std::move(*proved), method, effort_};
-          reason_ = "the certificate that was found does not hold";
+          reason_ = "the certificate found was rejected by the checker";
           return std::nullopt;
         },
         [&](const Satisfied &point) -> std::optional<Outcome> {
@@ -168,7 +168,7 @@ private:
         return std::move(*outcome);
     const smt::Answer &z3 = z3_;
     if (budget_.cvc5 == 0)
-      return {Unknown{z3.isUnsat() ? "one solver only" : reason_}, "z3", effort_};
+      return {Unknown{z3.isUnsat() ? "Z3 found a proof that cvc5 was not asked to confirm" : reason_}, "z3", effort_};
     if (!z3.isUnsat())
       return {Unknown{reason_ + "; " + std::get<smt::NoAnswer>(z3.result).reason}, "z3", effort_};
     const smt::Answer cvc5 = askCvc5Once(text_, budget_.cvc5);
@@ -176,9 +176,9 @@ private:
     smt::spend(kStepsOfCvc5 * cvc5.effort / (isAnswer ? kShareOfAnswer : 1));
     effort_ += cvc5.effort;
     if (const auto *none = std::get_if<smt::NoAnswer>(&cvc5.result))
-      return {Unknown{"one solver only: " + none->reason}, "z3+cvc5", effort_};
+      return {Unknown{"Z3 found a proof that cvc5 did not confirm: " + none->reason}, "z3+cvc5", effort_};
     if (!cvc5.isUnsat())
-      return {Unknown{"the solvers contradict each other"}, "z3+cvc5", effort_};
+      return {Unknown{"Z3 and cvc5 disagree"}, "z3+cvc5", effort_};
     const SolverEvidence evidence{text_, {smt::z3Version(), smt::cvc5Version().value_or("cvc5")}};
     return {Proved{Grade::TwoSolvers, evidence}, "z3+cvc5", effort_};
   }
@@ -247,7 +247,7 @@ Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budge
   const std::uint64_t effort = most / kStepsOfWork;
   if (smt::areStepsUsedUp())
     return {Unknown{std::string(kProgramStepsUsedUp)}, "", effort};
-  return {Unknown{"gave up: the question takes too many steps"}, "", effort};
+  return {Unknown{"gave up: the proof takes too many steps"}, "", effort};
 }
 
 } // namespace feedhold::prove

@@ -85,13 +85,13 @@ struct Outcome {
 constexpr std::uint64_t kStepsOfWork = 100;
 /// Of the proof of one program, about 12 seconds (smt/steps.h).
 constexpr std::uint64_t kStepsOfProgram = 1'200'000'000;
-constexpr std::string_view kProgramStepsUsedUp = "gave up: the steps for the proof of this program are used up";
+constexpr std::string_view kProgramStepsUsedUp = "gave up: the step budget for this program is used up";
 
 /// Never spends more steps than go with the budget, and no more than the program has left.
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget = {});
 
-/// Keeps what is certified on this thread while it lives, in the search for verdicts, too: which ways are possible,
-/// what holds in a loop.  Claims with their certificates, each claim once.
+/// Records what is certified on this thread while it lives, during the search for verdicts, too: which paths are
+/// possible, what holds in a loop.  Claims with their certificates, each claim once.
 class CertificateLog {
 public:
   CertificateLog();

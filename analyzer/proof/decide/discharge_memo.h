@@ -1,4 +1,4 @@
-// Questions that were asked before: macros of a family, and the programs that call one macro, ask the same of their
+// Memoised proof searches: macros of a family, and the programs that call one macro, ask the same of their
 // common parts.
 #pragma once
 

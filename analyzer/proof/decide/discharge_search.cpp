@@ -1,5 +1,5 @@
-// Depth-first: linear arithmetic; then clauses, those with one way left first; then products; then splits of integers
-// and signs.  A branch whose refutation does not use what the branch assumed refutes its parent at once.
+// Depth-first: linear arithmetic; then clauses, those with one alternative left first; then products; then splits of
+// integers and signs.  A branch whose refutation does not use what the branch assumed refutes its parent at once.
 #include "proof/decide/discharge_search.h"
 
 #include "proof/decide/cancel.h"
@@ -170,7 +170,7 @@ private:
   /// Refutes what is assumed so far.
   Tree refute(const Depth &depth) {
     if (depth.steps > kDeepest)
-      return giveUp("too many cases");
+      return giveUp("gave up: too many cases");
     std::array<std::size_t, std::size(kProductLevels)> roundsOfSquares{};
     for (std::size_t round = 0; round < kMostRounds; ++round) {
       throwIfCancelled();
@@ -178,7 +178,7 @@ private:
       if (status == smt::Simplex::Status::Infeasible)
         return leaf(rows_.contradiction());
       if (status == smt::Simplex::Status::OutOfBudget || remaining() == 0)
-        return giveUp("the search for a certificate used up its budget");
+        return giveUp("gave up: the search for a certificate used up its budget");
       const std::vector<Number> point = rows_.point();
       if (satisfies(claim_, point)) {
         satisfied_ = point;
@@ -193,7 +193,7 @@ private:
       if (!addProducts(kPlainLevels, std::size(kProductLevels), roundsOfSquares))
         return splitDomain(point, depth);
     }
-    return giveUp("products of hypotheses do not converge");
+    return giveUp("products of hypotheses led to no contradiction");
   }
 
   std::uint64_t remaining() const { return work() >= workLimit_ ? 0 : workLimit_ - work(); }
@@ -214,7 +214,7 @@ private:
     return false;
   }
 
-  /// Of the clauses that the point breaks: the first with at most one way left, or the one with the fewest.
+  /// Of the clauses that the point breaks: the first with at most one alternative left, or the one with the fewest.
   std::optional<std::uint32_t> clauseToSplit() {
     std::optional<std::uint32_t> best;
     std::size_t fewest = 0;
@@ -223,14 +223,14 @@ private:
       const Clause &clause = *clausePool_[index];
       if (openSplits_.contains(index) || isSatisfiedByRows(clause))
         continue;
-      std::size_t ways = 0;
+      std::size_t open = 0;
       for (const Conjunction &alternative : clause.alternatives)
-        ways += isOpen(alternative) ? 1 : 0;
-      if (ways <= 1)
+        open += isOpen(alternative) ? 1 : 0;
+      if (open <= 1)
         return index;
-      if (!best || ways < fewest) {
+      if (!best || open < fewest) {
         best = index;
-        fewest = ways;
+        fewest = open;
       }
     }
     return best;
@@ -309,7 +309,7 @@ private:
     if (std::optional<std::uint32_t> variable = variableToSignSplit(point, depth)) {
       depth.atZero.insert(*variable);
       if (++depth.signSplits > kMostSignSplits)
-        return giveUp("no certificate of low degree");
+        return giveUp("no certificate of low degree was found");
       if (claim_.variables[*variable].range == check::Range::Integer)
         return splitInteger(check::variable(*variable), -1, depth);
       return splitSign(check::variable(*variable), depth);
@@ -320,10 +320,10 @@ private:
     if (std::optional<Polynomial> border = signToSplit(point, depth)) {
       depth.borders.insert(*border);
       if (++depth.signSplits > kMostSignSplits)
-        return giveUp("no certificate of low degree");
+        return giveUp("no certificate of low degree was found");
       return splitSign(*border, depth);
     }
-    return giveUp("no certificate of low degree");
+    return giveUp("no certificate of low degree was found");
   }
 
   Tree splitSign(const Polynomial &border, const Depth &depth) {
@@ -352,7 +352,7 @@ private:
 
   Tree splitInteger(const Polynomial &polynomial, const Number &bound, Depth depth) {
     if (++depth.integerSplits > kMostIntegerSplits)
-      return giveUp("too many integers to try");
+      return giveUp("gave up: too many integers to try");
     return splitInTwo(check::IntegerSplit{polynomial, bound}, check::atMost(polynomial, bound),
                       check::atLeast(polynomial, bound + 1), depth);
   }
@@ -424,7 +424,7 @@ bool satisfies(const check::UnsatProblem &claim, const std::vector<Number> &valu
 }
 
 SearchResult searchCertificate(const check::UnsatProblem &claim, std::uint64_t workLimit) {
-  SearchResult result{NotFound{"no budget"}};
+  SearchResult result{NotFound{"gave up: no budget is left"}};
   std::uint64_t spent = 0;
   // All of them for a short while, then all for longer.
   for (const std::uint64_t slice : {workLimit / 16, workLimit / 4}) {

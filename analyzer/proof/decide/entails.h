@@ -1,4 +1,4 @@
-// Entailment on a path: a question to discharge, with what has to do with it.
+// Entailment on a path: a query with the facts and conditions that are relevant to it.
 #pragma once
 
 #include "proof/decide/discharge.h"
@@ -33,7 +33,7 @@ private:
 Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::span<const smt::TermId> facts,
                     std::span<const smt::TermId> conditions, smt::TermId goal);
 
-/// Quick answers for whoever follows paths, each given once.
+/// Quick answers for the explorer, memoised.
 class Entailment {
 public:
   explicit Entailment(smt::TermStore &store) : store_(store), index_(store) {}

@@ -1,3 +1,4 @@
+// The walk over the paths of a program: one instruction after another, loops closed at their heads.
 #include "proof/explore/explorer.h"
 
 #include "proof/decide/cancel.h"
@@ -15,10 +16,9 @@ using smt::TermId;
 using smt::TermKind;
 
 namespace {
-constexpr std::string_view kTooMany = "there are too many ways through the program";
-constexpr std::string_view kTooLarge = "gave up: following the ways through the program takes too many steps";
+constexpr std::string_view kTooLarge = "gave up: following the paths of the program takes too many steps";
 constexpr std::uint32_t kLongestPath = 20'000; // instructions
-constexpr std::string_view kValueTooLarge = "a value that is too large to reason about is taken as any number";
+constexpr std::string_view kValueTooLarge = "a value whose formula is too large, and which is taken as any number";
 
 /// Of going one instruction further, and of the copy of a state.
 std::uint64_t stepsOf(const Path &path) {
@@ -27,10 +27,10 @@ std::uint64_t stepsOf(const Path &path) {
 }
 } // namespace
 
-std::optional<std::string> Exploration::notFollowedAt(Place place) const {
-  for (const Unfollowed &each : unfollowed)
+std::optional<std::string> Exploration::unmodelledAt(Place place) const {
+  for (const Unmodelled &each : unmodelled)
     if (each.place == place)
-      return fmt::format("where this block leads is not known: \"{}\" is not followed", each.reason);
+      return fmt::format("the motion of this block is unknown, as it is not modelled: {}", each.reason);
   return std::nullopt;
 }
 
@@ -121,11 +121,14 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
                             follow(std::move(path), Purpose::Record, nullptr);
                           return true;
                         }).has_value();
-  if (!isWithin)
-    giveUp(smt::areStepsUsedUp() ? kProgramStepsUsedUp : kTooLarge);
-  for (const UnmodelledCall &call : result_.unmodelledCalls)
-    for (const std::size_t loop : call.loops)
-      result_.loops[loop].callsUnknown = true;
+  if (!isWithin) {
+    const bool isOverall = smt::areStepsUsedUp();
+    result_.isTooLarge = result_.isTooLarge || (!result_.incomplete && !isOverall);
+    giveUp(isOverall ? kProgramStepsUsedUp : kTooLarge);
+  }
+  for (std::size_t call = 0; call < result_.unmodelledCalls.size(); ++call)
+    for (const std::size_t loop : result_.unmodelledCalls[call].loops)
+      result_.loops[loop].unmodelledCall = call;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
   result_.facts = reading_.facts();
   result_.work = entails_.work();
@@ -136,6 +139,19 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
 void Explorer::giveUp(std::string_view reason) {
   if (!result_.incomplete)
     result_.incomplete = reason;
+}
+
+void Explorer::giveUpOn(const Worklist &open, const Path &path) {
+  const auto nameOf = [&](const Callee &callee) {
+    const std::string name = toString(programs_.file(callee.file).model->programs[callee.program].name);
+    return name.empty() ? std::string("the program") : name;
+  };
+  result_.isTooLarge = result_.isTooLarge || !result_.incomplete;
+  const auto busiest = open.busiestProgram();
+  if (open.size() < 2 || !busiest)
+    return giveUp(fmt::format("gave up after {} steps, in {}", result_.steps, nameOf(path.frames.back().callee)));
+  giveUp(fmt::format("gave up after {} steps with {} paths open, most of them in {}", result_.steps, open.size(),
+                     nameOf(*busiest)));
 }
 
 bool Explorer::says(TermId condition) const { return path_ && path_->says(store_, condition); }
@@ -197,7 +213,7 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
       throwIfCancelled();
       smt::spend(stepsOf(path));
       if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
-        return giveUp(kTooMany);
+        return giveUpOn(work, path);
       purpose_ = purpose; // opening a loop tries it
       if (!arrive(path, purpose, trial))
         continue;
@@ -303,7 +319,7 @@ bool Explorer::comesBack(Path &path) {
 void Explorer::recordIteration(const Path &path) {
   const std::size_t instance = path.loops.back().instance;
   if (!LoopSummarizer(*this).record(instance, path))
-    giveUp("what a loop leaves unchanged could not be told");
+    giveUp("no loop invariant was found: what a loop leaves unchanged is unknown");
 }
 
 // ---- what a step may have stopped at ----
@@ -315,7 +331,7 @@ bool Explorer::takeStops(Path &path) {
     reading_.notModelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
   for (const auto &[reason, span] : reading_.takeNotes())
     if (purpose_ == Purpose::Record)
-      result_.unfollowed.push_back({reason, path.at, span});
+      result_.unmodelled.push_back({reason, path.at, span});
   for (const PossibleStop &stop : reading_.possibleStops()) {
     if (purpose_ == Purpose::Record) {
       const auto same = [&](const StopSite &known) {
@@ -422,7 +438,7 @@ std::vector<Path> Explorer::follow(Path path, const JumpTo &jump) {
   return search(std::move(path), number, from);
 }
 
-/// A way for each sequence number of the program that the number may be.
+/// A path for each sequence number of the program that the number may be.
 std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, BlockId from) {
   const ProgramFile &file = fileOf(path);
   const auto constant = [&](double value) { return reading_.number(value).number; };
@@ -472,7 +488,7 @@ Exploration explore(SymbolicInterpretation &reading, const ProgramSet &programs,
   first.mostWork /= 2;
   first.mostTerms /= 2;
   Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
-  if (found.incomplete != kTooMany && found.incomplete != kTooLarge)
+  if (!found.isTooLarge)
     return found;
   return Explorer(reading, programs, options, PathMerging::Yes).run(entry, start);
 }

@@ -1,4 +1,4 @@
-// Explorer: follows the paths of a program through its graph and into the programs it calls.
+// Explorer: explores the paths of a program through its graph and into the programs that it calls.
 #pragma once
 
 #include "meaning/cfg/wto.h"
@@ -26,7 +26,7 @@ public:
 private:
   friend class LoopSummarizer;
 
-  /// Checks, iterations and exits are kept only when the paths are those that count: loops are tried before.
+  /// Stops, iterations and exits are recorded only on the final paths; loops are tried before.
   enum class Purpose : std::uint8_t { Trial, Record };
   /// Of a trial: the loop whose iterations are looked for, and the paths that come back to its head.
   struct Trial {
@@ -34,13 +34,13 @@ private:
     std::vector<Path> iterations;
   };
   void follow(Path start, Purpose purpose, Trial *trial);
-  /// False: the path has ended here.
+  /// False: the path ends here.
   bool arrive(Path &path, Purpose purpose, Trial *trial);
   bool closeLeftLoops(Path &path, const Trial *trial);
   bool comesBack(Path &path);
   void recordIteration(const Path &path);
 
-  // ---- one instruction: the paths that go on ----
+  // ---- one instruction: the paths that continue ----
   std::vector<Path> execute(Path path);
   std::vector<Path> straight(Path path);
   std::vector<Path> branch(Path path, Condition condition, NodeId taken);
@@ -58,14 +58,16 @@ private:
                           std::optional<std::size_t> modal);
   std::vector<Path> modalCall(Path path, Condition moves);
   std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicInterpretation> &request,
-                                std::optional<std::size_t> modal, std::string_view reason);
+                                std::optional<std::size_t> modal, std::string_view reason, std::string why);
+  /// Of the program that the block calls, or that the modal call does; empty where its number is computed.
+  std::string nameOfCallee(const Path &path, std::optional<std::size_t> modal) const;
   bool mayReach(const CallRequest<SymbolicInterpretation> &request, const Callee &program) const;
   void recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame, const SymbolicState &state);
   void recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpretation> request,
                                std::optional<std::size_t> modal);
   std::vector<Path> leave(Path path, const std::optional<SymbolicValue> &target);
 
-  /// Keeps what the step may have stopped at; false when it always stops.
+  /// Records where the step may stop; false if it always stops.
   bool takeStops(Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
@@ -85,6 +87,8 @@ private:
   void stopsWhen(Path &path, Condition when, AlarmKind alarm);
   void exit(const Path &path, ExitKind kind);
   void giveUp(std::string_view reason);
+  /// Too many paths, or too long ones: says where they are.
+  void giveUpOn(const Worklist &open, const Path &path);
   bool isTooMuch(std::size_t waiting);
   Worklist::Position positionOf(const Path &path);
   std::vector<Path> merged(std::vector<Path> paths, const Trial *trial);

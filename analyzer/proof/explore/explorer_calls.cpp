@@ -3,6 +3,7 @@
 #include "proof/explore/explorer.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace feedhold::prove {
 
@@ -26,7 +27,9 @@ std::vector<Path> Explorer::follow(Path path, const CallProgram &call) {
   switch (request.action) {
   case CallAction::SetModal:
   case CallAction::EndModal: return {to(std::move(path), next)};
-  case CallAction::Operation: return unknownCall(std::move(path), request, std::nullopt, "an operation of Macro A");
+  case CallAction::Operation:
+    return unknownCall(std::move(path), request, std::nullopt, "an operation of Macro A",
+                       "operations of Macro A are not modelled");
   case CallAction::Enter: break;
   }
   return enter(std::move(path), request, std::nullopt);
@@ -53,7 +56,8 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
     CallRequest<SymbolicInterpretation> request;
     request.freshLocals = true;
     request.repeats = reading_.number(1);
-    called = unknownCall(std::move(path), request, std::nullopt, "a modal call that is not known");
+    called = unknownCall(std::move(path), request, std::nullopt, "an unknown modal call",
+                         "which modal call is active is unknown");
   } else {
     const auto request = prepareModalCall(context, path.state.modalCalls[*modal]);
     called = enter(std::move(path), request, modal);
@@ -62,13 +66,14 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
   return paths;
 }
 
-/// Of what is not known, or not followed: it may do anything to what the called program sees, and comes back.
+/// Of an unknown or unmodelled program: it may do anything to what it can see, and returns behind the call.
 std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInterpretation> &request,
-                                        std::optional<std::size_t> modal, std::string_view reason) {
+                                        std::optional<std::size_t> modal, std::string_view reason, std::string why) {
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
-    giveUp("a call that is not followed may lead back to the program");
+    giveUp("an unmodelled call may re-enter this program");
   if (purpose_ == Purpose::Record) {
-    UnmodelledCall &call = result_.unmodelledCalls.emplace_back(UnmodelledCall{ownPlace(path), path.conditions, {}});
+    UnmodelledCall &call =
+        result_.unmodelledCalls.emplace_back(UnmodelledCall{ownPlace(path), path.conditions, {}, std::move(why)});
     for (const OpenLoop &loop : path.loops)
       call.loops.push_back(loop.instance);
   }
@@ -79,13 +84,22 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInt
   const NodeId next = nodeOf(path).next;
   const ReturnTargets &returns = programs_.returns();
   if (returns.any || !returns.numbers.empty())
-    giveUp("an unknown program may return to any sequence number");
+    giveUp("an unmodelled program may return to any sequence number (M99 P)");
   if (!takeStops(path))
     return {};
   return {to(std::move(path), next)};
 }
 
-/// A program that is in none of the files is taken to call none of them.
+std::string Explorer::nameOfCallee(const Path &path, std::optional<std::size_t> modal) const {
+  if (modal) {
+    const auto &call = path.state.modalCalls[*modal];
+    return toString(programs_.file(FileId(call.file)).model->calls[CallId(call.call)].callee);
+  }
+  const auto *call = std::get_if<CallProgram>(&nodeOf(path).instruction);
+  return call ? toString(fileOf(path).model->calls[call->call].callee) : std::string();
+}
+
+/// A program that was not supplied is assumed to call none of those that were.
 bool Explorer::mayReach(const CallRequest<SymbolicInterpretation> &request, const Callee &program) const {
   ReachedPrograms reached;
   for (const Callee &each : request.possible)
@@ -96,7 +110,7 @@ bool Explorer::mayReach(const CallRequest<SymbolicInterpretation> &request, cons
 }
 
 /// A call in the text of another program is an obligation of that program's own proof.  A modal call that a movement of
-/// another program makes is not: that proof assumes that none is in force.
+/// another program makes is not: that proof assumes that none is active.
 void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const SymbolicFrame &frame,
                            const SymbolicState &state) {
   if (purpose_ != Purpose::Record || !options_.demands || (callerDepth > 1 && !frame.modal))
@@ -153,13 +167,18 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
     stopsWhen(path, reading_.unknownTruth(), AlarmKind::ProgramNotFound);
-    return unknownCall(std::move(path), request, modal, "a program that is not among these files");
+    const std::string name = nameOfCallee(path, modal);
+    return unknownCall(std::move(path), request, modal, "a program that was not supplied",
+                       name.empty()               ? "the number of the called program is unknown"
+                       : request.possible.empty() ? fmt::format("{} was not supplied", name)
+                                                  : fmt::format("several programs are named {}", name));
   }
   const auto repeats = repeatsOf(reading_, request);
   if (repeats && callsNothing(*repeats))
     return {to(std::move(path), next)};
   if (!repeats || *repeats > kMostRepeats)
-    return unknownCall(std::move(path), request, modal, "a call that is repeated a number of times that is not known");
+    return unknownCall(std::move(path), request, modal, "a call with an unknown number of repetitions",
+                       fmt::format("how often {} is repeated is unknown", nameOfCallee(path, modal)));
   const Limits &limits = fileOf(path).dialect->limits;
   if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
     stopsWhen(path, reading_.truth(true), *alarm);

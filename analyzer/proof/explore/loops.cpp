@@ -205,7 +205,7 @@ bool LoopSummarizer::relayout(Work &work, bool &grew) {
   const std::size_t before = size();
   for (Path &iteration : work.found)
     if (!alignAll(explorer_.reading_, arrival, iteration.state)) {
-      explorer_.giveUp("a modal call begins or ends in a loop");
+      explorer_.giveUp("a modal call starts or ends inside a loop");
       return false;
     }
   grew = size() != before;
@@ -251,7 +251,7 @@ bool LoopSummarizer::findChanged(Work &work) {
     if (!changed)
       return true;
   }
-  explorer_.giveUp("what a loop changes could not be told");
+  explorer_.giveUp("what a loop changes is unknown: it could not be summarised");
   return false;
 }
 
@@ -347,7 +347,7 @@ bool LoopSummarizer::findKinds(Work &work) {
     if (verify(work))
       return true;
   }
-  explorer_.giveUp("what a loop changes could not be told");
+  explorer_.giveUp("what a loop changes is unknown: it could not be summarised");
   return false;
 }
 
@@ -457,7 +457,7 @@ bool LoopSummarizer::open(Path &path) {
     calls.push_back(path.frames[i].call);
   const auto purpose = explorer_.purpose_;
   const std::size_t mark = store.size();
-  Work work{.arrival = path, .instance = instance, .iterations = explorer_.reading_.fresh("passes", Sort::Int)};
+  Work work{.arrival = path, .instance = instance, .iterations = explorer_.reading_.fresh("iterations", Sort::Int)};
   explorer_.result_.loops.push_back(
       {.head = path.at, .calls = calls, .iterations = work.iterations, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
@@ -466,15 +466,15 @@ bool LoopSummarizer::open(Path &path) {
   addInvariants(work);
   bool grew = false;
   if (!tryIterations(work) || !relayout(work, grew) || grew)
-    return explorer_.giveUp("what a loop changes could not be told"), false;
+    return explorer_.giveUp("what a loop changes is unknown: it could not be summarised"), false;
   addLastIteration(work);
   build(work);
 
   LoopInstance &loop = explorer_.result_.loops[instance];
   loop.isRecorded = purpose == Explorer::Purpose::Record;
   loop.facts = work.facts;
-  if (explorer_.options_.measures)
-    loop.measures = explorer_.options_.measures(path.at, work.shape.state);
+  if (explorer_.options_.rankingHints)
+    loop.rankingHints = explorer_.options_.rankingHints(path.at, work.shape.state);
   for (const LoopPart &part : work.parts())
     if (part.kind == PartKind::Free)
       loop.variables.push_back(part.symbol);

@@ -1,14 +1,15 @@
-// Loops: what holds before any iteration of a loop, found by trial and verified by following an iteration.
+// Loops: an inductive invariant of a loop, found by trial and verified by one symbolic iteration.
 //
-// A path that meets a loop goes on in the midst of it, before an iteration of which nothing is known but how many came
-// before
-// (`iterations`).  Each part of the state is then
+// A path that reaches a loop continues before an arbitrary iteration, of which only the number of iterations before it
+// has a name (`iterations`).  Each part of the state is then
+//
 //   kept     what it was at the arrival, because no iteration changes it;
 //   closed   arrival + iterations * step, because every iteration adds the same step, which no iteration changes;
-//   derived  the arrival before the first iteration, and what each iteration leaves in it, told from closed parts,
-//   behind that; free     a variable, of which some invariants are known.
-// All of it is a guess until an iteration has been followed from that state and has left it so; record() refuses an
-// iteration that does not.
+//   derived  the arrival before the first iteration, and afterwards what each iteration computes from closed parts;
+//   free     a variable, of which some invariants are known.
+//
+// All of it is a guess until an iteration that starts in such a state ends in one; record() refuses an iteration that
+// does not.
 #pragma once
 
 #include "proof/explore/path.h"
@@ -29,8 +30,7 @@ struct LoopPart {
   std::optional<smt::TermId> error = {}; // of Closed, with Sums::Rounded: by how much the sum is off
 };
 
-/// How far the iterations before have gone by one step: iterations * step, under a name of its own, so that a proof
-/// need not multiply.  A step that is a number needs none.
+/// iterations * step under a name of its own, so that a proof need not multiply.  A numeric step needs none.
 struct Travel {
   smt::TermId step;
   smt::TermId distance;
@@ -52,10 +52,9 @@ class LoopSummarizer {
 public:
   explicit LoopSummarizer(Explorer &explorer) : explorer_(explorer) {}
 
-  /// The path stands at the head of a loop: moves it to the midst of the loop.  False: nothing could be found that
-  /// holds.
+  /// The path is at the head of a loop: moves it before an arbitrary iteration.  False: no invariant was found.
   bool open(Path &path);
-  /// The path has come back to the head: adds the iteration.  False: it does not leave the loop as it was thought to.
+  /// The path has returned to the head: adds the iteration.  False: it does not preserve the invariant.
   bool record(std::size_t instance, const Path &path);
 
 private:

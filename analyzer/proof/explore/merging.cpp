@@ -62,6 +62,21 @@ void Worklist::add(Position position, Path path) {
   ++size_;
 }
 
+std::optional<Callee> Worklist::busiestProgram() const {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> counts; // by file and program
+  std::optional<Callee> busiest;
+  std::size_t most = 0;
+  for (const auto &[position, paths] : paths_)
+    for (const Path &path : paths) {
+      const Callee &callee = path.frames.back().callee;
+      if (const std::size_t count = ++counts[{callee.file.index(), callee.program.index()}]; count > most) {
+        most = count;
+        busiest = callee;
+      }
+    }
+  return busiest;
+}
+
 std::vector<Path> Worklist::takeFirst() {
   auto node = paths_.extract(paths_.begin());
   size_ -= node.mapped().size();

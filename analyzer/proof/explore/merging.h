@@ -1,4 +1,4 @@
-// Merging: paths that meet at a place go on as one, when following each of them would be too many.
+// Merging: paths that meet at a place continue as one where there are too many to follow each of them.
 //
 // The merged path holds what both held, and what only one of them held on condition of a selector: a Bool that is a
 // condition of one path and the opposite of a condition of the other, or else a new variable, free to be either.  Its
@@ -12,7 +12,7 @@
 
 namespace feedhold::prove {
 
-/// At the same place, in the same calls and loops, with the same modal calls in force.
+/// At the same place, in the same calls and loops, with the same modal calls active.
 bool canMerge(const Path &a, const Path &b);
 /// Of paths that can be merged.
 void mergeInto(SymbolicInterpretation &reading, Path &path, Path other);
@@ -26,6 +26,8 @@ public:
   void add(Position position, Path path);
   bool empty() const { return paths_.empty(); }
   std::size_t size() const { return size_; }
+  /// The program in which most of the paths are; absent: there are none.
+  std::optional<Callee> busiestProgram() const;
   /// The paths at the first position.
   std::vector<Path> takeFirst();
 

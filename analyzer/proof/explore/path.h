@@ -1,5 +1,4 @@
-// Path: one way through a program, as far as it has been followed: where it stands, what holds on it, what the state
-// is.
+// Path: one path through a program, as far as it has been explored: its place, its conditions, its state.
 #pragma once
 
 #include "meaning/semantics/frames.h"
@@ -22,7 +21,8 @@ struct OpenLoop {
   friend bool operator==(const OpenLoop &, const OpenLoop &) = default;
 };
 
-/// Where a path has been, to tell that it comes back (Brent, "An improved Monte Carlo factorization algorithm", 1980).
+/// A state that the path has been in, to detect that it returns to it (Brent, "An improved Monte Carlo factorization
+/// algorithm", 1980).
 struct Landmark {
   Place at;
   SymbolicState state;

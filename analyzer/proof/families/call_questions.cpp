@@ -1,4 +1,4 @@
-// Of each entry of another program: that it is one for which that program was proved.
+// Calls meet the contracts of the programs that they call, whose proofs rest on that.
 #include "proof/families/families.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 std::optional<std::string> brokenByCall(const RunResult &run, const GivenVariables &) {
   if (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats || run.end == RunEnd::NotModelled)
     return std::nullopt;
-  return "the call is made with what that contract does not allow";
+  return "the call violates the contract of the program that it calls";
 }
 
 std::optional<std::string> neverBroken(const RunResult &, const GivenVariables &) { return std::nullopt; }
@@ -51,9 +51,8 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
     questions.push_back(std::move(question));
 }
 
-/// What is proved of a program by itself holds where its movements make no modal call: whoever calls it answers for
-/// that.
-void noModalCallIsInForce(const ExploredProgram &program, Questions &questions) {
+/// The proofs of a program assume that no modal call is active at its start: its callers answer for that.
+void noModalCallIsActive(const ExploredProgram &program, Questions &questions) {
   const auto &[subject, start, found] = program;
   smt::TermStore &store = start.store();
   std::map<std::pair<Place, std::string>, std::vector<PathGoal>> goals; // by block and callee
@@ -64,14 +63,17 @@ void noModalCallIsInForce(const ExploredProgram &program, Questions &questions) 
     const auto &[place, callee] = key;
     questions.push_back(
         {.row = subject.obligation(ObligationKind::CallMeetsContract, place, subject.spanOf(place),
-                                   fmt::format("no modal call is in force when {} is called", callee)),
+                                   fmt::format("no modal call is active when {} is called", callee)),
          .goals = std::move(parts),
          .broken = neverBroken,
-         .whyOpen = fmt::format("the movements of {} call a macro here: its own proofs do not cover that", callee)});
+         .whyOpen = fmt::format(
+             "a modal call may be active here, so that each move of {0} calls a macro; the proofs of {0} do "
+             "not cover that. Cancel the modal call before this block",
+             callee)});
   }
 }
 
-/// What is proved of a program by itself begins at its head, and so do the stops that are looked for in its text.
+/// The proofs of a program start at its first block, and so does the search for stops in its text.
 void entriesAreAtHeads(const ExploredProgram &program, Questions &questions) {
   const auto &[subject, start, found] = program;
   std::map<CallKey, Question> asked;
@@ -82,18 +84,18 @@ void entriesAreAtHeads(const ExploredProgram &program, Questions &questions) {
     asked.try_emplace(
         keyOf(call),
         Question{.row = subject.obligation(ObligationKind::CallMeetsContract, call.own, subject.spanOf(call.own),
-                                           fmt::format("{} is entered at its head", subject.nameOf(callee))),
+                                           fmt::format("{} is entered at its first block", subject.nameOf(callee))),
                  .goals = {},
                  .broken = neverBroken,
-                 .open = fmt::format("the call enters {} at a sequence number: what is proved of that "
-                                     "program by itself does not cover it",
+                 .open = fmt::format("the call enters {0} at a sequence number; the proofs of {0} start at its first "
+                                     "block and do not cover this",
                                      subject.nameOf(callee))});
   }
   for (auto &[key, question] : asked)
     questions.push_back(std::move(question));
 }
 
-/// Where paths are missing, the calls in the text that none of the others has come to.
+/// Where paths are missing: the calls in the text that no explored path has reached.
 void callsNotMet(const ExploredProgram &program, Questions &questions) {
   const auto &[subject, start, found] = program;
   if (!found.incomplete)
@@ -119,7 +121,7 @@ Questions callQuestions(const ExploredProgram &program) {
   if (!program.subject.wants(ObligationKind::CallMeetsContract))
     return questions;
   contractsAreMet(program, questions);
-  noModalCallIsInForce(program, questions);
+  noModalCallIsActive(program, questions);
   entriesAreAtHeads(program, questions);
   callsNotMet(program, questions);
   return questions;

@@ -1,4 +1,4 @@
-// The families of obligations: each one a function of the explored program.
+// The families of obligations: each a function of the explored program.
 #pragma once
 
 #include "proof/context/proof_context.h"
@@ -6,11 +6,11 @@
 namespace feedhold::prove {
 
 // ---- questions about paths, which settle() answers ----
-/// Of each place where a run may stop by itself: that none stops there.
+/// For each place where a run may stop with an alarm: no run stops there.
 Questions stopQuestions(const ExploredProgram &program);
-/// Alarms in the text that no path comes to.
+/// Alarms in the text that no path reaches.
 Questions unmetAlarms(const ExploredProgram &program);
-/// What runs that follow the program exactly can break: calls, what the contract promises for the return, limits.
+/// Claims that an exact run can refute: calls, promises for the return, limits.
 Questions promiseQuestions(const ExploredProgram &program);
 Questions callQuestions(const ExploredProgram &program);
 Questions ensureQuestions(const ExploredProgram &program);
@@ -18,13 +18,13 @@ Questions assignQuestions(const ExploredProgram &program);
 Questions alarmQuestions(const ExploredProgram &program);
 Questions limitQuestions(const ExploredProgram &program);
 
-// ---- obligations that are settled in ways of their own ----
+// ---- obligations with a procedure of their own ----
 void settleLoops(const ProofContext &context, SettledRows &into);
 /// Of the loop at this head alone.
 Obligation loopRow(const ProofContext &context, Place head);
 std::optional<Obligation> programEndRow(const ProofContext &context);
 void settleEnd(const ProofContext &context, SettledRows &into);
-/// What is claimed of all calls is not so of one that goes on for ever.
+/// A claim about all calls needs that each of them ends.
 void requireEnds(const ProofContext &context, Obligation &obligation);
 void settleSpace(const ProofContext &context, SettledRows &into);
 /// Every call that the contract does not allow raises an alarm before an axis moves.

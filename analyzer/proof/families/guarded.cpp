@@ -13,24 +13,24 @@ namespace {
 
 std::optional<std::string> getsPastGuards(const RunResult &run, const GivenVariables &) {
   const bool moved = std::any_of(run.moves.begin(), run.moves.end(), [](const RecordedMove &move) {
-    // a block that is not followed need not move
+    // an unmodelled block need not move
     return move.move.kind != MoveKind::Dwell && move.move.kind != MoveKind::Unfollowed;
   });
   if (moved)
-    return "an axis moves";
+    return "an axis moves before any alarm";
   const bool ended = run.end == RunEnd::M02 || run.end == RunEnd::M30 || run.end == RunEnd::Returned;
   return ended ? std::optional<std::string>("the program ends without an alarm") : std::nullopt;
 }
 
-/// Shop programs seldom look at the modes and the place that they find.
+/// Programs seldom check the modal codes and the position that they find.
 std::string whyNotGuarded(const Contract &contract) {
   const bool modes = !contract.modal.empty() && !contract.guarded->exceptModal;
   const bool place = contract.start && !contract.guarded->exceptStart;
   if (!modes && !place)
     return {};
   return fmt::format(
-      "calls {}{}{} are not shown to raise an alarm; where the callers see to it, write @GUARDED EXCEPT{}{}",
-      modes ? "in other modes" : "", modes && place ? " or " : "", place ? "from other places" : "",
+      "calls {}{}{} were not proved to raise an alarm; if the callers rule them out, write `@GUARDED EXCEPT{}{}`",
+      modes ? "with other modal codes" : "", modes && place ? " or " : "", place ? "from another start position" : "",
       modes ? " MODAL" : "", place ? " START" : "");
 }
 

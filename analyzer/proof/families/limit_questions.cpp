@@ -1,4 +1,4 @@
-// `@LIMIT`: feed and speed of cutting movements.
+// `@LIMIT`: the feed and the spindle speed of cutting moves stay within their limits.
 #include "proof/families/families.h"
 #include "proof/space/plain_space.h"
 
@@ -34,7 +34,7 @@ Violation::Happened cutsAt(const ProofSubject &subject, const WordLimit &limit, 
     const bool isBroken = std::any_of(run.moves.begin(), run.moves.end(), [&](const RecordedMove &move) {
       return move.own == own && breaks(subject, limit, move, given);
     });
-    return isBroken ? std::optional(fmt::format("{} in force here is not within its limit", limit.address))
+    return isBroken ? std::optional(fmt::format("a cutting move runs with {} outside its limit", limit.address))
                     : std::nullopt;
   };
 }
@@ -72,17 +72,17 @@ private:
     Question &question = at(move.own);
     question.goals.push_back({&move.conditions, start_.space().keepsLimit(limit_, move)});
     if (question.open.empty() && !isProved(move.conditions, hasSameMeaning(start_, limit_, move)))
-      question.open =
-          fmt::format("{} may be in other units than at the start ({}), and those are the units of the limit",
-                      limit_.address, limit_.address == 'F' ? "G20, G21, G93 to G95" : "G96, G97");
+      question.open = fmt::format(
+          "the limit on {} is in the units of the start, which may have changed ({}); state them with `@MODAL`",
+          limit_.address, limit_.address == 'F' ? "G20, G21, G93 to G95" : "G96, G97");
   }
 
-  /// What is not followed neither keeps the limit nor breaks it.
+  /// Whether an unmodelled block cuts, and how fast, is unknown.
   void addUnmodelled(Place own, const std::vector<smt::TermId> &conditions) {
     Question &question = at(own);
     question.goals.push_back({&conditions, start_.store().no()});
     if (question.open.empty() && !isProved(conditions, start_.store().no()))
-      question.open = found_.notFollowedAt(own).value_or("a movement here is not followed, and may cut");
+      question.open = found_.unmodelledAt(own).value_or("a move here is not modelled and may cut");
   }
 
   bool isProved(const std::vector<smt::TermId> &conditions, smt::TermId goal) {

@@ -9,7 +9,7 @@ namespace feedhold::prove {
 
 namespace {
 
-/// Leaves out what need not be given, many at once where that will do.
+/// The inputs without those that do not matter; halves are tried first.
 template <typename Suffices> GivenVariables fewest(GivenVariables given, const Suffices &suffices) {
   for (std::size_t size = given.entries().size(); size > 0; size /= 2)
     for (std::size_t first = 0; first < given.entries().size();) {
@@ -31,14 +31,14 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
          endsInside(subject.programs, subject.program, loop.head, run);
 }
 
-/// The loop goes on for ever with these inputs.
+/// With these inputs the loop never ends.
 bool goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
   return recurrenceFrom(context.start.reading(), context.start.store(), context.found, loop,
                         context.witnesses.modelOf(given))
       .has_value();
 }
 
-/// Inputs of a sampled run that did not come out of the loop, with which it goes on for ever; as few as will do.
+/// Inputs of a sampled run that did not come out of the loop, with which it never ends; as few as possible.
 std::optional<Witness> endless(const ProofContext &context, const LoopInstance &loop) {
   constexpr std::size_t kMostTried = 3;
   const WitnessSearch &witnesses = context.witnesses;
@@ -56,7 +56,7 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
   for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
     if (isEndless(runs[i].given))
       return Witness{fewest(runs[i].given, isEndless), runs[i].result.end,
-                     "each pass of the loop leads to another one, for ever"};
+                     "each iteration leads to another one: the loop never ends"};
   return std::nullopt;
 }
 
@@ -76,7 +76,7 @@ std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopI
     return std::nullopt;
   auto witness = context.witnesses.fromModel(*model, [&](const RunResult &run) -> std::optional<std::string> {
     if (staysIn(context.subject, loop, run))
-      return "each pass of the loop leads to another one like it, for ever";
+      return "each iteration leads to another one like it: the loop never ends";
     return std::nullopt;
   });
   if (witness && witness->end == RunEnd::Fuel && !goesOn(context, loop, witness->variables))

@@ -1,4 +1,4 @@
-// Whether a loop of an exploration ends: by a proof, or refuted by inputs with which it goes on for ever.
+// Whether a loop of an exploration ends: by a proof, or refuted by inputs with which it never ends.
 #pragma once
 
 #include "proof/context/proof_context.h"

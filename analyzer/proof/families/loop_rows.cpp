@@ -1,4 +1,4 @@
-// Loops, and so the program, come to an end.
+// Termination: every loop ends, and so does the program.
 #include "meaning/cfg/wto.h"
 #include "proof/families/families.h"
 #include "proof/families/loop_ends.h"
@@ -11,7 +11,8 @@ namespace feedhold::prove {
 
 namespace {
 
-constexpr std::string_view kComesBack = "a path comes back to a state in which it has been";
+constexpr std::string_view kUnrolled = "loop unrolling";
+constexpr std::string_view kMayRepeat = "a path may return to an earlier state and repeat for ever";
 
 bool isInside(const Wto &wto, Place head, Place at) {
   const std::uint32_t position = at.file == head.file ? wto.positionOf(at.node) : Wto::kUnreachable;
@@ -21,11 +22,15 @@ bool isInside(const Wto &wto, Place head, Place at) {
 /// All paths have been followed to their end.
 Verdict endsByIterations(const ProofContext &context, const Obligation &obligation) {
   if (!context.found.repeats.empty())
-    return Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
+    return Verdict::unknown(std::string(kMayRepeat), context.found.repeats.front());
   const bool isMet = obligation.kind != ObligationKind::LoopEnds || context.found.heads.contains(obligation.place);
   if (!isMet)
-    return verdict::Unreachable{.method = "each pass"};
-  return verdict::Proved{.proof = {.method = "each pass"}};
+    return verdict::Unreachable{.method = std::string(kUnrolled)};
+  return verdict::Proved{.proof = {.method = std::string(kUnrolled)}};
+}
+
+std::string mayNotReturn(const UnmodelledCall &call) {
+  return fmt::format("{}; whether the call returns is unknown", call.why);
 }
 
 using Instances = std::vector<const LoopInstance *>;
@@ -37,8 +42,8 @@ Verdict endOfAll(const ProofContext &context, const Instances &instances, std::u
   Proof proof;
   std::optional<Verdict> open;
   for (const LoopInstance *instance : instances) {
-    if (instance->callsUnknown) {
-      open = Verdict::unknown("a pass calls a program that is not followed, which need not come back", instance->head);
+    if (instance->unmodelledCall) {
+      open = Verdict::unknown(mayNotReturn(context.found.unmodelledCalls[*instance->unmodelledCall]), instance->head);
       continue;
     }
     const Termination &end = endOf(context, *instance);
@@ -67,25 +72,25 @@ void settleLoop(const ProofContext &context, Obligation &obligation, const Insta
 
 /// When all that lead to the loop say the same.
 void explainEnd(const ProofContext &context, verdict::Proved &proved, const Instances &instances) {
-  std::optional<TerminationExplanation> account;
+  std::optional<TerminationExplanation> explanation;
   for (const LoopInstance *instance : instances) {
     const auto end = context.ends.find(instance);
     if (end == context.ends.end())
       continue;
-    TerminationExplanation next = accountOf(context.start.reading(), context.subject.programs, *instance, end->second);
-    if (account && account->why != next.why)
+    TerminationExplanation next = explain(context.start.reading(), context.subject.programs, *instance, end->second);
+    if (explanation && explanation->why != next.why)
       return;
-    if (account && account->bound != next.bound)
+    if (explanation && explanation->bound != next.bound)
       next.bound.clear();
-    account = std::move(next);
+    explanation = std::move(next);
   }
-  if (account) {
-    proved.why = account->why;
-    proved.bound = account->bound;
+  if (explanation) {
+    proved.why = explanation->why;
+    proved.bound = explanation->bound;
   }
 }
 
-/// `@CYCLIC`: the program goes round as a whole, in a loop that no other is around.
+/// `@CYCLIC`: the program repeats as a whole, in an outermost loop.
 bool isMeantToGoOn(const ProofSubject &subject, const Wto &wto, NodeId head) {
   if (!subject.contract() || !subject.contract()->cyclic)
     return false;
@@ -95,7 +100,7 @@ bool isMeantToGoOn(const ProofSubject &subject, const Wto &wto, NodeId head) {
   });
 }
 
-constexpr std::string_view kRepeats = "the run comes back to the same state and goes on for ever";
+constexpr std::string_view kRepeats = "the run returns to an earlier state and repeats for ever";
 
 std::optional<std::string> comesBack(const RunResult &run) {
   return run.end == RunEnd::Repeats ? std::optional(std::string(kRepeats)) : std::nullopt;
@@ -103,8 +108,8 @@ std::optional<std::string> comesBack(const RunResult &run) {
 
 Violation staysInside(std::shared_ptr<const Wto> wto, Place place) {
   return [wto = std::move(wto), place](const RunResult &run) -> std::optional<std::string> {
-    const bool stays = !run.circle.empty() && std::all_of(run.circle.begin(), run.circle.end(),
-                                                          [&](Place at) { return isInside(*wto, place, at); });
+    const bool stays = !run.cycle.empty() && std::all_of(run.cycle.begin(), run.cycle.end(),
+                                                         [&](Place at) { return isInside(*wto, place, at); });
     return stays ? comesBack(run) : std::nullopt;
   };
 }
@@ -168,10 +173,10 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
   row.id = fmt::format("{}.program-ends", subject.name());
   settleLoop(context, row, instances, comesBack);
   if (!context.found.unmodelledCalls.empty() && row.verdict.kind() != Verdict::Refuted)
-    row.verdict = Verdict::unknown("a program that is called is not followed and need not come back",
+    row.verdict = Verdict::unknown(mayNotReturn(context.found.unmodelledCalls.front()),
                                    context.found.unmodelledCalls.front().own);
   else if (row.verdict == Verdict::Unreachable)
-    row.verdict = verdict::Proved{.proof = {.method = "no loop"}};
+    row.verdict = verdict::Proved{.proof = {.method = "no loops"}};
   return row;
 }
 
@@ -179,14 +184,14 @@ void requireEnds(const ProofContext &context, Obligation &obligation) {
   if (!obligation.verdict.holds())
     return;
   if (!context.found.repeats.empty()) {
-    obligation.verdict = Verdict::unknown(std::string(kComesBack), context.found.repeats.front());
+    obligation.verdict = Verdict::unknown(std::string(kMayRepeat), context.found.repeats.front());
     return;
   }
   if (context.found.treatment == LoopTreatment::EachIteration)
     return;
   for (const LoopInstance &loop : context.found.loops)
     if (!(endOfAll(context, {&loop}, obligation.effort) == Verdict::Proved)) {
-      obligation.verdict = Verdict::unknown("it is not known whether a loop ends", loop.head);
+      obligation.verdict = Verdict::unknown("a loop was not proved to end", loop.head);
       return;
     }
 }

@@ -18,17 +18,17 @@ namespace {
 /// In the words of the manual; empty for parts that are not of the modal state.
 std::string nameOfPart(PartId id) {
   switch (id.part) {
-  case Part::Code: return "G codes";
+  case Part::Code: return "modal G codes";
   case Part::ModalWord: return std::string(1, kModalWords[id.key]);
-  case Part::CoordinateShift: return "the shift of G92";
-  case Part::LocalShift: return "the shift of G52";
+  case Part::CoordinateShift: return "the G92 offset";
+  case Part::LocalShift: return "the G52 offset";
   case Part::LengthOffset: return "the tool length offset";
   case Part::Spindle: return "the spindle";
   case Part::CycleBottom:
   case Part::CycleRetract:
   case Part::CycleInitial:
   case Part::CyclePeck:
-  case Part::CycleDwell: return "the words of a cycle";
+  case Part::CycleDwell: return "the words of a canned cycle";
   case Part::Scale:
   case Part::ScaleCentre:
   case Part::MirrorAt:
@@ -51,7 +51,7 @@ std::string nameOfPart(PartId id) {
   FEEDHOLD_UNREACHABLE("the switch names every part");
 }
 
-/// What is in force of these only where a code of their group says so.
+/// Parts that take effect only while a code of their group is active.
 TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &state) {
   smt::TermStore &store = program.start.store();
   const ModalTable modes(program.subject.dialect());
@@ -70,7 +70,7 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
   if (id.part == Part::LengthOffset)
     return unless(ModalKind::Length, CodeAction::LengthOff);
   const bool isCentre = id.part == Part::ScaleCentre || id.part == Part::RotationCentre;
-  return isCentre ? store.no() : store.yes(); // a mapping that is in force shows in its scale and its angle
+  return isCentre ? store.no() : store.yes(); // an active mapping shows in its scale and its angle
 }
 
 /// Calls notKept(part, condition under which it is that of the entry) for each part of the modal state.
@@ -104,7 +104,7 @@ void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clau
       before, now);
 }
 
-/// Codes outside of all groups act once; those that say how a path is followed, or are not followed, may set a mode.
+/// Codes outside of all groups act once; path control codes and unmodelled codes may set a mode.
 bool maySetMode(const Code &code) {
   constexpr std::array kModes = {CodeAction::Tolerance, CodeAction::Unmodelled, CodeAction::Anything,
                                  CodeAction::OtherCycle, CodeAction::Device};
@@ -165,8 +165,8 @@ std::optional<std::string> modeNotTold(const ExploredProgram &program) {
   const Code *code = modeSetBy(program.subject);
   if (!code)
     return std::nullopt;
-  return code->tenths % 10 == 0 ? fmt::format("the mode of G{:02}", code->tenths / 10)
-                                : fmt::format("the mode of G{:02}.{}", code->tenths / 10, code->tenths % 10);
+  return code->tenths % 10 == 0 ? fmt::format("the mode set by G{:02}", code->tenths / 10)
+                                : fmt::format("the mode set by G{:02}.{}", code->tenths / 10, code->tenths % 10);
 }
 
 TermId modalStateKept(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state) {
@@ -188,7 +188,7 @@ std::string whyNotKept(const ExploredProgram &program, const ModalPreserved &cla
   std::string all;
   for (const std::string &name : names)
     all += fmt::format("{}{}", all.empty() ? "" : ", ", name);
-  return all.empty() ? all : fmt::format("not shown to be as on entry: {}", all);
+  return all.empty() ? all : fmt::format("not proved to be restored: {}", all);
 }
 
 } // namespace feedhold::prove

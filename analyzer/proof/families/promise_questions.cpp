@@ -21,7 +21,7 @@ std::optional<std::string> howItEnded(const RunResult &run) {
   case RunEnd::Returned:
   case RunEnd::EndOfFile: return "the program ends without an alarm";
   case RunEnd::UserAlarm: return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
-  case RunEnd::Alarm: return "the control stops the program";
+  case RunEnd::Alarm: return "the control stops the program with an alarm of its own";
   case RunEnd::Fuel:
   case RunEnd::Repeats:
   case RunEnd::NotModelled: return std::nullopt;
@@ -34,14 +34,14 @@ std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariable
   const auto end = howItEnded(run);
   if (!end || run.end == RunEnd::UserAlarm || run.end == RunEnd::Alarm)
     return std::nullopt;
-  return *end + ", and what was promised does not hold";
+  return *end + ", and the promise does not hold";
 }
 
-/// Broken as soon as something happens, however the run ends.
-std::optional<std::string> brokenOnThePath(const RunResult &run) {
+/// Broken as soon as the write happens, however the run ends.
+std::optional<std::string> brokenByWrite(const RunResult &run) {
   if (run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
     return std::nullopt;
-  return "a variable that the clause does not name gets another value on the way";
+  return "the run changes a variable that the clause does not list";
 }
 
 /// A write of it outlasts the program, or is seen outside of it.
@@ -140,21 +140,25 @@ Questions assignQuestions(const ExploredProgram &program) {
     return {};
   const std::set<std::uint32_t> allowed = cellsOf(subject.dialect(), contract.assigns);
   Question question = promise(subject, ObligationKind::Assigns, contract.assigns.front().clause);
-  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenOnThePath(run); };
+  question.broken = [](const RunResult &run, const GivenVariables &) { return brokenByWrite(run); };
   for (const WriteInstance &write : found.writes) {
     if (!write.variable)
-      question.open = "a variable whose number is not known is written";
+      question.open = fmt::format("{} writes a variable whose number is unknown", subject.lineOf(write.place));
     else if (isSeenByOthers(subject, *write.variable) && !allowed.contains(*write.variable))
-      question.goals.push_back({&write.conditions, write.isKept});
+      question.goals.push_back(
+          {.conditions = &write.conditions,
+           .goal = write.isKept,
+           .missedBy = fmt::format("{} changes `{}`, which the clause does not list", subject.lineOf(write.place),
+                                   subject.programs.nameOfVariable(*write.variable))});
   }
   if (!found.unmodelledCalls.empty())
-    question.open = "a program that is called is not followed, and may write any variable";
+    question.open = fmt::format("{}; it may write any variable", found.unmodelledCalls.front().why);
   if (question.goals.empty() && !found.incomplete) // there is nothing to break it
     question.goals.push_back({&start.demands(), start.store().yes()});
   return {std::move(question)};
 }
 
-/// IF: a call for which the condition holds ends with this alarm and no other way.  IFF: no other call raises it.
+/// IF: a call for which the condition holds ends with this alarm and not otherwise.  IFF: no other call raises it.
 Questions alarmQuestions(const ExploredProgram &program) {
   const auto &[subject, start, found] = program;
   Questions questions;

@@ -1,4 +1,4 @@
-// Claims about space: where the tool may go (docs/geometry.md).
+// Regions, clearance and travel: the tool goes only where the contract lets it (docs/geometry.md).
 #include "proof/families/families.h"
 #include "proof/families/input_signs.h"
 #include "proof/families/space_runs.h"
@@ -38,7 +38,7 @@ private:
     const Budget &budget;
   };
   bool isProved(const Try &asked, std::uint64_t &effort, Proof &proof, std::optional<smt::Model> *model = nullptr);
-  bool isProved(const Try &asked, const SpaceQuestion::Way &way, std::uint64_t &effort, Proof &proof,
+  bool isProved(const Try &asked, const SpaceQuestion::Alternative &alternative, std::uint64_t &effort, Proof &proof,
                 std::optional<smt::Model> *model);
   const Outcome &answered(const Query &query, const Budget &budget);
   bool isGivenAtStart(Axis axis) const;
@@ -73,7 +73,7 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
   return row;
 }
 
-/// How far the sampled runs keep away, if that can be proved; 0 where one comes as near as it may.
+/// How far the sampled runs keep away, if that can be proved; 0 where one reaches the boundary.
 void SpaceProver::addMargin(Obligation &row, const SpaceRule &rule, const Moves &moves, const SpaceRuns &runs) {
   constexpr std::uint64_t kCheap = 100'000; // effort of the proof
   if (!rule.spacesFor || row.effort > kCheap)
@@ -110,18 +110,17 @@ bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves) {
 
 std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
   if (context_.subject.dialect().machine == MachineKind::Turning)
-    return Verdict::unknown("regions are followed on machining centres alone");
+    return Verdict::unknown("regions are checked on machining centres only; this control is for turning");
   if (rule.missing)
     return Verdict::unknown(*rule.missing);
   for (const UnmodelledCall &call : context_.found.unmodelledCalls)
     if (call.own == own)
-      return Verdict::unknown(context_.found.notFollowedAt(own).value_or(
-                                  "a program that is called here is not followed, and may move the tool"),
-                              own);
+      return Verdict::unknown(fmt::format("{}; the call may move the tool", call.why), own);
   const Query sound = start_.onPath(start_.demands(), rule.isSound);
   if (!discharge(start_.store(), sound, context_.subject.options.budget).proved())
-    return Verdict::unknown("the tool or the region may be empty or turned inside out (a radius below 0, a range from "
-                            "high to low, a polygon whose sides cross): `@REQUIRE` has to exclude it");
+    return Verdict::unknown(
+        "some calls make the tool or the region invalid (a negative radius, a range from high to low, a "
+        "polygon whose sides cross); exclude them with `@REQUIRE`");
   return std::nullopt;
 }
 
@@ -130,7 +129,7 @@ std::optional<Verdict> SpaceProver::missingPremise(std::uint64_t &effort, Proof 
                                                    const Moves &moves) {
   for (const MoveInstance *move : moves) {
     if (const auto reason = space_.whyNotTold(*move))
-      return Verdict::unknown(context_.found.notFollowedAt(move->place).value_or(*reason), move->place);
+      return Verdict::unknown(context_.found.unmodelledAt(move->place).value_or(*reason), move->place);
     for (const auto &[premise, reason] : space_.premises(rule, *move))
       if (!isProved({move->conditions, {{{{}, premise}}}, context_.budget}, effort, proof))
         return Verdict::unknown(reason, move->place);
@@ -167,23 +166,26 @@ const Outcome &SpaceProver::answered(const Query &query, const Budget &budget) {
   return known->second;
 }
 
-/// By one of its ways: the model is that of the last one.
+/// By one of its alternatives: the model is that of the last one.
 bool SpaceProver::isProved(const Try &asked, std::uint64_t &effort, Proof &proof, std::optional<smt::Model> *model) {
-  return std::any_of(asked.question.ways.begin(), asked.question.ways.end(),
-                     [&](const SpaceQuestion::Way &way) { return isProved(asked, way, effort, proof, model); });
+  return std::any_of(asked.question.alternatives.begin(), asked.question.alternatives.end(),
+                     [&](const SpaceQuestion::Alternative &alternative) {
+                       return isProved(asked, alternative, effort, proof, model);
+                     });
 }
 
-bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Way &way, std::uint64_t &effort, Proof &proof,
-                           std::optional<smt::Model> *model) {
+bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Alternative &alternative, std::uint64_t &effort,
+                           Proof &proof, std::optional<smt::Model> *model) {
   constexpr std::uint64_t kCorners = 40'000; // where corners will do, they do so at once
   std::vector<TermId> all = asked.conditions;
-  all.insert(all.end(), way.conditions.begin(), way.conditions.end());
+  all.insert(all.end(), alternative.conditions.begin(), alternative.conditions.end());
   all.insert(all.end(), signs_.begin(), signs_.end());
-  const bool isLast = &way == &asked.question.ways.back();
+  const bool isLast = &alternative == &asked.question.alternatives.back();
   const Budget quick{.search = std::min(asked.budget.search, kCorners), .z3 = 0, .cvc5 = 0};
   const smt::TermStore &store = start_.store();
-  const std::vector<TermId> parts =
-      store[way.goal].kind == smt::TermKind::And ? store[way.goal].arguments : std::vector{way.goal};
+  const std::vector<TermId> parts = store[alternative.goal].kind == smt::TermKind::And
+                                        ? store[alternative.goal].arguments
+                                        : std::vector{alternative.goal};
   std::vector<Outcome> proofs;
   for (const TermId part : parts) {
     Outcome outcome = answered(start_.onPath(all, part), isLast ? asked.budget : quick);
@@ -210,7 +212,7 @@ bool SpaceProver::isGivenAtStart(Axis axis) const {
 
 /// What the start leaves open, if the claim speaks of it.
 std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question) {
-  const Query query = start_.onPath(conditions, question.ways.back().goal);
+  const Query query = start_.onPath(conditions, question.alternatives.back().goal);
   const std::vector<TermId> &named = smt::variablesOf(start_.store(), query.goal);
   const std::set<TermId> variables(named.begin(), named.end());
   std::string axes;
@@ -218,21 +220,20 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
     if (variables.contains(start_.entry().at(axis).number) && !isGivenAtStart(axis))
       axes += fmt::format("{}{}..", axes.empty() ? "" : " ", letterOf(axis));
   if (!axes.empty())
-    return fmt::format("where the tool stands at the start is not known: `@START {}` would say", axes);
+    return fmt::format("the start position of the tool is unknown; state it with `@START {}`", axes);
   const Dialect &dialect = context_.subject.dialect();
   const ModalTable modes(dialect);
   for (std::size_t group = 0; group < kModalGroups; ++group)
     if (variables.contains(start_.entry().codes[group].index) && !modes.group(group).codes.empty()) {
       const Code &code = *modes.group(group).codes.front();
-      return fmt::format("the code of the group of G{:02} in force at the start is not known: `@MODAL` would say",
+      return fmt::format("the modal code of the group of G{:02} at the start is unknown; state it with `@MODAL`",
                          code.tenths / 10);
     }
   for (const auto &[variable, value] : start_.reading().entryValues())
     if (const VariableRange *range = findVariable(dialect, variable);
         range && range->role == VariableRole::WorkOffset && variables.contains(value.number))
-      return fmt::format("how far the zero point is moved is not known: `@GLOBAL #{} ..` says what the work offset is",
-                         variable);
-  return "no proof was found, and no call that breaks it";
+      return fmt::format("the work offset in #{0} is unknown; state it with `@GLOBAL #{0} ..`", variable);
+  return "neither a proof nor a counterexample was found";
 }
 
 /// The movements that a rule speaks of, by block, in the order in which they are met.

@@ -1,5 +1,6 @@
 #include "proof/families/space_runs.h"
 
+#include "base/support/text.h"
 #include "proof/space/plain_space.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@ using geometry::SpaceClaim;
 
 namespace {
 
+constexpr int kShownDecimals = 4; // a control shows three in millimetres and four in inches
+
 SpaceClaim plainClaim(ObligationKind kind) {
   if (kind == ObligationKind::KeepIn)
     return SpaceClaim::KeepIn;
@@ -20,19 +23,20 @@ SpaceClaim plainClaim(ObligationKind kind) {
 }
 
 std::string howFar(const SpaceRule &rule, double depth) {
-  const std::string distance = fmt::format("{:.4g}", depth);
+  const std::string distance = depth < 1e-4 ? "less than 0.0001" : decimalText(depth, kShownDecimals);
   if (rule.kind == ObligationKind::KeepIn)
-    return fmt::format("the tool is {} outside of {}", distance, rule.name);
+    return fmt::format("the tool is {} outside {}", distance, rule.name);
   if (rule.kind == ObligationKind::KeepOut)
-    return fmt::format("the tool is {} inside of {}", distance, rule.name);
+    return fmt::format("the tool is {} inside {}", distance, rule.name);
   if (rule.kind == ObligationKind::Clearance)
-    return fmt::format("a rapid move goes {} below the clearance", distance);
-  return fmt::format("the tool is {} outside of the travel", distance);
+    return fmt::format("a rapid move goes {} below the clearance height", distance);
+  return fmt::format("the tool is {} outside the travel limits", distance);
 }
 
 std::string textOf(const SpaceRule &rule, const GougeAt &gouge) {
   const auto &[x, y, z] = gouge.at;
-  return fmt::format("{} at X{:.4g} Y{:.4g} Z{:.4g}", howFar(rule, gouge.depth), x + 0.0, y + 0.0, z + 0.0);
+  return fmt::format("{} at X{} Y{} Z{}", howFar(rule, gouge.depth), decimalText(x, kShownDecimals),
+                     decimalText(y, kShownDecimals), decimalText(z, kShownDecimals));
 }
 
 geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &given) {
@@ -87,7 +91,7 @@ std::optional<std::string> SpaceRuns::roundedAway() const {
   const auto &samples = context_.witnesses.samples();
   for (std::size_t i = 0; i < samples.size() && i < kMostLooked; ++i)
     if (const auto gouge = gougeIn(samples[i].result, samples[i].given))
-      return fmt::format("words rounded to the least increment add up: {}", textOf(rule_, *gouge));
+      return fmt::format("rounding of words to the least increment adds up: {}", textOf(rule_, *gouge));
   return std::nullopt;
 }
 

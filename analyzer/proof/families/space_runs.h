@@ -1,4 +1,4 @@
-// What runs of the machine do in space: where they break a claim about it, and how far they keep away.
+// Runs of the machine in space: where they violate a claim, and the distance that they keep.
 #pragma once
 
 #include "proof/context/proof_context.h"

@@ -1,4 +1,4 @@
-// Places where a run may stop by itself.
+// Stops: no run reaches `#3000=` or an alarm of the control, unless the contract declares the alarm.
 #include "proof/families/families.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &fo
     return fmt::format("no {} here", meaningOf(*stop.alarm));
   if (foreseen.empty())
     return "this alarm is never raised";
-  return "no alarm comes from here that the contract does not foresee";
+  return "this block raises only alarms that the contract declares";
 }
 
 TermId isOneOf(SymbolicInterpretation &reading, const SymbolicValue &value, const std::vector<std::uint32_t> &numbers) {

@@ -254,17 +254,17 @@ private:
   TermId beyondPlane(const std::vector<TermId> &anchor, const std::vector<TermId> &point, TermId reach) const {
     TermId further = zero_; // anchor * (point - anchor)
     TermId square = zero_;
-    std::vector<TermId> ways; // for one coordinate: without the product
+    std::vector<TermId> perAxis; // for one coordinate: without the product
     for (std::size_t i = 0; i < anchor.size(); ++i) {
       const TermId change = store_.subtract(point[i], anchor[i]);
       square = store_.add(square, squared(anchor[i]));
       if (change == zero_)
         continue;
       further = store_.add(further, store_.multiply(anchor[i], change));
-      ways.push_back(store_.logicalOr(store_.logicalAnd(notBelow(anchor[i], zero_), notBelow(change, zero_)),
-                                      store_.logicalAnd(notBelow(zero_, anchor[i]), notBelow(zero_, change))));
+      perAxis.push_back(store_.logicalOr(store_.logicalAnd(notBelow(anchor[i], zero_), notBelow(change, zero_)),
+                                         store_.logicalAnd(notBelow(zero_, anchor[i]), notBelow(zero_, change))));
     }
-    const TermId isBeyond = ways.size() == 1 ? ways.front() : notBelow(further, zero_);
+    const TermId isBeyond = perAxis.size() == 1 ? perAxis.front() : notBelow(further, zero_);
     return store_.logicalAnd(isBeyond, notBelow(square, squared(reach)));
   }
   /// Where a distance from a flat side is at least the radius.

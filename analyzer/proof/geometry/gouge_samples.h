@@ -1,4 +1,4 @@
-// GougeSamples: depths by trying points of the tool, where no formula tells.  Internal to geometry/.
+// GougeSamples: depths by trying points of the tool, where there is no formula.  Internal to geometry/.
 #pragma once
 
 #include "proof/geometry/gouge.h"

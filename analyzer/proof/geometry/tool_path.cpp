@@ -16,17 +16,17 @@ ToolPath::ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::
     move_.radius.reset();
 }
 
-TermId ToolPath::share(PointOnPath &way) {
-  const TermId share = freshVariable(store_, "share of the way");
-  way.conditions.push_back(store_.lessOrEqual(store_.number(Number(0)), share));
-  way.conditions.push_back(store_.lessOrEqual(share, store_.number(Number(1))));
+TermId ToolPath::share(PointOnPath &onPath) {
+  const TermId share = freshVariable(store_, "share of the path");
+  onPath.conditions.push_back(store_.lessOrEqual(store_.number(Number(0)), share));
+  onPath.conditions.push_back(store_.lessOrEqual(share, store_.number(Number(1))));
   return share;
 }
 
-TermId ToolPath::between(PointOnPath &way, TermId start, TermId end) {
+TermId ToolPath::between(PointOnPath &onPath, TermId start, TermId end) {
   if (start == end)
     return start;
-  return store_.add(start, store_.multiply(share(way), store_.subtract(end, start)));
+  return store_.add(start, store_.multiply(share(onPath), store_.subtract(end, start)));
 }
 
 PointOnPath ToolPath::anyPoint() {
@@ -36,18 +36,18 @@ PointOnPath ToolPath::anyPoint() {
 }
 
 PointOnPath ToolPath::pointOfLine() {
-  PointOnPath way{move_.start, {}};
-  const TermId part = move_.start == move_.end ? store_.number(Number(0)) : share(way);
-  for (std::size_t i = 0; i < way.point.size(); ++i)
-    way.point[i] = store_.add(move_.start[i], store_.multiply(part, store_.subtract(move_.end[i], move_.start[i])));
-  return way;
+  PointOnPath onPath{move_.start, {}};
+  const TermId part = move_.start == move_.end ? store_.number(Number(0)) : share(onPath);
+  for (std::size_t i = 0; i < onPath.point.size(); ++i)
+    onPath.point[i] = store_.add(move_.start[i], store_.multiply(part, store_.subtract(move_.end[i], move_.start[i])));
+  return onPath;
 }
 
 PointOnPath ToolPath::pointOfBox() {
-  PointOnPath way{move_.start, {}};
-  for (std::size_t i = 0; i < way.point.size(); ++i)
-    way.point[i] = between(way, move_.start[i], move_.end[i]);
-  return way;
+  PointOnPath onPath{move_.start, {}};
+  for (std::size_t i = 0; i < onPath.point.size(); ++i)
+    onPath.point[i] = between(onPath, move_.start[i], move_.end[i]);
+  return onPath;
 }
 
 ToolPath::Spokes ToolPath::spokes() const {
@@ -116,7 +116,7 @@ PointOnPath ToolPath::pointOfArcByRadius() {
   about.move_.firstCentre = freshVariable(store_, "centre");
   about.move_.secondCentre = freshVariable(store_, "centre");
   const Spokes ends = about.spokes();
-  PointOnPath way = about.pointOfArc();
+  PointOnPath onPath = about.pointOfArc();
   const TermId zero = store_.number(Number(0));
   const TermId chordFirst = store_.subtract(ends.endFirst, ends.startFirst);
   const TermId chordSecond = store_.subtract(ends.endSecond, ends.startSecond);
@@ -133,10 +133,10 @@ PointOnPath ToolPath::pointOfArcByRadius() {
                        store_.lessOrEqual(zero, inner), store_.less(zero, chord)};
   const std::size_t first = in(move_.plane.first);
   const std::size_t second = in(move_.plane.second);
-  const std::array none{store_.equal(chord, zero), store_.equal(way.point[first], move_.start[first]),
-                        store_.equal(way.point[second], move_.start[second])};
-  way.conditions.push_back(store_.logicalOr(store_.logicalAnd(arc), store_.logicalAnd(none)));
-  return way;
+  const std::array none{store_.equal(chord, zero), store_.equal(onPath.point[first], move_.start[first]),
+                        store_.equal(onPath.point[second], move_.start[second])};
+  onPath.conditions.push_back(store_.logicalOr(store_.logicalAnd(arc), store_.logicalAnd(none)));
+  return onPath;
 }
 
 /// Seen along the chord, the centre of the shorter arc lies to the right of a clockwise one.
@@ -178,7 +178,7 @@ bool ToolPath::findCentre() {
 PointOnPath ToolPath::pointOfArc() {
   if (move_.radius)
     return pointOfArcByRadius();
-  PointOnPath way{move_.start, {}};
+  PointOnPath onPath{move_.start, {}};
   const Spokes ends = spokes();
   const TermId x = freshVariable(store_, "arc");
   const TermId y = freshVariable(store_, "arc");
@@ -188,16 +188,16 @@ PointOnPath ToolPath::pointOfArc() {
   const auto within = [&](TermId low, TermId high) {
     return store_.logicalAnd(store_.lessOrEqual(low, distance), store_.lessOrEqual(distance, high));
   };
-  way.conditions.push_back(atStart == atEnd ? store_.equal(distance, atStart)
-                                            : store_.logicalOr(within(atStart, atEnd), within(atEnd, atStart)));
-  way.conditions.push_back(sector(x, y));
+  onPath.conditions.push_back(atStart == atEnd ? store_.equal(distance, atStart)
+                                               : store_.logicalOr(within(atStart, atEnd), within(atEnd, atStart)));
+  onPath.conditions.push_back(sector(x, y));
   if (atStart == atEnd && move_.turns <= 1)
-    way.conditions.push_back(besideChord(x, y));
-  way.point[in(move_.plane.first)] = store_.add(move_.firstCentre, x);
-  way.point[in(move_.plane.second)] = store_.add(move_.secondCentre, y);
+    onPath.conditions.push_back(besideChord(x, y));
+  onPath.point[in(move_.plane.first)] = store_.add(move_.firstCentre, x);
+  onPath.point[in(move_.plane.second)] = store_.add(move_.secondCentre, y);
   const std::size_t normal = in(move_.plane.normal);
-  way.point[normal] = between(way, move_.start[normal], move_.end[normal]);
-  return way;
+  onPath.point[normal] = between(onPath, move_.start[normal], move_.end[normal]);
+  return onPath;
 }
 
 ToolPath::Hull ToolPath::hull() {

@@ -14,7 +14,7 @@ struct ArcRadius {
   ArcLength length;
 };
 
-/// In the space of the start (shapes.h); a movement whose way is known.
+/// In the space of the start (shapes.h); a move whose path is known.
 struct TermMove {
   MoveKind kind;
   TermPoint start;
@@ -26,7 +26,7 @@ struct TermMove {
   std::optional<ArcRadius> radius = {};
 };
 
-/// A point on the way: any one, by new variables that `conditions` keep to the way.
+/// Any point on the path: new variables, which `conditions` keep on the path.
 struct PointOnPath {
   TermPoint point;
   std::vector<TermId> conditions;
@@ -36,7 +36,7 @@ class ToolPath {
 public:
   ToolPath(TermStore &store, TermMove move);
 
-  /// Points whose convex hull has all of the way in it.  `conditions` of their variables.
+  /// Points whose convex hull contains all of the path.  `conditions` of their variables.
   struct Hull {
     std::vector<TermPoint> corners;
     std::vector<TermId> conditions;
@@ -45,7 +45,7 @@ public:
   /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever
   /// rates.  What lies between the ends of a helix along its axis is taken at any turn.
   PointOnPath anyPoint();
-  /// The hull is the way itself: a convex set has the one if it has the other.
+  /// The hull is the path itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
   /// X and Y stay as they are.
   bool isVertical() const { return !isArc() && move_.start[0] == move_.end[0] && move_.start[1] == move_.end[1]; }
@@ -62,8 +62,8 @@ private:
   PointOnPath pointOfArcByRadius();
   bool findCentre();
   bool centreIsLeft() const;
-  TermId share(PointOnPath &way);
-  TermId between(PointOnPath &way, TermId start, TermId end);
+  TermId share(PointOnPath &onPath);
+  TermId between(PointOnPath &onPath, TermId start, TermId end);
   TermId sector(TermId x, TermId y) const;
   TermId besideChord(TermId x, TermId y) const;
 

@@ -15,7 +15,7 @@ namespace feedhold::prove {
 
 /// What is thought of first: what the claim itself says, then what shops ask of arguments; last what is no bound and
 /// no linear relation.
-enum class AtomRank : std::uint8_t { Claim, Sign, Projection, FarSign, Pair, Bound, Way, Curved };
+enum class AtomRank : std::uint8_t { Claim, Sign, Projection, FarSign, Pair, Bound, Path, Curved };
 
 enum class Comparison : std::uint8_t { Above, NotBelow, Differs, Equals };
 

@@ -70,10 +70,10 @@ private:
     meet(query.goal, true);
     says(query.goal, AtomRank::Claim, wanted);
     std::vector<Inequality> known;
-    const bool isPath = query.goal == store_.no(); // the claim is that no run comes along this way
+    const bool isPath = query.goal == store_.no(); // the claim is that no run takes this path
     for (const TermId assumption : query.assumptions) {
       meet(assumption, isPath);
-      says(assumption, isPath ? AtomRank::Claim : AtomRank::Way, known);
+      says(assumption, isPath ? AtomRank::Claim : AtomRank::Path, known);
     }
     project(wanted, known);
   }
@@ -83,7 +83,7 @@ private:
     for (const Transition &iteration : loop.transitions)
       for (const TermId condition : iteration.conditions) {
         meet(condition, false);
-        says(condition, AtomRank::Way, known);
+        says(condition, AtomRank::Path, known);
       }
     for (const auto &[variable, value] : loop.first)
       meet(value, false);
@@ -125,7 +125,7 @@ private:
     case TermKind::Equal: {
       const TermId difference = store_.subtract(term.arguments[0], term.arguments[1]);
       take(make_.compare(difference, Comparison::Differs, rank));
-      take(make_.compare(difference, Comparison::Equals, AtomRank::Way));
+      take(make_.compare(difference, Comparison::Equals, AtomRank::Path));
       for (const TermId side : {difference, store_.negate(difference)})
         inequalities.push_back({side, Comparison::NotBelow});
       return;

@@ -1,4 +1,4 @@
-// Conditions with which a claim is proved that is not proved without.
+// Searches conditions on the inputs under which an open or refuted claim is proved.
 #include "proof/guards/guard_inference.h"
 
 #include "meaning/cfg/wto.h"
@@ -53,10 +53,10 @@ bool isInLoop(const Wto &wto, Place head, Place place) {
   const std::uint32_t position = place.file == head.file ? wto.positionOf(place.node) : Wto::kUnreachable;
   return wto.positionOf(head.node) <= position && position < wto.endOf(head.node);
 }
-/// It goes round within the loop for ever.
+/// The run repeats for ever within the loop.
 bool isInLoop(const Wto &wto, Place head, const RunResult &run) {
-  return !run.circle.empty() &&
-         std::all_of(run.circle.begin(), run.circle.end(), [&](Place place) { return isInLoop(wto, head, place); });
+  return !run.cycle.empty() &&
+         std::all_of(run.cycle.begin(), run.cycle.end(), [&](Place place) { return isInLoop(wto, head, place); });
 }
 
 SampleKind kindOf(const RunResult &run, const Obligation &claim, const Wto &wto) {

@@ -1,4 +1,4 @@
-// Guard inference: conditions with which a claim is proved that is not proved without.
+// Guard inference: conditions on the inputs under which an open or refuted claim is proved.
 #pragma once
 
 #include "proof/context/proof_context.h"

@@ -20,13 +20,13 @@ struct Obligation {
   std::string id; // `O9100.loop-ends.N20`, the same from run to run
   Place place;
   Span span;
-  std::string claim;                   // what is claimed, in shop words
+  std::string claim;                   // what is claimed, in words for the machinist
   std::optional<AlarmKind> alarm = {}; // of NoControlAlarm
   Verdict verdict = {};
   std::uint64_t effort = 0; // units spent on it, of all kinds together
 };
 
-/// Of one program, found in one way or another.
+/// Of one program, from different stages of its proof.
 inline bool isSameClaim(const Obligation &a, const Obligation &b) {
   return a.kind == b.kind && a.place == b.place && a.span == b.span && a.claim == b.claim;
 }

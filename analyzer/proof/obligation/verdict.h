@@ -1,4 +1,4 @@
-// Verdict: what is known of an obligation.  Each alternative has exactly the data that it can have.
+// Verdict: the result for an obligation.  Each alternative has exactly the data that it can have.
 #pragma once
 
 #include "meaning/machine/machine.h"
@@ -16,11 +16,11 @@ namespace feedhold::prove {
 
 std::string_view nameOf(Grade grade);
 
-/// Where a run breaks a claim about space most.
+/// Where a run violates a claim about space most.
 struct GougeAt {
   Place place;              // of the block that moves
   std::array<double, 3> at; // the point of the tool: X, Y, Z in the space of the start (geometry/shapes.h)
-  double depth;             // by how much it is wrong there
+  double depth;             // of the violation
   friend bool operator==(const GougeAt &, const GougeAt &) = default;
 };
 
@@ -28,7 +28,7 @@ struct GougeAt {
 struct Witness {
   GivenVariables variables; // all others are vacant
   RunEnd end;
-  std::string happened;              // in shop words: what the run came to
+  std::string happened;              // what the run did, in words for the machinist
   std::optional<GougeAt> gouge = {}; // of a claim about space
 };
 
@@ -46,31 +46,31 @@ namespace verdict {
 /// For all inputs.
 struct Proved {
   Proof proof = {};
-  std::string why = {};              // in shop words; empty: there are no plain ones
-  std::string bound = {};            // of a loop: the iterations at most, `FUP[#21/#22]`; empty: not known
-  std::optional<double> margin = {}; // of KeepIn and KeepOut: how far the tool keeps away at least
-  bool exactOnly = false;            // no longer so when sums are off by what doubles round
+  std::string why = {};              // in words for the machinist; empty: none
+  std::string bound = {};            // of a loop: the iterations at most, `FUP[#21/#22]`; empty: unknown
+  std::optional<double> margin = {}; // of KeepIn and KeepOut: the distance that the tool keeps at least
+  bool exactOnly = false;            // not if sums are off by the rounding of doubles
 };
 
-/// A run on the witness shows it; or, of ContractSatisfiable, a proof that there is no run.
+/// By a run on the witness; or, for ContractSatisfiable, by a proof that there is no run.
 struct Refuted {
   struct NoCall {
     std::string reason;
   };
   std::variant<Witness, NoCall> shownBy = NoCall{};
-  std::optional<Guard> guard = {}; // with what the claim is proved
+  std::optional<Guard> guard = {}; // under which the claim is proved
 };
 
-/// Neither.
+/// Neither proved nor refuted.
 struct Unknown {
   std::string reason = {};         // what was missing
-  std::optional<Place> at = {};    // of what was given up; absent: it is not the matter of one place
-  std::optional<Guard> guard = {}; // with what the claim is proved
+  std::optional<Place> at = {};    // where the proof gave up; absent: at no single place
+  std::optional<Guard> guard = {}; // under which the claim is proved
 };
 
-/// No run comes to the place.
+/// No run reaches the place.
 struct Unreachable {
-  std::string method = {}; // how all runs were followed; empty: no path comes there
+  std::string method = {}; // how all runs were covered; empty: no path reaches it
 };
 
 } // namespace verdict
@@ -102,7 +102,7 @@ public:
   const verdict::Unknown *unknown() const { return std::get_if<verdict::Unknown>(&what_); }
   const verdict::Unreachable *unreachable() const { return std::get_if<verdict::Unreachable>(&what_); }
 
-  // ---- what outputs have columns for: absent or empty where the verdict has no such thing ----
+  // ---- for outputs: absent or empty if the verdict has no such member ----
   std::optional<Grade> grade() const;
   std::string_view method() const;
   std::string_view reason() const;

@@ -35,7 +35,7 @@ std::vector<Contradiction> judge(const ProofContext &context, const std::vector<
       continue;
     if (auto witness = denied(context.witnesses, denial.violation(context))) {
       found.push_back({row->id, std::string(nameOf(row->verdict)), *std::move(witness)});
-      row->verdict = Verdict::unknown("a run contradicts the proof that was found: this is a defect of Feedhold");
+      row->verdict = Verdict::unknown("a run contradicts the proof: this is a bug in Feedhold");
     }
   }
   return found;

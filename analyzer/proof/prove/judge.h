@@ -1,5 +1,5 @@
 // The judge: every run that the proofs of a program have made is held against every verdict on it.  A run that does
-// what a verdict denies shows a defect of Feedhold: the verdict is withdrawn, and the defect is told with its program
+// what a verdict denies shows a bug in Feedhold: the verdict is withdrawn, and the bug is reported with its program
 // and call.
 #pragma once
 

@@ -41,8 +41,8 @@ public:
     putInOrder(rows);
     std::vector<Contradiction> contradictions = judge(contextOf(*stage_), stage_->settled.denials, rows);
     if (subject_.contract() && !subject_.contract()->isSound)
-      withdraw(rows, "a clause of the contract could not be read");
-    return {std::move(rows), std::move(stage_->found.unfollowed), stage_->found.incomplete, std::move(contradictions)};
+      withdraw(rows, "a clause of the contract could not be read; `feedhold check` reports it");
+    return {std::move(rows), std::move(stage_->found.unmodelled), stage_->found.incomplete, std::move(contradictions)};
   }
 
 private:
@@ -83,10 +83,10 @@ private:
     for (Obligation &row : rows)
       if (row.verdict.holds())
         row.verdict = Verdict::unknown("no call satisfies the contract");
-    Obligation none = subject_.obligation(ObligationKind::ContractSatisfiable, "some call satisfies this contract");
-    none.verdict = verdict::Refuted{.shownBy = verdict::Refuted::NoCall{
-                                        "no call satisfies this contract: what it says of the arguments contradicts "
-                                        "itself"}};
+    Obligation none =
+        subject_.obligation(ObligationKind::ContractSatisfiable, "at least one call satisfies this contract");
+    none.verdict = verdict::Refuted{
+        .shownBy = verdict::Refuted::NoCall{"no call satisfies this contract: its clauses contradict each other"}};
     rows.push_back(std::move(none));
   }
 
@@ -101,7 +101,7 @@ private:
         row.id += fmt::format(".{}", number);
   }
 
-  /// What rests on a contract that is not what its author meant is not told.
+  /// A contract with an unreadable clause may not say what its author meant.
   static void withdraw(std::vector<Obligation> &rows, const std::string &reason) {
     for (Obligation &row : rows)
       row.verdict = Verdict::unknown(reason);
@@ -121,9 +121,9 @@ bool isOpen(const Obligation &row) { return row.verdict == Verdict::Unknown; }
 /// there, so that no run comes to it; one that comes to a block where a control may stop does not always do so.
 Obligation notMet(Obligation row) {
   if (isOpen(row) && row.kind == ObligationKind::AlarmUnreachable)
-    row.verdict = verdict::Unreachable{.method = "each pass"};
+    row.verdict = verdict::Unreachable{.method = "loop unrolling"};
   if (isOpen(row) && row.kind == ObligationKind::NoControlAlarm)
-    row.verdict = verdict::Proved{.proof = {.method = "each pass"}};
+    row.verdict = verdict::Proved{.proof = {.method = "loop unrolling"}};
   return row;
 }
 
@@ -140,8 +140,8 @@ void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> 
       rows.push_back(notMet(old));
 }
 
-/// Claims that are open after loops were met in the midst of any iteration: where all loops have few iterations, each
-/// iteration is followed.
+/// Claims that are open after one symbolic iteration stood for all: where all loops have few iterations, they are
+/// unrolled.
 void Work::followIterations() {
   const Exploration &found = stage_->found;
   const std::vector<Obligation> &before = stage_->settled.rows;

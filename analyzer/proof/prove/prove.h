@@ -14,9 +14,9 @@ struct Contradiction {
 
 struct ProgramProof {
   std::vector<Obligation> obligations;            // by kind, then by place
-  std::vector<Unfollowed> unfollowed;             // what was taken as anything at all
-  std::optional<std::string_view> incomplete;     // why not all ways were followed
-  std::vector<Contradiction> contradictions = {}; // defects of Feedhold
+  std::vector<Unmodelled> unmodelled;             // what is not modelled
+  std::optional<std::string> incomplete;          // why not all paths were explored
+  std::vector<Contradiction> contradictions = {}; // bugs in Feedhold
 };
 
 /// For every input that the contract allows; without one, for every input.  `contracts`: of the file of the program.

@@ -1,4 +1,4 @@
-// Exact runs: what a run on given inputs comes to in exact numbers, where the machine computes with doubles.
+// Exact runs: how a run on given inputs ends in exact arithmetic, where the machine computes with doubles.
 #pragma once
 
 #include "meaning/machine/machine.h"

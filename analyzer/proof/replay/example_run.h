@@ -1,4 +1,4 @@
-// Example run: one call that a contract allows, to show what the program does.
+// Example run: one call that a contract allows, for the picture in the release report.
 #pragma once
 
 #include "language/contract/contract.h"
@@ -18,7 +18,7 @@ struct ExampleRun {
   RunResult result;
 };
 
-/// Started as the contract says, on values in the midst of what it allows, or at its ends where those show more of the
+/// Started as the contract says, on values in the middle of what it allows, or at its ends where those show more of the
 /// program.  Without a contract: without arguments.  Absent: no run was found that satisfies the contract.
 std::optional<ExampleRun> exampleRun(const ProgramSet &programs, Callee program, const FileContracts &contracts);
 

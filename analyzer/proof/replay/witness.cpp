@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <random>
 
 namespace feedhold::prove {
@@ -28,6 +29,21 @@ GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
     if (!value.vacant)
       near.set(variable, ConcreteValue::of(whole(value.number * 1000) / 1000));
   return near;
+}
+
+std::string howItEnded(const RunResult &run) {
+  switch (run.end) {
+  case RunEnd::M02:
+  case RunEnd::M30:
+  case RunEnd::Returned:
+  case RunEnd::EndOfFile: return "the run ends without an alarm";
+  case RunEnd::Alarm: return fmt::format("the control stops the run with an alarm: {}", meaningOf(run.alarm));
+  case RunEnd::UserAlarm: return fmt::format("the run stops with alarm {:.15g}", run.alarmNumber);
+  case RunEnd::Fuel: return fmt::format("the run had not ended after {} instructions", run.steps);
+  case RunEnd::Repeats: return "the run repeats for ever";
+  case RunEnd::NotModelled: return "the run comes to a block that is not modelled";
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every end");
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; } // no -0
@@ -261,6 +277,20 @@ std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const V
     if (const auto found = tried(each, violation, fuel))
       return plainest(*found, violation, fuel);
   return std::nullopt;
+}
+
+std::string WitnessSearch::whyNotShown(const smt::Model &model) const {
+  constexpr std::string_view kNot = "the solver's counterexample did not reproduce on the machine";
+  smt::Model whole = model;
+  whole.insert(others_.begin(), others_.end());
+  const GivenVariables given = inputsOf(whole);
+  if (!allowed(given))
+    return fmt::format("{}: rounded to its numbers, the inputs violate the contract", kNot);
+  if (smt::areStepsUsedUp())
+    return std::string(kNot);
+  const RunResult result = runOf(given);
+  smt::spend(kStepsOfInstruction * result.steps);
+  return fmt::format("{}: {}", kNot, howItEnded(result));
 }
 
 /// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.

@@ -1,4 +1,4 @@
-// Witnesses: inputs that the concrete machine runs to the violation of a claim.
+// Witnesses: inputs with which a run of the concrete machine violates a claim.
 #pragma once
 
 #include "proof/obligation/obligation.h"
@@ -58,6 +58,8 @@ public:
   /// The inputs that a model of the solver names, then made as plain as they can be.
   std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation,
                                    std::uint64_t fuel = kFuel) const;
+  /// Of a model that is no witness: what the machine does on its inputs instead.
+  std::string whyNotShown(const smt::Model &model) const;
 
   struct Sample {
     GivenVariables given;

@@ -1,4 +1,4 @@
-// Solvers, asked in SMT-LIB text.  Their answers are hints: see prove/discharge.h for what becomes of them.
+// Solvers, asked in SMT-LIB text.  Their answers are hints: see decide/discharge.h for their use.
 #pragma once
 
 #include "base/support/result.h"

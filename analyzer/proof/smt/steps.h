@@ -2,7 +2,7 @@
 // machine and with any number of threads.
 //
 // A scope for the whole proof of a program keeps the account; the engines within it (a question, an exploration, a
-// search for a measure) open scopes of their own, which draw from it.
+// search for a ranking function) open scopes of their own, which draw from it.
 #pragma once
 
 #include <cstdint>

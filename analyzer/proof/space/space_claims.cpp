@@ -150,7 +150,8 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
         parts.push_back(shapes.shape(region));
       }
     if (!contract_.tool) {
-      rule.missing = "the contract does not say what the tool is: `@TOOL FLAT RADIUS #7`, for instance, would";
+      rule.missing =
+          "the contract does not describe the tool; state it with `@TOOL`, for example `@TOOL FLAT RADIUS #7`";
       rules_.push_back(std::move(rule));
       continue;
     }
@@ -186,11 +187,11 @@ bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) 
 
 std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
   if (instance.move.kind == MoveKind::Unfollowed)
-    return "where this block leads is not known: it could not be read, its code is not followed, or `@MODAL` has to "
-           "say which of G00, G01, G02 and which plane is in force at the start";
+    return "the motion of this block is unknown: it could not be read, its code is not modelled, or the motion code or "
+           "the plane at the start is unknown, which `@MODAL` states";
   for (const Axis axis : kAllAxes)
     if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
-      return fmt::format("axis {} moves, and regions are those of X, Y and Z alone", letterOf(axis));
+      return fmt::format("axis {} moves; regions cover X, Y and Z only", letterOf(axis));
   return std::nullopt;
 }
 
@@ -198,36 +199,39 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
                                                                   const MoveInstance &instance) const {
   std::vector<std::pair<TermId, std::string>> premises;
   if (rule.kind != ObligationKind::Travel)
-    premises.emplace_back(instance.point.withoutCompensation.term,
-                          "cutter compensation (G41, G42) may be in force or end here, and the path that it makes is "
-                          "not followed; `@MODAL G40` says that there is none at the start");
-  premises.emplace_back(instance.point.lengthKnown.term,
-                        "the tool length has been taken away (G49): how high the tip is, is not known; `@MODAL G49` "
-                        "says that there was none at the start either");
+    premises.emplace_back(
+        instance.point.withoutCompensation.term,
+        "cutter compensation (G41, G42) may be active or end here, and its path is not modelled; if it is "
+        "off at the start, state `@MODAL G40`");
+  premises.emplace_back(
+      instance.point.lengthKnown.term,
+      "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
+      "was off at the start, state `@MODAL G49`");
   if (rule.kind != ObligationKind::Travel)
     premises.emplace_back(instance.point.sameSide.term,
-                          "another axis than X, Y and Z has moved since the start, and may have turned the part");
+                          "an axis other than X, Y and Z has moved since the start and may have rotated the part");
   premises.emplace_back(instance.point.sameUnits.term,
-                        "the units may be others than at the start (G20, G21): `@MODAL G21`, for instance, says which "
-                        "those are");
+                        "the units (G20, G21) may differ from those of the start; state these, for example with "
+                        "`@MODAL G21`");
   return premises;
 }
 
 /// All corners lie in one convex part, or beyond one of the ends.
-std::vector<TermId> SpaceClaims::simpleWays(const FreeSpace &space, const std::vector<TermPoint> &corners) const {
+std::vector<TermId> SpaceClaims::simpleAlternatives(const FreeSpace &space,
+                                                    const std::vector<TermPoint> &corners) const {
   const auto atAll = [&](const auto &formula) {
     std::set<TermId> parts;
     for (const TermPoint &corner : corners)
       parts.insert(formula(corner));
     return store_.logicalAnd(std::vector(parts.begin(), parts.end()));
   };
-  std::vector<TermId> ways;
+  std::vector<TermId> alternatives;
   for (const geometry::Formula &part : space.convexParts)
-    ways.push_back(atAll(part));
+    alternatives.push_back(atAll(part));
   for (const FreeSpace::Beyond &beyond : space.beyond)
     for (const TermPoint &anchor : {corners.front(), corners.back()})
-      ways.push_back(atAll([&](const TermPoint &corner) { return beyond(anchor, corner); }));
-  return ways;
+      alternatives.push_back(atAll([&](const TermPoint &corner) { return beyond(anchor, corner); }));
+  return alternatives;
 }
 
 std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
@@ -246,7 +250,7 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   const auto together = [&](const std::set<TermId> &terms) {
     return store_.logicalAnd(std::vector(terms.begin(), terms.end()));
   };
-  const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Way {
+  const auto anyPoint = [&](const geometry::Formula &all) -> SpaceQuestion::Alternative {
     const geometry::PointOnPath any = path.anyPoint();
     return {any.conditions, all(any.point)};
   };
@@ -259,28 +263,28 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
       const std::set<TermId> corners = atCorners(bound);
       SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
       if (!path.isHull() && !isOfLevel(bound))
-        question.ways.push_back(anyPoint(bound));
+        question.alternatives.push_back(anyPoint(bound));
     }
     if (space.isConvex())
       continue;
     SpaceQuestion &question = questions.emplace_back();
     if (space.isOpenUpwards && path.isVertical()) { // all of it lies above its lower end
-      question.ways.push_back({{}, together(atCorners(space.all))});
+      question.alternatives.push_back({{}, together(atCorners(space.all))});
       continue;
     }
-    const std::vector<TermId> simple = simpleWays(space, hull.corners);
-    for (const TermId way : simple)
-      question.ways.push_back({hull.conditions, way});
+    const std::vector<TermId> simple = simpleAlternatives(space, hull.corners);
+    for (const TermId alternative : simple)
+      question.alternatives.push_back({hull.conditions, alternative});
     if (simple.size() > 1) // one or the other, as the case may be
-      question.ways.push_back({hull.conditions, store_.logicalOr(simple)});
+      question.alternatives.push_back({hull.conditions, store_.logicalOr(simple)});
     if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
       for (const TermId level : std::set{move.start[2], move.end[2]}) {
         const geometry::PointOnPath any = path.anyPoint();
         const TermId isAbove = store_.lessOrEqual(level, any.point[2]);
-        question.ways.push_back(
+        question.alternatives.push_back(
             {any.conditions, store_.logicalAnd(isAbove, space.all({any.point[0], any.point[1], level}))});
       }
-    question.ways.push_back(anyPoint(space.all));
+    question.alternatives.push_back(anyPoint(space.all));
   }
   return questions;
 }

@@ -20,16 +20,16 @@ struct SpaceRule {
   std::function<std::vector<geometry::FreeSpace>(smt::TermId margin)> spacesFor = {};
   std::optional<smt::TermId> height = {};  // of Clearance
   smt::TermId isSound = smt::TermId(1);    // without that the claim means nothing
-  std::optional<std::string> missing = {}; // why nothing can be told of it
+  std::optional<std::string> missing = {}; // why it cannot be checked
 };
 
-/// It holds if one of the ways to say it does: the cheap one first, the exact one last.
+/// It holds if one of its alternatives does: the cheap ones first, the exact one last.
 struct SpaceQuestion {
-  struct Way {
+  struct Alternative {
     std::vector<smt::TermId> conditions; // of new variables of the goal
     smt::TermId goal;
   };
-  std::vector<Way> ways;
+  std::vector<Alternative> alternatives;
 };
 
 class SpaceClaims {
@@ -38,9 +38,9 @@ public:
 
   const std::vector<SpaceRule> &rules() const { return rules_; }
   bool concerns(const SpaceRule &rule, const MoveInstance &move) const;
-  /// Why nothing can be told of the movement; absent: questions tell it.
+  /// Why the movement cannot be checked; absent: `questions` check it.
   std::optional<std::string> whyNotTold(const MoveInstance &move) const;
-  /// What has to hold on the way there so that coordinates are those of the tool, and what is missing otherwise.
+  /// What has to hold before the move so that coordinates are those of the tool, and what is missing otherwise.
   std::vector<std::pair<smt::TermId, std::string>> premises(const SpaceRule &rule, const MoveInstance &move) const;
   std::vector<SpaceQuestion> questions(const SpaceRule &rule, const MoveInstance &move) const;
   /// The rule for a tool that has to keep so far away; there is SpaceRule::spacesFor.
@@ -52,8 +52,8 @@ public:
 
 private:
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
-  std::vector<smt::TermId> simpleWays(const geometry::FreeSpace &space,
-                                      const std::vector<geometry::TermPoint> &corners) const;
+  std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
+                                              const std::vector<geometry::TermPoint> &corners) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 
   smt::TermStore &store_;

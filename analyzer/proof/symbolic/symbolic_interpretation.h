@@ -1,5 +1,4 @@
-// SymbolicInterpretation: programs read with terms of a solver: a value is a term over what was there at the start of
-// the run.
+// SymbolicInterpretation: the semantics over solver terms: a value is a term over the state at the start of the run.
 //
 // A value is a pair: whether it is vacant, and its number, which is 0 wherever it is vacant; so a vacant value counts
 // as 0 in arithmetic without a case of its own.  What is not known is a fresh variable.  Numbers are exact reals: words
@@ -44,7 +43,7 @@ struct PossibleStop {
   Span place;
 };
 
-/// Whoever follows the path knows what holds on it.
+/// What holds on the present path; the explorer knows it.
 class PathKnowledge {
 public:
   virtual ~PathKnowledge() = default;
@@ -66,7 +65,7 @@ public:
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
   void usePath(PathKnowledge *path) { path_ = path; }
-  /// The mode of polar coordinates is taken to be left as it is by what is not followed.
+  /// Unmodelled code is assumed to leave the mode of polar coordinates unchanged.
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   smt::TermStore &store() { return store_; }
   /// The variables have these values at the start of the run, and the others that programs own are vacant.
@@ -83,11 +82,11 @@ public:
   /// A variable is written of which the state keeps nothing: it may hold anything at the next read.
   void writesUnkept(std::uint32_t variable) { unkeptWrites_.push_back(variable); }
   const std::vector<std::uint32_t> &unkeptWrites() const { return unkeptWrites_; }
-  /// Reasons why something was not followed, since they were last taken.
+  /// What was not modelled since the last call.
   std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
-  /// Whether a value was too large to be kept, since that was last asked.
+  /// Whether a formula was too large to keep since the last call.
   bool takeTooLarge() { return std::exchange(tooLarge_, false); }
-  /// What is true of the variables that this reading has made.
+  /// Facts about the variables that this interpretation has made.
   const std::vector<smt::TermId> &facts() const { return facts_; }
   /// A new variable; its name starts with `what`.
   smt::TermId fresh(std::string_view what, smt::Sort sort);
@@ -200,7 +199,7 @@ private:
   bool moved_ = false;
 };
 
-/// What the control gives to a program that is started: each part of the state a variable of its own.
+/// An arbitrary state at the start: each part is a variable of its own.
 SymbolicState symbolicEntry(SymbolicInterpretation &reading);
 
 /// Calls visit(smt::TermId &) for each term of the state, in the order of forEachPart.
@@ -220,7 +219,7 @@ template <typename State, typename Visit> void forEachTerm(State &state, Visit &
               state);
 }
 
-/// Gives both states the same parts, and the same variables of which nothing is known.  False when they hold different
+/// Gives both states the same parts and the same havocked variables.  False when they hold different
 /// modal calls.
 bool alignAll(SymbolicInterpretation &reading, SymbolicState &a, SymbolicState &b);
 

@@ -1,4 +1,4 @@
-// The reading's operations on whole states: what is there at the start, what becomes unknown, two states in one.
+// Operations on whole states: the arbitrary start, havoc, the union of two states.
 #include "proof/symbolic/symbolic_interpretation.h"
 
 #include <fmt/format.h>
@@ -149,7 +149,7 @@ bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const 
   return mayMoveZero;
 }
 
-// ---- what is not followed ----
+// ---- havoc ----
 
 void SymbolicInterpretation::havoc(State &state, std::string_view reason, Span place) {
   notModelled(reason, place);

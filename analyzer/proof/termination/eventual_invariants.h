@@ -1,8 +1,8 @@
-// Lasting facts: what holds before every iteration of a loop from some time on, found by trial over the iterations that
-// have been recorded.
+// Eventual invariants: facts that hold before every iteration of a loop from some iteration on, found by trial over the
+// recorded iterations.
 //
-// A fact that one of the iterations leaves behind it, and that every iteration keeps where it holds before, holds from
-// then on. From the arrival at the loop it holds before every iteration.
+// A fact that one iteration establishes and every iteration preserves holds from then on.  If it holds on arrival, it
+// holds before every iteration.
 #pragma once
 
 #include "proof/decide/discharge.h"

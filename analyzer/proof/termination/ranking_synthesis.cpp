@@ -31,7 +31,7 @@ struct RankingSynthesis::Draft {
   std::vector<TermId> next;
 };
 
-/// The linear program: unknown coefficients of measures, and Farkas multipliers.
+/// The linear program: unknown coefficients of ranking functions, and Farkas multipliers.
 class RankingSynthesis::Program {
 public:
   /// Linear in the unknowns.
@@ -66,12 +66,12 @@ public:
   }
 
   const Form &rankingOf(std::size_t component) const { return rankings_[component]; }
-  /// By how much an iteration lowers a measure.
-  Form fallOf(std::size_t component, const Case &way) const {
+  /// By how much an iteration lowers a ranking function.
+  Form decreaseOf(std::size_t component, const Case &path) const {
     Form fall;
     for (const auto &[atom, unknown] : rankings_[component].atoms) {
-      const auto next = way.next.find(atom);
-      if (next == way.next.end())
+      const auto next = path.next.find(atom);
+      if (next == path.next.end())
         continue;
       fall.atoms[atom].add(unknown, Number(1));
       for (const auto &[other, factor] : next->second.factors)
@@ -85,11 +85,11 @@ public:
     return form;
   }
 
-  /// The rows of the way make the form not negative.
-  void require(const Case &way, const Form &form) {
+  /// The rows of the path make the form not negative.
+  void require(const Case &path, const Form &form) {
     std::map<Atom, Unknown> sums;
     Unknown rest = form.constant;
-    for (const Row &row : way.rows) {
+    for (const Row &row : path.rows) {
       const Simplex::Column multiplier = simplex_.addColumn();
       if (!row.isEquality)
         simplex_.require(0, {{multiplier, Number(1)}}, Number(), LinearRelation::NonNegative);
@@ -176,10 +176,10 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &reading, smt::T
   }
   std::set<Atom> atoms(variables_.begin(), variables_.end());
   for (const Atom product : products_) // that every iteration is known to change
-    if (std::all_of(cases_.begin(), cases_.end(), [&](const Case &way) { return way.next.contains(product); }))
+    if (std::all_of(cases_.begin(), cases_.end(), [&](const Case &path) { return path.next.contains(product); }))
       atoms.insert(product);
-  for (const Case &way : cases_)
-    for (const Row &row : way.rows)
+  for (const Case &path : cases_)
+    for (const Row &row : path.rows)
       for (const auto &[atom, factor] : row.factors)
         if (isSteady(atom) && atoms.size() < kMostRankingAtoms)
           atoms.insert(atom);
@@ -215,20 +215,20 @@ bool RankingSynthesis::isSteady(Atom atom) const {
 
 void RankingSynthesis::addCases(std::size_t iteration, std::vector<TermId> formulas, std::vector<TermId> next) {
   std::vector<Draft> open{{std::move(formulas), std::move(next)}};
-  std::vector<Case> ways;
+  std::vector<Case> paths;
   while (!open.empty()) {
     const Draft draft = std::move(open.back());
     open.pop_back();
-    Case way = caseOf(iteration, draft);
-    if (!isPossible(way))
+    Case path = caseOf(iteration, draft);
+    if (!isPossible(path))
       continue;
     std::vector<Draft> parts;
-    if (open.size() + ways.size() < kMostCases && split(draft, parts))
+    if (open.size() + paths.size() < kMostCases && split(draft, parts))
       open.insert(open.end(), parts.begin(), parts.end());
     else
-      ways.push_back(std::move(way));
+      paths.push_back(std::move(path));
   }
-  std::move(ways.begin(), ways.end(), std::back_inserter(cases_));
+  std::move(paths.begin(), paths.end(), std::back_inserter(cases_));
 }
 
 /// By the first condition of a number, difference or disjunction.
@@ -282,7 +282,7 @@ bool RankingSynthesis::splitFormula(const Draft &draft, std::vector<Draft> &part
 }
 
 RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t iteration, const Draft &draft) {
-  Case way{iteration, {}, {}};
+  Case path{iteration, {}, {}};
   std::vector<TermId> open = draft.formulas;
   while (!open.empty()) {
     const TermId formula = open.back();
@@ -290,20 +290,20 @@ RankingSynthesis::Case RankingSynthesis::caseOf(std::size_t iteration, const Dra
     if (store_[formula].kind == TermKind::And)
       open.insert(open.end(), store_[formula].arguments.begin(), store_[formula].arguments.end());
     else if (auto row = rowOf(formula))
-      way.rows.push_back(std::move(*row));
+      path.rows.push_back(std::move(*row));
     else if (formula == store_.no())
-      way.rows.push_back({{}, Number(-1), false});
+      path.rows.push_back({{}, Number(-1), false});
   }
   for (std::size_t i = 0; i < variables_.size(); ++i)
-    way.next.emplace(variables_[i], expanded(draft.next[i]));
-  addProducts(way);
-  return way;
+    path.next.emplace(variables_[i], expanded(draft.next[i]));
+  addProducts(path);
+  return path;
 }
 
 /// Products of what iterations change are changed by them, too.
-void RankingSynthesis::addProducts(Case &way) {
+void RankingSynthesis::addProducts(Case &path) {
   std::set<Atom> products;
-  for (const Row &row : way.rows)
+  for (const Row &row : path.rows)
     for (const auto &[atom, factor] : row.factors)
       if (store_[atom].kind == TermKind::Multiply)
         products.insert(atom);
@@ -313,14 +313,14 @@ void RankingSynthesis::addProducts(Case &way) {
     bool isKnown = factors.size() <= kMostFactors;
     bool isConstant = true;
     for (std::size_t i = 0; i < factors.size() && isKnown; ++i) {
-      const auto known = way.next.find(factors[i]);
-      isConstant = isConstant && known == way.next.end();
-      isKnown = known != way.next.end() || isSteady(factors[i]);
-      next = times(next, known != way.next.end() ? known->second : Row{{{factors[i], Number(1)}}, Number(), false});
+      const auto known = path.next.find(factors[i]);
+      isConstant = isConstant && known == path.next.end();
+      isKnown = known != path.next.end() || isSteady(factors[i]);
+      next = times(next, known != path.next.end() ? known->second : Row{{{factors[i], Number(1)}}, Number(), false});
     }
     if (!isKnown || isConstant)
       continue;
-    way.next.emplace(product, std::move(next));
+    path.next.emplace(product, std::move(next));
     if (std::find(products_.begin(), products_.end(), product) == products_.end())
       products_.push_back(product);
   }
@@ -374,14 +374,14 @@ std::optional<RankingSynthesis::Row> RankingSynthesis::rowOf(TermId literal) con
   return row;
 }
 
-bool RankingSynthesis::isPossible(const Case &way) {
+bool RankingSynthesis::isPossible(const Case &path) {
   Simplex simplex;
   std::map<Atom, Simplex::Column> columns;
-  for (const Row &row : way.rows)
+  for (const Row &row : path.rows)
     for (const auto &[atom, factor] : row.factors)
       if (!columns.contains(atom))
         columns.emplace(atom, simplex.addColumn());
-  for (const Row &row : way.rows) {
+  for (const Row &row : path.rows) {
     Simplex::Form form;
     for (const auto &[atom, factor] : row.factors)
       if (!factor.isZero())
@@ -394,20 +394,20 @@ bool RankingSynthesis::isPossible(const Case &way) {
   return isPossible;
 }
 
-// ---- measures ----
+// ---- ranking functions ----
 
 std::optional<TermId> RankingSynthesis::loweredBy(std::size_t iteration) {
   Program program(atoms_, 1);
   const auto lower = [&](std::size_t lowered) {
-    for (const Case &way : cases_)
-      if (way.iteration == lowered) {
-        program.require(way, Program::minus(program.fallOf(0, way), Number(1)));
-        program.require(way, program.rankingOf(0));
+    for (const Case &path : cases_)
+      if (path.iteration == lowered) {
+        program.require(path, Program::minus(program.decreaseOf(0, path), Number(1)));
+        program.require(path, program.rankingOf(0));
       }
   };
-  for (const Case &way : cases_)
-    if (way.iteration != iteration)
-      program.require(way, program.fallOf(0, way));
+  for (const Case &path : cases_)
+    if (path.iteration != iteration)
+      program.require(path, program.decreaseOf(0, path));
   lower(iteration);
   bool found = program.isFeasible();
   if (found) {
@@ -421,40 +421,40 @@ std::optional<TermId> RankingSynthesis::loweredBy(std::size_t iteration) {
     makePlain(program, 1);
   }
   work_ += program.work();
-  return found ? std::optional(measure(program, 0)) : std::nullopt;
+  return found ? std::optional(ranking(program, 0)) : std::nullopt;
 }
 
 std::optional<std::vector<TermId>> RankingSynthesis::nested(std::size_t depth) {
   Program program(atoms_, depth);
-  for (const Case &way : cases_) {
+  for (const Case &path : cases_) {
     for (std::size_t i = 0; i < depth; ++i) {
-      Program::Form fall = Program::minus(program.fallOf(i, way), Number(1));
+      Program::Form fall = Program::minus(program.decreaseOf(i, path), Number(1));
       if (i > 0)
         fall.add(program.rankingOf(i - 1), Number(1));
-      program.require(way, fall);
+      program.require(path, fall);
     }
-    program.require(way, program.rankingOf(depth - 1));
+    program.require(path, program.rankingOf(depth - 1));
   }
-  std::optional<std::vector<TermId>> measures;
+  std::optional<std::vector<TermId>> rankings;
   if (program.isFeasible()) {
     makePlain(program, depth);
-    measures.emplace();
+    rankings.emplace();
     for (std::size_t i = 0; i < depth; ++i)
-      measures->push_back(measure(program, i));
+      rankings->push_back(ranking(program, i));
   }
   work_ += program.work();
-  return measures;
+  return rankings;
 }
 
 std::optional<TermId> RankingSynthesis::decreasing() {
   Program program(variables_, 1);
-  for (const Case &way : cases_)
-    program.require(way, Program::minus(program.fallOf(0, way), Number(1)));
+  for (const Case &path : cases_)
+    program.require(path, Program::minus(program.decreaseOf(0, path), Number(1)));
   const bool found = program.isFeasible();
   if (found)
     makePlain(program, 1);
   work_ += program.work();
-  return found ? std::optional(measure(program, 0)) : std::nullopt;
+  return found ? std::optional(ranking(program, 0)) : std::nullopt;
 }
 
 /// Coefficients that need not be there are 0.
@@ -474,7 +474,7 @@ void RankingSynthesis::makePlain(Program &program, std::size_t components) {
 }
 
 /// With whole factors that have no divisor in common; over the terms of the loop.
-TermId RankingSynthesis::measure(const Program &program, std::size_t component) {
+TermId RankingSynthesis::ranking(const Program &program, std::size_t component) {
   const Program::Form &form = program.rankingOf(component);
   smt::LinearSum sum{program.value(form.constant), {}};
   Number denominators(1);

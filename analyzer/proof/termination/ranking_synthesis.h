@@ -1,10 +1,11 @@
-// Ranking synthesis: linear measures of a loop, found by linear programming.
+// Ranking synthesis: linear ranking functions of a loop, found by linear programming.
 //
 // What an iteration takes for granted is read as linear constraints over its numbers; products, and what is known of a
-// function by its facts alone, count as numbers of their own.  By Farkas' lemma a linear measure falls in an iteration,
-// and is bounded there, exactly when multipliers of these constraints say so, and the coefficients of the measure and
-// the multipliers are one linear program (Podelski, Rybalchenko, "A complete method for the synthesis of linear ranking
-// functions", 2004).  A measure that is found is a guess: whoever asked has to prove of it what it is meant for.
+// function by its facts alone, count as numbers of their own.  By Farkas' lemma a linear ranking function falls in an
+// iteration, and is bounded there, exactly when multipliers of these constraints say so, and the coefficients of the
+// ranking function and the multipliers are one linear program (Podelski, Rybalchenko, "A complete method for the
+// synthesis of linear ranking functions", 2004).  A ranking function that is found is a guess: whoever asked has to
+// prove of it what it is meant for.
 #pragma once
 
 #include "proof/explore/exploration.h"
@@ -24,9 +25,9 @@ public:
 
   /// Lowered by the iteration, before which it is not negative; raised by none; lowered by as many others as can be.
   std::optional<smt::TermId> loweredBy(std::size_t iteration);
-  /// Measures of which every iteration lowers the first, and each other as soon as the one before it is negative;
-  /// before no iteration is the last of them negative (Leike, Heizmann, "Ranking templates for linear loops", 2015:
-  /// nested).
+  /// Ranking functions of which every iteration lowers the first, and each other as soon as the one before it is
+  /// negative; before no iteration is the last of them negative (Leike, Heizmann, "Ranking templates for linear loops",
+  /// 2015: nested).
   std::optional<std::vector<smt::TermId>> nested(std::size_t depth);
   /// Lowered by every iteration, without a bound.
   std::optional<smt::TermId> decreasing();
@@ -41,7 +42,7 @@ private:
     smt::Number constant;
     bool isEquality = false;
   };
-  /// One way through an iteration, without choices.
+  /// One path through an iteration, without choices.
   struct Case {
     std::size_t iteration;
     std::vector<Row> rows;
@@ -55,13 +56,13 @@ private:
   bool split(const Draft &draft, std::vector<Draft> &parts);
   bool splitFormula(const Draft &draft, std::vector<Draft> &parts, smt::TermKind kind);
   Case caseOf(std::size_t iteration, const Draft &draft);
-  void addProducts(Case &way);
+  void addProducts(Case &path);
   Row times(const Row &left, const Row &right) const;
   Row expanded(smt::TermId term) const;
   std::optional<Row> rowOf(smt::TermId literal) const;
-  bool isPossible(const Case &way);
+  bool isPossible(const Case &path);
   bool isSteady(Atom atom) const;
-  smt::TermId measure(const Program &program, std::size_t component);
+  smt::TermId ranking(const Program &program, std::size_t component);
   void makePlain(Program &program, std::size_t components);
 
   const SymbolicInterpretation &reading_;
@@ -72,7 +73,7 @@ private:
   std::vector<std::pair<Atom, smt::TermId>> applications_; // that count as numbers
   std::vector<Case> cases_;
   std::vector<Atom> products_; // of variables
-  std::vector<Atom> atoms_;    // that a measure may speak of
+  std::vector<Atom> atoms_;    // that a ranking function may speak of
   std::uint64_t work_ = 0;
 };
 

@@ -53,7 +53,7 @@ public:
   }
 
   std::optional<Recurrence> run() {
-    if (loop_.callsUnknown || loop_.transitions.empty() || !collectPaths() || !follow())
+    if (loop_.unmodelledCall || loop_.transitions.empty() || !collectPaths() || !follow())
       return std::nullopt;
     for (const Detail detail : {Detail::Signs, Detail::Places, Detail::Remainders}) {
       std::vector<TermId> set = candidates(detail);
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  // ---- ways of the iterations, and of those of loops within ----
+  // ---- paths of the iterations, and of those of loops within ----
 
   /// False: paths have been merged, and what is a branch of which cannot be told.
   bool collectPaths() {
@@ -86,19 +86,19 @@ private:
     for (bool grew = true; grew;) {
       grew = false;
       for (const LoopInstance &inner : exploration_.loops) {
-        const auto leadsThere = [&](const std::vector<TermId> *way) {
-          return inner.arrival.size() > loop_.arrival.size() && isPrefix(inner.arrival, *way);
+        const auto leadsThere = [&](const std::vector<TermId> *path) {
+          return inner.arrival.size() > loop_.arrival.size() && isPrefix(inner.arrival, *path);
         };
         if (taken.contains(&inner) || std::none_of(paths_.begin(), paths_.end(), leadsThere))
           continue;
-        if (inner.callsUnknown || !take(inner))
+        if (inner.unmodelledCall || !take(inner))
           return false;
         taken.insert(&inner);
         grew = true;
       }
     }
-    for (const std::vector<TermId> *way : paths_)
-      for (const TermId condition : *way)
+    for (const std::vector<TermId> *path : paths_)
+      for (const TermId condition : *path)
         for (const TermId variable : smt::variablesOf(store_, condition))
           if (isSignal(store_[variable])) {
             fixed_.emplace(variable, store_.number(Number(0)));
@@ -311,10 +311,10 @@ private:
     return true;
   }
 
-  /// At each branch one of the ways goes on.
+  /// At each branch one of the paths goes on.
   bool staysInside(const std::vector<TermId> &set) {
     struct Node {
-      std::vector<const std::vector<TermId> *> ways;
+      std::vector<const std::vector<TermId> *> paths;
       std::size_t depth;
     };
     std::vector<Node> open{{paths_, loop_.arrival.size()}};
@@ -325,23 +325,23 @@ private:
       const Node node = std::move(open.back());
       open.pop_back();
       std::map<TermId, std::vector<const std::vector<TermId> *>> next;
-      for (const std::vector<TermId> *way : node.ways)
-        if (way->size() > node.depth)
-          next[(*way)[node.depth]].push_back(way);
+      for (const std::vector<TermId> *path : node.paths)
+        if (path->size() > node.depth)
+          next[(*path)[node.depth]].push_back(path);
       std::vector<TermId> cases;
-      for (const auto &[condition, ways] : next)
+      for (const auto &[condition, paths] : next)
         cases.push_back(withInputs(condition));
       const bool isKnown = next.empty() || (next.size() == 1 && known_.contains(next.begin()->first)); // back at a head
       if (!isKnown) {
         std::vector<TermId> all = context;
         for (std::size_t i = loop_.arrival.size(); i < node.depth; ++i)
-          all.push_back(withInputs((*node.ways.front())[i]));
+          all.push_back(withInputs((*node.paths.front())[i]));
         if (work_ > kMostRecurrenceWork || !proves(all, store_.logicalOr(cases)))
           return false;
       }
-      for (auto &[condition, ways] : next)
+      for (auto &[condition, paths] : next)
         if (withInputs(condition) != store_.no())
-          open.push_back({std::move(ways), node.depth + 1});
+          open.push_back({std::move(paths), node.depth + 1});
     }
     return true;
   }

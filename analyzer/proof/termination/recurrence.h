@@ -1,10 +1,9 @@
-// Recurrence sets: why a loop goes on for ever from given inputs (Gupta, Henzinger, Majumdar, Rybalchenko, Xu, "Proving
-// non-termination", 2008).
+// Recurrence sets: proofs that a loop never ends from given inputs (Gupta, Henzinger, Majumdar, Rybalchenko, Xu,
+// "Proving non-termination", 2008).
 //
-// The first iterations are followed exactly.  Of what holds before the later ones, as much is kept as every iteration
-// keeps: the set is closed.  It is a recurrence set when no way out of the loop can be taken from it: at each branch
-// that the iterations come to, some iteration goes on, or one of a loop within, which either comes back or does not end
-// itself.
+// The first iterations are executed exactly.  Of the facts before the later ones, those that every iteration preserves
+// are kept: the set is closed.  It is a recurrence set if no state in it can leave the loop: at each branch some
+// iteration continues, or one of an inner loop, which either returns or does not end itself.
 #pragma once
 
 #include "meaning/machine/machine.h"

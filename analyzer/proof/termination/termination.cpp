@@ -19,9 +19,9 @@ namespace {
 constexpr std::size_t kMostRankings = 60;
 constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostDecreasing = 16;
-constexpr std::size_t kLikely = 4;      // measures, the first of them
+constexpr std::size_t kLikely = 4;      // ranking functions, the first of them
 constexpr std::size_t kMostModels = 24; // of an iteration, the latest
-/// A measure that needs more is seldom the right one; what is linear takes less.
+/// A ranking function that needs more is seldom the right one; what is linear takes less.
 constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 /// Of one that is only tried.
 constexpr Budget kLittle{.search = 8'000, .z3 = 0, .cvc5 = 0};
@@ -39,26 +39,26 @@ public:
     for (std::size_t i = 0; i < loop_.transitions.size(); ++i)
       all.push_back(i);
     models_.resize(all.size());
-    candidates_ = measures();
+    candidates_ = candidateRankings();
     result_.proved = attempt([&] { return rank(all); }) || rankWithSupport(all);
     if (!result_.proved)
-      result_.reason = "no measure was found that every pass lowers";
+      result_.reason = "no ranking function was found: no value provably falls at every iteration";
     return std::move(result_);
   }
 
 private:
-  /// What comes to nothing leaves nothing behind.
+  /// A failed attempt leaves no trace in the result.
   template <typename Rank> bool attempt(Rank &&rankIt) {
-    const std::size_t measures = result_.measures.size();
+    const std::size_t rankings = result_.rankings.size();
     const std::size_t evidence = result_.evidence.size();
     if (rankIt())
       return true;
-    result_.measures.erase(result_.measures.begin() + static_cast<std::ptrdiff_t>(measures), result_.measures.end());
+    result_.rankings.erase(result_.rankings.begin() + static_cast<std::ptrdiff_t>(rankings), result_.rankings.end());
     result_.evidence.erase(result_.evidence.begin() + static_cast<std::ptrdiff_t>(evidence), result_.evidence.end());
     return false;
   }
 
-  /// Iterations that can follow one another in a circle are ranked together.
+  /// Iterations that can follow one another in a cycle are ranked together.
   bool rank(std::vector<std::size_t> iterations) {
     if (!phases_.empty())
       std::erase_if(iterations, [&](std::size_t iteration) { return holds(iteration, store_.no(), result_.evidence); });
@@ -69,11 +69,11 @@ private:
       return rank(iterations);
     if (iterations.size() > 12 || work_ > kMostWork)
       return false;
-    const auto circles = circlesOf(iterations);
-    if (circles.size() == 1 && circles.front().size() == iterations.size())
+    const auto cycles = cyclesOf(iterations);
+    if (cycles.size() == 1 && cycles.front().size() == iterations.size())
       return inPhases(iterations) || (lower(iterations, likely()) && rank(iterations)) || afterIteration(iterations) ||
              (lower(iterations, candidates_) && rank(iterations)) || afterPhase(iterations);
-    return std::all_of(circles.begin(), circles.end(), [&](const auto &circle) { return rank(circle); });
+    return std::all_of(cycles.begin(), cycles.end(), [&](const auto &cycle) { return rank(cycle); });
   }
   std::vector<TermId> likely() const {
     return {candidates_.begin(),
@@ -126,7 +126,7 @@ private:
     return ranked;
   }
 
-  /// Measures of which each sinks when the one before it is negative.
+  /// Ranking functions of which each falls when the one before it is negative.
   bool inPhases(const std::vector<std::size_t> &iterations) {
     for (const std::size_t depth : {2u, 3u}) {
       RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
@@ -135,22 +135,23 @@ private:
       if (!nested)
         continue;
       candidates_.insert(candidates_.begin(), nested->back());
-      if (sinks(*nested, 0, iterations))
+      if (rankOnceNegative(*nested, 0, iterations))
         return true;
     }
     return false;
   }
-  bool sinks(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &iterations) {
+  bool rankOnceNegative(const std::vector<TermId> &nested, std::size_t at, const std::vector<std::size_t> &iterations) {
     if (at + 1 == nested.size())
       return rank(iterations);
-    return sinks(nested[at], iterations, [&] { return sinks(nested, at + 1, iterations); });
+    return rankOnceNegative(nested[at], iterations, [&] { return rankOnceNegative(nested, at + 1, iterations); });
   }
-  /// Every iteration lowers it, without a bound: it is below -1 after some iterations and from then on, and there they
-  /// are ranked.
-  template <typename Rank> bool sinks(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
+  /// Every iteration lowers it, without a bound: it is below -1 from some iteration on, and ranking assumes that.
+  template <typename Rank>
+  bool rankOnceNegative(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
     std::vector<Outcome> evidence;
-    if (!std::all_of(iterations.begin(), iterations.end(),
-                     [&](std::size_t iteration) { return falls(fallOf(decreasing, iteration), iteration, evidence); }))
+    if (!std::all_of(iterations.begin(), iterations.end(), [&](std::size_t iteration) {
+          return decreases(decreaseOf(decreasing, iteration), iteration, evidence);
+        }))
       return false;
     phases_.push_back(store_.less(decreasing, store_.number(Number(-1))));
     const bool ranked = attempt(rankIt);
@@ -161,8 +162,8 @@ private:
   }
 
   /// What every iteration lowers, without a bound, is below -1 after some iterations and from then on: there the
-  /// iterations are ranked again.  Phases of a loop in which a measure rises before it falls (Leike, Heizmann, "Ranking
-  /// templates for linear loops", 2015: multiphase).
+  /// iterations are ranked again.  Phases of a loop in which a ranking function rises before it falls (Leike, Heizmann,
+  /// "Ranking templates for linear loops", 2015: multiphase).
   bool afterPhase(const std::vector<std::size_t> &iterations) {
     if (phases_.size() >= kMostPhases)
       return false;
@@ -171,30 +172,31 @@ private:
     if (const auto found = synthesis.decreasing())
       decreasing.insert(decreasing.begin(), *found);
     work_ += synthesis.work();
-    return std::any_of(decreasing.begin(), decreasing.end(),
-                       [&](TermId each) { return sinks(each, iterations, [&] { return rank(iterations); }); });
+    return std::any_of(decreasing.begin(), decreasing.end(), [&](TermId each) {
+      return rankOnceNegative(each, iterations, [&] { return rank(iterations); });
+    });
   }
-  /// By how much a measure rises may be what sinks.
+  /// The amount by which a candidate rises may fall.
   std::vector<TermId> decreasingRankings(const std::vector<std::size_t> &iterations) {
     std::set<TermId> seen;
-    for (const TermId measure : candidates_)
+    for (const TermId ranking : candidates_)
       for (const std::size_t iteration : iterations) {
-        const TermId rise = store_.negate(fallOf(measure, iteration));
+        const TermId rise = store_.negate(decreaseOf(ranking, iteration));
         if (!isConstant(rise) && seen.size() < kMostDecreasing)
           seen.insert(rise);
       }
     return {seen.begin(), seen.end()};
   }
 
-  /// By a linear measure, if there is one.
+  /// By a linear ranking function, if there is one.
   bool lowerByProgram(std::vector<std::size_t> &iterations) {
     if (iterations.size() > kMostDecreasing || work_ > kMostWork)
       return false;
     RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
     bool lowered = false;
     for (const std::size_t iteration : iterations) {
-      const auto measure = synthesis.loweredBy(iteration);
-      if (measure && lower(iterations, {*measure})) {
+      const auto ranking = synthesis.loweredBy(iteration);
+      if (ranking && lower(iterations, {*ranking})) {
         lowered = true;
         break;
       }
@@ -203,19 +205,19 @@ private:
     return lowered;
   }
 
-  /// Takes away the iterations that lower a measure which no other iteration raises.
+  /// Takes away the iterations that lower a ranking function which no other iteration raises.
   bool lower(std::vector<std::size_t> &iterations, const std::vector<TermId> &candidates) {
-    for (const TermId measure : candidates) {
+    for (const TermId ranking : candidates) {
       std::vector<Outcome> evidence;
       std::vector<std::size_t> lowering;
-      std::optional<TermId> decrease;
+      std::optional<TermId> firstDecrease;
       bool raised = false;
       for (const std::size_t iteration : iterations) {
-        const TermId fall = fallOf(measure, iteration);
-        if (lowers(measure, fall, iteration, evidence)) {
+        const TermId decrease = decreaseOf(ranking, iteration);
+        if (lowers(ranking, decrease, iteration, evidence)) {
           lowering.push_back(iteration);
-          decrease = decrease.value_or(fall);
-        } else if (!holds(iteration, store_.lessOrEqual(zero(), fall), evidence)) {
+          firstDecrease = firstDecrease.value_or(decrease);
+        } else if (!holds(iteration, store_.lessOrEqual(zero(), decrease), evidence)) {
           raised = true;
           break;
         }
@@ -225,34 +227,34 @@ private:
       std::erase_if(iterations, [&](std::size_t iteration) {
         return std::find(lowering.begin(), lowering.end(), iteration) != lowering.end();
       });
-      result_.measures.push_back({measure, *decrease, std::move(lowering), !phases_.empty()});
+      result_.rankings.push_back({ranking, *firstDecrease, std::move(lowering), !phases_.empty()});
       std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
       return true;
     }
     return false;
   }
-  TermId fallOf(TermId measure, std::size_t iteration) {
-    return store_.subtract(measure, smt::substitute(store_, measure, loop_.transitions[iteration].next));
+  TermId decreaseOf(TermId ranking, std::size_t iteration) {
+    return store_.subtract(ranking, smt::substitute(store_, ranking, loop_.transitions[iteration].next));
   }
   /// By an amount that no iteration changes and that is positive, or by a fixed one.
-  bool lowers(TermId measure, TermId fall, std::size_t iteration, std::vector<Outcome> &evidence) {
-    return mayLower(fall) && holds(iteration, store_.lessOrEqual(zero(), measure), evidence) &&
-           falls(fall, iteration, evidence);
+  bool lowers(TermId ranking, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+    return mayLower(decrease) && holds(iteration, store_.lessOrEqual(zero(), ranking), evidence) &&
+           decreases(decrease, iteration, evidence);
   }
-  bool falls(TermId fall, std::size_t iteration, std::vector<Outcome> &evidence) {
-    if (!mayLower(fall))
+  bool decreases(TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+    if (!mayLower(decrease))
       return false;
-    if (isConstant(fall))
-      return holds(iteration, store_.less(zero(), fall), evidence);
+    if (isConstant(decrease))
+      return holds(iteration, store_.less(zero(), decrease), evidence);
     for (const int parts : {1, 10, 1000, 1'000'000}) {
-      if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), fall), evidence))
+      if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), decrease), evidence))
         return true;
-      if (store_.sort(fall) == smt::Sort::Int)
+      if (store_.sort(decrease) == smt::Sort::Int)
         return false;
     }
     return false;
   }
-  bool mayLower(TermId fall) const { return !store_.isNumber(fall) || store_[fall].number.sign() > 0; }
+  bool mayLower(TermId decrease) const { return !store_.isNumber(decrease) || store_[decrease].number.sign() > 0; }
 
   bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
   bool holds(std::size_t iteration, TermId goal, std::vector<Outcome> &evidence) {
@@ -288,14 +290,14 @@ private:
   TermId zero() { return store_.number(Number(0)); }
 
   /// What the conditions of the iterations keep from below, the number of iterations apart.
-  std::vector<TermId> measures() {
+  std::vector<TermId> candidateRankings() {
     std::set<TermId> seen;
     std::vector<TermId> all;
-    const auto offer = [&](TermId measure) {
-      if (all.size() < kMostRankings && !isConstant(measure) && seen.insert(measure).second)
-        all.push_back(measure);
+    const auto offer = [&](TermId ranking) {
+      if (all.size() < kMostRankings && !isConstant(ranking) && seen.insert(ranking).second)
+        all.push_back(ranking);
     };
-    for (const TermId hint : loop_.measures)
+    for (const TermId hint : loop_.rankingHints)
       offer(hint);
     for (const Transition &transition : loop_.transitions)
       for (const TermId condition : transition.conditions)
@@ -311,7 +313,7 @@ private:
         offer(store_.add(single[i], single[j]));
     return all;
   }
-  /// Distances without their sign, and the larger of two measures.
+  /// Distances without their sign, and the larger of two ranking functions.
   std::vector<TermId> choices() {
     std::set<TermId> found;
     for (const Transition &transition : loop_.transitions)
@@ -319,8 +321,8 @@ private:
         if (const auto distance = distanceOf(part); distance && found.size() < kMostDecreasing)
           found.insert(store_.absolute(*distance));
         if (store_[part].kind == TermKind::Or || store_[part].kind == TermKind::And)
-          for (const TermId measure : largerOf(part))
-            found.insert(measure);
+          for (const TermId ranking : largerOf(part))
+            found.insert(ranking);
       }
     std::vector<TermId> numbers = loop_.variables;
     std::erase_if(numbers, [&](TermId each) { return store_.sort(each) == smt::Sort::Bool; });
@@ -371,7 +373,7 @@ private:
 
   // ---- which iteration can follow which ----
 
-  std::vector<std::vector<std::size_t>> circlesOf(const std::vector<std::size_t> &iterations) {
+  std::vector<std::vector<std::size_t>> cyclesOf(const std::vector<std::size_t> &iterations) {
     const std::size_t count = iterations.size();
     std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
     for (std::size_t i = 0; i < count; ++i)
@@ -381,19 +383,19 @@ private:
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
           reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
-    std::vector<std::vector<std::size_t>> circles;
+    std::vector<std::vector<std::size_t>> cycles;
     std::vector<bool> placed(count);
     for (std::size_t i = 0; i < count; ++i) {
       if (placed[i] || !reaches[i][i])
         continue; // happens once at most
-      circles.emplace_back();
+      cycles.emplace_back();
       for (std::size_t j = i; j < count; ++j)
         if (!placed[j] && reaches[i][j] && reaches[j][i]) {
           placed[j] = true;
-          circles.back().push_back(iterations[j]);
+          cycles.back().push_back(iterations[j]);
         }
     }
-    return circles;
+    return cycles;
   }
   /// What is not of the loop itself is read anew in the second iteration: other variables stand for it.
   bool canFollow(std::size_t first, std::size_t second) {
@@ -454,9 +456,8 @@ Termination provesEnd(const SymbolicInterpretation &reading, smt::TermStore &sto
   if (found)
     return std::move(*found);
   Termination given;
-  given.reason = smt::areStepsUsedUp()
-                     ? kProgramStepsUsedUp
-                     : "gave up: the search for what each pass of the loop lowers takes too many steps";
+  given.reason =
+      smt::areStepsUsedUp() ? kProgramStepsUsedUp : "gave up: the search for a ranking function takes too many steps";
   return given;
 }
 

@@ -15,9 +15,11 @@ using smt::TermId;
 
 namespace {
 
-class Account {
+constexpr int kMostUsefulBound = 1'000'000; // iterations
+
+class Explainer {
 public:
-  Account(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop)
+  Explainer(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop)
       : reading_(reading), store_(reading.store()), programs_(programs), loop_(loop) {
     for (const auto &[variable, value] : reading.entryValues())
       atCall_.emplace(value.number, programs.nameOfVariable(variable));
@@ -27,35 +29,37 @@ public:
   }
 
   TerminationExplanation of(const Termination &end) {
-    if (end.measures.empty())
-      return {"no pass comes back to its start", ""};
-    if (std::any_of(end.measures.begin(), end.measures.end(),
-                    [](const RankingFunction &measure) { return measure.isLate; }))
+    if (end.rankings.empty())
+      return {"no iteration leads back to the head of the loop", ""};
+    if (std::any_of(end.rankings.begin(), end.rankings.end(),
+                    [](const RankingFunction &ranking) { return ranking.isLate; }))
       return {late(end), ""};
-    if (end.measures.size() > 1)
+    if (end.rankings.size() > 1)
       return {inTurn(end), ""};
-    const RankingFunction &measure = end.measures.front();
+    const RankingFunction &ranking = end.rankings.front();
     const bool isSteady =
-        isConstant(measure.decrease) &&
+        isConstant(ranking.decrease) &&
         std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
-          return store_.subtract(measure.measure, smt::substitute(store_, measure.measure, iteration.next)) ==
-                 measure.decrease;
+          return store_.subtract(ranking.value, smt::substitute(store_, ranking.value, iteration.next)) ==
+                 ranking.decrease;
         });
-    return isSteady ? TerminationExplanation{steady(measure), bound(measure)}
-                    : TerminationExplanation{unsteady(measure), ""};
+    return isSteady ? TerminationExplanation{steady(ranking), bound(ranking)}
+                    : TerminationExplanation{unsteady(ranking), ""};
   }
 
 private:
-  /// Iterations are made while the measure is not negative; or positive, where that is so before each of them.
-  std::string bound(const RankingFunction &measure) {
-    const TermId quotient = inSteps(smt::substitute(store_, measure.measure, loop_.first), measure.decrease);
+  /// Iterations are made while the ranking function is not negative; or positive, where that is so before each of them.
+  std::string bound(const RankingFunction &ranking) {
+    const TermId quotient = inSteps(smt::substitute(store_, ranking.value, loop_.first), ranking.decrease);
     const TermId one = store_.number(Number(1));
-    TermId most = isPositive(measure) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
+    TermId most = isPositive(ranking) ? store_.ceiling(quotient) : store_.add(store_.floor(quotient), one);
     if (!testsFirst()) {
       most = store_.add(most, one); // what comes back to the start begins one iteration more
       if (!isMetWith(store_.lessOrEqual(one, most)))
         return ""; // such a loop has one iteration at least, however small the number is
     }
+    if (store_.isNumber(most) && Number(kMostUsefulBound) < store_[most].number)
+      return ""; // true, and of no use to anybody
     return roundedText(most).value_or("");
   }
   /// It holds whenever the loop is met.
@@ -84,8 +88,8 @@ private:
     const auto text = shopText(store_, inside, atCall_);
     return text ? std::optional(fmt::format("{}[{}]", factor.sign() > 0 ? "FIX" : "FUP", *text)) : std::nullopt;
   }
-  bool isPositive(const RankingFunction &measure) {
-    const TermId goal = store_.less(store_.number(Number(0)), measure.measure);
+  bool isPositive(const RankingFunction &ranking) {
+    const TermId goal = store_.less(store_.number(Number(0)), ranking.value);
     return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
       return discharge(store_, relevantQuery(store_, reading_.facts(), iteration.conditions, goal), Budget::quick())
           .proved();
@@ -108,25 +112,26 @@ private:
     return store_.add(store_.divide(store_.fromLinear(rest), step), store_.number(steps));
   }
 
-  /// The measure is a variable over or under a limit, mostly.
-  std::string steady(const RankingFunction &measure) {
+  /// The ranking function is a variable over or under a limit, mostly.
+  std::string steady(const RankingFunction &ranking) {
     for (const LoopInstance::Value &value : loop_.values)
-      if (const auto ratio = ratioOf(value.generic, measure.measure))
-        if (std::string text = steady(value, *ratio, measure); !text.empty())
+      if (const auto ratio = ratioOf(value.generic, ranking.value))
+        if (std::string text = steady(value, *ratio, ranking); !text.empty())
           return text;
-    const auto step = shown(measure.decrease);
-    const auto text = shopText(store_, measure.measure, namesBeforeIteration());
-    return step && text ? fmt::format("`{}` falls by `{}` each pass and is never below 0 before one", *text, *step)
-                        : "";
+    const auto step = shown(ranking.decrease);
+    const auto text = shopText(store_, ranking.value, namesBeforeIteration());
+    return step && text
+               ? fmt::format("`{}` falls by `{}` at every iteration and is never negative before one", *text, *step)
+               : "";
   }
-  /// value = ratio * measure + a limit.  What a loop tests at its end is the value behind the iteration.
-  std::string steady(const LoopInstance::Value &value, const Number &ratio, const RankingFunction &measure) {
-    const TermId step = store_.scale(ratio.sign() < 0 ? -ratio : ratio, measure.decrease);
+  /// value = ratio * ranking function + a limit.  What a loop tests at its end is the value behind the iteration.
+  std::string steady(const LoopInstance::Value &value, const Number &ratio, const RankingFunction &ranking) {
+    const TermId step = store_.scale(ratio.sign() < 0 ? -ratio : ratio, ranking.decrease);
     const TermId tested =
-        testsFirst() ? value.generic : store_.subtract(value.generic, store_.scale(ratio, measure.decrease));
-    TermId limit = store_.subtract(tested, store_.scale(ratio, measure.measure));
-    bool isReached = isPositive(measure);
-    if (!isReached && store_.sort(measure.measure) == smt::Sort::Int) { // not negative: above -1
+        testsFirst() ? value.generic : store_.subtract(value.generic, store_.scale(ratio, ranking.decrease));
+    TermId limit = store_.subtract(tested, store_.scale(ratio, ranking.value));
+    bool isReached = isPositive(ranking);
+    if (!isReached && store_.sort(ranking.value) == smt::Sort::Int) { // not negative: above -1
       limit = store_.subtract(limit, store_.number(ratio));
       isReached = true;
     }
@@ -136,13 +141,14 @@ private:
       return "";
     const bool falls = ratio.sign() > 0;
     const std::string_view where = isReached ? "at" : falls ? "below" : "above";
-    return fmt::format("`{}` {} by `{}` each pass and the loop stops {} `{}`", programs_.nameOfVariable(value.variable),
-                       falls ? "falls" : "rises", *stepText, where, *limitText);
+    return fmt::format("`{}` {} by `{}` at every iteration, and the loop stops {} `{}`",
+                       programs_.nameOfVariable(value.variable), falls ? "falls" : "rises", *stepText, where,
+                       *limitText);
   }
-  /// How much of the measure a value holds, when no iteration changes the rest of it.
-  std::optional<Number> ratioOf(TermId value, TermId measure) {
+  /// How much of the ranking function a value holds, when no iteration changes the rest of it.
+  std::optional<Number> ratioOf(TermId value, TermId ranking) {
     const smt::LinearSum whole = store_.linear(value);
-    for (const auto &[term, factor] : store_.linear(measure).terms) {
+    for (const auto &[term, factor] : store_.linear(ranking).terms) {
       if (isConstant(term))
         continue;
       for (const auto &[other, times] : whole.terms)
@@ -152,24 +158,26 @@ private:
     }
     return std::nullopt;
   }
-  std::string unsteady(const RankingFunction &measure) {
-    const auto text = shopText(store_, measure.measure, namesBeforeIteration());
-    return text ? fmt::format("`{}` falls each pass and is never below 0 before one", *text) : "";
+  std::string unsteady(const RankingFunction &ranking) {
+    const auto text = shopText(store_, ranking.value, namesBeforeIteration());
+    return text ? fmt::format("`{}` falls at every iteration and is never negative before one", *text) : "";
   }
   /// Of a loop with phases: what ends the last one.
   std::string late(const Termination &end) {
-    const auto text = shopText(store_, end.measures.back().measure, namesBeforeIteration());
-    return text ? fmt::format("from some pass on `{}` falls each pass, and it is not below 0 before one", *text) : "";
+    const auto text = shopText(store_, end.rankings.back().value, namesBeforeIteration());
+    return text ? fmt::format("from some iteration on, `{}` falls every time and is never negative before one", *text)
+                : "";
   }
   std::string inTurn(const Termination &end) {
     std::string text;
-    for (const RankingFunction &measure : end.measures) {
-      const auto name = shopText(store_, measure.measure, namesBeforeIteration());
+    for (const RankingFunction &ranking : end.rankings) {
+      const auto name = shopText(store_, ranking.value, namesBeforeIteration());
       if (!name)
         return "";
-      text += fmt::format("{}`{}`", text.empty() ? "every pass lowers " : ", or leaves it and lowers ", *name);
+      text += fmt::format("{}`{}`", text.empty() ? "every iteration lowers " : ", or leaves it unchanged and lowers ",
+                          *name);
     }
-    return text + "; each is at least 0 before the passes that lower it";
+    return text + "; none is negative before an iteration that lowers it";
   }
 
   /// With the values at the call where nothing has written them since.
@@ -203,10 +211,10 @@ private:
 
 } // namespace
 
-TerminationExplanation accountOf(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop,
-                                 const Termination &end) {
-  constexpr std::uint64_t kStepsOfAccount = 200'000'000;
-  return smt::within(kStepsOfAccount, [&] { return Account(reading, programs, loop).of(end); })
+TerminationExplanation explain(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop,
+                               const Termination &end) {
+  constexpr std::uint64_t kStepsOfExplanation = 200'000'000;
+  return smt::within(kStepsOfExplanation, [&] { return Explainer(reading, programs, loop).of(end); })
       .value_or(TerminationExplanation());
 }
 

@@ -84,7 +84,7 @@ std::string agreementOf(std::string_view name, const std::vector<Question> &ques
   const std::size_t contradicts = countOf(questions, solver, SolverSays::Satisfiable);
   std::string text = fmt::format("{} refutes {}", name, countOf(questions, solver, SolverSays::Refutes));
   if (silent > 0)
-    text += fmt::format(", gives no answer to {}", silent);
+    text += fmt::format(", gives no answer on {}", silent);
   if (contradicts > 0)
     text += fmt::format(", finds {} satisfiable", contradicts);
   return text;

@@ -44,7 +44,7 @@ public:
     Json rows = Json::array();
     for (const auto &[path, file] : files)
       rows.push_back(fileToJson(path, *file));
-    const Json index = {{"version", 1}, {"feedhold", version_}, {"reading", readingToJson()}, {"files", rows}};
+    const Json index = {{"version", 2}, {"feedhold", version_}, {"options", readingToJson()}, {"files", rows}};
     bundle_.emplace(kBundleIndex, json::documentText(index));
     return std::move(bundle_);
   }
@@ -167,15 +167,15 @@ Bundle makeBundle(const ProofsResult &result, const BundleReading &reading, std:
 Result<BundleOrigin> originOf(const Bundle &bundle, const fs::path &folder) {
   const auto text = bundle.find(std::string(kBundleIndex));
   if (text == bundle.end())
-    return Error{fmt::format("no bundle of proofs: it has no {}", kBundleIndex)};
+    return Error{fmt::format("not an evidence bundle: it has no {}", kBundleIndex)};
   try {
     const Json index = Json::parse(text->second);
     BundleOrigin origin{.version = index.at("feedhold"), .paths = {}, .reading = {}};
-    if (index.at("version") != 1)
-      return Error{"a bundle of another version"};
+    if (index.at("version") != 2)
+      return Error{"the bundle has another format version"};
     for (const Json &file : index.at("files"))
       origin.paths.push_back((folder / std::string(file.at("path"))).lexically_normal());
-    const Json &reading = index.at("reading");
+    const Json &reading = index.at("options");
     if (!reading.at("dialect").is_null())
       origin.reading.dialect = std::string(reading.at("dialect"));
     origin.reading.isolated = reading.at("isolated");

@@ -1,4 +1,4 @@
-// What has become of a bundle: compared with a new proof of the same.
+// Compares a stored evidence bundle with a new proof of the same programs.
 #include "surface/evidence/evidence_bundle.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ public:
       if (problems_.empty())
         compareTexts(stored, now);
     } catch (const Json::exception &) {
-      say("`{}` is not as it was written", name);
+      say("`{}` has been changed", name);
     }
     return std::move(problems_);
   }
@@ -52,27 +52,27 @@ private:
       if (const auto known = newSources.find(path); known == newSources.end())
         say("`{}` was read for the proof but is missing now", path);
       else if (known->second.at("sha256") != source.at("sha256"))
-        say("`{}` is not what it was when it was proved", path);
+        say("`{}` has changed since it was proved", path);
     for (const auto &[path, source] : newSources)
       if (!oldSources.contains(path))
-        say("`{}` is new beside the program", path);
+        say("`{}` is new in the folder of the program", path);
     if (before.at("dialect") != now.at("dialect"))
-      say("it was read for {}, now for {}", std::string(before.at("dialect")), std::string(now.at("dialect")));
+      say("the dialect was {} and is now {}", std::string(before.at("dialect")), std::string(now.at("dialect")));
     compareObligations(rowsBy(before.at("obligations"), "id"), rowsBy(now.at("obligations"), "id"));
   }
   void compareObligations(const std::map<std::string, Json> &before, const std::map<std::string, Json> &now) {
     for (const auto &[id, row] : before)
       if (!now.contains(id))
-        say("{}: there is no such obligation", id);
+        say("{}: this obligation no longer exists", id);
     for (const auto &[id, row] : now) {
       const auto known = before.find(id);
       if (known == before.end())
-        say("{}: this obligation is missing in the bundle", id);
+        say("{}: this obligation is missing from the bundle", id);
       else if (known->second.at("verdict") != row.at("verdict"))
-        say("{}: the bundle says {}, and it is {}", id, std::string(known->second.at("verdict")),
+        say("{}: the bundle says {}; it is now {}", id, std::string(known->second.at("verdict")),
             std::string(row.at("verdict")));
       else if (known->second != row)
-        say("{}: the bundle does not say of it what a proof now gives", id);
+        say("{}: the entry in the bundle differs from a new proof", id);
     }
   }
   void compareTexts(const Bundle &stored, const Bundle &now) {
@@ -80,7 +80,7 @@ private:
       if (const auto known = stored.find(name); known == stored.end())
         say("`{}` is missing", name);
       else if (known->second != text)
-        say("`{}` is not as it was written", name);
+        say("`{}` has been changed", name);
     for (const auto &[name, text] : stored)
       if (!now.contains(name))
         say("`{}` does not belong to the bundle", name);

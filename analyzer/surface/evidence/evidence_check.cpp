@@ -64,7 +64,7 @@ smt::Arithmetic arithmeticOf(const std::string &text) {
 void contradict(Question &question) {
   for (const auto &[says, name] : {std::pair(question.z3, "Z3"), std::pair(question.cvc5, "cvc5")})
     if (says == SolverSays::Satisfiable)
-      question.problem = fmt::format("the checker follows its certificate, and {} says that it can be satisfied", name);
+      question.problem = fmt::format("the checker verified its certificate, but {} finds it satisfiable", name);
 }
 
 void checkSolved(Question &question, const std::string &text) {
@@ -79,8 +79,8 @@ void checkSolved(Question &question, const std::string &text) {
   const bool z3 = question.z3 == SolverSays::Refutes;
   const bool cvc5 = question.cvc5 == SolverSays::Refutes;
   if (!z3 || !cvc5)
-    question.problem = z3     ? "Z3 refutes it, and cvc5 does not"
-                       : cvc5 ? "cvc5 refutes it, and Z3 does not"
+    question.problem = z3     ? "Z3 refutes it, but cvc5 does not"
+                       : cvc5 ? "cvc5 refutes it, but Z3 does not"
                               : "neither Z3 nor cvc5 refutes it";
 }
 
@@ -127,9 +127,9 @@ void giveOpinions(const Bundle &bundle, std::vector<Question> &questions, unsign
 std::string_view nameOf(SolverSays says) {
   switch (says) {
   case SolverSays::Refutes: return "refutes it";
-  case SolverSays::Satisfiable: return "says it can be satisfied";
+  case SolverSays::Satisfiable: return "finds it satisfiable";
   case SolverSays::NoAnswer: return "gives no answer";
-  case SolverSays::NotAsked: return "is not asked";
+  case SolverSays::NotAsked: return "was not asked";
   }
   return "";
 }

@@ -180,9 +180,9 @@ private:
       line("note", note);
     for (const PlottedRun &run : picture_.runs)
       if (run.moves.size() > kMostMoves)
-        line("note", fmt::format("the first {} of {} movements are drawn", kMostMoves, run.moves.size()));
+        line("note", fmt::format("only the first {} of {} moves are drawn", kMostMoves, run.moves.size()));
     if (tooFar_ > 0)
-      line("note", fmt::format("{} movements are too far away to be drawn", tooFar_));
+      line("note", fmt::format("{} moves are too far away to be drawn", tooFar_));
     for (const auto *regions : {&picture_.space.keepIn, &picture_.space.keepOut})
       for (const geometry::PlainRegion &region : *regions)
         if (!std::all_of(region.parts.begin(), region.parts.end(), isDrawn))
@@ -360,7 +360,7 @@ private:
     signs.push_back({stroke("path"), "cutting"});
     signs.push_back({stroke("path rapid"), "rapid"});
     if (std::any_of(runs_.begin(), runs_.end(), hasOther))
-      signs.push_back({stroke("path other"), "not known, or with cutter compensation as programmed"});
+      signs.push_back({stroke("path other"), "unknown, or the programmed path with cutter compensation"});
     signs.push_back({"<circle class=\"mark\" cx=\"14\" cy=\"6\" r=\"5\"/>", "start"});
     signs.push_back({"<rect class=\"mark\" x=\"10\" y=\"2\" width=\"8\" height=\"8\"/>", "end"});
     for (const geometry::PlainRegion &region : picture_.space.keepIn)
@@ -413,10 +413,10 @@ std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim cl
     return fmt::format("{} {} {} at {}", number, nameOf(unit), where, place);
   };
   switch (claim) {
-  case geometry::SpaceClaim::KeepIn: return text("outside of " + space.keepIn[region].name);
-  case geometry::SpaceClaim::KeepOut: return text("inside of " + space.keepOut[region].name);
+  case geometry::SpaceClaim::KeepIn: return text("outside " + space.keepIn[region].name);
+  case geometry::SpaceClaim::KeepOut: return text("inside " + space.keepOut[region].name);
   case geometry::SpaceClaim::Clearance: return text("below the clearance height in a rapid move");
-  case geometry::SpaceClaim::Travel: return text("outside of the travel");
+  case geometry::SpaceClaim::Travel: return text("outside the travel limits");
   }
   FEEDHOLD_UNREACHABLE("the switch names every claim");
 }

@@ -64,7 +64,7 @@ Gouges gougesOf(const PicturedRun &run, const geometry::PlainSpace &space) {
     const RecordedMove &move = run.result.moves[gouge->move];
     std::string text = gougeText(space, claim, region, gouge->depth, move.unit, placeOf(run, move.place));
     if (isByRounding(claim, region))
-      gouges.byRounding.push_back(text + ", by the rounding of words to the least increment alone");
+      gouges.byRounding.push_back(text + ", only because words are rounded to the least increment");
     else
       gouges.all.push_back({*gouge, std::move(text)});
   };
@@ -83,11 +83,11 @@ std::vector<std::string> notesOf(const PicturedRun &run) {
   constexpr std::size_t kMostNotes = 4;
   std::vector<std::string> notes;
   if (!hasEnded(run.result.end))
-    notes.push_back(fmt::format("{}: the run does not come to its end ({}) but stops at {}", run.name,
-                                nameOf(run.result.end), placeOf(run, run.result.place)));
+    notes.push_back(fmt::format("{}: the run does not finish ({}); it stops at {}", run.name, nameOf(run.result.end),
+                                placeOf(run, run.result.place)));
   for (const RunNote &note : run.result.notes)
     if (notes.size() < kMostNotes)
-      notes.push_back(fmt::format("not followed: {}, {}", note.reason, placeOf(run, note.place)));
+      notes.push_back(fmt::format("not modelled: {}, {}", note.reason, placeOf(run, note.place)));
   return notes;
 }
 
@@ -121,7 +121,7 @@ RunPicture drawRuns(const std::string &title, std::span<const PicturedRun> runs)
   const PicturedRun &first = runs.front();
   if (const auto missing = missingArguments(first); !missing.empty())
     picture.notes.push_back(
-        fmt::format("without the space of the contract, which asks for {}", fmt::join(missing, " ")));
+        fmt::format("regions of the contract are not drawn: they need {}", fmt::join(missing, " ")));
   else
     picture.space = prove::plainSpace(*first.programs.set, first.start, first.programs.file(first.start.file).contracts,
                                       first.options);

@@ -1,4 +1,4 @@
-// Who calls whom: a drawing of each part of the programs that hangs together, and the same in words.
+// The call graph: a drawing of each connected part, and the same as a list.
 #include "surface/report/report_html.h"
 #include "surface/report/report_layout.h"
 
@@ -16,7 +16,7 @@ constexpr std::size_t kMostColumns = 8;
 constexpr double kMostRows = 26;
 
 constexpr double kBoxHeight = 40, kRowHeight = 54, kGap = 56, kMargin = 4;
-constexpr double kUnderRows = 36, kUnderSelf = 18; // for lines that close a ring
+constexpr double kUnderRows = 36, kUnderSelf = 18; // for lines that close a cycle
 constexpr double kLetter = 9, kSmallLetter = 6.6;
 constexpr std::size_t kMostLetters = 26;
 
@@ -60,7 +60,7 @@ public:
       drawing = draw();
     std::string html = fmt::format("<div class=\"call-part\">\n{}", drawing);
     if (drawing.empty())
-      html += fmt::format("<p>{} belong together here: too many for a drawing. The list has all calls.</p>\n",
+      html += fmt::format("<p>{} are connected by calls: too many to draw. The list shows all calls.</p>\n",
                           counted(nodes_.size(), "program"));
     return html + list() + "</div>\n";
   }
@@ -74,9 +74,9 @@ private:
     if (layout_.columns > kMostColumns || layout_.rows > kMostRows)
       return {};
     placeColumns();
-    const bool hasRing =
+    const bool hasCycle =
         std::any_of(layout_.routes.begin(), layout_.routes.end(), [](const auto &route) { return route.goesBack; });
-    const double height = 2 * kMargin + (layout_.rows - 1) * kRowHeight + kBoxHeight + (hasRing ? kUnderRows : 0);
+    const double height = 2 * kMargin + (layout_.rows - 1) * kRowHeight + kBoxHeight + (hasCycle ? kUnderRows : 0);
     const double width = columns_.back().first + columns_.back().second + kMargin;
     svg_ = fmt::format("<svg class=\"call-graph\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
                        "role=\"group\" aria-label=\"Drawing of calls\" aria-describedby=\"{2}\">\n",
@@ -86,15 +86,15 @@ private:
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       box(i);
     svg_ += "</svg>\n";
-    if (hasRing)
+    if (hasCycle)
       svg_ +=
-          "<p><small>A dashed line closes a ring: a program calls itself, by itself or through others.</small></p>\n";
+          "<p><small>A dashed line closes a cycle: a program calls itself, directly or through others.</small></p>\n";
     return std::move(svg_);
   }
 
   std::string wordOf(std::size_t i) const {
     return fmt::format("{} {}{}", nodes_[i].look.sign, nodes_[i].look.word,
-                       layout_.nodes[i].inRing ? ", in a ring" : "");
+                       layout_.nodes[i].inCycle ? ", in a cycle" : "");
   }
   void placeColumns() {
     columns_.assign(layout_.columns, {0, 96});
@@ -139,7 +139,7 @@ private:
       curve(end - 7, middleOf(to.row));
       head = fmt::format("M{:.1f} {:.1f}l-8 -4v8z", end, middleOf(to.row));
     }
-    svg_ += fmt::format("<g class=\"call{}\"><title>{} calls {}, {}</title><path class=\"way\" d=\"{}\"/><path "
+    svg_ += fmt::format("<g class=\"call{}\"><title>{} calls {}, {}</title><path class=\"line\" d=\"{}\"/><path "
                         "class=\"head\" d=\"{}\"/></g>\n",
                         route.goesBack ? " back" : "", xml(nodes_[edge.from].name), xml(nodes_[edge.to].name),
                         linesOf(edge), path, head);
@@ -174,10 +174,11 @@ private:
       std::string calls;
       for (const CallEdge &edge : edges_)
         if (edge.from == i)
-          calls += fmt::format("{}{}{} <small>{}</small>", calls.empty() ? "" : ", ", nameOf(edge.to),
-                               nodes_[edge.to].look.style == "missing" ? std::string(" (not here: it may do anything)")
-                                                                       : std::string(),
-                               linesOf(edge));
+          calls +=
+              fmt::format("{}{}{} <small>{}</small>", calls.empty() ? "" : ", ", nameOf(edge.to),
+                          nodes_[edge.to].look.style == "missing" ? std::string(" (not supplied: it may do anything)")
+                                                                  : std::string(),
+                          linesOf(edge));
       if (!calls.empty())
         html += fmt::format("<li>{} calls {}</li>\n", nameOf(i), calls);
     }
@@ -203,7 +204,7 @@ public:
     for (const Json &file : document.at("files"))
       for (const Json &program : file.at("programs"))
         add(file.at("path").get<std::string>() + "|" + program.at("name").get<std::string>(),
-            {program.at("name"), program.at("title"), anchorOf(file, program), lookOfStatus(program.at("standing"))});
+            {program.at("name"), program.at("title"), anchorOf(file, program), lookOfStatus(program.at("status"))});
     for (const Json &file : document.at("files"))
       for (const Json &program : file.at("programs"))
         for (const Json &call : program.at("calls"))
@@ -213,8 +214,8 @@ public:
   std::string write() const {
     if (edges_.empty())
       return {};
-    std::string html = "<section id=\"calls\">\n<h2>Who calls whom</h2>\n<p>A program stands to the right of the "
-                       "programs that call it. The word says how far it is proved.</p>\n";
+    std::string html = "<section id=\"calls\">\n<h2>Who calls whom</h2>\n<p>Each program is to the right of its "
+                       "callers. The label shows how far it is proved.</p>\n";
     std::vector<LayoutEdge> lines;
     for (const CallEdge &edge : edges_)
       lines.push_back({edge.from, edge.to});
@@ -248,7 +249,7 @@ private:
     const std::string from = call.at("fromPath").get<std::string>() + "|" + call.at("from").get<std::string>();
     const std::string to = call.at("to");
     const bool isThere = !call.at("path").is_null();
-    const Look notProved{"outside", "–", "not in this report"}, missing{"missing", "∅", "not here"};
+    const Look notProved{"outside", "–", "not in this report"}, missing{"missing", "∅", "not supplied"};
     const std::size_t caller = add(from, {call.at("from"), {}, {}, notProved});
     // What is computed may be another program at each place.
     const std::size_t callee =

@@ -1,4 +1,4 @@
-// What has become of a report: whether it fits together, and whether the same programs give the same one now.
+// Checks a stored release report: whether it is consistent, and whether the same programs give the same report now.
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "surface/report/report_parts.h"
@@ -15,7 +15,7 @@ using certificate::Json;
 Result<Json> certificate::readDocument(const Bundle &report) {
   const auto text = report.find(std::string(kReportDocument));
   if (text == report.end())
-    return Error{fmt::format("no report: it has no {}", kReportDocument)};
+    return Error{fmt::format("not a release report: it has no {}", kReportDocument)};
   Json document = Json::parse(text->second, nullptr, false);
   if (document.is_discarded() || !document.is_object())
     return Error{fmt::format("{} cannot be read", kReportDocument)};
@@ -53,7 +53,7 @@ private:
       for (std::size_t i = 0; i < now.size(); ++i)
         compare(where + "[" + nameOf(now[i], i) + "]", before[i], now[i]);
     else
-      lines_.push_back(fmt::format("`{}`: `{}` is not what a proof now gives", kReportDocument, where));
+      lines_.push_back(fmt::format("`{}`: `{}` differs from a new proof", kReportDocument, where));
   }
   void compareMembers(const std::string &where, const Json &before, const Json &now) {
     const auto of = [&](const std::string &name) { return where.empty() ? name : where + "." + name; };
@@ -61,7 +61,7 @@ private:
       compare(of(name), before.contains(name) ? before.at(name) : Json(), value);
     for (const auto &[name, value] : before.items())
       if (!now.contains(name))
-        lines_.push_back(fmt::format("`{}`: `{}` does not belong there", kReportDocument, of(name)));
+        lines_.push_back(fmt::format("`{}`: `{}` is not expected there", kReportDocument, of(name)));
   }
   static std::string nameOf(const Json &row, std::size_t index) {
     for (const char *member : {"id", "path", "name", "file"})
@@ -80,13 +80,13 @@ Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) 
   if (!document)
     return document.error();
   try {
-    if (document.value().at("version") != 1)
-      return Error{"a report of another version"};
+    if (document.value().at("version") != 2)
+      return Error{"the report has another format version"};
     const auto pathOf = [&](const Json &path) {
       return (fs::absolute(folder) / path.get<std::string>()).lexically_normal();
     };
     ReportOrigin origin{.version = document.value().at("feedhold"), .options = {}};
-    const Json &reading = document.value().at("reading");
+    const Json &reading = document.value().at("options");
     for (const Json &path : reading.at("paths"))
       origin.options.paths.push_back(pathOf(path));
     if (!reading.at("dialect").is_null())
@@ -112,7 +112,7 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
   try {
     const Json document = Json::parse(text);
     if (certificate::textOf(document) != text)
-      lines.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
+      lines.push_back(fmt::format("`{}` has been changed", kReportDocument));
     std::map<std::string, std::string> hashes;
     collectHashes(document, "", hashes);
     const std::string index = std::string(kEvidenceFolder) + std::string(kBundleIndex);
@@ -122,7 +122,7 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
       if (const auto file = report.find(name); file == report.end())
         lines.push_back(fmt::format("`{}` is missing", name));
       else if (sha256(file->second) != hash)
-        lines.push_back(fmt::format("`{}` is not the one that was written: its hash is another", name));
+        lines.push_back(fmt::format("`{}` has been changed: its hash differs", name));
     for (const auto &[name, content] : report)
       if (name != kReportDocument && name != kReportPage && !hashes.contains(name))
         lines.push_back(fmt::format("`{}` does not belong to the report", name));
@@ -132,7 +132,7 @@ std::vector<std::string> inconsistencies(const Bundle &report) {
     else if (page->second != certificate::pageOf(text, report))
       lines.push_back(fmt::format("`{}` is not the page of this `{}`", kReportPage, kReportDocument));
   } catch (const Json::exception &) {
-    lines.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
+    lines.push_back(fmt::format("`{}` has been changed", kReportDocument));
   }
   return lines;
 }
@@ -141,12 +141,12 @@ std::vector<std::string> reportDifferences(const Bundle &stored, const Bundle &n
   const Result<Json> before = certificate::readDocument(stored);
   const Result<Json> after = certificate::readDocument(now);
   if (!before || !after)
-    return {fmt::format("`{}` is not as it was written", kReportDocument)};
+    return {fmt::format("`{}` has been changed", kReportDocument)};
   std::vector<std::string> lines = DocumentComparison().run(before.value(), after.value());
   for (const auto &[name, text] : now)
     if (const auto file = stored.find(name);
         name.starts_with("pictures/") && file != stored.end() && file->second != text)
-      lines.push_back(fmt::format("`{}` is not as it was drawn", name));
+      lines.push_back(fmt::format("`{}` differs from a new drawing", name));
   return lines;
 }
 

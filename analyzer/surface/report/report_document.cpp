@@ -57,13 +57,13 @@ public:
     for (const auto &[path, index] : order)
       files.push_back(fileToJson(path, index));
     Json solvers = input_.solvers;
-    return {{"version", 1},
+    return {{"version", 2},
             {"feedhold", input_.version},
             {"solvers", std::move(solvers)},
             {"date", input_.options.date ? Json(*input_.options.date) : Json()},
-            {"reading", readingToJson()},
+            {"options", readingToJson()},
             {"counts", countsToJson(counts_)},
-            {"standing", nameOf(releaseStatusOf(input_.proofs))},
+            {"status", nameOf(releaseStatusOf(input_.proofs))},
             {"assumptions", assumptions()},
             {"sources", sourcesToJson()},
             {"files", std::move(files)},
@@ -122,7 +122,7 @@ private:
           called.insert(callee->file.index());
     for (std::size_t i = 0; i < file.project->files.size(); ++i) {
       const ProjectFile &loaded = *file.project->files[i];
-      addSource(loaded.path, loaded.source.text(), i == 0 ? "program" : called.contains(i) ? "called" : "beside");
+      addSource(loaded.path, loaded.source.text(), i == 0 ? "program" : called.contains(i) ? "called" : "same-folder");
       for (std::size_t contract = 1; contract < loaded.contracts.sources.size(); ++contract) {
         const SourceFile &source = loaded.contracts.sources[contract];
         addSource(source.path(), source.text(), "contract");
@@ -212,12 +212,12 @@ private:
             {"title", titleOf(loaded, program.program)},
             {"line", loaded.source.lineOf(loaded.model.programs[program.program].header.begin)},
             {"counts", countsToJson(counts)},
-            {"standing", nameOf(releaseStatusOf(file, program))},
+            {"status", nameOf(releaseStatusOf(file, program))},
             {"summary", sentenceOf(file, program)},
             {"clauses", clausesOf(loaded, program.program)},
             {"calls", callsOf(file, program.program)},
             {"incomplete", program.proof.incomplete ? Json(*program.proof.incomplete) : Json()},
-            {"unfollowed", unfollowedOf(file, program)},
+            {"unmodelled", unmodelledOf(file, program)},
             {"obligations", std::move(obligations)},
             {"runs", runsToJson(path, runs)}};
   }
@@ -260,9 +260,9 @@ private:
     const std::string name = toString(file.model.programs[program].name);
     return name.empty() ? "a program without a number" : name;
   }
-  Json unfollowedOf(const ProvedFile &file, const ProvedProgram &program) const {
+  Json unmodelledOf(const ProvedFile &file, const ProvedProgram &program) const {
     Json rows = Json::array();
-    for (const prove::Unfollowed &each : program.proof.unfollowed) {
+    for (const prove::Unmodelled &each : program.proof.unmodelled) {
       const ProjectFile &where = file.project->file(each.place.file);
       rows.push_back(
           {{"reason", each.reason}, {"path", relative(where.path)}, {"line", where.source.lineOf(each.span.begin)}});
@@ -326,7 +326,7 @@ private:
     row.erase("program");
     row["evidence"] = evidenceToJson(row.at("evidence"));
     row["method"] = obligation.verdict.method().empty() ? Json() : Json(obligation.verdict.method());
-    row["rlimit"] = obligation.effort;
+    row["effort"] = obligation.effort;
     row["margin"] = obligation.verdict.margin() ? Json(*obligation.verdict.margin()) : Json();
     row["path"] = relative(file.project->file(obligation.place.file).path);
     row["line"] = file.project->file(obligation.place.file).source.lineOf(obligation.span.begin);

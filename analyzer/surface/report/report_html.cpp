@@ -58,7 +58,7 @@ Look lookOfClaim(const Json &obligation) {
 Look lookOfStatus(const Json &status) {
   if (status == "ready")
     return {"proved", "✓", "proved"};
-  if (status == "broken")
+  if (status == "refuted")
     return {"refuted", "✗", "refuted"};
   if (status == "alarms")
     return {"alarms", "!", "alarm to decide on"};

@@ -57,7 +57,7 @@ private:
       if (layout_.routes[i].goesBack)
         markRing(edges_[i]);
     for (std::size_t i = 0; i < marks_.size(); ++i)
-      layout_.nodes[i].inRing = isInRing_[i];
+      layout_.nodes[i].inCycle = isInRing_[i];
   }
   void visit(std::size_t start) {
     if (marks_[start] != Mark::New)

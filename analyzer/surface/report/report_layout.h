@@ -20,7 +20,7 @@ struct Layout {
   struct Node {
     std::size_t column = 0;
     double row = 0; // those of one column are at least 1 apart
-    bool inRing = false;
+    bool inCycle = false;
   };
   struct Route {
     bool goesBack = false;      // closes a ring: it leads to the same column or to one before

@@ -1,5 +1,5 @@
-// The page of a certificate: one HTML file without script, without network, made of certificate.json and the pictures
-// beside it alone, so that it can be made again and compared.
+// The page of a release report: one HTML file without script, without network, made of certificate.json and the
+// pictures beside it alone, so that it can be made again and compared.
 #include "base/support/sha256.h"
 #include "surface/report/report_html.h"
 #include "surface/report/report_style.h"
@@ -84,10 +84,10 @@ private:
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" content=\"feedhold {}\">\n"
         "<meta name=\"certificate-sha256\" content=\"{}\">\n"
-        "<title>Certificate: {}</title>\n<style>\n{}@page {{ @bottom-left {{ content: \"certificate {}\"; }} }}\n"
+        "<title>Release report: {}</title>\n<style>\n{}@page {{ @bottom-left {{ content: \"release report {}\"; }} }}\n"
         "</style>\n</head>\n<body>\n<main>\n",
         text(document_.at("feedhold")), sha256_, xml(name), kPageStyle, sha256_.substr(0, 16));
-    add("<header>\n<p class=\"kind\">Certificate of proof</p>\n<h1>{}</h1>\n<p class=\"meta\">{}feedhold {}", xml(name),
+    add("<header>\n<p class=\"kind\">Release report</p>\n<h1>{}</h1>\n<p class=\"meta\">{}feedhold {}", xml(name),
         document_.at("date").is_null() ? std::string() : text(document_.at("date")) + " &middot; ",
         text(document_.at("feedhold")));
     for (const Json &solver : document_.at("solvers"))
@@ -100,13 +100,13 @@ private:
   }
 
   void verdict() {
-    const Look look = lookOfStatus(document_.at("standing"));
-    const Json &status = document_.at("standing");
-    const std::string_view words = status == "ready"    ? "Everything that was asked is proved"
-                                   : status == "broken" ? "Not fit for release: claims are refuted"
+    const Look look = lookOfStatus(document_.at("status"));
+    const Json &status = document_.at("status");
+    const std::string_view words = status == "ready"     ? "Ready for release: every claim is proved"
+                                   : status == "refuted" ? "Not fit for release: claims are refuted"
                                    : status == "alarms"
-                                       ? "Decide before release: alarms can come that no contract settles"
-                                       : "Not ready for release: not everything is proved";
+                                       ? "Decide before release: the contracts do not settle some alarms"
+                                       : "Not ready for release: some claims are not proved";
     Counts counts;
     eachProgram([&](const Json &, const Json &program) { countInto(counts, program); });
     std::size_t all = 0;
@@ -123,17 +123,17 @@ private:
                                                              : std::string(shown));
     add("</p>\n");
     if (programs_ > 1)
-      for (const char *each : {"broken", "alarms", "open", "ready"})
+      for (const char *each : {"refuted", "alarms", "open", "ready"})
         named(each);
     if (counts["refuted"] != 0)
-      add("<p>Refuted: a call was found, and run, that breaks the claim. The program or its contract has to "
-          "change.</p>\n");
+      add("<p>Refuted: Feedhold found a call that breaks the claim, and ran it. Change the program or its "
+          "contract.</p>\n");
     if (counts["alarm"] != 0)
-      add("<p>An alarm to decide on: the program raises it for a call that the contract allows. If it is meant, "
-          "<code>@ALARM</code> in the contract says so. If not, <code>@REQUIRE</code> rules the call out.</p>\n");
+      add("<p>An alarm to decide on: the program raises it for a call that the contract allows. If that is "
+          "intended, declare it with <code>@ALARM</code>. If not, rule the call out with <code>@REQUIRE</code>.</p>\n");
     if (counts["unknown"] != 0)
-      add("<p>Unknown: no proof was found, and no call that breaks the claim.</p>\n");
-    add("<p>Proved: it holds for all inputs at once, under the <a href=\"#assumptions\">assumptions</a> in this "
+      add("<p>Unknown: Feedhold found neither a proof nor a counterexample.</p>\n");
+    add("<p>Proved: the claim holds for all inputs, under the <a href=\"#assumptions\">assumptions</a> in this "
         "report. See also what was <a href=\"#not-checked\">not checked</a>.</p>\n</div>\n</section>\n");
   }
   /// `Refuted: O9313, O9314 and 3 more`
@@ -141,7 +141,7 @@ private:
     std::size_t count = 0;
     std::string names;
     eachProgram([&](const Json &file, const Json &program) {
-      if (program.at("standing") == status && ++count <= kMostNamed)
+      if (program.at("status") == status && ++count <= kMostNamed)
         names += fmt::format("{}<a href=\"#{}\">{}</a>", count == 1 ? "" : ", ", anchorOf(file, program),
                              text(program.at("name")));
     });
@@ -154,8 +154,8 @@ private:
 
   void summary() {
     add("<section id=\"summary\">\n<h2>Summary</h2>\n<table class=\"summary\">\n<thead><tr><th>Program</th>"
-        "<th>In words</th><th class=\"n\">Proved</th><th class=\"n\">Refuted</th><th class=\"n\">Alarms</th>"
-        "<th class=\"n\">Unknown</th><th class=\"n\" title=\"no run comes to the place\">Unreach&shy;able</th></tr>"
+        "<th>Result</th><th class=\"n\">Proved</th><th class=\"n\">Refuted</th><th class=\"n\">Alarms</th>"
+        "<th class=\"n\">Unknown</th><th class=\"n\" title=\"no run reaches the block\">Unreach&shy;able</th></tr>"
         "</thead>\n<tbody>\n");
     eachProgram([&](const Json &file, const Json &program) {
       Counts counts;
@@ -184,9 +184,9 @@ private:
   }
 
   void signOff() {
-    add("<section id=\"sign-off\">\n<h2>Sign-off</h2>\n<p>Who signs has read the summary, the assumptions, the "
-        "findings, "
-        "and what was not checked.</p>\n<table class=\"sign-off\">\n<thead><tr><th></th><th>Name</th><th>Date</th>"
+    add("<section id=\"sign-off\">\n<h2>Sign-off</h2>\n<p>Whoever signs has read the summary, the assumptions, the "
+        "findings and what was not checked.</p>\n<table "
+        "class=\"sign-off\">\n<thead><tr><th></th><th>Name</th><th>Date</th>"
         "<th>Signature</th></tr></thead>\n<tbody>\n");
     for (const char *role : {"Author", "Checker", "Approver"})
       add("<tr><th>{}</th><td></td><td></td><td></td></tr>\n", role);
@@ -202,29 +202,29 @@ private:
       add("<li>{}</li>\n", line);
       ++count;
     };
-    if (!document_.at("reading").at("only").empty()) {
+    if (!document_.at("options").at("only").empty()) {
       std::string kinds;
-      for (const Json &kind : document_.at("reading").at("only"))
+      for (const Json &kind : document_.at("options").at("only"))
         kinds += (kinds.empty() ? "" : ", ") + text(kind);
-      item("All kinds of claims but these: " + kinds);
+      item("All kinds of claims except these: " + kinds);
     }
     for (const Json &skipped : document_.at("skipped"))
       item(fmt::format("{}: {}", paths_.of(skipped.at("path")), prose(skipped.at("reason"))));
     for (const Json &file : document_.at("files"))
       for (const Json &program : file.at("programs"))
-        notFollowed(file, program, item);
+        notModelled(file, program, item);
     if (count == 0)
-      item("Nothing was passed over: all files were read, all calls found, all blocks followed.");
+      item("Nothing was left out: all files were read, all called programs found, all blocks modelled.");
     add("</ul>\n</section>\n");
   }
-  template <typename Item> void notFollowed(const Json &file, const Json &program, const Item &item) const {
+  template <typename Item> void notModelled(const Json &file, const Json &program, const Item &item) const {
     const std::string name = fmt::format("<a href=\"#{}\">{}</a>", anchorOf(file, program), text(program.at("name")));
     if (!program.at("incomplete").is_null())
-      item(fmt::format("{}: not every way through it was followed: {}", name, prose(program.at("incomplete"))));
+      item(fmt::format("{}: not all paths were explored: {}", name, prose(program.at("incomplete"))));
     std::set<std::string> told;
-    for (const Json &each : program.at("unfollowed"))
+    for (const Json &each : program.at("unmodelled"))
       if (const std::string line =
-              fmt::format("{}: {} line {}: not followed, so that anything may happen there: {}", name,
+              fmt::format("{}: {} line {}: not modelled, so anything may happen there: {}", name,
                           paths_.of(each.at("path")), number(each.at("line")), prose(each.at("reason")));
           told.insert(line).second)
         item(line);
@@ -252,18 +252,20 @@ private:
   }
 
   void assumptions() {
-    add("<section id=\"assumptions\">\n<h2>Assumptions</h2>\n<p>What the proofs take for given, and who has to see to "
-        "it.</p>\n<table>\n<thead><tr><th></th><th>Assumption</th><th>Who sees to it</th><th>Claims that rest on "
+    add("<section id=\"assumptions\">\n<h2>Assumptions</h2>\n<p>What the proofs assume, and who is responsible for "
+        "it.</p>\n<table>\n<thead><tr><th></th><th>Assumption</th><th>Responsible</th><th>Claims that depend on "
         "it</th>"
         "</tr></thead>\n<tbody>\n");
     for (const Json &row : document_.at("assumptions"))
       add("<tr id=\"{0}\"><td class=\"name\">{0}</td><td><b>{1}.</b> {2}</td><td>{3}</td><td>{4}</td></tr>\n",
-          text(row.at("id")), text(row.at("title")), text(row.at("text")), text(row.at("who")), text(row.at("kinds")));
+          text(row.at("id")), text(row.at("title")), text(row.at("text")), text(row.at("responsible")),
+          text(row.at("kinds")));
     add("</tbody>\n</table>\n</section>\n");
   }
 
   void identity() {
-    add("<section id=\"identity\">\n<h2>Identity</h2>\n<p>The bytes that were read; paths are from the folder of this "
+    add("<section id=\"identity\">\n<h2>Identity</h2>\n<p>The files that were read. Paths are relative to the folder "
+        "of this "
         "report.</p>\n<table class=\"identity\">\n<thead><tr><th>File</th><th>Role</th><th class=\"n\">Bytes</th>"
         "<th>SHA-256</th></tr></thead>\n<tbody>\n");
     for (const Json &source : document_.at("sources")) {
@@ -273,7 +275,7 @@ private:
       add("<tr><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"hash\">{}</td></tr>\n", text(source.at("path")),
           roles, number(source.at("bytes")), text(source.at("sha256")));
     }
-    add("</tbody>\n</table>\n<h3>Control and switches</h3>\n<table>\n<thead><tr><th>Files</th><th>Read for</th>"
+    add("</tbody>\n</table>\n<h3>Control and switches</h3>\n<table>\n<thead><tr><th>Files</th><th>Control</th>"
         "<th>Chosen by</th><th>Switches that were changed</th></tr></thead>\n<tbody>\n");
     std::map<std::string, std::vector<std::string>> bySettings;
     for (const Json &file : document_.at("files"))
@@ -300,20 +302,17 @@ private:
   }
 
   void disclaimer() {
-    add("<section id=\"disclaimer\">\n<h2>What this report is not</h2>\n<p>An NC program is no safety function, and "
-        "this report is none. It does not replace guards, limit switches, and the first run with the hand on the feed "
-        "hold. It says nothing about fixtures, materials, cutting conditions and wear. It does not say that the part "
-        "is "
-        "the one on the drawing.</p>\n<h2>How to read the tables</h2>\n<p><b>Certified</b>: a small checker without "
-        "any "
-        "solver has followed each step of the proof, in exact fractions. <b>Two-solvers</b>: two different programs, "
-        "Z3 "
-        "and cvc5, agree. <b>Margin</b>: how far the tool stays away at least. <b>Work</b>: what the proof cost, in "
-        "steps "
-        "that are the same in every run. <b>Evidence</b>: the files of the proof; on paper, the number of their folder "
+    add("<section id=\"disclaimer\">\n<h2>What this report is not</h2>\n<p>An NC program is not a safety function, "
+        "and neither is this report. It does not replace guards, limit switches or a first run with a hand on the feed "
+        "hold button. It says nothing about fixtures, materials, cutting conditions or wear. It does not say that the "
+        "part matches the drawing.</p>\n<h2>How to read the tables</h2>\n<p><b>Certified</b>: a small, solver-free "
+        "checker "
+        "verified each step of the proof in exact fractions. <b>Two-solvers</b>: two independent solvers, Z3 and cvc5, "
+        "agree. <b>Margin</b>: the smallest distance of the tool from the boundary. <b>Work</b>: the cost of the proof "
+        "in steps, the same in every run. <b>Evidence</b>: the files of the proof; on paper, the number of their "
+        "folder "
         "in <code>{0}</code>.</p>\n<h2>How to check it</h2>\n<p><code>feedhold recheck FOLDER</code> compares all "
-        "hashes, "
-        "proves everything again, follows every certificate, and asks Z3 and cvc5 again.</p>\n</section>\n",
+        "hashes, repeats every proof, verifies every certificate, and asks Z3 and cvc5 again.</p>\n</section>\n",
         kEvidenceFolder);
   }
 

@@ -1,4 +1,5 @@
-// What a certificate's page says of one program.
+// The section of a release report on one program.
+#include "base/support/text.h"
 #include "surface/report/report_html.h"
 
 #include <algorithm>
@@ -32,13 +33,13 @@ std::string nameOfAlarm(const Json &alarm) {
 }
 
 std::string claimOf(const Json &row) {
-  return row.at("alarm").is_null() ? prose(row.at("claim")) : nameOfAlarm(row.at("alarm")) + " can come";
+  return row.at("alarm").is_null() ? prose(row.at("claim")) : nameOfAlarm(row.at("alarm")) + " can be raised";
 }
 
 std::string guard(const Json &row) {
   return row.at("guard").is_null() ? std::string()
-                                   : fmt::format("<p class=\"remedy\">It would be proved with <code>{}</code> in the "
-                                                 "contract.</p>\n",
+                                   : fmt::format("<p class=\"remedy\">With <code>{}</code> in the contract, it is "
+                                                 "proved.</p>\n",
                                                  text(row.at("guard")));
 }
 
@@ -48,13 +49,13 @@ public:
       : file_(file), program_(program), paths_(paths), report_(report), isStyled_(isStyled) {}
 
   std::string write() {
-    const Look look = lookOfStatus(program_.at("standing"));
+    const Look look = lookOfStatus(program_.at("status"));
     add("<section class=\"program\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p class=\"meta\">{}, line {} &middot; "
-        "read for {}</p>\n<p class=\"sentence {}\">{}</p>\n",
+        "control: {}</p>\n<p class=\"sentence {}\">{}</p>\n",
         anchorOf(file_, program_), text(program_.at("name")), text(program_.at("title")), paths_.of(file_.at("path")),
         number(program_.at("line")), text(file_.at("control")), look.style, prose(program_.at("summary")));
     if (!program_.at("incomplete").is_null())
-      add("<p class=\"warning\">Not all ways through it were followed: {}.</p>\n", prose(program_.at("incomplete")));
+      add("<p class=\"warning\">Not all paths were explored: {}.</p>\n", prose(program_.at("incomplete")));
     refutations();
     alarms();
     for (const Json &run : program_.at("runs"))
@@ -81,8 +82,9 @@ private:
         addTo(calls, row, text(row.at("witness").at("run")));
     if (calls.empty())
       return;
-    add("<h3>Calls that break a claim</h3>\n<p><small>Each was run and seen to do so. Type the command in the folder "
-        "of this report to see it; with <code>plot</code> for <code>run</code> it draws the path.</small></p>\n");
+    add("<h3>Calls that break a claim</h3>\n<p><small>Each was run and broke its claim. Run the command in the folder "
+        "of this report to reproduce it; <code>plot</code> in place of <code>run</code> draws the tool "
+        "path.</small></p>\n");
     for (const Group &call : calls) {
       add("<div class=\"witness\">\n<p class=\"call\"><code>{}</code></p>\n",
           text(call.rows.front()->at("witness").at("call")));
@@ -106,25 +108,27 @@ private:
       if (!row.at("alarm").is_null())
         raised.push_back(&row);
     if (!raised.empty())
-      add("<h3>Alarms to decide on</h3>\n<p>These alarms are written in the program. A call that the contract allows "
-          "raises them. That may be meant, or a mistake: the contract has to say it.</p>\n");
+      add("<h3>Alarms to decide on</h3>\n<p>The program raises these alarms for calls that the contract allows. "
+          "That may be intended or a mistake; the contract has to say which.</p>\n");
     for (const Json *row : raised)
       openAlarm(*row);
   }
   void openAlarm(const Json &row) {
     const Json &alarm = row.at("alarm");
-    add("<div class=\"witness alarm\">\n<p><b>{} can come</b>, line {} <small class=\"id\">{}</small></p>\n",
+    add("<div class=\"witness alarm\">\n<p><b>{} can be raised</b>, line {} <small class=\"id\">{}</small></p>\n",
         nameOfAlarm(alarm), number(row.at("line")), text(row.at("id")));
     if (!row.at("witness").is_null())
-      add("<p>It comes, for instance, for <code>{}</code></p>\n", text(row.at("witness").at("call")));
+      add("<p>For example, it is raised for <code>{}</code></p>\n", text(row.at("witness").at("call")));
     add("<ul>\n");
-    add("<li>If it has to come: <code>@ALARM {} IFF ...</code> in the contract, with the condition for which it "
-        "comes.</li>\n",
+    add("<li>If it is intended, add <code>@ALARM {} IFF ...</code> to the contract, with the condition that "
+        "raises it.</li>\n",
         alarm.at("number").is_null() ? std::string("n") : number(alarm.at("number")));
     if (row.at("guard").is_null())
-      add("<li>If no caller may do this: <code>@REQUIRE ...</code> in the contract, with what callers promise.</li>\n");
+      add("<li>If callers rule it out, add <code>@REQUIRE ...</code> to the contract, with what they "
+          "guarantee.</li>\n");
     else
-      add("<li>If callers promise that it never comes: <code>{}</code> in the contract. With it that is proved.</li>\n",
+      add("<li>If callers rule it out, add <code>{}</code> to the contract. With this clause, the claim is "
+          "proved.</li>\n",
           text(row.at("guard")));
     add("</ul>\n");
     if (!row.at("witness").is_null())
@@ -141,7 +145,8 @@ private:
     else
       add("<p>The picture is large: <a href=\"{0}\">{0}</a></p>\n", xml(name));
     if (run.at("witnessOf").is_null())
-      add("<figcaption>One call that is allowed: <code>{}</code>. The proof is for all of them.", text(run.at("call")));
+      add("<figcaption>One call that the contract allows: <code>{}</code>. The proof covers all of them.",
+          text(run.at("call")));
     else
       add("<figcaption>The call that breaks {}: <code>{}</code>", text(run.at("witnessOf")), text(run.at("call")));
     for (const Json &note : run.at("notes"))
@@ -179,7 +184,7 @@ private:
       if (call.at("fromPath") == file_.at("path") && call.at("from") == program_.at("name"))
         addTo(callees, call,
               fmt::format("<b>{}</b> <small>{}", text(call.at("to")),
-                          call.at("path").is_null() ? std::string("not here: it may do anything")
+                          call.at("path").is_null() ? std::string("not supplied: it may do anything")
                                                     : paths_.of(call.at("path"))));
     if (callees.empty())
       return;
@@ -229,7 +234,7 @@ private:
       add("<td>{}{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
           row->at("grade").is_null() ? std::string() : text(row->at("grade")),
           row->at("method").is_null() ? std::string() : fmt::format(" <small>{}</small>", text(row->at("method"))),
-          row->at("method").is_null() ? std::string() : number(row->at("rlimit")), evidence(row->at("evidence")));
+          row->at("method").is_null() ? std::string() : number(row->at("effort")), evidence(row->at("evidence")));
     }
     add("</tbody>\n");
   }
@@ -239,13 +244,13 @@ private:
     if (!row.at("reason").is_null())
       remark(prose(row.at("reason")));
     if (!row.at("bound").is_null())
-      remark(fmt::format("at most <code>{}</code> passes", text(row.at("bound"))));
+      remark(fmt::format("at most <code>{}</code> iterations", text(row.at("bound"))));
     if (!row.at("margin").is_null())
-      html += fmt::format(" <small>margin {}</small>", number(row.at("margin")));
+      html += fmt::format(" <small>margin {}</small>", decimalText(row.at("margin").get<double>(), 6));
     if (row.at("exactOnly") == true)
       html += fmt::format("<br><small class=\"caution\">{}</small>", kExactOnly);
     if (row.at("verdict") == "unknown" && !row.at("guard").is_null())
-      remark(fmt::format("it would be proved with <code>{}</code> in the contract", text(row.at("guard"))));
+      remark(fmt::format("with <code>{}</code> in the contract, it is proved", text(row.at("guard"))));
     return html;
   }
   /// Links to the files of the first part: the others lie beside them.  On paper the number of the folder will do.

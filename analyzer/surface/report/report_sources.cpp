@@ -102,7 +102,7 @@ private:
       return {};
     if (match.files.size() > 1)
       return {{},
-              fmt::format("it may be any of {} below `{}`: name a folder that holds one of them alone",
+              fmt::format("it may be any of {} below `{}`: name a folder that holds only one of them",
                           listed(match.files), place_.generic_string())};
     std::vector<std::string> rivals;
     for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -115,8 +115,8 @@ private:
     }
     if (!rivals.empty())
       return {{},
-              fmt::format("`{}` below `{}` may be this one or {}: name a folder in which they lie in folders named as "
-                          "they were",
+              fmt::format("`{}` below `{}` may be this one or {}: name a folder that keeps the original "
+                          "folder names",
                           match.files.front(), place_.generic_string(), listed(rivals))};
     return {place_ / match.files.front()};
   }
@@ -149,12 +149,12 @@ SourceCheck checkSources(const Bundle &report, const fs::path &folder, const std
       if (!now || !*now)
         result.gone.push_back(paths[i]);
       else if (sha256(now->value().text()) != sources[i].at("sha256"))
-        result.changed.push_back(fmt::format("`{}` is not what it was when it was proved", paths[i]));
+        result.changed.push_back(fmt::format("`{}` has changed since it was proved", paths[i]));
       else
         ++result.same;
     }
   } catch (const Json::exception &) {
-    result.changed.push_back(fmt::format("`{}` is not as it was written", kReportDocument));
+    result.changed.push_back(fmt::format("`{}` has been changed", kReportDocument));
   }
   return result;
 }

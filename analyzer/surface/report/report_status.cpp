@@ -1,5 +1,5 @@
-// Whether a program may be released by what was proved.  An alarm that a call can raise is no fault by itself, but the
-// contract has to foresee it.
+// Whether a program may be released.  An alarm that a call can raise is not a fault by itself, but the contract has to
+// declare it.
 #include "base/support/text.h"
 #include "surface/report/report_parts.h"
 
@@ -56,7 +56,7 @@ std::optional<RaisedAlarm> raisedAlarm(const Obligation &obligation, const Prove
 
 namespace {
 
-/// Lines from 1.  What the control makes of such a block, nobody knows: most stop there.
+/// Lines from 1.  How the control reads such a block is unknown: most stop there.
 std::vector<std::size_t> unreadableLines(const ProjectFile &file, ProgramId program) {
   std::vector<std::size_t> lines;
   for (BlockId block(0); block.index() < file.tree.blocks.size(); block = BlockId(block.index() + 1))
@@ -69,7 +69,7 @@ std::string claims(std::size_t count) { return fmt::format("{} claim{}", count, 
 
 struct Summary {
   VerdictCounts counts;
-  std::size_t raised = 0;  // alarms that no clause foresees
+  std::size_t raised = 0;  // alarms that no clause declares
   std::string alarms = {}; // these: `alarms 7, 8`
   bool isGouge = false;
 };
@@ -95,7 +95,7 @@ std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
   const Summary summary = summaryOf(file, program);
   const VerdictCounts &counts = summary.counts;
   if (counts.all() == 0)
-    return "Nothing is claimed of it, so that nothing is proved.";
+    return "Nothing is claimed of this program, so nothing is proved.";
   const std::size_t broken = counts.of(Verdict::Refuted) - summary.raised;
   const std::size_t unknown = counts.of(Verdict::Unknown);
   std::string words;
@@ -104,8 +104,8 @@ std::string sentenceOf(const ProvedFile &file, const ProvedProgram &program) {
                         summary.isGouge ? "Do not run: the tool can go where it must not." : "Do not release:", broken,
                         claims(counts.all()), broken == 1 ? "fails" : "fail");
   if (summary.raised != 0)
-    words += fmt::format("{}{} can come, and no `@ALARM` says when.", words.empty() ? "Decide first: " : " Also, ",
-                         summary.alarms);
+    words += fmt::format("{}{} can be raised, and no `@ALARM` states when.",
+                         words.empty() ? "Decide first: " : " Also, ", summary.alarms);
   if (unknown != 0)
     words += fmt::format("{}{} could be neither proved nor refuted.", words.empty() ? "Do not release yet: " : " ",
                          claims(unknown));
@@ -132,7 +132,7 @@ std::string_view nameOf(ReleaseStatus status) {
   case ReleaseStatus::Ready: return "ready";
   case ReleaseStatus::Open: return "open";
   case ReleaseStatus::Alarms: return "alarms";
-  case ReleaseStatus::Broken: return "broken";
+  case ReleaseStatus::Broken: return "refuted";
   }
   return "";
 }

@@ -95,8 +95,8 @@ td.proved { color: var(--proved); } td.refuted { color: var(--refuted); } td.unk
 .call-graph .label { font-size: 14px; font-weight: 600; fill: var(--ink); }
 .call-graph .word { font-size: 11.5px; fill: var(--faint); }
 .call-graph .box { fill: var(--paper); stroke: var(--faint); stroke-width: 1.5; }
-.call-graph .way { fill: none; stroke: var(--faint); stroke-width: 1.4; } .call-graph .head { fill: var(--faint); }
-.call-graph .back .way { stroke-dasharray: 5 3; stroke: var(--unknown); }
+.call-graph .line { fill: none; stroke: var(--faint); stroke-width: 1.4; } .call-graph .head { fill: var(--faint); }
+.call-graph .back .line { stroke-dasharray: 5 3; stroke: var(--unknown); }
 .call-graph .back .head { fill: var(--unknown); }
 .call-graph .proved .box { fill: var(--proved-soft); stroke: var(--proved); }
 .call-graph .proved .word { fill: var(--proved); }

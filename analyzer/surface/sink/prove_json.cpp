@@ -2,6 +2,8 @@
 #include "surface/sink/json_parts.h"
 #include "surface/sink/prove_shown.h"
 
+#include <cmath>
+
 namespace feedhold {
 
 namespace {
@@ -10,6 +12,9 @@ using json::Json;
 using prove::Obligation;
 
 Json orNull(std::string_view text) { return text.empty() ? Json() : Json(text); }
+
+/// A coordinate to the micrometre of a micrometre: what the geometry rounds is no part of it.
+double asShown(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 class FileJson {
 public:
@@ -34,15 +39,15 @@ private:
     return toString(file_.file().model.programs[program.program].name);
   }
   Json programToJson(const ProvedProgram &program) const {
-    Json unfollowed = Json::array();
-    for (const prove::Unfollowed &each : program.proof.unfollowed) {
+    Json unmodelled = Json::array();
+    for (const prove::Unmodelled &each : program.proof.unmodelled) {
       const ProjectFile &file = file_.project->file(each.place.file);
       const Position at = file.source.position(each.span.begin);
-      unfollowed.push_back({{"reason", each.reason}, {"path", file.shown}, {"line", at.line}, {"column", at.column}});
+      unmodelled.push_back({{"reason", each.reason}, {"path", file.shown}, {"line", at.line}, {"column", at.column}});
     }
     return {{"name", nameOf(program)},
             {"incomplete", program.proof.incomplete ? Json(*program.proof.incomplete) : Json()},
-            {"unfollowed", std::move(unfollowed)}};
+            {"unmodelled", std::move(unmodelled)}};
   }
   Json obligationToJson(const Obligation &obligation, const ProvedProgram &program) const {
     const prove::Verdict &verdict = obligation.verdict;
@@ -62,7 +67,7 @@ private:
             {"margin", verdict.margin() ? Json(*verdict.margin()) : Json()},
             {"witness", verdict.witness() ? witnessToJson(obligation, program) : Json()},
             {"guard", verdict.guard() ? guardToJson(obligation) : Json()},
-            {"rlimit", obligation.effort}};
+            {"effort", obligation.effort}};
   }
   Json guardToJson(const Obligation &obligation) const {
     const auto &[conditions, clause, fix] = *obligation.verdict.guard();
@@ -86,12 +91,9 @@ private:
     const ProjectFile &file = file_.project->file(gouge.place.file);
     const BlockId block = file_.project->set->node(gouge.place).block;
     const auto &[x, y, z] = gouge.at;
-    return {{"path", file.shown},
-            {"line", file.source.lineOf(file.tree.blocks[block].span().begin)},
-            {"x", x},
-            {"y", y},
-            {"z", z},
-            {"depth", gouge.depth}};
+    return {{"path", file.shown}, {"line", file.source.lineOf(file.tree.blocks[block].span().begin)},
+            {"x", asShown(x)},    {"y", asShown(y)},
+            {"z", asShown(z)},    {"depth", gouge.depth}};
   }
 
   const ProveReport &report_;
@@ -101,7 +103,7 @@ private:
 } // namespace
 
 std::string writeProveJson(const ProveReport &report) {
-  Json document = {{"version", 1}, {"files", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  Json document = {{"version", 2}, {"files", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
   for (const ProvedFile &file : report.result.files)
     document["files"].push_back(FileJson(report, file).write());
   for (const SkippedFile &skipped : report.result.skipped)

@@ -19,21 +19,21 @@ using sarif::Json;
 std::string_view summaryOf(ObligationKind kind) {
   switch (kind) {
   case ObligationKind::LoopEnds: return "every loop ends";
-  case ObligationKind::ProgramEnds: return "every run of a program comes to an end";
-  case ObligationKind::AlarmUnreachable: return "no call raises the alarm of a `#3000`";
-  case ObligationKind::NoControlAlarm: return "the control itself has no reason to stop";
-  case ObligationKind::AlarmIff: return "an alarm is raised for the calls for which it is promised";
-  case ObligationKind::Ensures: return "what is promised holds at the return";
-  case ObligationKind::Assigns: return "no other common variable is written";
-  case ObligationKind::ModalPreserved: return "the modal state at the return is that of the entry";
-  case ObligationKind::Guarded: return "calls outside of the contract raise an alarm before an axis moves";
-  case ObligationKind::CallMeetsContract: return "a call keeps the contract of the program that it calls";
-  case ObligationKind::ContractSatisfiable: return "some call satisfies the contract";
-  case ObligationKind::KeepIn: return "cutting moves keep the tool in a region";
-  case ObligationKind::KeepOut: return "no move brings the tool into a region";
-  case ObligationKind::Clearance: return "rapid moves stay above the clearance";
-  case ObligationKind::Travel: return "no move leaves the travel";
-  case ObligationKind::Limit: return "the feed and the speed while cutting are within their limits";
+  case ObligationKind::ProgramEnds: return "every run of the program ends";
+  case ObligationKind::AlarmUnreachable: return "no call raises the alarm of this `#3000`";
+  case ObligationKind::NoControlAlarm: return "the control does not stop the program with an alarm of its own";
+  case ObligationKind::AlarmIff: return "the alarm is raised for the calls that the contract states";
+  case ObligationKind::Ensures: return "the promise of the contract holds at the return";
+  case ObligationKind::Assigns: return "only the listed common variables are written";
+  case ObligationKind::ModalPreserved: return "the modal state at the return is the same as at the entry";
+  case ObligationKind::Guarded: return "calls outside the contract raise an alarm before an axis moves";
+  case ObligationKind::CallMeetsContract: return "a call satisfies the contract of the program that it calls";
+  case ObligationKind::ContractSatisfiable: return "at least one call satisfies the contract";
+  case ObligationKind::KeepIn: return "cutting moves keep the tool inside the region";
+  case ObligationKind::KeepOut: return "no move brings the tool into the region";
+  case ObligationKind::Clearance: return "rapid moves stay above the clearance height";
+  case ObligationKind::Travel: return "no move leaves the travel limits";
+  case ObligationKind::Limit: return "feed and spindle speed stay within their limits while cutting";
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }

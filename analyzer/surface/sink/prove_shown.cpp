@@ -142,8 +142,8 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
     return isRefuted ? fmt::format("`{}` is not kept", obligation.claim)
                      : fmt::format("it is not known whether `{}` is always kept", obligation.claim);
   case ObligationKind::Guarded:
-    return isRefuted ? "a call outside of the contract gets past the guards"
-                     : "it is not known whether the guards stop every call outside of the contract";
+    return isRefuted ? "a call outside the contract gets past the guards"
+                     : "it is not known whether the guards stop every call outside the contract";
   case ObligationKind::CallMeetsContract:
     return isRefuted ? "this call breaks the contract of the program that it calls"
                      : "it is not known whether this call always keeps the contract of the program that it calls";
@@ -151,10 +151,10 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
   case ObligationKind::KeepIn:
     return isRefuted
                ? fmt::format("the tool leaves the region of `{}`", obligation.claim)
-               : fmt::format("it is not known whether the tool always keeps in the region of `{}`", obligation.claim);
+               : fmt::format("it is not known whether the tool always stays in the region of `{}`", obligation.claim);
   case ObligationKind::KeepOut:
     return isRefuted ? fmt::format("the tool enters the region of `{}`", obligation.claim)
-                     : fmt::format("it is not known whether the tool always keeps out of the region of `{}`",
+                     : fmt::format("it is not known whether the tool always stays out of the region of `{}`",
                                    obligation.claim);
   case ObligationKind::Clearance:
   case ObligationKind::Travel:

@@ -44,7 +44,7 @@ std::string textOf(const TypedWitness &witness);
 
 /// Of Verdict::exactOnly.
 inline constexpr std::string_view kExactOnly =
-    "holds in exact arithmetic only: there is no margin, and a control that rounds may break it";
+    "holds in exact arithmetic only: with no margin, rounding on the control may break it";
 
 /// What is claimed: `this loop ends`
 std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);

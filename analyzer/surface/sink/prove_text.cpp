@@ -1,6 +1,7 @@
 // Verdicts for people: what is refuted with the call that shows it, what is unknown with what is missing, then what is
 // proved.
 #include "base/diag/render.h"
+#include "base/support/text.h"
 #include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@ using prove::Obligation;
 using prove::Verdict;
 
 namespace {
+
+constexpr int kMarginDecimals = 6;
 
 /// Those that are not empty.
 std::vector<std::string_view> linesOf(std::string_view text) {
@@ -36,7 +39,7 @@ public:
     counts.add(program_.proof);
     text_ = fmt::format("{}: {}: {}\n", file_.file().shown, programName(file_, program_), textOf(counts));
     if (program_.proof.incomplete)
-      text_ += fmt::format("  not all ways were followed: {}\n", *program_.proof.incomplete);
+      text_ += fmt::format("  not all paths were explored: {}\n", *program_.proof.incomplete);
     text_ += '\n';
     forEach(Verdict::Refuted, [&](const Obligation &obligation) { picture(obligation, witnessNotes(obligation)); });
     forEach(Verdict::Unknown, [&](const Obligation &obligation) {
@@ -100,12 +103,12 @@ private:
     const std::string_view reason = verdict.reason();
     if (const auto margin = verdict.margin())
       return fmt::format("{}{}{}",
-                         *margin > 0 ? fmt::format("keeps at least {:.4g} away", *margin)
-                                     : std::string("comes as near as it may"),
+                         *margin > 0 ? fmt::format("keeps at least {} away", decimalText(*margin, kMarginDecimals))
+                                     : std::string("margin 0: the tool reaches the boundary of the region"),
                          reason.empty() ? "" : "; ", reason);
     if (verdict.bound().empty())
       return std::string(reason);
-    return fmt::format("at most `{}` passes{}{}", verdict.bound(), reason.empty() ? "" : ": ", reason);
+    return fmt::format("at most `{}` iterations{}{}", verdict.bound(), reason.empty() ? "" : ": ", reason);
   }
 
   void line(const Obligation &obligation) {
@@ -143,9 +146,10 @@ std::string defectsText(const ProveReport &report) {
     for (const ProvedProgram &program : file.programs)
       for (const prove::Contradiction &each : program.proof.contradictions) {
         const TypedWitness call = typed(each.run, file, program, report);
-        text += fmt::format("defect of Feedhold: {} was {}, and a run contradicts it: {}: {}\n"
-                            "  see it: {}\n  please report this program and this call; the verdict was withdrawn\n",
-                            each.id, each.verdict, textOf(call), each.run.happened, call.run());
+        text +=
+            fmt::format("bug in Feedhold: {} was {}, and a run contradicts it: {}: {}\n"
+                        "  see it: {}\n  the verdict has been withdrawn; please report this program and this call\n",
+                        each.id, each.verdict, textOf(call), each.run.happened, call.run());
       }
   return text;
 }

@@ -21,7 +21,7 @@ public:
 
   std::string write() const {
     const BlockStates &states = report_.states;
-    std::string text = "{\n  \"version\": 1";
+    std::string text = "{\n  \"version\": 2";
     text += ",\n  \"line\": " + (report_.line ? std::to_string(*report_.line) : "null");
     text += ",\n  \"gaveUp\": " + json::compactText(states.gaveUp ? Json(*states.gaveUp) : Json());
     text += ",\n  \"complete\": " + std::string(states.isCutShort || states.gaveUp ? "false" : "true");
@@ -34,12 +34,12 @@ public:
       }
     text += isFirst ? "]" : "\n  ]";
     Json notes = Json::array();
-    for (const NotFollowedNote &note : states.notFollowed) {
+    for (const UnmodelledNote &note : states.unmodelled) {
       Json row = {{"reason", note.reason}};
       row.update(placeToJson(note.place));
       notes.push_back(std::move(row));
     }
-    return text + ",\n  \"notFollowed\": " + json::compactText(notes) + "\n}\n";
+    return text + ",\n  \"unmodelled\": " + json::compactText(notes) + "\n}\n";
   }
 
 private:

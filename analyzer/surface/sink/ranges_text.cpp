@@ -20,8 +20,8 @@ namespace {
 struct Line {
   std::string name;
   std::string text;
-  std::string_view otherwise;  // what holds where there is no such line
-  bool isToldTogether = false; // by another line
+  std::string_view otherwise; // what holds if there is no such line
+  bool isGrouped = false;     // another line stands for it
   friend bool operator==(const Line &, const Line &) = default;
 };
 using Lines = std::vector<Line>;
@@ -30,7 +30,7 @@ constexpr std::string_view kAsAtStart = "as at start";
 constexpr std::string_view kNotKnown = "not known";
 constexpr std::string_view kNone = "none";
 constexpr std::string_view kOtherVariables = "other variables";
-constexpr std::size_t kFew = 4; // things of which nothing is known, named one by one
+constexpr std::size_t kFew = 4; // unknown things that are named one by one
 
 /// Many unknown things get one line.
 void addTogether(Lines &lines, Lines some, std::string name, std::string_view unknown) {
@@ -38,7 +38,7 @@ void addTogether(Lines &lines, Lines some, std::string name, std::string_view un
   const bool isMany = std::count_if(some.begin(), some.end(), isUnknownLine) > static_cast<std::ptrdiff_t>(kFew);
   const std::string_view otherwise = some.empty() ? kNone : some.front().otherwise;
   for (Line &line : some) {
-    line.isToldTogether = isMany && isUnknownLine(line);
+    line.isGrouped = isMany && isUnknownLine(line);
     lines.push_back(std::move(line));
   }
   if (isMany)
@@ -95,14 +95,14 @@ Lines changesFrom(const Lines &before, const Lines &now) {
   for (const Line &line : now) {
     const auto [first, last] = linesBefore.equal_range(line.name);
     if (std::none_of(first, last, [&](const auto &entry) { return *entry.second == line; }) &&
-        (!line.isToldTogether || first != last))
+        (!line.isGrouped || first != last))
       changes.push_back({line.name, line.text, line.otherwise});
   }
   const bool variablesAreUnknown = namesNow.contains(kOtherVariables);
   const auto ofCycle = [](const Line &line) { return line.name.starts_with("cycle"); };
   const bool cycleEnded = std::none_of(now.begin(), now.end(), ofCycle); // the mode says so
   for (const Line &line : before)
-    if (!namesNow.contains(line.name) && !line.isToldTogether && !(cycleEnded && ofCycle(line))) {
+    if (!namesNow.contains(line.name) && !line.isGrouped && !(cycleEnded && ofCycle(line))) {
       const bool isUnknownVariable = line.name.starts_with('#') && variablesAreUnknown;
       changes.push_back({line.name, std::string(isUnknownVariable ? kNotKnown : line.otherwise), {}});
     }
@@ -115,17 +115,17 @@ public:
 
   std::string write() {
     if (states_.gaveUp)
-      return fmt::format("nothing is told: {}\n", *states_.gaveUp);
+      return fmt::format("no ranges: {}\n", *states_.gaveUp);
     for (const ContextStates &context : states_.contexts)
       if (!context.blocks.empty())
         writeContext(context);
     if (text_.empty())
-      text_ = report_.line ? fmt::format("no run comes to line {}\n", *report_.line) : "no run comes to a block\n";
+      text_ = report_.line ? fmt::format("no run reaches line {}\n", *report_.line) : "no run reaches any block\n";
     if (states_.isCutShort)
-      text_ += "\nthere are too many blocks to show all; FILE:LINE shows what is known before one\n";
+      text_ += "\ntoo many blocks to show all; FILE:LINE shows a single one\n";
     std::set<std::string> notes;
-    for (const NotFollowedNote &note : states_.notFollowed)
-      notes.insert(fmt::format("not followed: {}, {}\n", note.reason, where(note.place)));
+    for (const UnmodelledNote &note : states_.unmodelled)
+      notes.insert(fmt::format("not modelled: {}, {}\n", note.reason, where(note.place)));
     if (!notes.empty())
       text_ += '\n';
     for (const std::string &note : notes)
@@ -145,7 +145,7 @@ private:
       const auto state = context.blocks.find(block);
       if (state == context.blocks.end()) {
         if (isMissed(context, block))
-          writeBlock(file, block, "   (no run comes here)");
+          writeBlock(file, block, "   (unreachable)");
         continue;
       }
       writeBlock(file, block, "");
@@ -175,9 +175,9 @@ private:
     if (context.calls.empty())
       return context.program == context.start.program && context.file == context.start.file
                  ? fmt::format("{}, {}\n", name,
-                               context.assumesContract ? "in the calls that its contract allows"
-                                                       : "whatever was before")
-                 : fmt::format("{}, entered in a way that is not followed\n", name);
+                               context.assumesContract ? "for the calls that its contract allows"
+                                                       : "for any start state")
+                 : fmt::format("{}, entered by a call that is not modelled\n", name);
     std::string calls;
     for (std::size_t i = context.calls.size(); i-- > 0;)
       calls += fmt::format("{} {}", calls.empty() ? ", called from" : ", from", programAndLine(context.calls[i]));
@@ -191,9 +191,9 @@ private:
   void writeFacts(const Lines &lines) {
     std::size_t width = 0;
     for (const Line &line : lines)
-      width = std::max(width, line.isToldTogether ? 0 : line.name.size());
+      width = std::max(width, line.isGrouped ? 0 : line.name.size());
     for (const Line &line : lines)
-      if (!line.isToldTogether)
+      if (!line.isGrouped)
         text_ += fmt::format("          {:<{}}  {}\n", line.name, width, line.text);
   }
 

@@ -1,4 +1,4 @@
-// A run for people: the tool path, a movement a line, then the variables, what was not followed, and how it ended.
+// A run for people: the tool path, a movement a line, then the variables, what is not modelled, and how it ended.
 #include "base/support/text.h"
 #include "surface/sink/run_shown.h"
 
@@ -39,7 +39,7 @@ public:
     if (text_.size() != before)
       text_ += '\n';
     for (const RunNote &note : result_.notes)
-      text_ += fmt::format("not followed: {}, {}\n", note.reason, where(note.place));
+      text_ += fmt::format("not modelled: {}, {}\n", note.reason, where(note.place));
     return std::move(text_) + ending();
   }
 
@@ -87,7 +87,7 @@ private:
     case MoveKind::ArcCounterclockwise: return "arc ccw";
     case MoveKind::Dwell: return "dwell";
     case MoveKind::Probe: return "probe";
-    case MoveKind::Unfollowed: return "somehow";
+    case MoveKind::Unfollowed: return "unknown";
     }
     FEEDHOLD_UNREACHABLE("the switch names every kind");
   }
@@ -118,7 +118,7 @@ private:
     case RunEnd::M02:
     case RunEnd::M30:
     case RunEnd::Returned: return fmt::format("ends with {}, {}\n", nameOf(result_.end), place);
-    case RunEnd::EndOfFile: return fmt::format("ends with the text, {}\n", place);
+    case RunEnd::EndOfFile: return fmt::format("ends at the end of the file, {}\n", place);
     case RunEnd::Alarm: return fmt::format("alarm {}, {}\n", controlAlarm(), place) + placeAndCalls();
     case RunEnd::UserAlarm: return fmt::format("alarm {}, {}\n", ownAlarm(), place) + placeAndCalls();
     case RunEnd::Fuel:
@@ -127,7 +127,8 @@ private:
              placeAndCalls();
     case RunEnd::Repeats:
       return fmt::format("runs for ever: {} is reached again with nothing changed\n", place) + placeAndCalls();
-    case RunEnd::NotModelled: return fmt::format("cannot be followed further, {}\n", place) + placeAndCalls();
+    case RunEnd::NotModelled:
+      return fmt::format("stops at a block that is not modelled, {}\n", place) + placeAndCalls();
     }
     FEEDHOLD_UNREACHABLE("the switch names every end");
   }

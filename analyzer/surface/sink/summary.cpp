@@ -94,7 +94,7 @@ std::string summary(const Report &report) {
   if (!result.skipped.empty())
     head += fmt::format(", {} skipped", counted(result.skipped.size(), "file"));
   if (!result.errors.empty())
-    head += fmt::format(", {} in the way", counted(result.errors.size(), "problem"));
+    head += fmt::format(", {} not checked", counted(result.errors.size(), "file"));
   return head + "\n" + fixesPart(counts) + guessesPart(result);
 }
 

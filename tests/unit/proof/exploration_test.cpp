@@ -65,7 +65,8 @@ TEST(Exploration, AWriteToAnUnknownNumberMayBeToAny) {
 
 TEST(Exploration, AProgramThatIsNotThereMayDoAnything) {
   const Explored program("O1\nM98P2\nM99\n");
-  EXPECT_EQ(program.found.unmodelledCalls.size(), 1U);
+  ASSERT_EQ(program.found.unmodelledCalls.size(), 1U);
+  EXPECT_EQ(program.found.unmodelledCalls.front().why, "O2 was not supplied");
   EXPECT_EQ(program.found.exits.size(), 1U);
 }
 
@@ -77,7 +78,7 @@ TEST(Exploration, ReturnsToANumberBothAsCalledAndAsStarted) {
 
 TEST(Exploration, GivesUpAfterTheStepsThatItHas) {
   const Explored program("O1\n#2=#1\n#3=#2\n#4=#3\nM99\n", {.mostSteps = 2});
-  EXPECT_TRUE(program.found.incomplete);
+  EXPECT_EQ(program.found.incomplete, "gave up after 3 steps, in O1");
 }
 
 } // namespace

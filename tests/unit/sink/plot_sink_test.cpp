@@ -34,13 +34,12 @@ TEST(GougeText, OfEachClaim) {
   const geometry::PlainSpace space{
       .tool = {}, .keepIn = {{"CAVITY", {}}}, .keepOut = {{"RIB", {}}, {"CLAMP", {}}}, .clearance = {}, .travel = {}};
   EXPECT_EQ(gougeText(space, SpaceClaim::KeepIn, 0, 0.25, LengthUnit::Millimetre, "N40"),
-            "0.25 mm outside of CAVITY at N40");
-  EXPECT_EQ(gougeText(space, SpaceClaim::KeepOut, 1, 12, LengthUnit::Inch, "line 7"),
-            "12 in inside of CLAMP at line 7");
+            "0.25 mm outside CAVITY at N40");
+  EXPECT_EQ(gougeText(space, SpaceClaim::KeepOut, 1, 12, LengthUnit::Inch, "line 7"), "12 in inside CLAMP at line 7");
   EXPECT_EQ(gougeText(space, SpaceClaim::Clearance, 0, 1.0 / 3, LengthUnit::Millimetre, "N1"),
             "0.3333 mm below the clearance height in a rapid move at N1");
   EXPECT_EQ(gougeText(space, SpaceClaim::Travel, 0, 1e-6, LengthUnit::Millimetre, "N1"),
-            "less than 0.0001 mm outside of the travel at N1");
+            "less than 0.0001 mm outside the travel limits at N1");
 }
 
 TEST(Picture, TextOfProgramsIsNoMarkup) {
@@ -79,7 +78,7 @@ TEST(Picture, PlacesThatNoMachineHas) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double far : {1e17, 1e300, infinity, -infinity})
     EXPECT_NE(drawn({moveOf(MoveKind::Rapid, {far, 0, 0}, {far, 1, 0}), moveOf(MoveKind::Feed, {0, 0, 0}, {9, 0, far})})
-                  .find("2 movements are too far away to be drawn"),
+                  .find("2 moves are too far away to be drawn"),
               std::string::npos);
 }
 

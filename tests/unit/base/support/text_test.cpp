@@ -90,6 +90,13 @@ TEST(Text, ManyStarsDoNotBlowUp) {
   EXPECT_TRUE(globMatches(pattern, path));
 }
 
+TEST(Text, DecimalTextIsWhatAControlShows) {
+  EXPECT_EQ(decimalText(-2.665e-15, 4), "0");
+  EXPECT_EQ(decimalText(12.5, 4), "12.5");
+  EXPECT_EQ(decimalText(-0.00051, 4), "-0.0005");
+  EXPECT_EQ(decimalText(100, 0), "100");
+}
+
 TEST(Text, APathMatchesItself) {
   EXPECT_TRUE(rc::check("a path without stars matches itself and no longer path", [] {
     const auto path = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("abO0./ -_")));
