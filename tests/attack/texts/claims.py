@@ -175,7 +175,7 @@ class Judgement:
                     self.alarm(visit, claim, clauses[claim.text.replace(" ", "")], run.detail if run.end == "alarm" else None)
             if run.where is visit:
                 self.stopped(visit)
-        if run.end == "endless" and self.is_open(visit):
+        if run.end == "endless" and any(visit is each for each in run.lasting):
             for claim in self.kind(visit, "program-ends"):
                 if claim.holds:
                     self.add("program-ends", f"{claim.id} is {claim.verdict}, and a state comes back at line {run.line}", claim)

@@ -125,6 +125,7 @@ class Run:
         self.seen, self.track, self.steps = {}, [], 0
         self.watch = watch
         self.end, self.detail, self.line, self.where, self.cycle = "", None, None, None, frozenset()
+        self.lasting = []  # the visits that are open all along a cycle
 
     # ---- the run ----
 
@@ -277,10 +278,13 @@ class Run:
                        for f in self.frames)
         whole = frames, cells(self.cells), self.tool.key(), \
             tuple((m.text.number, m.repeats, cells(m.locals)) for m in self.modal)
+        visits = [f.visit for f in self.frames]
         if whole in self.seen:
-            self.cycle = frozenset(self.track[self.seen[whole]:])
+            begin, before = self.seen[whole]
+            self.cycle = frozenset(self.track[begin:])
+            self.lasting = [visit for visit in visits if any(visit is each for each in before)]
             raise Ended("endless")
-        self.seen[whole] = len(self.track)
+        self.seen[whole] = len(self.track), visits
 
     # ---- variables ----
 

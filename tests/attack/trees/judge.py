@@ -272,7 +272,7 @@ class Judge:
         return each is activation
 
     def endless(self, activation):
-        if self.outcome.end != "endless" or not self.is_open(activation):
+        if self.outcome.end != "endless" or activation not in self.outcome.lasting:
             return
         number = activation.program.number
         where = f"a state comes back at line {self.line(self.outcome.activation, self.outcome.block)}"

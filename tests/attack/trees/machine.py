@@ -86,7 +86,8 @@ class Outcome:
     steps: int = 0
     rounds: bool = False
     inexact: bool = False
-    cycle: frozenset = frozenset()  # of an endless run: the blocks of the circle, with their activations
+    cycle: frozenset = frozenset()  # of an endless run: the blocks of the cycle, with their activations
+    lasting: frozenset = frozenset()  # the activations that are open all along it, and so never end
     choices: dict = field(default_factory=dict)
 
 
@@ -106,7 +107,7 @@ class Machine:
         self.modal_calls: list[ModalCall] = []
         self.fires_below: Optional[int] = None  # inside of a modal macro: the calls outside of it
         self.frames: list[Frame] = []
-        self.seen_state = None
+        self.seen_state, self.seen_activations = None, ()
         self.next_look = 8
         self.since_look = set()  # blocks executed since a state was kept
         self.evaluator = Evaluator(self.arithmetic, self.read)
@@ -131,6 +132,7 @@ class Machine:
                 outcome.end = "fuel"
             except Repeats:
                 outcome.end, outcome.cycle = "endless", frozenset(self.since_look)
+                outcome.lasting = frozenset(self.seen_activations) & frozenset(f.activation for f in self.frames)
             except NotModelled as reason:
                 outcome.end, outcome.reason = "not-modelled", str(reason)
         except RecursionError:
@@ -315,6 +317,7 @@ class Machine:
             raise Repeats
         if self.steps >= self.next_look:
             self.seen_state, self.next_look = state, self.steps * 2
+            self.seen_activations = tuple(frame.activation for frame in self.frames)
             self.since_look = set()
 
     def whole_state(self):
