@@ -14,8 +14,8 @@ COMMENT = re.compile(r"//.*")
 
 @dataclass
 class Layers:
-    rooms: list = field(default_factory=list)  # in order: each may include itself and those before it
-    below: dict = field(default_factory=dict)  # folder -> first room that it may not include
+    libraries: list = field(default_factory=list)  # in order: each may include itself and those before it
+    below: dict = field(default_factory=dict)  # folder -> first library that it may not include
     free: list = field(default_factory=list)  # folders that may include everything
     doors: list = field(default_factory=list)  # (prefix of a library header, places that may include it)
     words: list = field(default_factory=list)  # (pattern, places that may say it)
@@ -36,7 +36,7 @@ def read_layers(path):
         elif fields[1:2] == ["<"]:
             layers.below[fields[0]] = fields[2]
         else:
-            layers.rooms.append(fields[0])
+            layers.libraries.append(fields[0])
     return layers
 
 
@@ -45,17 +45,17 @@ def inside(path, folders):
 
 
 def room_of(path, layers):
-    folders = layers.rooms + list(layers.below) + layers.free
+    folders = layers.libraries + list(layers.below) + layers.free
     return next((folder for folder in folders if inside(path, [folder])), None)
 
 
 def may_include(user, used, layers):
     if user == used or user in layers.free:
         return True
-    if used not in layers.rooms:
+    if used not in layers.libraries:
         return False
     limit = layers.below.get(user, user)
-    return layers.rooms.index(used) < layers.rooms.index(limit)
+    return layers.libraries.index(used) < layers.libraries.index(limit)
 
 
 def resolve(root, path, target):
@@ -77,14 +77,14 @@ def violations_of_include(root, path, quoted, angled, layers):
         return
     user_room, used_room = room_of(path.as_posix(), layers), room_of(used, layers)
     if used_room is None:
-        yield f"{used} is in no room of .ci/layers.txt"
+        yield f"{used} is in no library of .ci/layers.txt"
     elif not may_include(user_room, used_room, layers):
         yield f"{user_room} may not include {used_room} ({quoted})"
 
 
 def violations_of_file(root, path, layers):
     if room_of(path.as_posix(), layers) is None:
-        yield 1, "this folder is in no room of .ci/layers.txt"
+        yield 1, "this folder is in no library of .ci/layers.txt"
         return
     for number, line in enumerate((root / path).read_text(errors="replace").splitlines(), 1):
         include = INCLUDE.match(line)

@@ -14,13 +14,13 @@ GOOD = {
     "analyzer/surface/cli/main.cpp": "#include <CLI/CLI.hpp>\n#include <nlohmann/json.hpp>\n",
 }
 BAD = {
-    "a room below": ("analyzer/base/support/id.h", '#include "base/source/file.h"\n'),
+    "a library below": ("analyzer/base/support/id.h", '#include "base/source/file.h"\n'),
     "a dialect that sees the lexer": ("dialects/one/one.cpp", '#include "language/lex/lexer.h"\n'),
     "a rule that sees a dialect": ("rules/words/rule.cpp", '#include "dialects/one/one.h"\n'),
     "a second door": ("analyzer/base/support/id.h", "#include <nlohmann/json.hpp>\n"),
     "a maker's name": ("rules/words/rule.cpp", 'if (id == "haas-ngc") return;\n'),
     "a missing header": ("analyzer/base/support/id.h", '#include "base/support/gone.h"\n'),
-    "an unknown room": ("analyzer/base/attic/id.h", "\n"),
+    "an unknown library": ("analyzer/base/attic/id.h", "\n"),
 }
 
 

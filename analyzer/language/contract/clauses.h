@@ -1,5 +1,5 @@
 // The steps of readContracts: from the carriers to clauses, from a clause to its part of the contract, and the checks.
-// Internal to the room.
+// Internal to the library.
 #pragma once
 
 #include "language/contract/clause_reader.h"

@@ -1,4 +1,4 @@
-// The tables of every dialect: in order, without overlap, complete where other rooms rely on them.
+// The tables of every dialect: in order, without overlap, complete where other libraries rely on them.
 #include "dialects/registry.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Contracts as the prover sees them, expressions in the room's own tree, and texts that nobody would write.
+// Contracts as the prover sees them, expressions in the library's own tree, and texts that nobody would write.
 #include "dialects/registry.h"
 #include "language/contract/constants.h"
 #include "language/contract/contract.h"

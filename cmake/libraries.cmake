@@ -1,4 +1,4 @@
-# A room is one folder and one static library.  `DEPS` names the rooms above it that it uses, so that the link
+# A library is one folder and one static library.  `DEPS` names the libraries above it that it uses, so that the link
 # line says the same as .ci/layers.txt; `PRIVATE` names libraries that only its .cpp files see.
 
 add_library(feedhold_options INTERFACE)
@@ -14,15 +14,15 @@ if(FEEDHOLD_SANITIZE)
   target_link_options(feedhold_options INTERFACE -fsanitize=${FEEDHOLD_SANITIZE})
 endif()
 
-function(feedhold_room name)
-  cmake_parse_arguments(ROOM "" "" "DEPS;PRIVATE" ${ARGN})
+function(feedhold_library name)
+  cmake_parse_arguments(LIBRARY "" "" "DEPS;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(sources)
     feedhold_batches(batches ${sources})
     add_library(${name} STATIC ${batches})
-    target_link_libraries(${name} PUBLIC feedhold_options ${ROOM_DEPS} PRIVATE ${ROOM_PRIVATE})
+    target_link_libraries(${name} PUBLIC feedhold_options ${LIBRARY_DEPS} PRIVATE ${LIBRARY_PRIVATE})
   else()
     add_library(${name} INTERFACE)
-    target_link_libraries(${name} INTERFACE feedhold_options ${ROOM_DEPS})
+    target_link_libraries(${name} INTERFACE feedhold_options ${LIBRARY_DEPS})
   endif()
 endfunction()
