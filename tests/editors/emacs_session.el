@@ -66,7 +66,7 @@
   (go-to "g01")
   (cl-letf ((last-nonmenu-event ?\r) ; or it would ask in a menu
             ((symbol-function 'completing-read)
-             (lambda (_ titles &rest _) (cl-find-if (lambda (title) (string-match-p "capital" title))
+             (lambda (_ titles &rest _) (cl-find-if (lambda (title) (string-match-p "upper case" title))
                                                     (mapcar (lambda (it) (if (consp it) (car it) it)) titles)))))
     (eglot-code-actions (point) (1+ (point)) "quickfix" t))
   (eglot--signal-textDocument/didChange)

@@ -76,7 +76,7 @@ local function session()
   go_to('g01')
   vim.ui.select = function(actions, options, choose)
     for index, action in ipairs(actions) do
-      if options.format_item(action):find('capital', 1, true) then
+      if options.format_item(action):find('upper case', 1, true) then
         return choose(action, index)
       end
     end

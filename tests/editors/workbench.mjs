@@ -65,7 +65,7 @@ async function session() {
   await page.mouse.click(...(await placeOf("g01", "g01")));
   await page.locator("#status\\.editor\\.selection", { hasText: "Ln 7," }).waitFor();
   await page.keyboard.press("Control+.");
-  await page.locator(".action-widget .monaco-list-row", { hasText: "capital" }).first().click();
+  await page.locator(".action-widget .monaco-list-row", { hasText: "upper case" }).first().click();
   await page.locator(".view-line", { hasText: "G01" }).waitFor();
   await page.locator(".markers-panel .monaco-list-row", { hasText: "lower-case" }).first().waitFor({ state: "detached" });
   await page.keyboard.press("Control+S");
