@@ -1,9 +1,8 @@
 // What stays the same from one loading of a folder to the next is not read again; what does not, is.
 #include "findings/project/file_store.h"
 
-#include "findings/project/project.h"
-
 #include "dialects/registry.h"
+#include "findings/project/project.h"
 #include "rules/registry.h"
 
 #include <fstream>
@@ -14,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FileMemoryTest : public testing::Test {
+class FileStoreTest : public testing::Test {
 protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() /
@@ -31,10 +30,12 @@ protected:
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  std::unique_ptr<const Project> load(std::shared_ptr<const OpenTexts> open = std::make_shared<const OpenTexts>()) {
+  std::unique_ptr<const Project> load(std::shared_ptr<const OpenTexts> open = std::make_shared<const OpenTexts>(),
+                                      FileStore *store = nullptr) {
     const KnownNames known{allDialects(), allRules()};
-    auto loaded =
-        loadProject({.path = (folder_ / "O1.nc").generic_string(), .open = std::move(open), .store = &store_}, known);
+    auto loaded = loadProject(
+        {.path = (folder_ / "O1.nc").generic_string(), .open = std::move(open), .store = store ? store : &store_},
+        known);
     return loaded ? loaded.take() : nullptr;
   }
 
@@ -50,7 +51,7 @@ protected:
   FileStore store_{FileStore::Lifetime::Server};
 };
 
-TEST_F(FileMemoryTest, OnlyWhatChangedIsRead) {
+TEST_F(FileStoreTest, OnlyWhatChangedIsRead) {
   const auto first = load(), second = load();
   EXPECT_EQ(kept(*first, *second), std::vector({true, true, true}));
   write("O2.nc", "%\nO2\n#501=1\nM99\n%\n");
@@ -59,7 +60,7 @@ TEST_F(FileMemoryTest, OnlyWhatChangedIsRead) {
   EXPECT_NE(third->file(FileId(1)).source.text().find("#501"), std::string_view::npos);
 }
 
-TEST_F(FileMemoryTest, AnEditorsTextCounts) {
+TEST_F(FileStoreTest, AnEditorsTextCounts) {
   const auto first = load();
   auto open = std::make_shared<OpenTexts>();
   (*open)[folder_ / "O3.nc"] = std::make_shared<const std::string>("%\nO3\n#1=2\nM99\n%\n");
@@ -68,7 +69,7 @@ TEST_F(FileMemoryTest, AnEditorsTextCounts) {
   EXPECT_EQ(kept(*second, *load(open)), std::vector({true, true, true}));
 }
 
-TEST_F(FileMemoryTest, ContractsAreReadWithTheirPrograms) {
+TEST_F(FileStoreTest, ContractsAreReadWithTheirPrograms) {
   const auto first = load();
   write("O2.contract", "@REQUIRE #500 GT 0\n");
   const auto second = load();
@@ -78,7 +79,7 @@ TEST_F(FileMemoryTest, ContractsAreReadWithTheirPrograms) {
   EXPECT_EQ(kept(*second, *load()), std::vector({true, false, true}));
 }
 
-TEST_F(FileMemoryTest, AnotherControlReadsAnew) {
+TEST_F(FileStoreTest, AnotherControlReadsAnew) {
   const auto first = load();
   write("feedhold.toml", "dialect = \"mitsubishi-m700\"\n");
   const auto second = load();
@@ -86,6 +87,16 @@ TEST_F(FileMemoryTest, AnotherControlReadsAnew) {
   EXPECT_EQ(kept(*first, *second), std::vector({false, false, false}));
   fs::remove(folder_ / "feedhold.toml");
   EXPECT_EQ(kept(*first, *load()), std::vector({true, true, true}));
+}
+
+TEST_F(FileStoreTest, ARunReadsAFileOnce) {
+  FileStore store(FileStore::Lifetime::Run);
+  const auto first = load(nullptr, &store);
+  write("O2.nc", "%\nO2\n#501=1\nM99\n%\n");
+  write("O4.nc", "%\nO4\nM99\n%\n");
+  const auto second = load(nullptr, &store);
+  EXPECT_EQ(second->files.size(), 3U); // the folder, too, is listed once
+  EXPECT_EQ(kept(*first, *second), std::vector({true, true, true}));
 }
 
 } // namespace
