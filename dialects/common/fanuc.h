@@ -67,6 +67,7 @@ inline Dialect makeFanuc(MachineKind machine) {
   dialect.bitWords = kOutputWords;
   dialect.argumentVariables = kArgumentVariables;
   dialect.behaviour.scalesByIncrements = true;
+  dialect.hasFanucParameters = true;
   dialect.switches.pointArcStops = Switch::Off; // an arc of 0 degrees
   return dialect;
 }

@@ -27,7 +27,8 @@ void check(const Statement &statement, BlockId block, const FileContext &context
   reporter.report(
       {.message = fmt::format("alarm number {} is outside the range {} to {}", alarm->number->toString(), first, last),
        .span = alarm->numberSpan,
-       .notes = {"the control stops, but with an alarm of its own instead of this number and message"}});
+       .notes = {"the control stops, but with an alarm of its own instead of this number and message",
+                 fmt::format("use a number from {} to {}", first, last)}});
 }
 
 } // namespace

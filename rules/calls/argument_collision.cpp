@@ -18,9 +18,11 @@ const Argument &winner(const Call &call, const Argument &loser) {
 }
 
 std::vector<std::string> notesFor(const Argument &lost, const Argument &later) {
-  if (!lost.fromSet && !later.fromSet)
-    return {};
-  return {"a second I, J or K in a call sets the variables of other letters"};
+  std::vector<std::string> notes;
+  if (lost.fromSet || later.fromSet)
+    notes.emplace_back("a second I, J or K in a call sets the variables of other letters");
+  notes.emplace_back("delete one of the two words, or pass the value with another letter");
+  return notes;
 }
 
 /// I, J or K counted as a second set only because the letters are out of order.  Controls differ there, and
@@ -42,10 +44,10 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       continue;
     const Span lost = wordOf(context, argument.word).span();
     const Span wins = wordOf(context, later.word).span();
-    reporter.report({.message = fmt::format("{} is overwritten: {} sets `#{}`, too", context.quoted(lost),
+    reporter.report({.message = fmt::format("{} has no effect: {} also sets `#{}`", context.quoted(lost),
                                             context.quoted(wins), argument.variable),
                      .span = lost,
-                     .labels = {{wins, "the later word"}},
+                     .labels = {{wins, "overwrites it"}},
                      .notes = notesFor(argument, later)});
   }
 }

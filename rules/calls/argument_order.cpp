@@ -45,9 +45,11 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       .message = fmt::format("{} sets `#{}`, not `#{}`: I, J and K are out of order", context.quoted(span),
                              shifted->variable, usual),
       .span = span,
-      .notes = {"out of order, they are read as a second set of I, J, K", "write I before J before K"}};
+      .notes = {"the control reads a letter that comes too late as the start of a second set of I, J, K",
+                "write I before J before K"}};
   if (before)
-    diagnostic.labels.push_back({wordOf(context, before->word).span(), "must come after it"});
+    diagnostic.labels.push_back(
+        {wordOf(context, before->word).span(), fmt::format("`{}` must come before it", letter)});
   reporter.report(std::move(diagnostic));
 }
 

@@ -37,16 +37,20 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       std::ranges::find_if(call.arguments, [&](const Argument &argument) { return lacksPoint(argument, context); });
   if (first == call.arguments.end())
     return;
+  const std::string_view setting = context.dialect.hasFanucParameters
+                                       ? "parameter 3401#0 (DPI)"
+                                       : "a setting of the machine (`dpi` in feedhold.toml)";
   Diagnostic diagnostic{
       .message = fmt::format("argument {} has no decimal point", context.quoted(wordOf(context, first->word).span())),
       .span = wordOf(context, first->word).span(),
-      .notes = {dpi == Switch::Off
-                    ? "the control reads it in least increments: thousandths of a millimetre or degree"
-                    : "parameter 3401#0 decides whether it is in whole units or in thousandths (least increments)",
-                "with a decimal point the value is the same on every machine"}};
+      .notes = {
+          dpi == Switch::Off
+              ? std::string("the control reads it in least increments, such as 0.001 mm or 0.0001 inch")
+              : fmt::format("{} decides: whole units, or least increments such as 0.001 mm or 0.0001 inch", setting),
+          "with a decimal point the value is the same on every machine"}};
   for (auto other = std::next(first); other != call.arguments.end(); ++other)
     if (lacksPoint(*other, context))
-      diagnostic.labels.push_back({wordOf(context, other->word).span(), "this one, too"});
+      diagnostic.labels.push_back({wordOf(context, other->word).span(), "this one too"});
   reporter.report(std::move(diagnostic));
 }
 

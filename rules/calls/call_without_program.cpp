@@ -31,7 +31,7 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
        .span = code,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, local ? AlarmKind::SequenceNotFound
                                                                                 : AlarmKind::ProgramNotFound)),
-                 "write its number with P in the same block"}});
+                 "write the number with P in the same block"}});
 }
 
 } // namespace

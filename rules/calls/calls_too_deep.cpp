@@ -24,7 +24,8 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
                               macros ? limits.macroCallDepth : limits.totalCallDepth, macros ? " macro calls" : ""),
        .span = context.model.programs[id].header,
        .notes = {fmt::format("the control {}", stopsWith(context.dialect, macros ? AlarmKind::MacroNesting
-                                                                                 : AlarmKind::SubprogramNesting))}});
+                                                                                 : AlarmKind::SubprogramNesting)),
+                 "merge some of the programs, or replace a call by a loop"}});
 }
 
 } // namespace

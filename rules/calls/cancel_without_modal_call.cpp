@@ -47,10 +47,13 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       mayHaveUnknownCaller(context, call.caller))
     return;
   const Span code = wordOf(context, call.code).span();
-  reporter.report({.message = fmt::format("{} with no modal call to cancel", context.quoted(code)),
-                   .span = code,
-                   .notes = {fmt::format("the control {}, unless parameter 6000#0 is 1",
-                                         stopsWith(context.dialect, AlarmKind::NoModalCall))}});
+  reporter.report(
+      {.message = fmt::format("{} with no modal call to cancel", context.quoted(code)),
+       .span = code,
+       .notes = {fmt::format("the control {}, unless {}", stopsWith(context.dialect, AlarmKind::NoModalCall),
+                             context.dialect.hasFanucParameters ? "parameter 6000#0 (G67) is 1"
+                                                                : "a setting of the machine allows it"),
+                 "delete it, or add the missing G66"}});
 }
 
 } // namespace

@@ -20,7 +20,8 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
     reporter.report({.message = fmt::format("`{}` cannot pass an argument", word.address()),
                      .span = word.span(),
                      .labels = {{wordOf(context, call.code).span(), "the call"}},
-                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentAddress))}});
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentAddress)),
+                               "pass the value with another letter"}});
   }
 }
 

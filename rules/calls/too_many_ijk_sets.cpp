@@ -20,7 +20,8 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
                                           context.quoted(span), context.dialect.limits.ijkSets),
                    .span = span,
                    .labels = {{wordOf(context, call.code).span(), "the call"}},
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::TooManyIjkSets))}});
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::TooManyIjkSets)),
+                             "pass the remaining values in common variables, or call the macro twice"}});
 }
 
 } // namespace

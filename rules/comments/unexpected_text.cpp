@@ -17,7 +17,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   reporter.report({.message = fmt::format("{} is not part of a word or statement", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
-                             "put remarks in parentheses"}});
+                             "delete it, or put it in parentheses if it is a remark"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnexpectedText};

@@ -7,9 +7,10 @@ namespace feedhold::rules::empty_contract_range {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("this range contains no value: {}", issue.detail),
-                   .span = issue.span,
-                   .notes = {"no call could satisfy the contract, so any claim about it would be true"}});
+  reporter.report(
+      {.message = fmt::format("this range contains no value: {}", issue.detail),
+       .span = issue.span,
+       .notes = {"nothing is proved from this contract until it is corrected; often the two ends are swapped"}});
 }
 
 constexpr ContractIssueKind kKinds[] = {ContractIssueKind::EmptyRange};

@@ -21,7 +21,7 @@ constexpr ContractIssueKind kKinds[] = {ContractIssueKind::Repeated};
 extern const Rule repeatedContractClause;
 const Rule repeatedContractClause{
     .info = {"repeated-contract-clause", Category::Contract, Severity::Error,
-             "Reports a contract clause that states a second time what another clause already states."},
+             "Reports a contract clause for something that an earlier clause already states."},
     .hooks = {.contract = check, .contractKinds = kKinds}};
 
 } // namespace feedhold::rules::repeated_contract_clause

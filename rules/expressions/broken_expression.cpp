@@ -14,7 +14,7 @@ std::string whatIsWrong(Span span, const FileContext &context) {
   const std::string_view before = trimmed(context.source.text().substr(0, span.begin));
   if (context.text(span) == "]" && before.ends_with('['))
     return "these brackets are empty";
-  return fmt::format("{} does not belong here in the expression", context.quoted(span));
+  return fmt::format("unexpected {} in this expression", context.quoted(span));
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {

@@ -15,7 +15,8 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
   reporter.report(
       {.message = fmt::format("{} does not have the function `{}`", context.dialect.id, spellingOf(call->function)),
        .span = context.tree.expressions[id].span,
-       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::FunctionNotUsable))}});
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::FunctionNotUsable)),
+                 "compute the value another way"}});
 }
 
 } // namespace

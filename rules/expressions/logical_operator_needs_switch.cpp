@@ -29,12 +29,14 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
     return;
   const bool off = setting == Switch::Off;
   reporter.report(
-      {.message = fmt::format("`{}` joins two comparisons, which needs parameter 6006#0 (MLG)", spellingOf(found->op)),
+      {.message = fmt::format("`{}` joins two comparisons, which needs {}", spellingOf(found->op),
+                              context.dialect.hasFanucParameters ? "parameter 6006#0 (MLG)"
+                                                                 : "a setting that not every machine has"),
        .span = found->opSpan,
-       .notes = {off ? fmt::format("the parameter is off: the control {}",
-                                   stopsWith(context.dialect, AlarmKind::ExpressionFormat))
-                     : std::string("with the parameter off the control reads it as a bit operation and stops"),
-                 off ? "write two IF blocks, one after the other"
+       .notes = {off ? fmt::format("it is off: the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat))
+                     : std::string("where it is off, the control reads a bit operation and stops"),
+                 off ? "write two IF blocks: for OR, two jumps to one target; for AND, two jumps past it on the "
+                       "opposite conditions"
                      : "set `mlg` in feedhold.toml to the machine's setting"}},
       off ? Severity::Error : Severity::Info);
 }

@@ -36,18 +36,19 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (blockBehind(facts, jump) == use.block)
         jumps.push_back({jump.span, "this jump is never taken"});
     reporter.report(
-        {.message = "this alarm can never come up: no path reaches it",
+        {.message = "this alarm is never raised: no path reaches it",
          .span = span,
          .labels = std::move(jumps),
-         .notes = {"the conditions before it always come out the other way; check their comparisons and variables"}});
+         .notes = {"the conditions before it always have the same outcome; check their comparisons and variables"}});
   }
 }
 
 } // namespace
 
 extern const Rule alarmNeverFires;
-const Rule alarmNeverFires{.info = {"alarm-never-fires", Category::Flow, Severity::Info,
-                                    "Reports an alarm that the conditions before it never let come up."},
-                           .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
+const Rule alarmNeverFires{
+    .info = {"alarm-never-fires", Category::Flow, Severity::Info,
+             "Reports an alarm that is never raised, because the conditions before it rule it out."},
+    .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::alarm_never_fires

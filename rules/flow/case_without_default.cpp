@@ -74,7 +74,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (behind != cases.front().target || isExhausted(facts, last) || isChecked(facts, last, cases.front().variable))
       continue;
     reporter.report(
-        {.message = fmt::format("any other value of `#{}` runs into the first case", cases.front().variable),
+        {.message = fmt::format("any other value of `#{}` falls through to the first case", cases.front().variable),
          .span = cases.back().span,
          .label = "last comparison",
          .labels = {{context.tree.blocks[behind].span(), "any other value continues here"}},
@@ -87,7 +87,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule caseWithoutDefault;
 const Rule caseWithoutDefault{
     .info = {"case-without-default", Category::Flow, Severity::Info,
-             "Reports a chain of `IF[..EQ..]GOTO` in which every other value runs into the first case."},
+             "Reports a chain of `IF[..EQ..]GOTO` in which any other value falls through to the first case."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::case_without_default

@@ -35,7 +35,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                always ? "is" : "can be", missing.front(), missing.front()),
         .span = span,
         .way = wayFromEntry(facts, node),
-        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound))}};
+        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
+                  "correct the computation, or add the sequence number"}};
     if (always)
       reporter.report(std::move(diagnostic));
     else

@@ -26,7 +26,8 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
                               : fmt::format("may divide by zero: {} can be 0 here", context.quoted(alarm.place)),
       .span = alarm.place,
       .way = wayFromEntry(facts, alarm.node),
-      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DivideByZero))}};
+      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DivideByZero)),
+                "correct the divisor, or check it for 0 before this block"}};
   if (alarm.always)
     reporter.report(std::move(diagnostic));
   else

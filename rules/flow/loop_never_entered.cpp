@@ -41,7 +41,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     reporter.report({.message = fmt::format("this loop is never entered: {} is always false", context.quoted(span)),
                      .span = span,
                      .label = values,
-                     .notes = {"whatever the loop should machine is left out, without an alarm"}});
+                     .notes = {"whatever the loop was meant to cut is left out, without an alarm"}});
   }
 }
 

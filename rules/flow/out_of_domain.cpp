@@ -41,7 +41,8 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
                              alarm.always ? "is" : "can be", spellingOf(call->function)),
       .span = alarm.place,
       .way = wayFromEntry(facts, alarm.node),
-      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentOutOfDomain))}};
+      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentOutOfDomain)),
+                "correct the argument, or check it before this block"}};
   if (alarm.always)
     reporter.report(std::move(diagnostic));
   else

@@ -52,7 +52,8 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
        .span = span,
        .labels = {{*setting, "set here"}},
        .way = describeWay(facts, *way),
-       .notes = {"where it is not set it is vacant: arithmetic reads it as 0, and the control ignores a word with it"}},
+       .notes = {"without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
+                 "set it before the conditions, or close the gap between them"}},
       passesCases(facts, paths, *way) ? Severity::Info : Severity::Warning);
 }
 

@@ -48,7 +48,7 @@ void checkPair(const Loop &outer, const Loop &inner, const FlowFacts &facts, con
        .span = *innerStep,
        .labels = {{*outerStep, "the step of the outer loop"},
                   {context.tree.statements[inner.doStatement].span, "the inner loop"}},
-       .notes = {"the outer loop leaves out iterations; give the inner loop its own counter"}});
+       .notes = {"the outer loop skips iterations; give the inner loop its own counter"}});
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {

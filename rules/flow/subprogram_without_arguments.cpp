@@ -28,13 +28,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!missing)
       continue;
     const char letter = *letterOfArgument(*file.dialect, *missing->number);
-    reporter.report(
-        {.message = fmt::format("{} reads `#{}` ({}), but M98 passes no arguments", toString(call.callee),
-                                *missing->number, letter),
-         .span = call.span,
-         .labels = {{file.tree->expressions[missing->expression].span, "vacant here", callee->file}},
-         .notes = {"a subprogram uses the local variables of its caller, and nothing sets this one",
-                   fmt::format("call it by G65 with {}, or set `#{}` before the call", letter, *missing->number)}});
+    reporter.report({.message = fmt::format("{} reads `#{}` ({}), but M98 passes no arguments", toString(call.callee),
+                                            *missing->number, letter),
+                     .span = call.span,
+                     .labels = {{file.tree->expressions[missing->expression].span, "vacant here", callee->file}},
+                     .notes = {"a subprogram uses the local variables of its caller, and nothing sets this one",
+                               fmt::format("call it with G65 and pass {}, or set `#{}` before the call", letter,
+                                           *missing->number)}});
   }
 }
 

@@ -78,8 +78,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
           {.message = fmt::format("{} does not catch a missing {}", context.quoted(span),
                                   describeVariable(context.dialect, *number)),
            .span = span,
-           .notes = {"an argument that is not passed is vacant, and vacant is not equal to 0: no alarm comes up",
-                     fmt::format("check `[#{} EQ #0]` as well", *number)}});
+           .notes = {
+               "an argument that is not passed is vacant, and `EQ` does not treat vacant as 0: no alarm is raised",
+               fmt::format("check `[#{} EQ #0]` as well", *number)}});
     }
   }
 }

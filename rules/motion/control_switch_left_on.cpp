@@ -72,12 +72,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         continue;
       const MotionView view(facts.program, context);
       const Span place = context.tree.expressions[use->expression].span;
-      reporter.report({.message = fmt::format("`#{}` is not reset to 0 on a path to this end", which.variable),
+      reporter.report({.message = fmt::format("`#{}` is not reset to 0 on every path to the end", which.variable),
                        .span = place,
                        .labels = {{view.blockSpan(exit.node), "ends here"}},
                        .way = wayFromEntry(facts, exit.node),
                        .notes = {fmt::format("{} stays disabled for everything that runs afterwards", which.locks),
-                                 fmt::format("write `#{}=0` before this end, too", which.variable)}});
+                                 fmt::format("write `#{}=0` before every end of the program", which.variable)}});
       break;
     }
   }

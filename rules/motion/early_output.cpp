@@ -81,8 +81,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         {.message = fmt::format("{} is written again before the dwell is over", context.quoted(place)),
          .span = place,
          .labels = {{view.blockSpan(*dwell), "macro statements do not wait for this dwell"}},
-         .notes = {"the control reads ahead and executes both statements before the dwell: the pulse is lost",
-                   "limit the look-ahead, or put an unbuffered M code after the dwell"}});
+         .notes = {"the control reads ahead and executes both statements before the dwell is over: the pulse is lost",
+                   "limit the look-ahead, or put an M code that stops it after the dwell"}});
   }
 }
 

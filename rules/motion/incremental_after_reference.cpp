@@ -54,7 +54,7 @@ private:
          .span = word.span(),
          .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "active since here"}},
          .way = describeWay(facts, *way),
-         .notes = {"the tool moves this far from the reference point, not to this position",
+         .notes = {"the tool moves by this distance from where it is, not to this position",
                    "write G90 after the reference return; if incremental is meant, write G91 in this block"}});
   }
 

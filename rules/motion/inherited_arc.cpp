@@ -27,14 +27,18 @@ public:
     for (const auto &[node, always] : places_) {
       const Word &word = *view_.modalMotionWords(node).front();
       const auto arc = arcBefore(node, facts);
-      reporter.report({.message = fmt::format("{} is moved under `G02` or `G03`{}, but has neither `R` nor `I J K`",
-                                              context.quoted(word.span()), always ? "" : " on some path"),
-                       .span = word.span(),
-                       .labels = arc ? std::vector<Label>{arc->label} : std::vector<Label>{},
-                       .way = arc ? arc->way : std::vector<Label>{},
-                       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre)),
-                                 "for a straight move write G00 or G01 in this block"}},
-                      always ? Severity::Error : Severity::Warning);
+      reporter.report(
+          {.message = fmt::format("`G02` or `G03` is still active at {}{}, but the block has neither `R` nor `I J K`",
+                                  context.quoted(word.span()), always ? "" : " on some path"),
+           .span = word.span(),
+           .labels = arc ? std::vector<Label>{arc->label} : std::vector<Label>{},
+           .way = arc ? arc->way : std::vector<Label>{},
+           .notes = {fmt::format("the control {}{}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre),
+                                 context.dialect.hasFanucParameters
+                                     ? ", or moves in a straight line if parameter 3403#5 (CIR) is 0"
+                                     : ""),
+                     "for a straight move write G00 or G01 in this block"}},
+          always ? Severity::Error : Severity::Warning);
     }
   }
 

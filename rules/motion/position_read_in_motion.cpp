@@ -58,13 +58,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     told = use.block;
     const Span place = context.tree.expressions[use.expression].span;
-    reporter.report(
-        {.message = fmt::format("{} is read while the axes may still be moving", context.quoted(place)),
-         .span = place,
-         .labels = {{view.blockSpan(*movement), "this move may not have finished"}},
-         .notes = {
-             "a control that reads ahead returns some position along the move",
-             "read the end point (#5001 and up), or make the control wait first: a dwell or an unbuffered M code"}});
+    reporter.report({.message = fmt::format("{} is read while the axes may still be moving", context.quoted(place)),
+                     .span = place,
+                     .labels = {{view.blockSpan(*movement), "this move may not have finished"}},
+                     .notes = {"a control that reads ahead returns some position along the move",
+                               "read the end point (#5001 and up), or make the control wait first: a dwell, or an M "
+                               "code that stops the look-ahead"}});
   }
 }
 
@@ -73,7 +72,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule positionReadInMotion;
 const Rule positionReadInMotion{.info = {"position-read-in-motion", Category::Motion, Severity::Info,
                                          "Reports a current position that is read right after a move, with nothing in "
-                                         "between for which the control waits."},
+                                         "between that makes the control wait."},
                                 .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::position_read_in_motion

@@ -30,10 +30,10 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Word *code = findCode(context.tree, block, context.dialect, CodeRole::DataSetting);
   const Word *kind = findWord(context.tree, block, 'L');
   reporter.report(
-      {.message =
-           fmt::format("{} {} has no `G11` after it", context.quoted(code->span()), context.quoted(kind->span())),
+      {.message = fmt::format("no `G11` ends {}", context.quoted(cover(code->span(), kind->span()))),
        .span = cover(code->span(), kind->span()),
-       .notes = {"the control reads the blocks that follow as parameter data, with N as the parameter number"}});
+       .notes = {"the control reads the blocks that follow as parameter data, with N as the parameter number",
+                 "write G11 after the last parameter"}});
 }
 
 } // namespace

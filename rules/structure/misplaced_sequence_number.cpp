@@ -37,7 +37,7 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
   reporter.report(
       {.message = fmt::format("sequence number {} is not at the head of its block", context.quoted(word.span())),
        .span = word.span(),
-       .labels = {{*before, "comes before it"}},
+       .labels = {{*before, "the block begins before it"}},
        .notes = {"whether a jump finds the block depends on the control",
                  "put it first, or on a new line if the line end was lost"}});
 }

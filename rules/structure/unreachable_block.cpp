@@ -35,12 +35,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
     const std::uint32_t last = context.source.lineOf(context.tree.blocks[run.last].begin);
-    reporter.report(
-        {.message = first == last ? "this block is never executed"
-                                  : fmt::format("the blocks from here to line {} are never executed", last),
-         .span = context.tree.blocks[*start].span(),
-         .labels = {{context.tree.blocks[run.ender].span(), "the program never goes on from here to the next block"}},
-         .notes = {"no jump leads here; delete the blocks or correct the jump that should"}});
+    reporter.report({.message = first == last ? "this block is never executed"
+                                              : fmt::format("the blocks from here to line {} are never executed", last),
+                     .span = context.tree.blocks[*start].span(),
+                     .labels = {{context.tree.blocks[run.ender].span(), "the program never continues past this block"}},
+                     .notes = {"no jump leads here: delete the blocks, or correct the jump that should lead here"}});
   }
 }
 

@@ -26,8 +26,11 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     return;
   reporter.report({.message = fmt::format("{} has neither `R` nor `I J K`", context.quoted(arc->span())),
                    .span = arc->span(),
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre)),
-                             "for a straight move write G01"}});
+                   .notes = {fmt::format("the control {}{}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre),
+                                         context.dialect.hasFanucParameters
+                                             ? ", or moves in a straight line if parameter 3403#5 (CIR) is 0"
+                                             : ""),
+                             "add R or I, J, K; for a straight move write G01"}});
 }
 
 } // namespace

@@ -15,9 +15,9 @@ void reportPair(const Word &first, const Word &second, const FileContext &contex
                               context.quoted(second.span())),
        .span = second.span(),
        .labels = {{first.span(), "the first one"}},
-       .notes = {alarm
-                     ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
-                     : std::string("the control uses the last one for the whole block, also for the words before it")}},
+       .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
+                       : std::string("the control uses the last one for the whole block, also for the words before it"),
+                 "delete one of the two, or put it in a block of its own"}},
       alarm ? Severity::Error : Severity::Warning);
 }
 

@@ -21,7 +21,8 @@ void reportPair(const Word &first, const Word &second, const FileContext &contex
        .span = second.span(),
        .labels = {{first.span(), "the first one"}},
        .notes = {alarm ? fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DuplicateAddress))
-                       : std::string("the control uses the last one, without any message")}},
+                       : std::string("the control uses the last one, without any message"),
+                 "correct the address, delete one of the words, or restore a lost line end"}},
       alarm ? Severity::Error : Severity::Warning);
 }
 

@@ -10,7 +10,7 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   reporter.report({.message = "this IF has no action",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
-                             "the next block is executed whether the condition is true or not"}});
+                             "write the action in this block: `IF[..]GOTO10` or `IF[..]THEN#1=0`"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutAction};

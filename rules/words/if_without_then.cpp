@@ -26,10 +26,13 @@ bool mayFollowCondition(Span action, const FileContext &context) {
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.thenMayBeOmitted && mayFollowCondition(issue.span, context))
     return;
-  reporter.report({.message = fmt::format("`THEN` is missing before {}", context.quoted(issue.span)),
+  reporter.report({.message = "`THEN` or `GOTO` is missing after the condition",
                    .span = issue.span,
                    .labels = {{issue.other, "the IF"}},
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}});
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
+                             context.dialect.grammar.thenMayBeWords
+                                 ? "write THEN before the action"
+                                 : "write THEN before a macro statement; to skip words, jump over their block"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutThen};

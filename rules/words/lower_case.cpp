@@ -48,7 +48,7 @@ void check(const FileContext &context, const Reporter &reporter) {
                                   ? std::string("lower-case letters outside a comment")
                                   : fmt::format("lower-case letters outside comments, in {} blocks", runs.size()),
                    .span = runs.front(),
-                   .notes = {"older controls stop at them"},
+                   .notes = {"older controls do not read lower-case letters and stop"},
                    .fixes = {std::move(fix)}});
 }
 

@@ -8,7 +8,8 @@ void check(const SyntaxIssue &issue, const FileContext &, const Reporter &report
   reporter.report(
       {.message = "block skip within a block",
        .span = issue.span,
-       .notes = {"with the switch on, the words before it are still executed; some machines skip the whole block"}});
+       .notes = {"with the switch on, the words before it are still executed; some machines skip the whole block",
+                 "put the `/` at the head of the block, or split the block"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::MisplacedBlockSkip};

@@ -45,11 +45,14 @@ Lengths lengthsOf(const FileContext &context) {
 
 void reportWord(const Word &word, const FileContext &context, const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
+  const std::string_view unless = context.dialect.hasFanucParameters
+                                      ? "with parameter 3401#0 (DPI) off "
+                                      : "unless a setting of the machine makes it whole units, ";
   reporter.report(
       {.message = fmt::format("{} has no decimal point, but the lengths around it do", context.quoted(word.span())),
        .span = word.span(),
        .notes = {fmt::format("{}the control reads it in least increments: `2` is 0.002 mm or 0.0002 inch",
-                             sure ? "" : "with parameter 3401#0 (DPI) off ")},
+                             sure ? "" : unless)},
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 

@@ -25,12 +25,16 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   if (count < 2 || (setting == Switch::On && count <= mostEver) || passesArguments(context, block))
     return;
   const bool sure = setting == Switch::Off || count > mostEver;
+  const std::string_view off = context.dialect.hasFanucParameters
+                                   ? "with parameter 3404#7 (M3B) off the control executes only the last one"
+                                   : "many machines execute only the last one (`m3b` in feedhold.toml)";
   reporter.report({.message = fmt::format("{} M codes in one block", count),
                    .span = last->span(),
                    .labels = {{first->span(), "the first one"}},
                    .notes = {count > mostEver ? fmt::format("no setting of the control allows more than {}", mostEver)
-                             : sure           ? "the control executes only the last one (parameter 3404#7, M3B, is off)"
-                                    : "with parameter 3404#7 (M3B) off the control executes only the last one"}},
+                             : sure           ? std::string("the control executes only the last one")
+                                              : std::string(off),
+                             "put each M code in its own block"}},
                   sure ? Severity::Warning : Severity::Info);
 }
 

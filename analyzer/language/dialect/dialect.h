@@ -434,6 +434,7 @@ struct Dialect {
   Grammar grammar;
   Behaviour behaviour;
   Switches switches;
+  bool hasFanucParameters = false; // the numbers beside Switches are those of its manual, so messages name them
   std::span<const LanguageHint> hints;
 };
 
