@@ -45,6 +45,19 @@ class Ranges(Scratch):
         self.assertIn("#1  5\n", text)
         self.assertNotIn("O2000, called", text)
 
+    def test_counters_end_at_the_limit_of_their_loop(self):
+        """Up, down, in steps that pass the limit, to what a variable holds, and tested at the end of the loop."""
+        for loop, last in (("#1=0\nWHILE[#1LT96]DO1\n#1=#1+1\nEND1", "96"),
+                           ("#1=0\nWHILE[#1LE96]DO1\n#1=#1+1\nEND1", "97"),
+                           ("#1=90\nWHILE[#1GT-5]DO1\n#1=#1-1\nEND1", "-5"),
+                           ("#2=50\n#1=0\nWHILE[#2GT#1]DO1\n#1=1+#1\nEND1", "50"),
+                           ("#1=0\nN1#1=#1+1\nIF[#1LT40]GOTO1", "40"),
+                           ("#1=0\nN1IF[#1EQ30]GOTO2\n#1=#1+1\nGOTO1\nN2", "30"),
+                           ("#1=0\nWHILE[#1LT50]DO1\n#1=#1+20\nEND1", "60")):
+            with self.subTest(loop):
+                self.write("O4.nc", f"O4\n{loop}\nG0X#1\nM30\n")
+                self.assertRegex(self.ranges(f"O4.nc:{loop.count(chr(10)) + 3}"), rf"#1 +{last}\n")
+
     def test_two_calls_that_come_to_find_the_same(self):
         """In the second iteration both calls find any position: each says so, also the one that is told second."""
         self.write("O3.nc", "O3\nWHILE[#11LT4]DO1\nG91\nM98P4\nM98P4\nEND1\nM30\nO4\nG1Y3.\nM99\n")

@@ -100,8 +100,7 @@ void Partitions::add(AbstractReading &reading, std::uint64_t key, AbstractState 
     merge(reading);
 }
 
-bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, bool widening,
-                      std::span<const double> thresholds) {
+bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, const Growth &how) {
   bool changed = false;
   for (const Part &next : incoming.parts()) {
     Part *old = find(next.key);
@@ -109,10 +108,12 @@ bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, bool
       add(reading, next.key, AbstractState(next.state));
       changed = true;
     } else if (!leq(reading, next.state, old->state)) {
-      if (widening)
-        widenInto(reading, old->state, next.state, thresholds);
+      const std::vector<AbstractNumber> counted = how.counters.numbersIn(old->state);
+      if (how.widening)
+        widenInto(reading, old->state, next.state, how.thresholds);
       else
         joinInto(reading, old->state, next.state);
+      how.counters.extend(old->state, counted);
       changed = true;
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "inference/absint/abstract_state.h"
+#include "inference/absint/loop_counters.h"
 
 #include <optional>
 #include <span>
@@ -23,6 +24,13 @@ PartitionBy partitionBy(const ProgramFile &file, ProgramId program, const ModalT
 /// Equal for states that belong together; 0 for those of which nothing is known.
 std::uint64_t keyOf(const PartitionBy &by, const AbstractReading &reading, const AbstractState &state);
 
+/// How the states at the head of a loop grow.
+struct Growth {
+  bool widening; // else they are joined
+  std::span<const double> thresholds;
+  const LoopCounters &counters;
+};
+
 class Partitions {
 public:
   static constexpr std::size_t kMost = 12; // then all are joined
@@ -36,8 +44,8 @@ public:
   const std::vector<Part> &parts() const { return parts_; }
 
   void add(AbstractReading &reading, std::uint64_t key, AbstractState &&state);
-  /// Old states that grow are widened, new ones are taken as they are; true when anything has changed.
-  bool grow(AbstractReading &reading, const Partitions &incoming, bool widening, std::span<const double> thresholds);
+  /// Old states that grow are joined or widened, new ones are taken as they are; true when anything has changed.
+  bool grow(AbstractReading &reading, const Partitions &incoming, const Growth &how);
   /// What has arrived in place of what was assumed, part by part, where it says more.
   Partitions narrowedBy(const AbstractReading &reading, const Partitions &incoming) const;
   /// Every state is within one of `other` of its key.

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kPassesBeforeWidening = 3;
 
+const LoopCounters kNoCounters;
+
 /// The operands that must not be zero once the value has been computed.
 void collectDivisors(const SyntaxTree &tree, ExpressionId root, std::vector<ExpressionId> &divisors) {
   for (const ExpressionId id : subexpressions(tree, root))
@@ -87,7 +89,8 @@ void Propagation::process(std::uint32_t position, Partitions states) {
   if (isHead(position)) {
     if (pass_ == Pass::Ascend) {
       const bool widening = ++visits_[position] > kPassesBeforeWidening;
-      if (!summary_.heads[position].grow(reading_, states, widening, facts_.thresholds))
+      const Growth growth{widening, facts_.thresholds, countersOf(position)};
+      if (!summary_.heads[position].grow(reading_, states, growth))
         return;
       states = summary_.heads[position];
     } else {
@@ -101,6 +104,17 @@ void Propagation::process(std::uint32_t position, Partitions states) {
   }
   for (Partitions::Part &part : states.parts())
     follow(node, std::move(part.state));
+}
+
+/// Found when the loop is about to be gone through once more, and kept.
+const LoopCounters &Propagation::countersOf(std::uint32_t head) {
+  const bool isLoop = head < facts_.wto.order().size() && facts_.wto.isHead(facts_.wto.order()[head]);
+  if (!isLoop || visits_[head] < 2)
+    return kNoCounters;
+  const auto found = counters_.find(head);
+  return found != counters_.end()
+             ? found->second
+             : counters_.emplace(head, LoopCounters(*facts_.file, facts_.wto, facts_.wto.order()[head])).first->second;
 }
 
 /// Straight on until a place where ways meet; side ways are put aside and followed afterwards.

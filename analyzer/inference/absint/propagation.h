@@ -32,6 +32,8 @@ private:
   bool isHead(std::uint32_t position) const;
   bool isCut(NodeId node) const;
 
+  const LoopCounters &countersOf(std::uint32_t head);
+
   void restart();
   void process(std::uint32_t position, Partitions states);
   // A state is large, even to be moved: it is taken where it stands.
@@ -79,9 +81,10 @@ private:
   ExecutedWords<AbstractReading> words_;
   std::map<std::uint32_t, Partitions> pending_; // by position
   std::map<std::uint32_t, Partitions> arrived_;
-  std::map<std::uint32_t, int> visits_; // of heads
-  std::optional<std::size_t> modal_;    // the modal call that is being entered
-  std::set<std::uint32_t> passed_;      // heads that have been gone through in this pass
+  std::map<std::uint32_t, int> visits_;            // of heads
+  std::map<std::uint32_t, LoopCounters> counters_; // by position of the head
+  std::optional<std::size_t> modal_;               // the modal call that is being entered
+  std::set<std::uint32_t> passed_;                 // heads that have been gone through in this pass
   std::vector<Work> work_;
   bool startAgain_ = false; // a new head has been found: what has passed it was not kept
 };

@@ -51,19 +51,6 @@ OperatorKind opposite(OperatorKind op) {
   return op;
 }
 
-/// `a LT b` seen from b.
-OperatorKind mirrored(OperatorKind op) {
-  if (op == OperatorKind::LessThan)
-    return OperatorKind::GreaterThan;
-  if (op == OperatorKind::GreaterThan)
-    return OperatorKind::LessThan;
-  if (op == OperatorKind::LessOrEqual)
-    return OperatorKind::GreaterOrEqual;
-  if (op == OperatorKind::GreaterOrEqual)
-    return OperatorKind::LessOrEqual;
-  return op;
-}
-
 /// One rounding of a double more on each side: `x + 1 LE b` in doubles lets x be that much above b - 1.
 Interval loosened(const Interval &interval) {
   return {std::nextafter(interval.lo, -INFINITY), std::nextafter(interval.hi, INFINITY)};
@@ -304,6 +291,18 @@ bool assumeRoundsTo(AbstractContext &context, ExpressionId expression, double nu
 
 bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value) {
   return Refiner(context).relation(OperatorKind::NotEqual, expression, context.reading.number(value));
+}
+
+OperatorKind mirrored(OperatorKind op) {
+  if (op == OperatorKind::LessThan)
+    return OperatorKind::GreaterThan;
+  if (op == OperatorKind::GreaterThan)
+    return OperatorKind::LessThan;
+  if (op == OperatorKind::LessOrEqual)
+    return OperatorKind::GreaterOrEqual;
+  if (op == OperatorKind::GreaterOrEqual)
+    return OperatorKind::LessOrEqual;
+  return op;
 }
 
 } // namespace feedhold

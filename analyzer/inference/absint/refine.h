@@ -16,4 +16,7 @@ bool assume(AbstractContext &context, ExpressionId condition, Holds holds);
 bool assumeRoundsTo(AbstractContext &context, ExpressionId expression, double number);
 bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value);
 
+/// `a LT b` seen from b.
+OperatorKind mirrored(OperatorKind op);
+
 } // namespace feedhold
