@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Optional
 
 
-DEFECT = re.compile(r"bug in Feedhold: (.*)\n  see it: feedhold run (\S+)")
+DEFECT = re.compile(r"bug in Feedhold: (.*)\n  replay it: feedhold run (\S+)")
 
 
 @dataclass(frozen=True)

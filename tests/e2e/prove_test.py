@@ -255,11 +255,11 @@ class Prove(Scratch):
     def test_both_are_shown(self):
         self.write("O9100.nc", DIVIDES)
         text = self.prove("O9100.nc").stdout
-        self.assertRegex(text, r"= note: it is proved with the clause `@REQUIRE #22 [A-Z]+ 0` in the contract\n")
+        self.assertRegex(text, r"= note: with the clause `@REQUIRE #22 [A-Z]+ 0` in the contract, this is proved\n")
         self.assertRegex(text, r"= fix \(needs review\): raise an alarm .*\n +before line 2:\n +IF\[#22[A-Z]+0\]GOTO")
         run = json.loads(self.prove("--format", "sarif", "O9100.nc").stdout)["runs"][0]
         [result] = [row for row in run["results"] if row["ruleId"] == "no-control-alarm"]
-        self.assertIn("it is proved with the clause", result["message"]["text"])
+        self.assertIn("in the contract, this is proved", result["message"]["text"])
         [change] = result["fixes"][0]["artifactChanges"]
         self.assertEqual(change["artifactLocation"]["uri"], "O9100.nc")
         self.assertIn("GOTO", change["replacements"][0]["insertedContent"]["text"])
@@ -273,7 +273,7 @@ class Prove(Scratch):
         self.assertIn("refuted: the control can stop here with PS0112 (divided by zero) [O9100.no-control-alarm.N10]\n"
                       " --> O9100.nc:2:", text)
         self.assertIn("G65 P9100: stops with PS0112 (divided by zero)\n", text)
-        self.assertIn("see it: feedhold run O9100.nc --dialect fanuc-30i --isolated\n", text)
+        self.assertIn("replay it: feedhold run O9100.nc --dialect fanuc-30i --isolated\n", text)
         self.assertLess(text.index("refuted: "), text.index("the program comes to an end"))
 
     def test_unknown_says_why(self):

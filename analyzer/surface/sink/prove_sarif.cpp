@@ -61,7 +61,7 @@ std::string textFor(const Obligation &obligation, const ProvedFile &file, const 
     const TypedWitness witness = typed(*obligation.verdict.witness(), file, program, report);
     text += "\n" + textOf(witness) + ": " +
             happenedIn(*obligation.verdict.witness(), obligation, file.project->dialect()) +
-            "\nsee it: " + witness.run();
+            "\nreplay it: " + witness.run();
   }
   if (obligation.verdict.guard())
     text += "\n" + remedyOf(*obligation.verdict.guard());

@@ -120,7 +120,7 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
 }
 
 std::string remedyOf(const prove::Guard &guard) {
-  return fmt::format("it is proved with the clause `{}` in the contract", guard.clause);
+  return fmt::format("with the clause `{}` in the contract, this is proved", guard.clause);
 }
 
 std::string messageOf(const Obligation &obligation, const Dialect &dialect) {

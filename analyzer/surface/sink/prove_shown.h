@@ -50,7 +50,7 @@ inline constexpr std::string_view kExactOnly =
 std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);
 /// What the run of the witness came to: `stops with PS0112 (divided by zero)`
 std::string happenedIn(const prove::Witness &witness, const prove::Obligation &obligation, const Dialect &dialect);
-/// With what a claim would be proved: ``it is proved with the clause `@REQUIRE #22 GT 0` ``
+/// With what a claim would be proved: ``with the clause `@REQUIRE #22 GT 0` in the contract, this is proved``
 std::string remedyOf(const prove::Guard &guard);
 /// Of what is not proved: what was seen, in one sentence: `this alarm can be raised`.
 std::string messageOf(const prove::Obligation &obligation, const Dialect &dialect);

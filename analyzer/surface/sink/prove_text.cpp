@@ -78,7 +78,7 @@ private:
   static void addFix(Diagnostic &diagnostic, FixIt fix, const SourceFile &source) {
     for (const Edit &edit : fix.edits) {
       const bool isBehind = edit.replacement.starts_with('\n') || edit.replacement.starts_with('\r');
-      fix.title += fmt::format("\n{} line {}:", isBehind ? "behind" : "before", source.lineOf(edit.span.begin));
+      fix.title += fmt::format("\n{} line {}:", isBehind ? "after" : "before", source.lineOf(edit.span.begin));
       for (const std::string_view block : linesOf(edit.replacement))
         fix.title += fmt::format("\n    {}", block);
     }
@@ -92,7 +92,9 @@ private:
     std::vector<std::string> notes{
         fmt::format("{}: {}", textOf(witness),
                     happenedIn(*obligation.verdict.witness(), obligation, file_.project->dialect())),
-        "see it: " + witness.run()};
+        "replay it: " + witness.run()};
+    if (obligation.kind == ObligationKind::AlarmUnreachable)
+      notes.emplace_back("if the alarm is meant for such calls, declare it in the contract with `@ALARM`");
     if (obligation.verdict.witness()->gouge)
       notes.push_back(fmt::format("draw it: {} -o gouge.svg", witness.plot()));
     return notes;
@@ -148,7 +150,7 @@ std::string defectsText(const ProveReport &report) {
         const TypedWitness call = typed(each.run, file, program, report);
         text +=
             fmt::format("bug in Feedhold: {} was {}, and a run contradicts it: {}: {}\n"
-                        "  see it: {}\n  the verdict has been withdrawn; please report this program and this call\n",
+                        "  replay it: {}\n  the verdict has been withdrawn; please report this program and this call\n",
                         each.id, each.verdict, textOf(call), each.run.happened, call.run());
       }
   return text;

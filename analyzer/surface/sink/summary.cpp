@@ -61,9 +61,9 @@ std::string findingsPart(const Counts &counts) {
 std::string fixesPart(const Counts &counts) {
   std::string text;
   if (counts.safeFixes != 0)
-    text += fmt::format("{} can be repaired with --fix\n", counted(counts.safeFixes, "finding"));
+    text += fmt::format("{} can be fixed with --fix\n", counted(counts.safeFixes, "finding"));
   if (counts.otherFixes != 0)
-    text += fmt::format("{} a repair that needs your review: --diff --unsafe-fixes shows {}\n",
+    text += fmt::format("{} a fix that needs your review: --diff --unsafe-fixes shows {}\n",
                         counts.otherFixes == 1 ? "1 finding has" : fmt::format("{} findings have", counts.otherFixes),
                         counts.otherFixes == 1 ? "it" : "them");
   return text;

@@ -1,20 +1,22 @@
 """Messages of `check` with never, always or stops, against one run of a program that no other calls."""
 import re
 
+from wording import require_on_pages
 from . import contract
 from .claims import Wrong
 from .reckon import Stop, Unsaid
 from .switches import Switches
 
 HELD, FAILED, RUN, PAST, OVER, LEFT = "held", "failed", "run", "past", "over", "left"
-SAYINGS = (("decided-condition", "never holds", HELD), ("decided-condition", "always holds", FAILED),
+SAYINGS = (("decided-condition", "never true", HELD), ("decided-condition", "always true", FAILED),
            ("constant-condition", "never true", HELD), ("constant-condition", "always true", FAILED),
-           ("unreachable-block", "never run", RUN), ("loop-never-entered", "never entered", HELD),
-           ("endless-loop", "no way leads out", LEFT), ("loop-without-progress", "never ends", OVER),
+           ("unreachable-block", "never executed", RUN), ("loop-never-entered", "never entered", HELD),
+           ("endless-loop", "never ends", LEFT), ("loop-without-progress", "never ends", OVER),
            ("loop-without-progress", "only an alarm ends", LEFT),
-           ("loop-in-wrong-direction", "never gets past", LEFT), ("alarm-never-fires", "never comes", "alarm"),
-           ("division-by-zero", "divides by zero", PAST), ("out-of-domain", "is outside of what", PAST),
+           ("loop-in-wrong-direction", "in the wrong direction", LEFT), ("alarm-never-fires", "never raised", "alarm"),
+           ("division-by-zero", "divides by zero", PAST), ("out-of-domain", "is outside the range", PAST),
            ("goto-missing-label", "has no target", PAST))
+require_on_pages((rule, text) for rule, text, _ in SAYINGS)
 CONDITIONAL = re.compile(r"(WHILE|IF)\[")
 # Of all calls; the others of those that contracts allow.
 ALL_CALLS = ("decided-condition", "alarm-never-fires", "loop-never-entered")

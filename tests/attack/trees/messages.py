@@ -2,6 +2,7 @@
 import re
 from dataclasses import dataclass
 
+from wording import require_on_pages
 from . import syntax
 from .files import file_of, line_of
 
@@ -92,19 +93,20 @@ def once_in_left(activation, block, outcome) -> bool:
 
 
 ROWS = (
-    Row("decided-condition", "never holds", lambda a, b, o: b in a.taken, "it held"),
-    Row("decided-condition", "always holds", lambda a, b, o: b in a.refused, "it did not hold"),
+    Row("decided-condition", "never true", lambda a, b, o: b in a.taken, "it held"),
+    Row("decided-condition", "always true", lambda a, b, o: b in a.refused, "it did not hold"),
     Row("constant-condition", "never true", lambda a, b, o: b in a.taken, "it was true"),
     Row("constant-condition", "always true", lambda a, b, o: b in a.refused, "it was not"),
-    Row("unreachable-block", "never run", lambda a, b, o: True, "it was run"),
-    Row("alarm-never-fires", "never comes",
+    Row("unreachable-block", "never executed", lambda a, b, o: True, "it was run"),
+    Row("alarm-never-fires", "never raised",
         lambda a, b, o: o.end == "user-alarm" and o.activation is a and o.block == b, "it came"),
     Row("loop-never-entered", "never entered", lambda a, b, o: b in a.taken, "it was entered"),
-    Row("endless-loop", "no way leads out", has_left, "the run left it"),
+    Row("endless-loop", "never ends", has_left, "the run left it"),
     Row("loop-without-progress", "never ends", once_in, "the run ended"),
     Row("loop-without-progress", "only an alarm ends", once_in_left, "the run left it"),
-    Row("loop-in-wrong-direction", "never gets past", once_in_left, "the run left it"),
+    Row("loop-in-wrong-direction", "in the wrong direction", once_in_left, "the run left it"),
     Row("division-by-zero", "^divides by zero", went_on, "it went on"),
-    Row("out-of-domain", "is outside of what", went_on, "it went on"),
+    Row("out-of-domain", "is outside the range", went_on, "it went on"),
     Row("goto-missing-label", "has no target", went_on, "it went on"),
 )
+require_on_pages((row.rule, row.text) for row in ROWS)

@@ -75,7 +75,7 @@ TEST_F(Sink, TextHasRuleCaretsAndPlace) {
 TEST_F(Sink, Summary) {
   EXPECT_EQ(summary(report()),
             "1 error in 1 file, 1 allowed, 1 file skipped, 1 file not checked\n"
-            "1 finding has a repair that needs your review: --diff --unsafe-fixes shows it\n"
+            "1 finding has a fix that needs your review: --diff --unsafe-fixes shows it\n"
             "guessed dialect fanuc-30i for 1 file; set `dialect` in feedhold.toml or give --dialect\n");
   EXPECT_EQ(skippedFiles(report()), "skipped picture.nc: a binary file\n");
   EXPECT_EQ(statistics(report(ShowSuppressed::Yes)), "      1 missing-equals\n      1 plain-style\n");
