@@ -44,7 +44,7 @@ def inside(path, folders):
     return any(path == folder or path.startswith(folder + "/") for folder in folders)
 
 
-def room_of(path, layers):
+def library_of(path, layers):
     folders = layers.libraries + list(layers.below) + layers.free
     return next((folder for folder in folders if inside(path, [folder])), None)
 
@@ -75,15 +75,15 @@ def violations_of_include(root, path, quoted, angled, layers):
     if used is None:
         yield f'"{quoted}" is no file below analyzer/ or the project'
         return
-    user_room, used_room = room_of(path.as_posix(), layers), room_of(used, layers)
-    if used_room is None:
+    user_library, used_library = library_of(path.as_posix(), layers), library_of(used, layers)
+    if used_library is None:
         yield f"{used} is in no library of .ci/layers.txt"
-    elif not may_include(user_room, used_room, layers):
-        yield f"{user_room} may not include {used_room} ({quoted})"
+    elif not may_include(user_library, used_library, layers):
+        yield f"{user_library} may not include {used_library} ({quoted})"
 
 
 def violations_of_file(root, path, layers):
-    if room_of(path.as_posix(), layers) is None:
+    if library_of(path.as_posix(), layers) is None:
         yield 1, "this folder is in no library of .ci/layers.txt"
         return
     for number, line in enumerate((root / path).read_text(errors="replace").splitlines(), 1):

@@ -37,7 +37,7 @@ public:
       if (!indexOf(wanted))
         continue;
       // What the caller's own caller has in force is not known, nor what a program leaves that is not followed.
-      const CodeSet found = isForgotten(state) ? CodeSet::atEntry() : state.codes[wanted.group];
+      const CodeSet found = isHavocked(state) ? CodeSet::atEntry() : state.codes[wanted.group];
       const Wrong seen{instruction->call, {callee->file, callee->program}, &wanted, found};
       const auto [at, isNew] = seen_.emplace(std::pair{node, i}, seen);
       if (!isNew)
@@ -74,15 +74,15 @@ private:
     for (NodeId node = call; node != facts.entry();) {
       node = NodeId(node.index() - 1);
       const Word *word = facts.isReached(node) ? wordOf(node, others, group) : nullptr;
-      const auto way = word ? findWay(facts, node, call, sets) : std::nullopt;
-      if (!way)
+      const auto path = word ? findPath(facts, node, call, sets) : std::nullopt;
+      if (!path)
         continue;
       diagnostic.labels.push_back({word->span(), "active since here"});
-      diagnostic.way = wayFromEntry(facts, node);
-      std::ranges::move(describeWay(facts, *way), std::back_inserter(diagnostic.way));
+      diagnostic.flow = pathFromEntry(facts, node);
+      std::ranges::move(describePath(facts, *path), std::back_inserter(diagnostic.flow));
       return;
     }
-    diagnostic.way = wayFromEntry(facts, call);
+    diagnostic.flow = pathFromEntry(facts, call);
   }
   /// The word of the node with one of the codes of the group.
   const Word *wordOf(NodeId node, CodeMask codes, std::uint8_t group) const {

@@ -34,7 +34,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         .message = fmt::format("{} {} {:.6g} here, but this program has no `N{:.6g}`", context.quoted(span),
                                always ? "is" : "can be", missing.front(), missing.front()),
         .span = span,
-        .way = wayFromEntry(facts, node),
+        .flow = pathFromEntry(facts, node),
         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
                   "correct the computation, or add the sequence number"}};
     if (always)

@@ -15,7 +15,7 @@ class DeadAssignments {
 public:
   DeadAssignments(const FlowFacts &facts, const FileContext &context) : facts_(facts), context_(context) {}
 
-  /// What overwrites the value on every way, none of which reads it; absent when it is read, or nothing overwrites it.
+  /// What overwrites the value on every path, none of which reads it; absent when it is read, or nothing overwrites it.
   std::optional<NodeId> overwriter(NodeId from, std::uint32_t variable) const {
     std::vector<NodeId> open{from};
     std::set<NodeId> seen;

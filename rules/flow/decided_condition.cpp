@@ -33,7 +33,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         {.message = fmt::format("{} {} here", context.quoted(span),
                                 *truth == Truth::True ? "is always true" : "is never true"),
          .span = span,
-         .way = wayFromEntry(facts, node),
+         .flow = pathFromEntry(facts, node),
          .notes = {vacancy && *truth == Truth::False ? "it has been set before, so it holds a number and is not vacant"
                                                      : "the blocks before it leave no other outcome"}});
   }

@@ -6,7 +6,7 @@
 namespace feedhold::rules::division_by_zero {
 namespace {
 
-/// The program itself makes it 0 on some way: one of the few values that it can have.
+/// The program itself makes it 0 on some path: one of the few values that it can have.
 bool isProvablyPossible(const AbstractValue &divisor) {
   return divisor.mayBeNumber() && !divisor.number().set().isMany() && divisor.number().set().contains(0);
 }
@@ -25,7 +25,7 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
       .message = alarm.always ? fmt::format("divides by zero: {} {}", context.quoted(alarm.place), why)
                               : fmt::format("may divide by zero: {} can be 0 here", context.quoted(alarm.place)),
       .span = alarm.place,
-      .way = wayFromEntry(facts, alarm.node),
+      .flow = pathFromEntry(facts, alarm.node),
       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::DivideByZero)),
                 "correct the divisor, or check it for 0 before this block"}};
   if (alarm.always)

@@ -411,7 +411,7 @@ void UnsetPaths::walk() {
     return std::holds_alternative<Test>(facts_.node(node).instruction) &&
            std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
   };
-  // Whether a node is left on all its ways: a WHILE that was not come to from inside leads into its body only.
+  // Whether a node is left on all its paths: a WHILE that was not come to from inside leads into its body only.
   std::vector<bool> leftFully(reached_.size());
   struct Step {
     NodeId node;

@@ -1,7 +1,7 @@
 // How rules look at what a program does with its variables: who reads them, how, who sets them, and how it is started.
 #pragma once
 
-#include "findings/rule/flow_way.h"
+#include "findings/rule/flow_path.h"
 #include "rules/expressions/expression_view.h"
 
 #include <optional>
@@ -69,7 +69,7 @@ std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_
 std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block);
 /// The first expression in the block that covers exactly the span.
 std::optional<ExpressionId> expressionAt(const FlowFacts &facts, BlockId block, Span span);
-/// A larger graph than any that a person wrote: rules that search ways for each variable leave it alone.
+/// A larger graph than any that a person wrote: rules that search paths for each variable leave it alone.
 bool isTooLarge(const FlowFacts &facts);
 /// The blocks of the program.
 std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program);
@@ -91,7 +91,7 @@ public:
   UnsetPaths(const FlowFacts &facts, std::uint32_t variable);
 
   bool reach(NodeId node) const { return reached_[node.index() - facts_.entry().index()]; }
-  /// Only where it reaches the node: no way on which it is set leads there that has not passed the node before.
+  /// Only where it reaches the node: no path on which it is set leads there that has not passed the node before.
   bool isFirstUse(NodeId node) const;
   bool sets(NodeId node) const { return sets_[node.index() - facts_.entry().index()]; }
 

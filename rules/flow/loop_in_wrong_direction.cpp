@@ -72,7 +72,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                             context.quoted(context.tree.expressions[bound->limit].span)),
                      .span = span,
                      .labels = {{cover(step, value), "the step"}},
-                     .way = wayFromEntry(facts, exit.test),
+                     .flow = pathFromEntry(facts, exit.test),
                      .notes = {fmt::format("{} once entered; reverse the comparison or the sign of the step",
                                            endlessnessOf(loop))}});
   }

@@ -65,7 +65,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                          : fmt::format("{} once {} {}", endlessnessOf(loop), context.quoted(span),
                                                        exit.leavesWhenTrue ? "is false" : "is true"),
         .span = span,
-        .way = wayFromEntry(facts, exit.test),
+        .flow = pathFromEntry(facts, exit.test),
         .notes = {loop.mayStop ? "nothing in the loop changes a variable of the condition"
                                : "nothing in the loop changes a variable of the condition; only reset stops it"}};
     if (!head.contains(span))

@@ -44,7 +44,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
              fmt::format("{} computes with `#{}` ({}), but this call does not pass it", name, vacant.variable, *letter),
          .span = call.span,
          .labels = {{file.tree->expressions[vacant.expression].span, "vacant here, read as 0", vacant.read.file}},
-         .way = wayFromEntry(facts, vacant.call),
+         .flow = pathFromEntry(facts, vacant.call),
          .notes = {fmt::format("pass {}, or let {} check `[#{} EQ #0]` first", *letter, name, vacant.variable)}});
   }
 }

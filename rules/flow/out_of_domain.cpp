@@ -40,7 +40,7 @@ void checkAlarm(const AlarmFact &alarm, const FlowFacts &facts, const FileContex
       .message = fmt::format("{}{} {} outside the range that {} accepts", context.quoted(inner), shown(*value),
                              alarm.always ? "is" : "can be", spellingOf(call->function)),
       .span = alarm.place,
-      .way = wayFromEntry(facts, alarm.node),
+      .flow = pathFromEntry(facts, alarm.node),
       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArgumentOutOfDomain)),
                 "correct the argument, or check it before this block"}};
   if (alarm.always)

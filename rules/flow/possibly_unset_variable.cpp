@@ -1,5 +1,5 @@
 // possibly-unset-variable: `#31` is set under conditions, and used where none of them need hold.
-#include "rules/flow/consistent_way.h"
+#include "rules/flow/consistent_path.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ std::optional<Span> firstSetting(const FlowFacts &facts, const UnsetPaths &paths
 
 /// `IF[#7EQ12]THEN#30=..` one after the other, and none of them holds: cases of a value that the writer takes for all
 /// that there are.
-bool passesCases(const FlowFacts &facts, const UnsetPaths &paths, std::span<const NodeId> way) {
+bool passesCases(const FlowFacts &facts, const UnsetPaths &paths, std::span<const NodeId> path) {
   const SyntaxTree &tree = *facts.file.tree;
   const auto isCase = [&](const Statement &statement) {
     const auto condition = conditionOf(statement);
     const auto *relation = condition ? asInside<BinaryOperation>(tree, *condition) : nullptr;
     return relation && relation->op == OperatorKind::Equal;
   };
-  return std::ranges::any_of(way, [&](NodeId node) {
+  return std::ranges::any_of(path, [&](NodeId node) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     return test && paths.sets(test->taken) && std::ranges::any_of(tree.statementsOf(facts.node(node).block), isCase);
   });
@@ -43,18 +43,18 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
   const auto setting = firstSetting(facts, paths);
   if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
     return;
-  const auto way = findConsistentWay(facts, *node, [&](NodeId each) { return paths.sets(each); });
-  if (!way)
+  const auto path = findConsistentPath(facts, *node, [&](NodeId each) { return paths.sets(each); });
+  if (!path)
     return;
   const Span span = context.tree.expressions[read.expression].span;
   reporter.report(
       {.message = fmt::format("{} is not set on every path to this block", context.quoted(span)),
        .span = span,
        .labels = {{*setting, "set here"}},
-       .way = describeWay(facts, *way),
+       .flow = describePath(facts, *path),
        .notes = {"without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
                  "set it before the conditions, or close the gap between them"}},
-      passesCases(facts, paths, *way) ? Severity::Info : Severity::Warning);
+      passesCases(facts, paths, *path) ? Severity::Info : Severity::Warning);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {

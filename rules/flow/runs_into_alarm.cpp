@@ -78,7 +78,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     reporter.report({.message = "the program runs on into this alarm at its end",
                      .span = alarm.place,
                      .labels = {{context.tree.blocks[last].span(), "runs on into the alarm"}},
-                     .way = wayFromEntry(facts, alarm.node),
+                     .flow = pathFromEntry(facts, alarm.node),
                      .notes = {"end the program with M99 or M30 before the alarms, or jump over them"}});
   }
 }

@@ -48,11 +48,11 @@ CallerUse usesIn(const FlowFacts &facts, std::uint32_t variable) {
   return found;
 }
 
-/// A way from `from` to some of the nodes that passes no write, and not the call.
+/// A path from `from` to some of the nodes that passes no write, and not the call.
 std::optional<NodeId> reachesFrom(const FlowFacts &facts, NodeId from, const std::vector<NodeId> &to,
                                   const CallerUse &use, NodeId call) {
   for (const NodeId each : to)
-    if (findWay(facts, from, each, [&](NodeId node) { return use.writesAt(node) || node == call; }))
+    if (findPath(facts, from, each, [&](NodeId node) { return use.writesAt(node) || node == call; }))
       return each;
   return std::nullopt;
 }
@@ -64,7 +64,7 @@ std::optional<NodeId> usedAfter(const FlowFacts &facts, const CallerUse &use, No
     return std::nullopt;
   for (const NodeId write : use.writes) {
     const auto blocked = [&](NodeId node) { return use.writesAt(node); };
-    if (findWay(facts, write, call, blocked) && reachesFrom(facts, write, use.reads, use, call))
+    if (findPath(facts, write, call, blocked) && reachesFrom(facts, write, use.reads, use, call))
       return after;
   }
   return std::nullopt;

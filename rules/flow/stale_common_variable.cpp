@@ -62,15 +62,15 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const auto sets = [&](NodeId each) { return std::ranges::find(*writes, each) != writes->end(); };
     const bool comesAround =
-        std::ranges::any_of(*writes, [&](NodeId write) { return findWay(facts, write, *node, sets).has_value(); });
-    const auto way = findWay(facts, facts.entry(), *node, sets);
-    if (comesAround || !way)
+        std::ranges::any_of(*writes, [&](NodeId write) { return findPath(facts, write, *node, sets).has_value(); });
+    const auto path = findPath(facts, facts.entry(), *node, sets);
+    if (comesAround || !path)
       continue;
     const Span span = context.tree.expressions[read.expression].span;
     reporter.report({.message = fmt::format("{} is used here but only set later", context.quoted(span)),
                      .span = span,
                      .labels = {{context.tree.blocks[facts.node(writes->front()).block].span(), "set here"}},
-                     .way = describeWay(facts, *way),
+                     .flow = describePath(facts, *path),
                      .notes = {"here it still has the value from the last run or from another program",
                                "set it before its first use"}},
                     *kind == VariableKind::Common ? Severity::Warning : Severity::Info);

@@ -35,7 +35,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                             describeVariable(context.dialect, *argument)),
                      .span = alarm.place,
                      .label = "divides by it",
-                     .way = wayFromEntry(facts, alarm.node),
+                     .flow = pathFromEntry(facts, alarm.node),
                      .notes = {fmt::format("if it is not passed, or is 0, the control {}",
                                            stopsWith(context.dialect, AlarmKind::DivideByZero)),
                                fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",

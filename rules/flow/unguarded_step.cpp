@@ -46,7 +46,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                               describeVariable(context.dialect, found->argument)),
                        .span = found->step,
                        .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
-                       .way = wayFromEntry(facts, exit.test),
+                       .flow = pathFromEntry(facts, exit.test),
                        .notes = {"if it is not passed, or is 0, the loop never ends",
                                  fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
                                              found->argument, found->argument)}});

@@ -54,18 +54,18 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const Settings settings = settingsOf(facts, *variable, context);
     const auto sets = [&](NodeId each) { return std::ranges::find(settings.all, each) != settings.all.end(); };
-    if (settings.maySetVacant || settings.toZero.empty() || findWay(facts, facts.entry(), node, sets))
+    if (settings.maySetVacant || settings.toZero.empty() || findPath(facts, facts.entry(), node, sets))
       continue;
     for (const NodeId zero : settings.toZero) {
-      const auto way = findWay(facts, zero, node, sets);
-      if (!way)
+      const auto path = findPath(facts, zero, node, sets);
+      if (!path)
         continue;
       const Span span = context.tree.expressions[*test->condition].span;
       reporter.report({.message = fmt::format("{} tests whether `#{}` is vacant, but it was set to 0",
                                               context.quoted(span), *variable),
                        .span = span,
                        .labels = {{context.tree.blocks[facts.node(zero).block].span(), "set to 0 here"}},
-                       .way = describeWay(facts, *way),
+                       .flow = describePath(facts, *path),
                        .notes = {"0 is a number, so the variable is not vacant on this path",
                                  fmt::format("test `[#{} EQ 0]`, or set it to `#0` instead of 0", *variable)}});
       break;

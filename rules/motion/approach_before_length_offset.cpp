@@ -16,7 +16,7 @@ public:
   ApproachBeforeLengthOffset(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (view_.mayHave(node, 'Z') && !isForgotten(state) && zWord(node) && !isBehind(node) &&
+    if (view_.mayHave(node, 'Z') && !isHavocked(state) && zWord(node) && !isBehind(node) &&
         view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
       approaches_.push_back(node);
   }
@@ -59,7 +59,7 @@ private:
         {.message = fmt::format("{} moves the new tool before its `G43`", context.quoted(zWord(*node)->span())),
          .span = zWord(*node)->span(),
          .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "tool change"}},
-         .way = describeWay(facts, *findWay(facts, change, *node, isOver)),
+         .flow = describePath(facts, *findPath(facts, change, *node, isOver)),
          .notes = {"the length offset is that of the previous tool, or none: the new tool may hit the part",
                    "write G43 and H in the first block that moves Z"}});
   }

@@ -22,7 +22,7 @@ public:
   ArcOutsidePlane(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) || isForgotten(state))
+    if (!view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) || isHavocked(state))
       return;
     const PlaneLetters *plane = nullptr;
     for (const PlaneLetters &candidate : kPlanes)
@@ -41,7 +41,7 @@ public:
       reporter.report({.message = fmt::format("{} does not belong to an arc in `{}`, the active plane",
                                               context.quoted(outside->span()), plane->code),
                        .span = outside->span(),
-                       .way = wayFromEntry(facts, node),
+                       .flow = pathFromEntry(facts, node),
                        .notes = {"the control stops, or cuts the arc in the wrong plane",
                                  "select the plane before the arc: G17, G18 or G19"}});
     }

@@ -13,7 +13,7 @@ class ArcRadiusDiffers final : public FlowRule {
 public:
   /// Under G68, G51 and G51.1 the start is told in other coordinates than the words.
   void before(NodeId node, const AbstractState &state) override {
-    if (mayBeTrue(state.transformed) || isForgotten(state))
+    if (mayBeTrue(state.transformed) || isHavocked(state))
       mapped_.insert(node);
   }
 
@@ -23,7 +23,7 @@ public:
         continue;
       reporter.report({.message = "the end point of this arc is not on the circle through its start point",
                        .span = alarm.place,
-                       .way = wayFromEntry(facts, alarm.node),
+                       .flow = pathFromEntry(facts, alarm.node),
                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcRadius)),
                                  "I, J and K are the distances from the start point to the centre"}});
     }

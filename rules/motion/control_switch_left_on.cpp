@@ -20,7 +20,7 @@ constexpr std::array kControlSwitches = {ControlSwitch{3003, "single block or th
 /// Some path leaves a value other than 0 there, and the value is known: it is none that was saved at the head.
 bool isLeftOn(const ExitFact &exit, std::uint32_t variable) {
   const AbstractValue *value = exit.state.variables.find(variable);
-  if (exit.end == PathEnd::Alarm || !value || isForgotten(exit.state) || !value->mayBeNumber() || value->mayBeVacant())
+  if (exit.end == PathEnd::Alarm || !value || isHavocked(exit.state) || !value->mayBeNumber() || value->mayBeVacant())
     return false;
   const auto constant = value->number().constantValue();
   if (constant)
@@ -53,7 +53,7 @@ const VariableUse *writeBefore(const ExitFact &exit, std::uint32_t variable, con
     if (!use.write || use.number != variable)
       continue;
     const auto node = reachedNode(facts, use.block);
-    if (node && findWay(facts, *node, exit.node, writes) && !writesZero(use, context))
+    if (node && findPath(facts, *node, exit.node, writes) && !writesZero(use, context))
       return &use;
   }
   return nullptr;
@@ -75,7 +75,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       reporter.report({.message = fmt::format("`#{}` is not reset to 0 on every path to the end", which.variable),
                        .span = place,
                        .labels = {{view.blockSpan(exit.node), "ends here"}},
-                       .way = wayFromEntry(facts, exit.node),
+                       .flow = pathFromEntry(facts, exit.node),
                        .notes = {fmt::format("{} stays disabled for everything that runs afterwards", which.locks),
                                  fmt::format("write `#{}=0` before every end of the program", which.variable)}});
       break;

@@ -17,7 +17,7 @@ public:
   CycleWithoutDepth(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty() || isForgotten(state) ||
+    if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty() || isHavocked(state) ||
         !isPlaneKnown(state))
       return;
     const Missing missing{state.cycle.bottom.isVacant(), state.cycle.retract.isVacant()};
@@ -36,7 +36,7 @@ public:
                                               : missing.depth                  ? "depth"
                                                                                : "`R`"),
                        .span = cycle->span(),
-                       .way = wayFromEntry(facts, node),
+                       .flow = pathFromEntry(facts, node),
                        .notes = {"depth and R of an earlier cycle no longer apply: the control stops, or drills to 0",
                                  "write the depth and R in the first block of the cycle"}});
     }

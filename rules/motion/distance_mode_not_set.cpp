@@ -12,7 +12,7 @@ public:
 
   void after(NodeId node, const AbstractState &state) override {
     const auto codes = view_.inForce(state, ModalKind::Distance);
-    if (!codes || !codes->mayBeAtEntry() || isForgotten(state) || view_.axisWords(node).empty())
+    if (!codes || !codes->mayBeAtEntry() || isHavocked(state) || view_.axisWords(node).empty())
       return;
     // Machine coordinates are always absolute.
     if (!view_.findAction(node, {CodeAction::MachineMove}))
@@ -28,7 +28,7 @@ public:
     Diagnostic diagnostic{.message =
                               fmt::format("{} moves before `G90` or `G91` is programmed", context.quoted(word.span())),
                           .span = word.span(),
-                          .way = wayFromEntry(facts, *first_.node(), sets)};
+                          .flow = pathFromEntry(facts, *first_.node(), sets)};
     if (isMain)
       diagnostic.notes = {"the mode left by the previous program decides whether this is a position or a distance",
                           "write G90 or G91 at the head of the program"};

@@ -14,7 +14,7 @@ public:
       : view_(program, context), isMain_(startedBy(context, program) == StartedBy::Operator) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!isMain_ || isForgotten(state) || !state.word('F').mayBeVacant() || view_.modalMotionWords(node).empty() ||
+    if (!isMain_ || isHavocked(state) || !state.word('F').mayBeVacant() || view_.modalMotionWords(node).empty() ||
         !cuts(state))
       return;
     if (isAsAtEntry(state, 'F'))
@@ -26,16 +26,16 @@ public:
     if (!first_.node())
       return;
     const auto feeds = [&](NodeId node) { return hasFeed(node); };
-    const auto way = hasFeed(*first_.node()) ? std::nullopt : findWay(facts, facts.entry(), *first_.node(), feeds);
+    const auto path = hasFeed(*first_.node()) ? std::nullopt : findPath(facts, facts.entry(), *first_.node(), feeds);
     // A retentive variable that may be vacant is a feed all the same.
-    const std::optional<NodeId> place = way ? first_.node() : never_.node();
+    const std::optional<NodeId> place = path ? first_.node() : never_.node();
     if (!place)
       return;
     const Word &word = *view_.modalMotionWords(*place).front();
     reporter.report({.message = fmt::format("the cutting move to {} comes before any `F`{}",
                                             context.quoted(word.span()), never_.node() == place ? "" : " on some path"),
                      .span = word.span(),
-                     .way = way ? describeWay(facts, *way) : std::vector<Label>{},
+                     .flow = path ? describePath(facts, *path) : std::vector<Label>{},
                      .notes = {"it uses the feed of the previous program, or the control stops because there is none",
                                "write F in the block of the first cutting move"}});
   }

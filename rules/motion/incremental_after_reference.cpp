@@ -45,7 +45,7 @@ private:
     const auto move = firstReached(facts, home, moves_, isOver);
     if (!move)
       return;
-    const auto way = findWay(facts, home, *move, isOver);
+    const auto path = findPath(facts, home, *move, isOver);
     std::erase(moves_, *move); // told once
     const Word &word = *firstLiteral(*move);
     reporter.report(
@@ -53,7 +53,7 @@ private:
                                 context.quoted(word.span())),
          .span = word.span(),
          .labels = {{view_.findAction(home, {CodeAction::Incremental})->span(), "active since here"}},
-         .way = describeWay(facts, *way),
+         .flow = describePath(facts, *path),
          .notes = {"the tool moves by this distance from where it is, not to this position",
                    "write G90 after the reference return; if incremental is meant, write G91 in this block"}});
   }

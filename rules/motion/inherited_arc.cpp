@@ -32,7 +32,7 @@ public:
                                   context.quoted(word.span()), always ? "" : " on some path"),
            .span = word.span(),
            .labels = arc ? std::vector<Label>{arc->label} : std::vector<Label>{},
-           .way = arc ? arc->way : std::vector<Label>{},
+           .flow = arc ? arc->flow : std::vector<Label>{},
            .notes = {fmt::format("the control {}{}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre),
                                  context.dialect.hasFanucParameters
                                      ? ", or moves in a straight line if parameter 3403#5 (CIR) is 0"
@@ -53,7 +53,7 @@ private:
   }
   struct ArcBefore {
     Label label;
-    std::vector<Label> way; // from the head of the program
+    std::vector<Label> flow; // from the head of the program
   };
   /// The nearest arc in the text from which the node is reached without another code of motion.
   std::optional<ArcBefore> arcBefore(NodeId node, const FlowFacts &facts) const {
@@ -61,11 +61,11 @@ private:
     for (NodeId arc = node; arc != facts.entry();) {
       arc = NodeId(arc.index() - 1);
       const Word *word = view_.findAction(arc, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
-      const auto way = word && facts.isReached(arc) ? findWay(facts, arc, node, sets) : std::nullopt;
-      if (!way)
+      const auto path = word && facts.isReached(arc) ? findPath(facts, arc, node, sets) : std::nullopt;
+      if (!path)
         continue;
-      std::vector<Label> all = wayFromEntry(facts, arc);
-      std::ranges::move(describeWay(facts, *way), std::back_inserter(all));
+      std::vector<Label> all = pathFromEntry(facts, arc);
+      std::ranges::move(describePath(facts, *path), std::back_inserter(all));
       return ArcBefore{{word->span(), "active since here"}, std::move(all)};
     }
     return std::nullopt;

@@ -19,7 +19,7 @@ public:
   InheritedCycle(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void before(NodeId node, const AbstractState &state) override {
-    if (!isForgotten(state) && view_.wasSet(state, ModalKind::Cycle, kDrilling) &&
+    if (!isHavocked(state) && view_.wasSet(state, ModalKind::Cycle, kDrilling) &&
         view_.surely(state, ModalKind::Cycle, kDrilling) &&
         view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}) && isDepthAlone(node))
       places_.insert(node);

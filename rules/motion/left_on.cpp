@@ -13,7 +13,7 @@ namespace {
 struct Leaving {
   const Word *word;
   NodeId exit;
-  std::vector<NodeId> way;
+  std::vector<NodeId> path;
 };
 
 std::vector<NodeId> switchingNodes(const LeftOn &mode, const MotionView &view, const FlowFacts &facts) {
@@ -29,10 +29,10 @@ std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const Left
   const auto sets = [&](NodeId node) {
     return view.sets(node, mode.kind) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion));
   };
-  auto way = findWay(facts, from, exit.node, sets);
-  if (!way)
+  auto path = findPath(facts, from, exit.node, sets);
+  if (!path)
     return std::nullopt;
-  return Leaving{view.findAction(from, mode.actions), exit.node, std::move(*way)};
+  return Leaving{view.findAction(from, mode.actions), exit.node, std::move(*path)};
 }
 
 /// The contract of the program says that its caller has the mode on.
@@ -101,7 +101,7 @@ void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, cons
                                           view.context().quoted(leaving.word->span()), returns ? "returns" : "ends"),
                    .span = leaving.word->span(),
                    .labels = {{view.blockSpan(leaving.exit), returns ? "returns here" : "ends here"}},
-                   .way = describeWay(facts, leaving.way),
+                   .flow = describePath(facts, leaving.path),
                    .notes = {std::string(mode.consequence), std::string(mode.remedy)}},
                   severityAt(exit, mode, facts, view.context()));
 }

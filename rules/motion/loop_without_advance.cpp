@@ -18,7 +18,7 @@ public:
   }
 
   void after(NodeId node, const AbstractState &state) override {
-    if (view_.node(node).block > lastEnd_ || isForgotten(state) || !view_.inForce(state, ModalKind::Distance) ||
+    if (view_.node(node).block > lastEnd_ || isHavocked(state) || !view_.inForce(state, ModalKind::Distance) ||
         view_.surely(state, ModalKind::Distance, {CodeAction::Incremental}) || view_.modalMotionWords(node).empty())
       return;
     mayBeAbsolute_.insert(node);
@@ -47,7 +47,7 @@ private:
         {.message = fmt::format("every iteration of this loop moves to the same {}", context.quoted((*depth)->span())),
          .span = (*depth)->span(),
          .labels = {{context.tree.statements[loop.doStatement].span, "the loop"}},
-         .way = wayFromEntry(facts, *move),
+         .flow = pathFromEntry(facts, *move),
          .notes = {absolute_.contains(*move)
                        ? "G90 is active: from the second iteration on, the axis does not move"
                        : "unless the caller has set G91, the axis does not move from the second iteration on",

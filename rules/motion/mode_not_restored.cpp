@@ -1,4 +1,4 @@
-// mode-not-restored: `#3=#4003 .. G#3`, and a way to the end that passes over the G#3.
+// mode-not-restored: `#3=#4003 .. G#3`, and a path to the end that passes over the G#3.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -68,9 +68,9 @@ std::optional<std::pair<NodeId, std::vector<NodeId>>> changeBefore(const ExitFac
     node = NodeId(node.index() - 1);
     if (!facts.isReached(node) || !setsGroup(view, node, saving.group))
       continue;
-    if (auto way =
-            findWay(facts, node, exit.node, [&](NodeId other) { return restores(view, other, saving.variable); }))
-      return std::pair{node, std::move(*way)};
+    if (auto path =
+            findPath(facts, node, exit.node, [&](NodeId other) { return restores(view, other, saving.variable); }))
+      return std::pair{node, std::move(*path)};
   }
   return std::nullopt;
 }
@@ -82,7 +82,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   const MotionView view(facts.program, context);
   for (const Saving &saving : savings)
     for (const ExitFact &exit : facts.exits()) {
-      if (exit.end != PathEnd::Returns || isForgotten(exit.state) ||
+      if (exit.end != PathEnd::Returns || isHavocked(exit.state) ||
           leq(exit.state.codes[saving.group], facts.entryCodes()[saving.group]))
         continue;
       const auto change = changeBefore(exit, saving, view, facts);
@@ -92,7 +92,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
           {.message = fmt::format("the mode saved in `#{}` is not restored on a path to this end", saving.variable),
            .span = view.blockSpan(exit.node),
            .labels = {{saving.place, "saved here"}, {view.blockSpan(change->first), "changed here"}},
-           .way = describeWay(facts, change->second),
+           .flow = describePath(facts, change->second),
            .notes = {"the caller continues in another mode than before the call",
                      fmt::format("restore it with `G#{}` before this end, too", saving.variable)}});
     }

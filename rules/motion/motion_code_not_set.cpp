@@ -12,7 +12,7 @@ public:
 
   void after(NodeId node, const AbstractState &state) override {
     const auto codes = view_.inForce(state, ModalKind::Motion);
-    if (!codes || !codes->mayBeAtEntry() || isForgotten(state) || view_.modalMotionWords(node).empty())
+    if (!codes || !codes->mayBeAtEntry() || isHavocked(state) || view_.modalMotionWords(node).empty())
       return;
     if (!view_.sets(node, ModalKind::Cycle))
       first_.note(node);
@@ -27,7 +27,7 @@ public:
     reporter.report(
         {.message = fmt::format("{} comes before any `G00`, `G01`, `G02` or `G03`", context.quoted(word.span())),
          .span = word.span(),
-         .way = wayFromEntry(facts, *first_.node(), sets),
+         .flow = pathFromEntry(facts, *first_.node(), sets),
          .notes = {"the block moves like the last move before it: at rapid, at feed, or along an arc",
                    "write the motion code in this block"}},
         isMain ? Severity::Warning : Severity::Info);

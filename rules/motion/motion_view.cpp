@@ -127,7 +127,7 @@ std::optional<CodeSet> MotionView::inForce(const AbstractState &state, ModalKind
 
 bool MotionView::wasSet(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {
   const auto codes = inForce(state, kind);
-  return codes && !isForgotten(state) && (codes->codes() & modes_->maskOf(kind, actions)) != 0;
+  return codes && !isHavocked(state) && (codes->codes() & modes_->maskOf(kind, actions)) != 0;
 }
 
 bool MotionView::surely(const AbstractState &state, ModalKind kind, std::initializer_list<CodeAction> actions) const {

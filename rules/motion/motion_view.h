@@ -1,7 +1,7 @@
 // What the rules of this group ask of a program: what a node does with axes, and what is in force there.
 #pragma once
 
-#include "findings/rule/flow_way.h"
+#include "findings/rule/flow_path.h"
 #include "findings/rule/rule.h"
 
 #include <initializer_list>
@@ -55,7 +55,7 @@ private:
 };
 
 /// Something that the analysis does not follow has happened on some path: all is unknown behind it.
-inline bool isForgotten(const AbstractState &state) { return state.codes[0] != CodeSet::atEntry(); }
+inline bool isHavocked(const AbstractState &state) { return state.codes[0] != CodeSet::atEntry(); }
 
 /// A word in force that nothing in the program has written: as at entry, in all runs or in some.
 inline bool isAsAtEntry(const AbstractState &state, char letter) {

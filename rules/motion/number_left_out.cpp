@@ -16,7 +16,7 @@ public:
   void after(NodeId node, const AbstractState &state) override {
     if (!findCode(node))
       return;
-    const bool never = !isForgotten(state) && isAsAtEntry(state, letter_);
+    const bool never = !isHavocked(state) && isAsAtEntry(state, letter_);
     const auto [at, isNew] = places_.emplace(node, never);
     at->second = at->second && (isNew || never);
   }
@@ -29,7 +29,7 @@ public:
       reporter.report({.message = fmt::format("{} has no `{}`, and no earlier block sets it",
                                               context.quoted(word->span()), letter_),
                        .span = word->span(),
-                       .way = wayFromEntry(facts, node),
+                       .flow = pathFromEntry(facts, node),
                        .notes = {fmt::format("{} is whatever the previous program left active, or none", offset_),
                                  fmt::format("write {} in this block", letter_)}});
     }

@@ -24,7 +24,7 @@ public:
 
   void before(NodeId node, const AbstractState &state) override {
     const auto actions = {CodeAction::CompensationLeft, CodeAction::CompensationRight};
-    if (!isForgotten(state) && view_.wasSet(state, ModalKind::Compensation, actions) &&
+    if (!isHavocked(state) && view_.wasSet(state, ModalKind::Compensation, actions) &&
         view_.surely(state, ModalKind::Compensation, actions))
       compensated_.insert(node);
   }

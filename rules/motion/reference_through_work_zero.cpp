@@ -15,7 +15,7 @@ public:
   void after(NodeId node, const AbstractState &state) override {
     if (!depthWord(node))
       return;
-    const bool absolute = !isForgotten(state) && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute});
+    const bool absolute = !isHavocked(state) && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute});
     const auto [at, isNew] = places_.emplace(node, absolute);
     at->second = at->second && (isNew || absolute);
   }
@@ -28,7 +28,7 @@ public:
       reporter.report(
           {.message = fmt::format("{} under `G90` makes part zero the intermediate point", context.quoted(word.span())),
            .span = word.span(),
-           .way = wayFromEntry(facts, node),
+           .flow = pathFromEntry(facts, node),
            .notes = {"the tool moves down to Z0 at rapid before it goes to the reference point",
                      "write G91 in this block: the intermediate point is then the current position"},
            .fixes = {{.title = "insert `G91`", .edits = {{{word.span().begin, word.span().begin}, "G91"}}}}});

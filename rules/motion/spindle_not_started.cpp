@@ -19,7 +19,7 @@ public:
     mayBeStartedUnseen_ = mayBeStartedUnseen_ || hasOtherSpindleCode(node);
     if (!state.spindle.mayBeAtEntry() && !state.spindle.contains(kStopped))
       return;
-    if (isForgotten(state) || view_.modalMotionWords(node).empty() || !cuts(state) || isAbovePart(node, state))
+    if (isHavocked(state) || view_.modalMotionWords(node).empty() || !cuts(state) || isAbovePart(node, state))
       return;
     first_.note(node);
   }
@@ -34,11 +34,11 @@ public:
     if (const auto stop = stopBefore(facts)) {
       diagnostic.message = fmt::format("the spindle is stopped at the cutting move to {}", move);
       diagnostic.labels = {{view_.findAction(stop->node, {CodeAction::SpindleStop})->span(), "stopped here"}};
-      diagnostic.way = describeWay(facts, stop->way);
+      diagnostic.flow = describePath(facts, stop->path);
       diagnostic.notes.push_back("start it again with M03 before this cut");
     } else {
       diagnostic.message = fmt::format("no `M03` or `M04` comes before the cutting move to {}", move);
-      diagnostic.way = wayFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
+      diagnostic.flow = pathFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
       diagnostic.notes.push_back("start the spindle with S and M03 before the first cut");
     }
     reporter.report(std::move(diagnostic), speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
@@ -52,7 +52,7 @@ private:
   }
   struct Stop {
     NodeId node;
-    std::vector<NodeId> way; // to the move
+    std::vector<NodeId> path; // to the move
   };
   /// The nearest M05 in the text with which the spindle still stands at the move.
   std::optional<Stop> stopBefore(const FlowFacts &facts) const {
@@ -60,8 +60,8 @@ private:
       stop = NodeId(stop.index() - 1);
       if (!facts.isReached(stop) || !view_.findAction(stop, {CodeAction::SpindleStop}))
         continue;
-      if (auto way = findWay(facts, stop, *first_.node(), [&](NodeId node) { return starts(node); }))
-        return Stop{stop, std::move(*way)};
+      if (auto path = findPath(facts, stop, *first_.node(), [&](NodeId node) { return starts(node); }))
+        return Stop{stop, std::move(*path)};
     }
     return std::nullopt;
   }

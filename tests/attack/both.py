@@ -41,7 +41,7 @@ def interpreters_differ(project, program, inputs, counts):
             return first
         tried.append(rest[0])
         outcome = Machine(project, inputs, Choices(given=rest[0]), FUEL, random=random.Random(0)).run(program)
-        if outcome.end == "not-modelled" or outcome.inexact:
+        if outcome.end == "unmodelled" or outcome.inexact:
             return None
         asked.update(outcome.choices)
         counts["runs of both interpreters"] += 1

@@ -29,7 +29,7 @@ def counts(move):
     if move["kind"] == "dwell":
         return bool(move["time"])
     stands = all(abs(move["to"][axis] - move["from"][axis]) < STANDING for axis in move["to"])
-    return move["kind"] != "unfollowed" and not (move["kind"] in STRAIGHT and stands)
+    return move["kind"] != "unmodelled" and not (move["kind"] in STRAIGHT and stands)
 
 
 def canonical(move):

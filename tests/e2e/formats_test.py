@@ -32,7 +32,7 @@ class Formats(Scratch):
         schema = json.loads((ROOT / "docs" / "schemas" / "check.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         jsonschema.validate(report, schema)
-        self.assertEqual(report["version"], 1)
+        self.assertEqual(report["version"], 2)
         finding = next(found for found in report["findings"] if found["rule"] == "missing-equals")
         self.assertEqual((finding["path"], finding["line"]), ("bad.nc", 3))
         self.assertEqual(len(report["skipped"]), 1)
@@ -40,7 +40,7 @@ class Formats(Scratch):
     def test_schema_refuses_what_is_no_report(self):
         for path in (ROOT / "docs" / "schemas").glob("*.json"):
             with self.assertRaises(jsonschema.ValidationError):
-                jsonschema.validate({"version": 1, "findings": [{"path": 5}]}, json.loads(path.read_text()))
+                jsonschema.validate({"version": 2, "findings": [{"path": 5}]}, json.loads(path.read_text()))
 
     def test_fingerprint_survives_a_move(self):
         before = json.loads(self.output("json"))["findings"][0]["fingerprint"]
@@ -59,7 +59,7 @@ class Formats(Scratch):
         self.write("way.nc", UNSET_ON_A_WAY)
         rule = ("--select", "possibly-unset-variable", "way.nc")
         finding = json.loads(self.check("--format", "json", *rule).stdout)["findings"][0]
-        self.assertEqual([(step["path"], step["line"], step["message"]) for step in finding["way"]],
+        self.assertEqual([(step["path"], step["line"], step["message"]) for step in finding["flow"]],
                          [("way.nc", 2, "the condition is true")])
         result = json.loads(self.check("--format", "sarif", *rule).stdout)["runs"][0]["results"][0]
         steps = result["codeFlows"][0]["threadFlows"][0]["locations"]

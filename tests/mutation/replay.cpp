@@ -22,7 +22,7 @@ constexpr std::uint64_t kFuel = 20'000;
 constexpr std::size_t kMostMoves = 5'000;
 constexpr double kNoise = 1e-6; // of sums of doubles; less is neither a gouge nor a broken promise
 
-using State = MachineState<ConcreteReading>;
+using State = MachineState<ConcreteInterpretation>;
 
 bool hasEnded(RunEnd end) {
   return end == RunEnd::M02 || end == RunEnd::M30 || end == RunEnd::Returned || end == RunEnd::EndOfFile;
@@ -31,7 +31,7 @@ bool hasEnded(RunEnd end) {
 /// A promise in the state behind a run, with room for what doubles round.
 class RoundedPromise {
 public:
-  explicit RoundedPromise(StepContext<ConcreteReading> &context) : context_(context) {}
+  explicit RoundedPromise(StepContext<ConcreteInterpretation> &context) : context_(context) {}
 
   bool mayHold(ExpressionId id) {
     if (evaluateCondition(context_, id))
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  StepContext<ConcreteReading> &context_;
+  StepContext<ConcreteInterpretation> &context_;
 };
 
 ConcreteValue changed(const ConcreteValue &value, Random &random) {
@@ -112,7 +112,8 @@ RunResult ReplayedProgram::run(const Start &start) const {
 
 EntryValues ReplayedProgram::entryOf(const Start &start) const {
   const ModalTable modes(loaded_.dialect());
-  EntryValues entry{startState(ConcreteReading(loaded_.dialect(), start.given), modes, start.place), start.given};
+  EntryValues entry{startState(ConcreteInterpretation(loaded_.dialect(), start.given), modes, start.place),
+                    start.given};
   promises_.prepare(entry);
   return entry;
 }
@@ -223,10 +224,10 @@ bool ReplayedProgram::clearlyBreaks(ExpressionId condition, const EntryValues &e
                            .model = program.model,
                            .dialect = program.dialect};
   const ModalTable modes(loaded_.dialect());
-  ConcreteReading reading(loaded_.dialect(), entry.given);
-  StepContext<ConcreteReading> context{reading, state, loaded_.set, within, modes, BlockId(0)};
+  ConcreteInterpretation interpretation(loaded_.dialect(), entry.given);
+  StepContext<ConcreteInterpretation> context{interpretation, state, loaded_.set, within, modes, BlockId(0)};
   const bool mayHold = RoundedPromise(context).mayHold(condition);
-  return !mayHold && !reading.stopped();
+  return !mayHold && !interpretation.stopped();
 }
 
 void ReplayedProgram::addPromises(std::vector<Break> &breaks, const Run &run) const {

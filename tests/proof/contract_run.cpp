@@ -18,7 +18,8 @@ bool hasEnded(RunEnd end) {
   return end == RunEnd::M02 || end == RunEnd::M30 || end == RunEnd::Returned || end == RunEnd::EndOfFile;
 }
 
-ConcreteValue valueOf(const GivenVariables &given, const MachineState<ConcreteReading> &state, std::uint32_t variable) {
+ConcreteValue valueOf(const GivenVariables &given, const MachineState<ConcreteInterpretation> &state,
+                      std::uint32_t variable) {
   if (variable <= kLocalVariables)
     return state.locals[variable];
   if (const ConcreteValue *written = state.variables.find(variable))
@@ -30,8 +31,8 @@ ConcreteValue valueOf(const GivenVariables &given, const MachineState<ConcreteRe
 /// Reads an expression of the contract in a state; absent where that would stop the control.
 template <typename Evaluate>
 auto inContract(const soundness::LoadedSample &machine, const FileContracts &contracts, const EntryValues &entry,
-                MachineState<ConcreteReading> state, Evaluate &&evaluate)
-    -> std::optional<decltype(evaluate(std::declval<StepContext<ConcreteReading> &>()))> {
+                MachineState<ConcreteInterpretation> state, Evaluate &&evaluate)
+    -> std::optional<decltype(evaluate(std::declval<StepContext<ConcreteInterpretation> &>()))> {
   const ProgramFile &program = machine.set.file(FileId(0));
   const ProgramFile within{.file = program.file,
                            .source = program.source,
@@ -39,10 +40,10 @@ auto inContract(const soundness::LoadedSample &machine, const FileContracts &con
                            .model = program.model,
                            .dialect = program.dialect};
   const ModalTable modes(machine.dialect());
-  ConcreteReading reading(machine.dialect(), entry.given);
-  StepContext<ConcreteReading> context{reading, state, machine.set, within, modes, BlockId(0)};
+  ConcreteInterpretation interpretation(machine.dialect(), entry.given);
+  StepContext<ConcreteInterpretation> context{interpretation, state, machine.set, within, modes, BlockId(0)};
   const auto result = evaluate(context);
-  return reading.stopped() ? std::nullopt : std::optional(result);
+  return interpretation.stopped() ? std::nullopt : std::optional(result);
 }
 
 } // namespace
@@ -191,7 +192,7 @@ std::optional<std::uint32_t> ContractOnRun::written(const EntryValues &entry, co
 
 bool ContractOnRun::keepsAlarm(const AlarmPromise &promise, const EntryValues &entry, const RunResult &run) const {
   const auto demanded = condition(promise.condition, entry, entry.state);
-  if (!demanded || run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
+  if (!demanded || run.end == RunEnd::Fuel || run.end == RunEnd::Unmodelled)
     return true;
   const bool raised = run.end == RunEnd::UserAlarm && run.alarmNumber == static_cast<double>(promise.number);
   return raised == *demanded || (raised && promise.claim == AlarmClaim::If);

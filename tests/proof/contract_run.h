@@ -25,7 +25,7 @@ public:
                                     const RunResult &run) const;
 
 private:
-  using State = MachineState<ConcreteReading>;
+  using State = MachineState<ConcreteInterpretation>;
   std::optional<double> number(ExpressionId expression, const soundness::EntryValues &entry) const;
   /// Absent where the condition itself would stop the control.
   std::optional<bool> condition(ExpressionId expression, const soundness::EntryValues &entry, const State &now) const;

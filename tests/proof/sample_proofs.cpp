@@ -77,7 +77,7 @@ public:
       options.variables = obligation.verdict.witness()->variables;
       options.fuel = kMuchFuel;
       const ModalTable modes(analysed_.dialect());
-      EntryValues entry{startState(ConcreteReading(analysed_.dialect(), options.variables), modes, {}),
+      EntryValues entry{startState(ConcreteInterpretation(analysed_.dialect(), options.variables), modes, {}),
                         options.variables};
       contract_.prepare(entry);
       if (obligation.kind != ObligationKind::Guarded && !contract_.allows(entry))

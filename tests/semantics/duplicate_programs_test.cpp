@@ -22,7 +22,7 @@ TEST(DuplicatePrograms, NoneIsFollowed) {
        {std::vector{kCaller, kWide, kNarrow}, std::vector{kCaller, kNarrow, kWide},
         std::vector{kCaller + kWide + kNarrow}}) {
     const LanguageSample sample(dialect, files);
-    EXPECT_EQ(sample.run().end, RunEnd::NotModelled);
+    EXPECT_EQ(sample.run().end, RunEnd::Unmodelled);
     const auto told = sample.valueBefore("#101", 100);
     EXPECT_TRUE(told && !told->isNumber());
     EXPECT_EQ(sample.userAlarm(), prove::Verdict::Unknown);
@@ -39,7 +39,7 @@ TEST(DuplicatePrograms, TheContractOfEachIsAsked) {
 TEST(DuplicatePrograms, AModalCallOfOneIsNotFollowed) {
   const LanguageSample sample(*findDialect(allDialects(), "fanuc-30i"),
                               {"O1\n#100=1\nG66P2A3.\nG0X1.\nG67\n#101=#100\nM30\n", kWide, kNarrow});
-  EXPECT_EQ(sample.run().end, RunEnd::NotModelled);
+  EXPECT_EQ(sample.run().end, RunEnd::Unmodelled);
   const auto told = sample.valueBefore("#101", 100);
   EXPECT_TRUE(told && !told->isNumber());
 }

@@ -2,7 +2,7 @@
 #include "dialects/registry.h"
 #include "inference/absint/abstract_state.h"
 #include "language/parse/parse.h"
-#include "meaning/machine/concrete_reading.h"
+#include "meaning/machine/concrete_interpretation.h"
 #include "meaning/semantics/frames.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
@@ -17,55 +17,55 @@ const Dialect &dialect() { return *findDialect(allDialects(), "linuxcnc"); }
 
 /// Each interpretation, and whether a value may be, and must be, a number.
 struct Concrete {
-  ConcreteReading reading{dialect(), {}};
+  ConcreteInterpretation interpretation{dialect(), {}};
   static constexpr bool followsOne = true; // where a manual is silent
   bool mayBe(const ConcreteValue &value, double number) { return value == ConcreteValue::of(number); }
   bool isOnly(const ConcreteValue &value, double number) { return mayBe(value, number); }
 };
 struct Abstract {
-  AbstractReading reading{dialect()};
+  AbstractInterpretation interpretation{dialect()};
   static constexpr bool followsOne = false;
   bool mayBe(const AbstractValue &value, double number) {
     return value.mayBeNumber() && value.number().contains(number);
   }
-  bool isOnly(const AbstractValue &value, double number) { return reading.constantOf(value) == number; }
+  bool isOnly(const AbstractValue &value, double number) { return interpretation.constantOf(value) == number; }
 };
 struct Symbolic {
   smt::TermStore store;
-  SymbolicInterpretation reading{store, dialect()};
+  SymbolicInterpretation interpretation{store, dialect()};
   static constexpr bool followsOne = false;
   /// One of the cases of the value.
   bool mayBe(const prove::SymbolicValue &value, double number) {
-    const smt::TermId wanted = reading.number(number).number;
+    const smt::TermId wanted = interpretation.number(number).number;
     const auto &term = store[value.number];
     const bool isCase = term.kind == smt::TermKind::Ite && (term.arguments[1] == wanted || term.arguments[2] == wanted);
     return isOnly(value, number) || isCase;
   }
   bool isOnly(const prove::SymbolicValue &value, double number) {
-    return value.vacant == store.no() && value.number == reading.number(number).number;
+    return value.vacant == store.no() && value.number == interpretation.number(number).number;
   }
 };
 
 template <typename Interpretation> class Frames : public ::testing::Test {
 protected:
-  using R = decltype(Interpretation::reading);
+  using R = decltype(Interpretation::interpretation);
   using Value = typename R::Value;
 
   Frames() {
     state.locals.fill(number(1));
     state.variables.set(own, number(2));
     state.variables.set(shared, number(3));
-    state.enteredLoops = {{1, reading.truth(false)}};
+    state.enteredLoops = {{1, interpretation.truth(false)}};
     state.counters = {number(4)};
-    state.modalCallsUnknown = reading.truth(false);
+    state.modalCallsUnknown = interpretation.truth(false);
     request.callee = callee;
     request.freshLocals = true;
     request.locals.fill(number(5));
   }
-  Value number(double value) { return reading.number(value); }
+  Value number(double value) { return interpretation.number(value); }
   double of(std::uint32_t variable, double value) { return is.isOnly(*state.variables.find(variable), value); }
   Frame<R> enter(double repeats = 1, std::optional<std::size_t> modal = {}, std::optional<std::size_t> limit = {}) {
-    return enterCall(programs, state, request, {place, modal, limit}, repeats, reading, count);
+    return enterCall(programs, state, request, {place, modal, limit}, repeats, interpretation, count);
   }
 
   SourceFile source = SourceFile::fromText("t.ngc", "o1 sub\n#<own>=1\n#<_all>=1\no1 endsub\no1 call\nm2\n");
@@ -77,7 +77,7 @@ protected:
   Callee callee{FileId(0), programs.file(FileId(0)).cfg.entryOf(ProgramId(1)), ProgramId(1)};
   Place place{FileId(0), NodeId(0)};
   Interpretation is;
-  R &reading = is.reading;
+  R &interpretation = is.interpretation;
   MachineState<R> state{};
   CallRequest<R> request;
   int entries = 0;
@@ -96,7 +96,7 @@ TYPED_TEST(Frames, ALevelBeginsWithItsArgumentsAlone) {
   EXPECT_TRUE(this->is.isOnly(this->state.locals[1], 5));
   EXPECT_TRUE(this->state.enteredLoops.empty());
   EXPECT_TRUE(this->state.counters.empty());
-  EXPECT_EQ(*this->state.variables.find(this->own), this->reading.vacant());
+  EXPECT_EQ(*this->state.variables.find(this->own), this->interpretation.vacant());
   EXPECT_TRUE(this->of(this->shared, 3));
 }
 
@@ -106,7 +106,7 @@ TYPED_TEST(Frames, TheCallersLevelComesBack) {
   this->state.variables.set(this->own, this->number(7));
   this->state.variables.set(this->shared, this->number(8));
   this->state.counters = {this->number(0), this->number(9)};
-  this->state.enteredLoops = {{2, this->reading.truth(true)}};
+  this->state.enteredLoops = {{2, this->interpretation.truth(true)}};
   leaveCall(this->programs, this->state, frame);
   EXPECT_TRUE(this->is.isOnly(this->state.locals[1], 1));
   EXPECT_TRUE(this->of(this->own, 2));
@@ -130,7 +130,7 @@ TYPED_TEST(Frames, ASubprogramSharesTheLocals) {
   auto frame = this->enter(2);
   EXPECT_TRUE(this->is.isOnly(this->state.locals[1], 1));
   this->state.locals.fill(this->number(6));
-  repeatCall(this->programs, this->state, frame, this->reading, this->count);
+  repeatCall(this->programs, this->state, frame, this->interpretation, this->count);
   EXPECT_TRUE(this->is.isOnly(this->state.locals[1], 6));
   leaveCall(this->programs, this->state, frame);
   EXPECT_TRUE(this->is.isOnly(this->state.locals[1], 6));
@@ -141,8 +141,8 @@ TYPED_TEST(Frames, EachRepetitionIsAnEntry) {
   while (isCalledAgain(frame)) {
     this->state.counters = {this->number(9)};
     this->state.variables.set(this->own, this->number(7));
-    repeatCall(this->programs, this->state, frame, this->reading, this->count);
-    EXPECT_EQ(*this->state.variables.find(this->own), this->reading.vacant());
+    repeatCall(this->programs, this->state, frame, this->interpretation, this->count);
+    EXPECT_EQ(*this->state.variables.find(this->own), this->interpretation.vacant());
   }
   EXPECT_EQ(this->entries, 3);
 }
@@ -151,7 +151,7 @@ TYPED_TEST(Frames, EachRepetitionIsAnEntry) {
 TYPED_TEST(Frames, RepetitionsFindWhatWasLeftOrTheArguments) {
   auto frame = this->enter(2);
   this->state.locals.fill(this->number(6));
-  repeatCall(this->programs, this->state, frame, this->reading, this->count);
+  repeatCall(this->programs, this->state, frame, this->interpretation, this->count);
   EXPECT_TRUE(this->is.mayBe(this->state.locals[1], 6));
   EXPECT_TRUE(TypeParam::followsOne || this->is.mayBe(this->state.locals[1], 5));
 }
@@ -174,8 +174,8 @@ TYPED_TEST(Frames, ProgramsCalledByAModalCallMakeNoMoreThanIt) {
   const auto outer = this->enter(1, 0U);
   const auto inner = this->enter(1, {}, outer.modalLimit);
   EXPECT_EQ(modalCallOf(this->state, inner.modalLimit), std::nullopt);
-  EXPECT_EQ(mayCallModally(this->reading, this->state, inner.modalLimit), this->reading.truth(false));
-  EXPECT_EQ(mayCallModally(this->reading, this->state, {}), this->reading.truth(true));
+  EXPECT_EQ(mayCallModally(this->interpretation, this->state, inner.modalLimit), this->interpretation.truth(false));
+  EXPECT_EQ(mayCallModally(this->interpretation, this->state, {}), this->interpretation.truth(true));
 }
 
 TEST(Nesting, TheLimitsOfTheDialect) {

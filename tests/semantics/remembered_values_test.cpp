@@ -25,20 +25,20 @@ constexpr std::string_view kProgram = "O1\n"
 
 class RememberedValues : public ::testing::Test {
 protected:
-  AbstractContext contextOf(AbstractReading &reading, AbstractState &state, const Node &node) {
-    return {reading, state, programs, programs.file(FileId(0)), modes, node.block};
+  AbstractContext contextOf(AbstractInterpretation &interpretation, AbstractState &state, const Node &node) {
+    return {interpretation, state, programs, programs.file(FileId(0)), modes, node.block};
   }
   /// Carries an assignment out; what it has left in #10, and whether it may have divided by zero.
-  std::tuple<AbstractValue, bool, bool> carryOut(AbstractReading &reading, const AbstractState &before,
+  std::tuple<AbstractValue, bool, bool> carryOut(AbstractInterpretation &interpretation, const AbstractState &before,
                                                  const Node &node) {
     AbstractState state = before;
-    AbstractContext context = contextOf(reading, state, node);
-    reading.start();
+    AbstractContext context = contextOf(interpretation, state, node);
+    interpretation.start();
     step(context, node.instruction, words);
-    return {state.locals[10], reading.mayHaveDividedByZero(), reading.stopped()};
+    return {state.locals[10], interpretation.mayHaveDividedByZero(), interpretation.stopped()};
   }
   /// One of a few values, with one of a few symbols: so that patterns come again under other names.
-  AbstractValue someValue(AbstractReading &reading) {
+  AbstractValue someValue(AbstractInterpretation &interpretation) {
     const std::array numbers = {AbstractNumber::any(), AbstractNumber::constant(2.0),
                                 AbstractNumber::inInterval({0, 5}), AbstractNumber::integersIn({1, 40}),
                                 AbstractNumber::constant(Decimal(25, 1))};
@@ -47,7 +47,7 @@ protected:
     const std::uint32_t symbol = dice() % 2 == 0 ? symbolOfVariable(1 + dice() % 3) : kFirstFreshSymbol + dice() % 2;
     switch (dice() % 4) {
     case 0: return value;
-    case 1: return value.isNumber() ? reading.number(static_cast<double>(dice() % 3)) : AbstractValue::vacant();
+    case 1: return value.isNumber() ? interpretation.number(static_cast<double>(dice() % 3)) : AbstractValue::vacant();
     default: return value.withOrigin(Origin{symbol, Rational(dice() % 2)});
     }
   }
@@ -57,12 +57,12 @@ protected:
   ProgramModel model = resolve(source, tree, dialect());
   ProgramSet programs{{{FileId(0), &source, &tree, &model, &dialect()}}, CallGraph({{FileId(0), "", "", &model}})};
   ModalTable modes{dialect()};
-  ExecutedWords<AbstractReading> words;
+  ExecutedWords<AbstractInterpretation> words;
   std::mt19937 dice{20260101};
 };
 
 TEST_F(RememberedValues, AreThoseOfANewEvaluation) {
-  AbstractReading remembering(dialect());
+  AbstractInterpretation remembering(dialect());
   AbstractState state = entryState(remembering);
   std::size_t assignments = 0;
   for (int round = 0; round < 600; ++round) {
@@ -71,13 +71,13 @@ TEST_F(RememberedValues, AreThoseOfANewEvaluation) {
     state.variables.erase(100);
     if (dice() % 2 == 0)
       state.variables.set(100, someValue(remembering));
-    state.forgotten.clear();
+    state.havocked.clear();
     if (dice() % 4 == 0)
-      state.forgotten = {{100, 200}};
+      state.havocked = {{100, 200}};
     for (const Node &node : programs.file(FileId(0)).cfg.nodes) {
       if (!std::holds_alternative<Assign>(node.instruction))
         continue;
-      AbstractReading fresh(dialect());
+      AbstractInterpretation fresh(dialect());
       EXPECT_EQ(carryOut(remembering, state, node), carryOut(fresh, state, node))
           << source.text(tree.blocks[node.block].span()) << " in round " << round;
       ++assignments;
@@ -87,14 +87,14 @@ TEST_F(RememberedValues, AreThoseOfANewEvaluation) {
 }
 
 TEST_F(RememberedValues, KeepTheirOwnSymbols) {
-  AbstractReading reading(dialect());
-  AbstractState state = entryState(reading);
+  AbstractInterpretation interpretation(dialect());
+  AbstractState state = entryState(interpretation);
   const auto &nodes = programs.file(FileId(0)).cfg.nodes;
   const Node &copy =
       *std::ranges::find_if(nodes, [](const Node &node) { return std::holds_alternative<Assign>(node.instruction); });
   for (const std::uint32_t symbol : {kFirstFreshSymbol + 7, kFirstFreshSymbol + 8}) {
     state.locals[1] = AbstractValue::anyNumber().withOrigin(Origin{symbol, Rational(3)});
-    const auto [value, divided, stopped] = carryOut(reading, state, copy);
+    const auto [value, divided, stopped] = carryOut(interpretation, state, copy);
     EXPECT_EQ(value.origin(), std::optional(Origin{symbol, Rational(3)}));
   }
 }

@@ -10,7 +10,7 @@ namespace feedhold::soundness {
 
 namespace {
 
-using ConcreteState = MachineState<ConcreteReading>;
+using ConcreteState = MachineState<ConcreteInterpretation>;
 
 std::string text(const ConcreteValue &value) { return value.vacant ? "vacant" : fmt::format("{:.17g}", value.number); }
 
@@ -19,10 +19,10 @@ public:
   Containment(const ConcreteState &state, const AbstractState &abstract, const EntryValues &entry,
               const ModalTable &modes, const Dialect &dialect)
       : state_(state), abstract_(abstract), entry_(entry), modes_(modes), dialect_(dialect),
-        reading_(dialect, entry.given) {}
+        interpretation_(dialect, entry.given) {}
 
   std::optional<std::string> run() {
-    for (std::uint32_t local = 1; local <= kLocalVariables && reading_.isLocal(local); ++local)
+    for (std::uint32_t local = 1; local <= kLocalVariables && interpretation_.isLocal(local); ++local)
       value(fmt::format("#{}", local), state_.locals[local], abstract_.locals[local]);
     variables();
     axes("position", state_.position, abstract_.position);
@@ -101,24 +101,24 @@ private:
     if (symbol >= kWordSymbols)
       return entry_.state.words[symbol - kWordSymbols];
     if (symbol >= kModalSymbols)
-      return reading_.numberOfCode(entry_.state.codes[symbol - kModalSymbols], modes_,
-                                   static_cast<std::uint8_t>(symbol - kModalSymbols));
+      return interpretation_.numberOfCode(entry_.state.codes[symbol - kModalSymbols], modes_,
+                                          static_cast<std::uint8_t>(symbol - kModalSymbols));
     if (symbol >= kPositionSymbols)
       return entry_.state.position[symbol - kPositionSymbols];
-    return reading_.isLocal(symbol) ? entry_.state.locals[symbol] : reading_.given(symbol);
+    return interpretation_.isLocal(symbol) ? entry_.state.locals[symbol] : interpretation_.given(symbol);
   }
 
   // ---- the parts ----
 
   void variables() {
-    const AbstractReading reading(dialect_);
+    const AbstractInterpretation interpretation(dialect_);
     for (const auto &[number, abstract] : abstract_.variables.entries()) {
       const auto *known = state_.variables.find(number);
       value(fmt::format("#{}", number), known ? *known : atEntry(number), abstract);
     }
     for (const auto &[number, concrete] : state_.variables.entries())
       if (!abstract_.variables.find(number))
-        value(fmt::format("#{}", number), concrete, reading.unwritten(abstract_, number));
+        value(fmt::format("#{}", number), concrete, interpretation.unwritten(abstract_, number));
   }
   void cycle() {
     value("bottom of cycle", state_.cycle.bottom, abstract_.cycle.bottom);
@@ -165,7 +165,7 @@ private:
       if (concrete.call != abstract.call || concrete.file != abstract.file)
         fail("another modal call");
       value(fmt::format("L of modal call {}", i), concrete.repeats, abstract.repeats);
-      for (std::uint32_t local = 1; local <= kLocalVariables && reading_.isLocal(local); ++local)
+      for (std::uint32_t local = 1; local <= kLocalVariables && interpretation_.isLocal(local); ++local)
         value(fmt::format("#{} of modal call {}", local, i), concrete.locals[local], abstract.locals[local]);
     }
   }
@@ -180,7 +180,7 @@ private:
   const EntryValues &entry_;
   const ModalTable &modes_;
   const Dialect &dialect_;
-  const ConcreteReading reading_;
+  const ConcreteInterpretation interpretation_;
   std::map<std::uint32_t, Known> fresh_;
   std::optional<std::string> why_;
 };

@@ -11,15 +11,15 @@ namespace feedhold::soundness {
 
 /// What the run started with: the values that entry symbols and "as at entry" stand for.
 struct EntryValues {
-  MachineState<ConcreteReading> state;
+  MachineState<ConcreteInterpretation> state;
   GivenVariables given;
 };
 
 /// Absent when it does; else the first thing that does not.
-std::optional<std::string> whyOutside(const MachineState<ConcreteReading> &state, const AbstractState &abstract,
+std::optional<std::string> whyOutside(const MachineState<ConcreteInterpretation> &state, const AbstractState &abstract,
                                       const EntryValues &entry, const ModalTable &modes, const Dialect &dialect);
 
 /// Some number has left the range that any control computes in.
-bool overflows(const MachineState<ConcreteReading> &state);
+bool overflows(const MachineState<ConcreteInterpretation> &state);
 
 } // namespace feedhold::soundness

@@ -38,14 +38,14 @@ EntryValues randomEntry(const LoadedSample &machine, Random &random) {
   std::array<double, kAxisCount> position{};
   for (double &axis : position)
     axis = anyInput(random);
-  MachineState<ConcreteReading> &state = entry.state =
-      startState(ConcreteReading(machine.dialect(), given), modes, position);
+  MachineState<ConcreteInterpretation> &state = entry.state =
+      startState(ConcreteInterpretation(machine.dialect(), given), modes, position);
   for (std::size_t group = 1; group < kModalGroups; ++group)
     if (const std::size_t codes = modes.group(group).codes.size();
         codes != 0 && (!modes.powerOn(group) || !random.oneIn(4)))
       state.codes[group] = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(codes)));
   if (const auto polar = modes.groupOf(ModalKind::Polar)) // an assumption of the analysis: not in force at entry
-    state.codes[*polar] = modes.powerOn(*polar).value_or(ConcreteReading::kNoCode);
+    state.codes[*polar] = modes.powerOn(*polar).value_or(ConcreteInterpretation::kNoCode);
   for (ConcreteValue &word : state.words)
     word = value();
   for (auto *shifts : {&state.shift, &state.local})

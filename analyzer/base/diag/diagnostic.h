@@ -44,7 +44,8 @@ struct Diagnostic {
   Span span;
   std::string label = {}; // text beside the primary carets; may be empty
   std::vector<Label> labels = {};
-  std::vector<Label> way = {};         // the places that lead to it, in the order in which they are passed
+  std::vector<Label> flow =
+      {}; // the path that leads to it: the places where something is decided, in the order of execution
   std::vector<std::string> notes = {}; // why it matters on the machine, what to do
   std::vector<FixIt> fixes = {};
 };

@@ -49,13 +49,13 @@ std::vector<Section> sectionsOf(const Diagnostic &diagnostic, const SourceFile &
   return sections;
 }
 
-constexpr std::size_t kMostOfBlock = 40; // characters of a block that is named on the way
+constexpr std::size_t kMostOfBlock = 40; // characters of a block that is named in a path
 
 /// One line for each place that leads to the finding: its number, what stands there, what happened.
-std::string wayText(const Diagnostic &diagnostic, const SourceFile &source,
-                    const std::function<const SourceFile &(FileId)> &fileOf) {
+std::string pathText(const Diagnostic &diagnostic, const SourceFile &source,
+                     const std::function<const SourceFile &(FileId)> &fileOf) {
   std::string text;
-  for (const Label &step : diagnostic.way) {
+  for (const Label &step : diagnostic.flow) {
     const SourceFile &file = step.file ? fileOf(*step.file) : source;
     const Position begin = file.position(step.span.begin);
     const Position end = file.position(step.span.end);
@@ -83,16 +83,16 @@ public:
       gutter_ = std::max(gutter_, std::to_string(section.lines.rbegin()->first).size());
   }
 
-  std::string render(const Diagnostic &diagnostic, std::string_view way) {
+  std::string render(const Diagnostic &diagnostic, std::string_view path) {
     line({{std::string(head_.severity), Style::Severity},
           {": " + printable(diagnostic.message), Style::Message},
           {fmt::format(" [{}]", head_.rule)}});
     for (const Section &section : sections_)
       addSection(section);
-    if (!way.empty() || !diagnostic.notes.empty() || !diagnostic.fixes.empty())
+    if (!path.empty() || !diagnostic.notes.empty() || !diagnostic.fixes.empty())
       gutterLine("", {});
-    if (!way.empty())
-      addNote("path", way);
+    if (!path.empty())
+      addNote("path", path);
     for (const std::string &note : diagnostic.notes)
       addNote("note", note);
     for (const FixIt &fix : diagnostic.fixes)
@@ -167,7 +167,7 @@ private:
 std::string render(const Diagnostic &diagnostic, const RenderedHead &head, const SourceFile &source,
                    const std::function<const SourceFile &(FileId)> &fileOf, const RenderOptions &options) {
   return Renderer(head, options, sectionsOf(diagnostic, source, fileOf))
-      .render(diagnostic, wayText(diagnostic, source, fileOf));
+      .render(diagnostic, pathText(diagnostic, source, fileOf));
 }
 
 } // namespace feedhold

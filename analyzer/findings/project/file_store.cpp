@@ -48,7 +48,7 @@ std::shared_ptr<const ProjectFile> FileStore::read(const OpenedFile &file,
   }
   if (known && isAsBefore(*known, file, open))
     return known;
-  auto anew = readFile(file, open); // without the lock: two threads may read one file, and either reading serves
+  auto anew = readFile(file, open); // without the lock: two threads may parse one file, and either result serves
   const std::lock_guard lock(mutex_);
   return files_[key] = std::move(anew);
 }

@@ -15,7 +15,7 @@ namespace feedhold {
 /// Programs of a folder, by name, and their texts.
 using Folder = std::vector<std::pair<std::filesystem::path, SourceFile>>;
 
-/// Holds one reading of each file for each control.  Safe to use from several threads.
+/// Holds each file as parsed for each control.  Safe to use from several threads.
 class FileStore {
 public:
   /// A run reads a file once, whatever happens to it meanwhile; a server asks again whether the text, the control and

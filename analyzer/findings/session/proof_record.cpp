@@ -126,7 +126,7 @@ prove::Witness readWitness(Reader &reader) {
     const bool vacant = reader.isPresent();
     witness.variables.set(variable, {vacant, reader.real()});
   }
-  witness.end = reader.upTo(RunEnd::NotModelled);
+  witness.end = reader.upTo(RunEnd::Unmodelled);
   witness.happened = reader.text();
   if (reader.isPresent()) {
     prove::GougeAt gouge{.place = reader.place(), .at = {}, .depth = 0};

@@ -10,7 +10,7 @@ namespace {
 
 using Ranges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-bool isForgotten(const Ranges &ranges, std::uint32_t variable) {
+bool isHavocked(const Ranges &ranges, std::uint32_t variable) {
   return std::any_of(ranges.begin(), ranges.end(),
                      [&](const auto &range) { return range.first <= variable && variable <= range.second; });
 }
@@ -58,7 +58,7 @@ AbstractValue cellAtEntry(const Dialect &dialect, std::uint32_t variable) {
 /// "Relational abstractions based on labeled union-find", 2025).
 class CommonOrigins {
 public:
-  explicit CommonOrigins(AbstractReading &reading) : reading_(reading) {}
+  explicit CommonOrigins(AbstractInterpretation &interpretation) : interpretation_(interpretation) {}
 
   std::optional<Origin> of(const AbstractValue &a, const AbstractValue &b) {
     if (!a.origin() || !b.origin())
@@ -73,7 +73,7 @@ public:
     const Key key{left.symbol, right.symbol, skew->numerator(), skew->denominator()};
     const auto found = classes_.find(key);
     if (found == classes_.end()) {
-      const Class fresh{reading_.freshSymbol(), left.offset};
+      const Class fresh{interpretation_.freshSymbol(), left.offset};
       classes_.emplace(key, fresh);
       return Origin{fresh.symbol, Rational()};
     }
@@ -87,21 +87,22 @@ private:
     std::uint32_t symbol;
     Rational base;
   };
-  AbstractReading &reading_;
+  AbstractInterpretation &interpretation_;
   std::map<Key, Class> classes_;
 };
 
 template <typename Combine>
-void combineInto(AbstractReading &reading, AbstractState &a, const AbstractState &unaligned, Combine &&combine) {
+void combineInto(AbstractInterpretation &interpretation, AbstractState &a, const AbstractState &unaligned,
+                 Combine &&combine) {
   std::optional<AbstractState> copy; // states are large: only one that has to change is copied
   if (!haveSameParts(a, unaligned)) {
     copy = unaligned;
-    alignToJoin(reading, a, *copy);
+    alignToJoin(interpretation, a, *copy);
   }
   const AbstractState &b = copy ? *copy : unaligned;
-  for (const auto &range : b.forgotten)
-    forget(a.forgotten, range);
-  CommonOrigins origins(reading);
+  for (const auto &range : b.havocked)
+    forget(a.havocked, range);
+  CommonOrigins origins(interpretation);
   forEachPart(Overloaded{[&](PartId, AbstractValue &left, const AbstractValue &right) {
                            if (left == right)
                              return;
@@ -146,7 +147,7 @@ bool partsLeq(const AbstractState &a, const AbstractState &b) {
 
 } // namespace
 
-AbstractState entryState(AbstractReading &reading) {
+AbstractState entryState(AbstractInterpretation &interpretation) {
   const auto given = Overloaded{[](PartId id, AbstractValue &value) {
                                   const bool isNumber = domainOf(id) == PartDomain::Number;
                                   value = isNumber ? AbstractValue::anyNumber() : AbstractValue::any();
@@ -157,58 +158,58 @@ AbstractState entryState(AbstractReading &reading) {
                                 [](PartId, CodeSet &code) { code = CodeSet::atEntry(); },
                                 [](PartId, Truth &truth) { truth = Truth::Maybe; }};
   const auto unknown = Overloaded{[&](PartId id, AbstractValue &value) {
-                                    setAnything(reading, id, value);
+                                    setAnything(interpretation, id, value);
                                     if (domainOf(id) == PartDomain::Number) // distances from it are told
-                                      value = reading.withSymbol(value);
+                                      value = interpretation.withSymbol(value);
                                   },
-                                  [&](PartId id, auto &part) { setAnything(reading, id, part); }};
-  return entryParts<AbstractReading>(reading, given, unknown);
+                                  [&](PartId id, auto &part) { setAnything(interpretation, id, part); }};
+  return entryParts<AbstractInterpretation>(interpretation, given, unknown);
 }
 
-AbstractValue AbstractReading::unwritten(const State &state, std::uint32_t variable) const {
+AbstractValue AbstractInterpretation::unwritten(const State &state, std::uint32_t variable) const {
   const AbstractValue cell = cellAtEntry(*dialect_, variable);
-  return isForgotten(state.forgotten, variable) ? cell.withOrigin(std::nullopt) : cell;
+  return isHavocked(state.havocked, variable) ? cell.withOrigin(std::nullopt) : cell;
 }
 
-bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b) {
-  if (!covers(b.forgotten, a.forgotten) || !(haveSameModalCalls(a, b) || mayBeTrue(b.modalCallsUnknown)))
+bool leq(const AbstractInterpretation &interpretation, const AbstractState &a, const AbstractState &b) {
+  if (!covers(b.havocked, a.havocked) || !(haveSameModalCalls(a, b) || mayBeTrue(b.modalCallsUnknown)))
     return false;
   if (haveSameParts(a, b))
     return partsLeq(a, b);
   AbstractState left = a;
   AbstractState right = b;
-  align(reading, left, right);
+  align(interpretation, left, right);
   dropDifferentModalCalls(left, right);
   return partsLeq(left, right);
 }
 
-void joinInto(AbstractReading &reading, AbstractState &state, const AbstractState &other) {
-  combineInto(reading, state, other, [](const AbstractValue &x, const AbstractValue &y) { return join(x, y); });
+void joinInto(AbstractInterpretation &interpretation, AbstractState &state, const AbstractState &other) {
+  combineInto(interpretation, state, other, [](const AbstractValue &x, const AbstractValue &y) { return join(x, y); });
 }
 
-void widenInto(AbstractReading &reading, AbstractState &old, const AbstractState &next,
+void widenInto(AbstractInterpretation &interpretation, AbstractState &old, const AbstractState &next,
                std::span<const double> thresholds) {
-  combineInto(reading, old, next,
+  combineInto(interpretation, old, next,
               [&](const AbstractValue &x, const AbstractValue &y) { return widen(x, join(x, y), thresholds); });
 }
 
-// ---- the reading's operations on whole states ----------------------------------------------------------------------
+// ---- operations on whole states -----------------------------------------------------------------------------------
 
-void AbstractReading::join(State &state, Truth truth, const State &second) {
+void AbstractInterpretation::join(State &state, Truth truth, const State &second) {
   if (truth == Truth::True)
     state = second;
   else if (truth == Truth::Maybe)
     joinInto(*this, state, second);
 }
 
-void AbstractReading::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {
-  forget(state.forgotten, {first, last});
+void AbstractInterpretation::havocVariables(State &state, std::uint32_t first, std::uint32_t last) {
+  forget(state.havocked, {first, last});
   auto &entries = state.variables.entries();
   std::erase_if(entries, [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
 
-void AbstractReading::havoc(State &state, std::string_view reason, Span place) {
-  notModelled(reason, place);
+void AbstractInterpretation::havoc(State &state, std::string_view reason, Span place) {
+  unmodelled(reason, place);
   havocParts(*this, state, polarGroup_);
 }
 
@@ -238,7 +239,7 @@ bool hasIndex(const AbstractValue &index, std::uint32_t variable) {
 } // namespace
 
 /// Of a variable that may be one of several: some may not exist, or be protected, or stop the program.
-void AbstractReading::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
+void AbstractInterpretation::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
   const IndexRange range = indicesOf(index).value_or(IndexRange{0, kFirstNamedVariable - 1});
   std::uint64_t existing = 0;
   bool isProtected = false;
@@ -261,7 +262,7 @@ void AbstractReading::alarmsOfAnyOf(const Value &index, Use use, const Value &va
     observer_->userAlarm(value, place);
 }
 
-AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span place) {
+AbstractValue AbstractInterpretation::readAnyOf(State &state, const Value &index, Span place) {
   alarmsOfAnyOf(index, Use::Read, index, place);
   const auto range = indicesOf(index);
   if (!range || range->last - range->first > kMostIndices || !cellsBeside(*dialect_, range->first, range->last).empty())
@@ -282,7 +283,7 @@ AbstractValue AbstractReading::readAnyOf(State &state, const Value &index, Span 
   return all.value_or(anything());
 }
 
-bool AbstractReading::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
+bool AbstractInterpretation::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
   alarmsOfAnyOf(index, Use::Write, value, place);
   const IndexRange range = indicesOf(index).value_or(IndexRange{0, 0xffffffff});
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
@@ -293,12 +294,12 @@ bool AbstractReading::writeAnyOf(State &state, const Value &index, const Value &
     if (range.first <= variable && variable <= range.last)
       kept.emplace_back(variable,
                         hasIndex(index, variable) ? feedhold::join(old, value).withOrigin(std::nullopt) : old);
-  forget(state.forgotten, {range.first, range.last});
+  forget(state.havocked, {range.first, range.last});
   for (auto &[variable, joined] : kept)
     state.variables.set(variable, joined);
   const std::vector<VariableSpan> beside = cellsBeside(*dialect_, range.first, range.last);
   for (const VariableSpan &other : beside)
-    forgetVariables(state, other.first, other.last);
+    havocVariables(state, other.first, other.last);
   return range.last >= kFirstWorkOffset || !beside.empty();
 }
 

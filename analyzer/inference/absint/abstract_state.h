@@ -1,7 +1,7 @@
 // AbstractState: the lattice of machine states: entry states, order, join and widening.
 #pragma once
 
-#include "inference/absint/abstract_reading.h"
+#include "inference/absint/abstract_interpretation.h"
 #include "meaning/semantics/parts.h"
 
 #include <span>
@@ -10,16 +10,16 @@ namespace feedhold {
 
 /// What the control gives to a program that is started: variables, modal state and position are whatever they were,
 /// each a symbol of its own.
-AbstractState entryState(AbstractReading &reading);
+AbstractState entryState(AbstractInterpretation &interpretation);
 
 /// Every run that `a` describes is described by `b`.  Symbols other than those of the entry may have other names.
-bool leq(const AbstractReading &reading, const AbstractState &a, const AbstractState &b);
+bool leq(const AbstractInterpretation &interpretation, const AbstractState &a, const AbstractState &b);
 
 /// Distances that hold in both hold in the join.
-void joinInto(AbstractReading &reading, AbstractState &state, const AbstractState &other);
+void joinInto(AbstractInterpretation &interpretation, AbstractState &state, const AbstractState &other);
 
 /// `thresholds` ascend.
-void widenInto(AbstractReading &reading, AbstractState &old, const AbstractState &next,
+void widenInto(AbstractInterpretation &interpretation, AbstractState &old, const AbstractState &next,
                std::span<const double> thresholds);
 
 } // namespace feedhold

@@ -34,10 +34,10 @@ public:
   virtual void left(Place, const AbstractState &) {}
   virtual void branch(Place, Truth) {}
   virtual void ended(Place, PathEnd, const AbstractState &) {}
-  virtual void called(Place, const CallRequest<AbstractReading> &) {}
+  virtual void called(Place, const CallRequest<AbstractInterpretation> &) {}
   /// A program is entered in a way that is not followed (too deep, by itself, by a computed number), and would be gone
   /// through with nothing known: not when the visitor has no use for it.
-  virtual bool wantsUnfollowed(const Callee &) { return true; }
+  virtual bool wantsUnmodelledEntry(const Callee &) { return true; }
   /// What is known of a program that is called from several places is told with the calls of each; else, where they
   /// find the same, with those of one.
   virtual bool tellsCallsApart() const { return false; }
@@ -58,9 +58,9 @@ public:
   AbstractState entryState(Callee entry, const FileContracts *contracts = nullptr);
   /// Analyses a program that is started with nothing known, and walks through it.
   void walk(Callee entry, AnalysisVisitor &visitor);
-  /// The same with a state of one's own; `reading` gives it symbols.
+  /// The same with a state of one's own; `interpretation` gives it symbols.
   void walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor);
-  AbstractReading &reading();
+  AbstractInterpretation &interpretation();
 
   /// Absent when the analysis went to its end; else why nothing of what it told is complete.
   std::optional<std::string_view> gaveUp() const;

@@ -31,11 +31,11 @@ public:
   StateCollector(const ProgramSet &programs, const std::function<bool(FileId, BlockId)> &wants, BlockStates &result)
       : programs_(programs), wants_(wants), result_(result) {}
 
-  void begin(Callee start, const FileContracts *contracts, AbstractReading &reading) {
+  void begin(Callee start, const FileContracts *contracts, AbstractInterpretation &interpretation) {
     start_ = start;
     const Contract *contract = contracts ? contracts->of(start.program) : nullptr;
     assumesContract_ = contract && speaksOfEntry(*contract);
-    reading_ = &reading;
+    interpretation_ = &interpretation;
     first_ = result_.contexts.size();
   }
 
@@ -56,7 +56,7 @@ public:
   void resumed(Place place, std::span<const Place>) override { place_ = place; }
   bool tellsCallsApart() const override { return true; }
   void leftOut(Place) override { result_.isCutShort = true; }
-  void notModelled(std::string_view reason, Span) override {
+  void unmodelled(std::string_view reason, Span) override {
     const UnmodelledNote note{reason, place_};
     if (result_.unmodelled.size() < kMostNotes &&
         std::find(result_.unmodelled.begin(), result_.unmodelled.end(), note) == result_.unmodelled.end())
@@ -72,7 +72,7 @@ private:
   }
   void join(KeptState &known, const AbstractState &state) {
     AbstractState joined = known.state();
-    joinInto(*reading_, joined, state);
+    joinInto(*interpretation_, joined, state);
     values_ -= known.valueCount();
     known = keeper_.keep(joined);
     values_ += known.valueCount();
@@ -103,7 +103,7 @@ private:
   BlockStates &result_;
   std::optional<Callee> start_;
   bool assumesContract_ = false;
-  AbstractReading *reading_ = nullptr;
+  AbstractInterpretation *interpretation_ = nullptr;
   std::size_t first_ = 0; // of the contexts of this start
   StateKeeper keeper_;
   std::size_t values_ = 0; // kept
@@ -123,7 +123,7 @@ BlockStates collectBlockStates(const ProgramSet &programs, std::span<const Calle
       result.gaveUp = "too many computed jumps, each of which may lead to any sequence number";
     } else {
       Analysis analysis(programs, {.budget = stateBudget(file)});
-      collector.begin(start, contracts, analysis.reading());
+      collector.begin(start, contracts, analysis.interpretation());
       analysis.walk(start, analysis.entryState(start, contracts), collector);
       result.gaveUp = analysis.gaveUp();
     }

@@ -12,14 +12,14 @@ namespace feedhold {
 
 namespace {
 
-/// Bounds may speak of other arguments, and requirements of any: a second pass knows what the first has found.
-constexpr int kPasses = 2;
+/// Bounds may speak of other arguments, and requirements of any: a second round knows what the first has found.
+constexpr int kRounds = 2;
 
 class EntryCut {
 public:
-  EntryCut(AbstractReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
-           AbstractState &state)
-      : reading_(reading), programs_(programs), modes_(*programs.file(file).dialect),
+  EntryCut(AbstractInterpretation &interpretation, const ProgramSet &programs, FileId file,
+           const FileContracts &contracts, AbstractState &state)
+      : interpretation_(interpretation), programs_(programs), modes_(*programs.file(file).dialect),
         within_{.file = file,
                 .source = programs.file(file).source,
                 .tree = &contracts.tree, // expressions of a contract are read as those of the program
@@ -34,10 +34,10 @@ public:
 
   void requirement(ExpressionId condition) {
     AbstractState trial = state_;
-    AbstractContext context{reading_, trial, programs_, within_, modes_, BlockId(0)};
+    AbstractContext context{interpretation_, trial, programs_, within_, modes_, BlockId(0)};
     if (assume(context, condition, Holds::Yes))
       state_ = std::move(trial);
-    reading_.start();
+    interpretation_.start();
   }
 
   void modal(const ModalCode &given) {
@@ -60,9 +60,9 @@ public:
 private:
   /// Of exact numbers and of rounded ones: either is an end for both.
   AbstractNumber numberOf(ExpressionId expression) {
-    AbstractContext context{reading_, state_, programs_, within_, modes_, BlockId(0)};
-    const AbstractValue value = reading_.asNumber(evaluate(context, expression));
-    reading_.start(); // what an expression of a contract would stop at is no alarm of the program
+    AbstractContext context{interpretation_, state_, programs_, within_, modes_, BlockId(0)};
+    const AbstractValue value = interpretation_.asNumber(evaluate(context, expression));
+    interpretation_.start(); // what an expression of a contract would stop at is no alarm of the program
     return value.number();
   }
 
@@ -96,7 +96,7 @@ private:
       return meetCell(state_.locals[given.variable], wanted);
     const std::uint32_t place = cellOf(*within_.dialect, given.variable);
     const AbstractValue *known = state_.variables.find(place);
-    AbstractValue cell = known ? *known : reading_.unwritten(state_, place);
+    AbstractValue cell = known ? *known : interpretation_.unwritten(state_, place);
     meetCell(cell, wanted);
     state_.variables.set(place, std::move(cell));
   }
@@ -105,7 +105,7 @@ private:
       cell = met->withOrigin(cell.origin());
   }
 
-  AbstractReading &reading_;
+  AbstractInterpretation &interpretation_;
   const ProgramSet &programs_;
   const ModalTable modes_;
   const ProgramFile within_;
@@ -119,11 +119,11 @@ bool speaksOfEntry(const Contract &contract) {
          !contract.modal.empty() || contract.start.has_value();
 }
 
-void assumeContract(AbstractReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
-                    const Contract &contract, AbstractState &entry) {
-  reading.useDialect(*programs.file(file).dialect);
-  EntryCut entryCut(reading, programs, file, contracts, entry);
-  for (int pass = 0; pass < kPasses; ++pass) {
+void assumeContract(AbstractInterpretation &interpretation, const ProgramSet &programs, FileId file,
+                    const FileContracts &contracts, const Contract &contract, AbstractState &entry) {
+  interpretation.useDialect(*programs.file(file).dialect);
+  EntryCut entryCut(interpretation, programs, file, contracts, entry);
+  for (int round = 0; round < kRounds; ++round) {
     entryCut.values(contract.params);
     entryCut.values(contract.globals);
     for (const ContractCondition &requirement : contract.requirements)

@@ -12,7 +12,7 @@ bool speaksOfEntry(const Contract &contract);
 
 /// Cuts the state of an entry down to the calls that the contract allows.  A clause that no call can keep is left out:
 /// what is wrong with it is told elsewhere.
-void assumeContract(AbstractReading &reading, const ProgramSet &programs, FileId file, const FileContracts &contracts,
-                    const Contract &contract, AbstractState &entry);
+void assumeContract(AbstractInterpretation &interpretation, const ProgramSet &programs, FileId file,
+                    const FileContracts &contracts, const Contract &contract, AbstractState &entry);
 
 } // namespace feedhold

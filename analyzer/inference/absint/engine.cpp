@@ -52,7 +52,7 @@ std::pair<std::uint32_t, std::uint32_t> keyOf(Callee entry) { return {entry.file
 } // namespace
 
 Engine::Engine(const ProgramSet &programs, AnalysisOptions options)
-    : programs_(programs), options_(options), reading_(*programs.file(FileId(0)).dialect) {}
+    : programs_(programs), options_(options), interpretation_(*programs.file(FileId(0)).dialect) {}
 
 const ModalTable &Engine::modesOf(FileId file) {
   auto &modes = modes_[file.index()];
@@ -87,33 +87,33 @@ bool Engine::spend(std::uint64_t cost) {
   if (spent_ > options_.budget && !gaveUp_)
     gaveUp_ = "the programs are too involved to be followed within the budget";
   if (!gaveUp_)
-    gaveUp_ = reading_.abandoned();
+    gaveUp_ = interpretation_.abandoned();
   return !gaveUp_;
 }
 
 void Engine::solve(const ProgramFacts &facts, Summary &summary) {
   open_.push_back(facts.entry);
-  reading_.useDialect(*facts.file->dialect);
-  Propagation(*this, facts, summary, Propagation::Pass::Ascend).run();
+  interpretation_.useDialect(*facts.file->dialect);
+  Propagation(*this, facts, summary, Propagation::Phase::Ascend).run();
   if (!summary.heads.empty())
     descend(facts, summary);
   open_.pop_back();
 }
 
-/// Each pass checks what the one before has narrowed, and leaves the exits of the states that hold.
+/// Each iteration checks what the one before has narrowed, and leaves the exits of the states that hold.
 void Engine::descend(const ProgramFacts &facts, Summary &summary) {
   constexpr int kNarrowings = 2;
   const auto collect = [&] {
     summary.exits.clear();
-    Propagation pass(*this, facts, summary, Propagation::Pass::Collect);
-    pass.run();
-    return pass.arrived();
+    Propagation iteration(*this, facts, summary, Propagation::Phase::Collect);
+    iteration.run();
+    return iteration.arrived();
   };
   auto held = summary.heads; // the last states that are known to be a fixpoint
   for (int round = 0; !gaveUp_; ++round) {
     const auto arrived = collect();
     const bool holds = std::all_of(arrived.begin(), arrived.end(), [&](const auto &states) {
-      return states.second.within(reading_, summary.heads.at(states.first));
+      return states.second.within(interpretation_, summary.heads.at(states.first));
     });
     if (!holds) {
       summary.heads = std::move(held);
@@ -124,8 +124,8 @@ void Engine::descend(const ProgramFacts &facts, Summary &summary) {
     bool narrower = false;
     for (auto &[position, states] : summary.heads)
       if (const auto found = arrived.find(position); found != arrived.end()) {
-        states = states.narrowedBy(reading_, found->second);
-        narrower = narrower || !held.at(position).within(reading_, states);
+        states = states.narrowedBy(interpretation_, found->second);
+        narrower = narrower || !held.at(position).within(interpretation_, states);
       }
     if (!narrower || round == kNarrowings) {
       summary.heads = std::move(held);
@@ -138,11 +138,11 @@ Summary &Engine::summaryOf(Callee entry, const AbstractState &state, std::option
   const ProgramFacts &facts = factsOf(entry);
   auto &known = summaries_[keyOf(entry)];
   for (const auto &summary : known)
-    if (summary->modalLimit == modalLimit && leq(reading_, state, summary->entry))
+    if (summary->modalLimit == modalLimit && leq(interpretation_, state, summary->entry))
       return *summary;
   AbstractState wanted = known.size() >= kMostContexts ? known.back()->entry : state;
   if (known.size() >= kMostContexts)
-    widenInto(reading_, wanted, state, facts.thresholds);
+    widenInto(interpretation_, wanted, state, facts.thresholds);
   auto summary = std::make_unique<Summary>();
   summary->entry = std::move(wanted);
   summary->modalLimit = modalLimit;
@@ -152,7 +152,7 @@ Summary &Engine::summaryOf(Callee entry, const AbstractState &state, std::option
   return *now.back();
 }
 
-/// Without loops and calls one pass tells all.
+/// Without loops and calls one iteration is enough.
 bool Engine::isStraight(const ProgramFacts &facts) const {
   return std::none_of(facts.wto.order().begin(), facts.wto.order().end(), [&](NodeId node) {
     return facts.wto.isHead(node) || std::holds_alternative<CallProgram>(facts.file->cfg.nodes[node].instruction);
@@ -160,65 +160,65 @@ bool Engine::isStraight(const ProgramFacts &facts) const {
 }
 
 AbstractState Engine::entryStateOf(Callee entry, const FileContracts *contracts) {
-  AbstractState state = entryState(reading_);
+  AbstractState state = entryState(interpretation_);
   const ModalTable &modes = modesOf(entry.file);
   const auto polar = modes.groupOf(ModalKind::Polar);
-  reading_.keepPolar(polar);
+  interpretation_.keepPolar(polar);
   if (polar) // otherwise no word of the program would say where it leads
     state.codes[*polar] =
         CodeSet::of(static_cast<std::size_t>(std::countr_zero(modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff}))));
   if (const Contract *contract = contracts ? contracts->of(entry.program) : nullptr)
-    assumeContract(reading_, programs_, entry.file, *contracts, *contract, state);
+    assumeContract(interpretation_, programs_, entry.file, *contracts, *contract, state);
   return state;
 }
 
 void Engine::walk(Callee entry, const AbstractState &state, AnalysisVisitor &visitor) {
   const ProgramFacts &facts = factsOf(entry);
-  reading_.useDialect(*facts.file->dialect);
+  interpretation_.useDialect(*facts.file->dialect);
   Summary straight;
   straight.entry = state;
   Summary &summary = isStraight(facts) ? straight : summaryOf(entry, state, std::nullopt);
   visitor_ = &visitor;
-  reading_.observe(&visitor);
+  interpretation_.observe(&visitor);
   open_.push_back(entry);
-  Propagation(*this, facts, summary, Propagation::Pass::Walk).run();
+  Propagation(*this, facts, summary, Propagation::Phase::Walk).run();
   open_.pop_back();
   walkWithNothingKnown(visitor);
-  reading_.observe(nullptr);
+  interpretation_.observe(nullptr);
   visitor_ = nullptr;
 }
 
 void Engine::walkWithNothingKnown(AnalysisVisitor &visitor) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> walked;
   depthKnown_ = false;
-  while (walked.size() < unfollowed_.size() && !gaveUp_) {
-    const auto next = std::find_if(unfollowed_.begin(), unfollowed_.end(),
+  while (walked.size() < unmodelledEntries_.size() && !gaveUp_) {
+    const auto next = std::find_if(unmodelledEntries_.begin(), unmodelledEntries_.end(),
                                    [&](const auto &program) { return !walked.contains(program.first); });
     walked.insert(next->first);
     const Callee entry = next->second;
-    if (!visitor.wantsUnfollowed(entry))
+    if (!visitor.wantsUnmodelledEntry(entry))
       continue;
-    reading_.useDialect(*programs_.file(entry.file).dialect);
-    reading_.observe(nullptr);
+    interpretation_.useDialect(*programs_.file(entry.file).dialect);
+    interpretation_.observe(nullptr);
     AbstractState anything = entryStateOf(entry, nullptr);
     anything.transformed = Truth::Maybe;
-    reading_.havoc(anything, "a program that calls itself", {});
+    interpretation_.havoc(anything, "a program that calls itself", {});
     Summary &summary = summaryOf(entry, anything, std::nullopt);
-    reading_.observe(&visitor);
-    reading_.useDialect(*programs_.file(entry.file).dialect);
+    interpretation_.observe(&visitor);
+    interpretation_.useDialect(*programs_.file(entry.file).dialect);
     open_.push_back(entry);
-    Propagation(*this, factsOf(entry), summary, Propagation::Pass::Walk).run();
+    Propagation(*this, factsOf(entry), summary, Propagation::Phase::Walk).run();
     open_.pop_back();
   }
   depthKnown_ = true;
-  unfollowed_.clear();
+  unmodelledEntries_.clear();
 }
 
 // ---- symbols of summaries ------------------------------------------------------------------------------------------
 
-AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
+AbstractState translated(const AbstractInterpretation &interpretation, AbstractState exit, AbstractState summaryEntry,
                          AbstractState entry) {
-  align(reading, summaryEntry, entry);
+  align(interpretation, summaryEntry, entry);
   dropDifferentModalCalls(summaryEntry, entry); // one of them knows only that there may be some
   std::map<std::uint32_t, Origin> meaning;      // symbol of the summary: what it is in the caller
   forEachPart(Overloaded{[&](PartId, const AbstractValue &theirs, const AbstractValue &mine) {
@@ -255,7 +255,7 @@ Analysis::Analysis(const ProgramSet &programs, AnalysisOptions options)
     : impl_(std::make_unique<Impl>(Impl{Engine(programs, options)})) {}
 Analysis::~Analysis() = default;
 
-AbstractReading &Analysis::reading() { return impl_->engine.reading(); }
+AbstractInterpretation &Analysis::interpretation() { return impl_->engine.interpretation(); }
 std::optional<std::string_view> Analysis::gaveUp() const { return impl_->engine.gaveUp(); }
 
 AbstractState Analysis::entryState(Callee entry, const FileContracts *contracts) {

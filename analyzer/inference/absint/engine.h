@@ -44,7 +44,7 @@ class Engine {
 public:
   Engine(const ProgramSet &programs, AnalysisOptions options);
 
-  AbstractReading &reading() { return reading_; }
+  AbstractInterpretation &interpretation() { return interpretation_; }
   /// What a program that is started may find; polar coordinates are not in force.  `contracts`: of its file, to be
   /// assumed; null: none.
   AbstractState entryStateOf(Callee entry, const FileContracts *contracts);
@@ -73,7 +73,7 @@ private:
 
   const ProgramSet &programs_;
   AnalysisOptions options_;
-  AbstractReading reading_;
+  AbstractInterpretation interpretation_;
   std::map<std::size_t, std::unique_ptr<ModalTable>> modes_; // by file, of those that have been asked for
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<ProgramFacts>> facts_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::unique_ptr<Summary>>> summaries_;
@@ -83,13 +83,13 @@ private:
   CallDepth depth_;          // of the walk
   int walkedAgain_ = 0;      // programs, for calls that find the same
   bool depthKnown_ = true;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Callee> unfollowed_; // entered somehow
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Callee> unmodelledEntries_; // entered somehow
   std::uint64_t spent_ = 0;
   std::optional<std::string_view> gaveUp_;
 };
 
 /// The state in a caller when a summary has been made for a state that covers its own: symbols get their names there.
-AbstractState translated(const AbstractReading &reading, AbstractState exit, AbstractState summaryEntry,
+AbstractState translated(const AbstractInterpretation &interpretation, AbstractState exit, AbstractState summaryEntry,
                          AbstractState entry);
 
 } // namespace feedhold

@@ -1,6 +1,6 @@
 #include "inference/absint/evaluation_memo.h"
 
-#include "inference/absint/abstract_reading.h"
+#include "inference/absint/abstract_interpretation.h"
 
 #include <algorithm>
 

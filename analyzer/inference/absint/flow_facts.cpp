@@ -53,8 +53,8 @@ const AbstractValue *FlowFacts::valueOf(ExpressionId expression) const { return 
 /// Fills in the facts while the analysis tells what it sees.
 class FactCollector : public AnalysisVisitor {
 public:
-  FactCollector(FlowFacts &facts, AbstractReading &reading, std::span<FlowWatch *const> watches)
-      : facts_(facts), reading_(reading), watches_(watches) {}
+  FactCollector(FlowFacts &facts, AbstractInterpretation &interpretation, std::span<FlowWatch *const> watches)
+      : facts_(facts), interpretation_(interpretation), watches_(watches) {}
 
   void visit(Place place, const AbstractState &state, std::span<const Place> calls) override {
     resumed(place, calls);
@@ -72,7 +72,7 @@ public:
   }
   /// Only where it may come back to this program, or to one in which a variable was read that held nothing: without
   /// this each program of a long chain of calls would go through all those below it.
-  bool wantsUnfollowed(const Callee &callee) override {
+  bool wantsUnmodelledEntry(const Callee &callee) override {
     ReachedPrograms reached;
     collectReached(facts_.programs, {callee.file, callee.program}, reached);
     for (const Callee &modal : facts_.programs.modalCallees())
@@ -121,10 +121,10 @@ public:
     else
       facts_.userAlarms_[known->second].number = join(facts_.userAlarms_[known->second].number, number);
   }
-  void notModelled(std::string_view reason, Span) override {
+  void unmodelled(std::string_view reason, Span) override {
     const NodeId node = outer_.value_or(place_.node);
-    if (notModelledAt_.emplace(node, reason).second)
-      facts_.notModelled_.push_back({node, reason});
+    if (unmodelledAt_.emplace(node, reason).second)
+      facts_.unmodelled_.push_back({node, reason});
   }
   void evaluated(ExpressionId expression, const AbstractValue &value) override {
     if (outer_)
@@ -140,9 +140,9 @@ public:
     if (isNew)
       facts_.exits_.push_back({place.node, end, state});
     else
-      joinInto(reading_, facts_.exits_[known->second].state, state);
+      joinInto(interpretation_, facts_.exits_[known->second].state, state);
   }
-  void called(Place place, const CallRequest<AbstractReading> &request) override {
+  void called(Place place, const CallRequest<AbstractInterpretation> &request) override {
     if (outer_)
       return;
     const auto *instruction = std::get_if<CallProgram>(&facts_.node(place.node).instruction);
@@ -153,7 +153,7 @@ public:
       facts_.calls_.push_back({place.node, instruction->call, request});
       return;
     }
-    CallRequest<AbstractReading> &all = facts_.calls_[known->second].request;
+    CallRequest<AbstractInterpretation> &all = facts_.calls_[known->second].request;
     for (std::size_t i = 0; i < all.locals.size(); ++i)
       all.locals[i] = join(all.locals[i], request.locals[i]);
     all.repeats = join(all.repeats, request.repeats);
@@ -193,14 +193,14 @@ private:
   }
 
   FlowFacts &facts_;
-  AbstractReading &reading_;
+  AbstractInterpretation &interpretation_;
   std::span<FlowWatch *const> watches_;
   Place place_{FileId(0), NodeId(0)};
   std::optional<NodeId> outer_; // the call of this program through which the present place is reached
   // Which of the facts is about a place: a program of a million blocks may have one for each.
   std::map<std::tuple<std::uint32_t, std::uint32_t, AlarmKind>, std::size_t> alarmAt_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> userAlarmAt_;
-  std::set<std::pair<NodeId, std::string_view>> notModelledAt_;
+  std::set<std::pair<NodeId, std::string_view>> unmodelledAt_;
   std::map<NodeId, std::size_t> exitAt_;
   std::map<NodeId, std::size_t> callAt_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> readAsVacant_;
@@ -216,7 +216,7 @@ FlowFacts collectFacts(const ProgramSet &programs, FileId file, ProgramId progra
     return facts;
   }
   Analysis analysis(programs, {.budget = factBudget(facts.file)});
-  FactCollector collector(facts, analysis.reading(), watches);
+  FactCollector collector(facts, analysis.interpretation(), watches);
   const Callee start{file, facts.entry(), program};
   const AbstractState entry = analysis.entryState(start, contracts);
   facts.entryCodes_ = entry.codes;

@@ -39,7 +39,7 @@ struct ExitFact {
 struct CallFact {
   NodeId node;
   CallId call;
-  CallRequest<AbstractReading> request;
+  CallRequest<AbstractInterpretation> request;
 };
 
 /// A called program reads a local variable that holds nothing, in all runs through this call.
@@ -50,7 +50,7 @@ struct VacantReadInCall {
   std::uint32_t variable;
 };
 
-struct NotModelledFact {
+struct UnmodelledFact {
   NodeId node;
   std::string_view reason;
 };
@@ -134,7 +134,7 @@ public:
   const std::vector<ExitFact> &exits() const { return exits_; } // by node
   const std::vector<CallFact> &calls() const { return calls_; } // by node
   const std::vector<VacantReadInCall> &vacantReads() const { return vacantReads_; }
-  const std::vector<NotModelledFact> &notModelled() const { return notModelled_; }
+  const std::vector<UnmodelledFact> &unmodelled() const { return unmodelled_; }
 
   /// What several rules derive from these facts: make() for the first of them.
   template <typename Derived, typename Make> const Derived &derived(Make &&make) const {
@@ -161,7 +161,7 @@ private:
   std::vector<ExitFact> exits_;
   std::vector<CallFact> calls_;
   std::vector<VacantReadInCall> vacantReads_;
-  std::vector<NotModelledFact> notModelled_;
+  std::vector<UnmodelledFact> unmodelled_;
   mutable SearchTrail trail_;
   mutable std::map<std::type_index, std::shared_ptr<const void>> derived_;
   bool complete_ = true;

@@ -18,7 +18,7 @@ template <typename Visit, typename... States> void forEachCell(Visit &&visit, St
 } // namespace
 
 KeptState::Rest KeptState::restOf(const AbstractState &state) {
-  Rest rest{state.forgotten, {}, {}};
+  Rest rest{state.havocked, {}, {}};
   forEachCell(Overloaded{[](PartId, const AbstractValue &) {},
                          [&](PartId id, const CodeSet &code) { rest.codes.emplace_back(id, code); },
                          [&](PartId, const Truth &truth) { rest.truths.push_back(truth); }},
@@ -51,7 +51,7 @@ AbstractState KeptState::state() const {
     state.variables.erase(variable);
   for (const auto &[variable, value] : variables_)
     state.variables.set(variable, value);
-  state.forgotten = rest_->forgotten;
+  state.havocked = rest_->havocked;
   return state;
 }
 

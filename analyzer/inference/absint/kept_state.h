@@ -27,7 +27,7 @@ private:
   };
   /// What is no value, in the order of forEachPart; nearly always that of the base.
   struct Rest {
-    decltype(AbstractState::forgotten) forgotten;
+    decltype(AbstractState::havocked) havocked;
     std::vector<std::pair<PartId, CodeSet>> codes;
     std::vector<Truth> truths;
     friend bool operator==(const Rest &, const Rest &) = default;

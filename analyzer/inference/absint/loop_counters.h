@@ -6,7 +6,7 @@
 // analysis", 2006).  Nothing rests on the proposal: one that is wrong costs a round.
 #pragma once
 
-#include "inference/absint/abstract_reading.h"
+#include "inference/absint/abstract_interpretation.h"
 #include "meaning/cfg/wto.h"
 
 #include <vector>

@@ -57,7 +57,7 @@ PartitionBy partitionBy(const ProgramFile &file, ProgramId program, const ModalT
   return by;
 }
 
-std::uint64_t keyOf(const PartitionBy &by, const AbstractReading &reading, const AbstractState &state) {
+std::uint64_t keyOf(const PartitionBy &by, const AbstractInterpretation &interpretation, const AbstractState &state) {
   std::uint64_t key = 0;
   if (by.distanceGroup && state.codes[*by.distanceGroup].isSingle())
     key = mixed(1, state.codes[*by.distanceGroup].codes());
@@ -66,7 +66,7 @@ std::uint64_t keyOf(const PartitionBy &by, const AbstractReading &reading, const
     std::uint64_t bits = 0;
     if (value && value->isVacant())
       bits = 1;
-    else if (const auto constant = value ? reading.constantOf(*value) : std::nullopt)
+    else if (const auto constant = value ? interpretation.constantOf(*value) : std::nullopt)
       std::memcpy(&bits, &*constant, sizeof bits), bits += 2;
     if (bits != 0 || key != 0)
       key = mixed(key, bits);
@@ -81,61 +81,61 @@ Partitions::Part *Partitions::find(std::uint64_t key) {
   return at == parts_.end() ? nullptr : &*at;
 }
 
-void Partitions::merge(AbstractReading &reading) {
+void Partitions::merge(AbstractInterpretation &interpretation) {
   while (parts_.size() > 1) {
-    joinInto(reading, parts_.front().state, parts_.back().state);
+    joinInto(interpretation, parts_.front().state, parts_.back().state);
     parts_.pop_back();
   }
   merged_ = true;
 }
 
-void Partitions::add(AbstractReading &reading, std::uint64_t key, AbstractState &&state) {
+void Partitions::add(AbstractInterpretation &interpretation, std::uint64_t key, AbstractState &&state) {
   if (Part *part = find(key)) {
-    joinInto(reading, part->state, state);
+    joinInto(interpretation, part->state, state);
     return;
   }
   const auto place = std::find_if(parts_.begin(), parts_.end(), [&](const Part &part) { return part.key > key; });
   parts_.emplace(place, key, std::move(state));
   if (parts_.size() > kMost)
-    merge(reading);
+    merge(interpretation);
 }
 
-bool Partitions::grow(AbstractReading &reading, const Partitions &incoming, const Growth &how) {
+bool Partitions::grow(AbstractInterpretation &interpretation, const Partitions &incoming, const Growth &how) {
   bool changed = false;
   for (const Part &next : incoming.parts()) {
     Part *old = find(next.key);
     if (!old) {
-      add(reading, next.key, AbstractState(next.state));
+      add(interpretation, next.key, AbstractState(next.state));
       changed = true;
-    } else if (!leq(reading, next.state, old->state)) {
+    } else if (!leq(interpretation, next.state, old->state)) {
       const std::vector<AbstractNumber> counted = how.counters.numbersIn(old->state);
       if (how.widening)
-        widenInto(reading, old->state, next.state, how.thresholds);
+        widenInto(interpretation, old->state, next.state, how.thresholds);
       else
-        joinInto(reading, old->state, next.state);
+        joinInto(interpretation, old->state, next.state);
       how.counters.extend(old->state, counted);
       changed = true;
     }
   }
   if (incoming.merged_ && !merged_)
-    merge(reading);
+    merge(interpretation);
   return changed;
 }
 
-Partitions Partitions::narrowedBy(const AbstractReading &reading, const Partitions &incoming) const {
+Partitions Partitions::narrowedBy(const AbstractInterpretation &interpretation, const Partitions &incoming) const {
   Partitions result = *this;
   if (incoming.merged_ != merged_)
     return result;
   for (Part &part : result.parts_)
-    if (const Part *next = incoming.find(part.key); next && leq(reading, next->state, part.state))
+    if (const Part *next = incoming.find(part.key); next && leq(interpretation, next->state, part.state))
       part.state = next->state;
   return result;
 }
 
-bool Partitions::within(const AbstractReading &reading, const Partitions &other) const {
+bool Partitions::within(const AbstractInterpretation &interpretation, const Partitions &other) const {
   return std::all_of(parts_.begin(), parts_.end(), [&](const Part &part) {
     const Part *outer = other.find(part.key);
-    return outer && leq(reading, part.state, outer->state);
+    return outer && leq(interpretation, part.state, outer->state);
   });
 }
 

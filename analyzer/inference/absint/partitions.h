@@ -22,7 +22,7 @@ struct PartitionBy {
 PartitionBy partitionBy(const ProgramFile &file, ProgramId program, const ModalTable &modes);
 
 /// Equal for states that belong together; 0 for those of which nothing is known.
-std::uint64_t keyOf(const PartitionBy &by, const AbstractReading &reading, const AbstractState &state);
+std::uint64_t keyOf(const PartitionBy &by, const AbstractInterpretation &interpretation, const AbstractState &state);
 
 /// How the states at the head of a loop grow.
 struct Growth {
@@ -43,18 +43,18 @@ public:
   std::vector<Part> &parts() { return parts_; }
   const std::vector<Part> &parts() const { return parts_; }
 
-  void add(AbstractReading &reading, std::uint64_t key, AbstractState &&state);
+  void add(AbstractInterpretation &interpretation, std::uint64_t key, AbstractState &&state);
   /// Old states that grow are joined or widened, new ones are taken as they are; true when anything has changed.
-  bool grow(AbstractReading &reading, const Partitions &incoming, const Growth &how);
+  bool grow(AbstractInterpretation &interpretation, const Partitions &incoming, const Growth &how);
   /// What has arrived in place of what was assumed, part by part, where it says more.
-  Partitions narrowedBy(const AbstractReading &reading, const Partitions &incoming) const;
+  Partitions narrowedBy(const AbstractInterpretation &interpretation, const Partitions &incoming) const;
   /// Every state is within one of `other` of its key.
-  bool within(const AbstractReading &reading, const Partitions &other) const;
+  bool within(const AbstractInterpretation &interpretation, const Partitions &other) const;
 
 private:
   Part *find(std::uint64_t key);
   const Part *find(std::uint64_t key) const { return const_cast<Partitions *>(this)->find(key); }
-  void merge(AbstractReading &reading);
+  void merge(AbstractInterpretation &interpretation);
 
   std::vector<Part> parts_; // by key
   bool merged_ = false;     // too many: there is one part for all

@@ -6,7 +6,7 @@ namespace feedhold {
 
 namespace {
 
-constexpr int kPassesBeforeWidening = 3;
+constexpr int kIterationsBeforeWidening = 3;
 
 const LoopCounters kNoCounters;
 
@@ -31,12 +31,12 @@ bool mentions(const SyntaxTree &tree, ExpressionId root, std::optional<std::uint
 
 } // namespace
 
-Propagation::Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Pass pass)
-    : engine_(engine), facts_(facts), summary_(summary), pass_(pass), reading_(engine.reading_),
+Propagation::Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Phase phase)
+    : engine_(engine), facts_(facts), summary_(summary), phase_(phase), interpretation_(engine.interpretation_),
       modes_(engine.modesOf(facts.entry.file)) {}
 
 AbstractContext Propagation::contextAt(NodeId node, AbstractState &state) {
-  return {reading_, state, engine_.programs_, *facts_.file, modes_, nodeAt(node).block};
+  return {interpretation_, state, engine_.programs_, *facts_.file, modes_, nodeAt(node).block};
 }
 
 /// Places that the order does not know (an `M99 P` from elsewhere leads there) stand behind all others.
@@ -79,24 +79,24 @@ void Propagation::restart() {
 }
 
 void Propagation::deliver(NodeId node, AbstractState &&state) {
-  const std::uint64_t key = keyOf(facts_.by, reading_, state);
-  pending_[positionOf(node)].add(reading_, key, std::move(state));
+  const std::uint64_t key = keyOf(facts_.by, interpretation_, state);
+  pending_[positionOf(node)].add(interpretation_, key, std::move(state));
 }
 
 void Propagation::process(std::uint32_t position, Partitions states) {
   const std::size_t known = facts_.wto.order().size();
   const NodeId node = position < known ? facts_.wto.order()[position] : NodeId(position - known);
   if (isHead(position)) {
-    if (pass_ == Pass::Ascend) {
-      const bool widening = ++visits_[position] > kPassesBeforeWidening;
+    if (phase_ == Phase::Ascend) {
+      const bool widening = ++visits_[position] > kIterationsBeforeWidening;
       const Growth growth{widening, facts_.thresholds, countersOf(position)};
-      if (!summary_.heads[position].grow(reading_, states, growth))
+      if (!summary_.heads[position].grow(interpretation_, states, growth))
         return;
       states = summary_.heads[position];
     } else {
       Partitions &arrived = arrived_[position];
       for (const Partitions::Part &part : states.parts())
-        arrived.add(reading_, part.key, AbstractState(part.state));
+        arrived.add(interpretation_, part.key, AbstractState(part.state));
       if (!passed_.insert(position).second)
         return;
       states = summary_.heads[position];
@@ -146,9 +146,9 @@ void Propagation::go(NodeId node, AbstractState &&state) {
 }
 
 bool Propagation::execute(NodeId node, AbstractState &state) {
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     engine_.visitor_->visit(placeOf(node), state, engine_.calls_);
-  reading_.start();
+  interpretation_.start();
   return match(
       nodeAt(node).instruction,
       [&](const BlockSkip &skip) {
@@ -168,8 +168,8 @@ bool Propagation::straight(NodeId node, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const Instruction &instruction = nodeAt(node).instruction;
   step(context, instruction, words_);
-  if (reading_.stopped()) {
-    if (pass_ == Pass::Walk)
+  if (interpretation_.stopped()) {
+    if (phase_ == Phase::Walk)
       engine_.visitor_->ended(placeOf(node), PathEnd::Alarm, state);
     return false;
   }
@@ -177,7 +177,7 @@ bool Propagation::straight(NodeId node, AbstractState &state) {
     refineByAlarms(node, state);
   else if (std::holds_alternative<ExecuteWords>(instruction) && !modalCalls(node, state))
     return false;
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     engine_.visitor_->left(placeOf(node), state);
   return true;
 }
@@ -188,7 +188,7 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const SyntaxTree &tree = context.tree();
   const auto &assign = std::get<Assign>(nodeAt(node).instruction);
-  const bool mayHaveDivided = reading_.mayHaveDividedByZero();
+  const bool mayHaveDivided = interpretation_.mayHaveDividedByZero();
   for (std::uint32_t i = 0; i < assign.count; ++i) {
     const auto *assignment = std::get_if<Assignment>(&tree.statements[StatementId(assign.first.index() + i)].node);
     if (!assignment)
@@ -204,18 +204,18 @@ void Propagation::refineByAlarms(NodeId node, AbstractState &state) {
       continue;
     if (*target <= kLocalVariables) {
       if (AbstractValue &value = state.locals[*target]; !value.origin())
-        value = reading_.withSymbol(value);
+        value = interpretation_.withSymbol(value);
     } else if (const AbstractValue *value = state.variables.find(*target); value && !value->origin())
-      state.variables.set(*target, reading_.withSymbol(*value));
+      state.variables.set(*target, interpretation_.withSymbol(*value));
   }
 }
 
 bool Propagation::test(NodeId node, const Test &condition, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const Truth truth = conditionOf(context, condition);
-  if (reading_.stopped())
+  if (interpretation_.stopped())
     return false;
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     engine_.visitor_->branch(placeOf(node), truth);
   if (mayBeTrue(truth)) {
     AbstractState taken = state;
@@ -245,7 +245,7 @@ bool Propagation::count(NodeId node, const CountDown &counting, AbstractState &s
 bool Propagation::jump(NodeId node, const JumpTo &target, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const AbstractValue number = jumpTarget(context, target);
-  if (reading_.stopped())
+  if (interpretation_.stopped())
     return false;
   const BlockId from = nodeAt(node).block;
   std::set<std::uint32_t> reached;
@@ -274,7 +274,7 @@ void Propagation::searchAlarms(NodeId node, const AbstractValue &number) {
   const Truth inRange = conjunction(
       isAtMost(AbstractNumber::constant(lowest), number.number()),
       isAtMost(number.number(), AbstractNumber::constant(static_cast<double>(dialect.limits.lastSequenceNumber))));
-  reading_.alarm(negate(inRange), {AlarmKind::SequenceOutOfRange, place});
+  interpretation_.alarm(negate(inRange), {AlarmKind::SequenceOutOfRange, place});
   const auto exists = [&](double value) {
     return value >= lowest && value <= static_cast<double>(dialect.limits.lastSequenceNumber) &&
            findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, static_cast<std::uint32_t>(value),
@@ -284,13 +284,13 @@ void Propagation::searchAlarms(NodeId node, const AbstractValue &number) {
   const bool some = values.empty() || std::any_of(values.begin(), values.end(), exists);
   const bool all = !values.empty() && std::all_of(values.begin(), values.end(), exists);
   if (mayBeTrue(inRange))
-    reading_.alarm(all ? Truth::False : some ? Truth::Maybe : Truth::True, {AlarmKind::SequenceNotFound, place});
+    interpretation_.alarm(all ? Truth::False : some ? Truth::Maybe : Truth::True, {AlarmKind::SequenceNotFound, place});
 }
 
 bool Propagation::leave(NodeId node, const ReturnFromProgram &from, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
   const std::optional<AbstractValue> target = returnTarget(context, from);
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     engine_.visitor_->ended(placeOf(node), PathEnd::Returns, state);
   if (target && engine_.open_.size() <= 1) // started by the operator: M99 P stays in the program
     startAgainAt(node, *target, state);
@@ -302,16 +302,16 @@ void Propagation::startAgainAt(NodeId node, const AbstractValue &target, const A
   for (const NodeId label : returnsWithin(facts_.file->cfg, *facts_.file->model, node))
     go(label, AbstractState(state));
   searchAlarms(node, target);
-  reading_.start();
+  interpretation_.start();
 }
 
 void Propagation::addExit(std::optional<AbstractValue> target, AbstractState state) {
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     return;
   for (Exit &exit : summary_.exits)
     if (exit.target.has_value() == target.has_value() &&
         (!target || (leq(*exit.target, *target) && leq(*target, *exit.target)))) {
-      joinInto(reading_, exit.state, state);
+      joinInto(interpretation_, exit.state, state);
       return;
     }
   summary_.exits.push_back({std::move(target), std::move(state)});
@@ -319,8 +319,8 @@ void Propagation::addExit(std::optional<AbstractValue> target, AbstractState sta
 
 bool Propagation::end(NodeId node, const EndProgram &ending, AbstractState &state) {
   if (ending.end == ProgramEnd::EndOfFile && alarmNumber(*facts_.file->dialect, AlarmKind::EndOfRecord))
-    reading_.alarm(Truth::True, {AlarmKind::EndOfRecord, contextAt(node, state).place()});
-  if (pass_ == Pass::Walk)
+    interpretation_.alarm(Truth::True, {AlarmKind::EndOfRecord, contextAt(node, state).place()});
+  if (phase_ == Phase::Walk)
     engine_.visitor_->ended(placeOf(node), PathEnd::Ends, state);
   return false;
 }

@@ -1,4 +1,4 @@
-// Propagation: one pass of states through a program, in weak topological order.
+// Propagation: one iteration of states over a program, in weak topological order.
 #pragma once
 
 #include "inference/absint/engine.h"
@@ -8,13 +8,13 @@ namespace feedhold {
 
 class Propagation {
 public:
-  enum class Pass : std::uint8_t {
+  enum class Phase : std::uint8_t {
     Ascend,  // heads grow until nothing changes
     Collect, // heads stay; what arrives at them is kept apart, for narrowing and checking
     Walk,    // heads stay; the visitor is told
   };
 
-  Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Pass pass);
+  Propagation(Engine &engine, const ProgramFacts &facts, Summary &summary, Phase phase);
   void run();
   /// What has arrived at the heads, of Collect.
   const std::map<std::uint32_t, Partitions> &arrived() const { return arrived_; }
@@ -53,38 +53,39 @@ private:
   bool end(NodeId node, const EndProgram &ending, AbstractState &state);
 
   bool modalCalls(NodeId node, AbstractState &state);
-  std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractReading> &request, AbstractState state);
-  std::optional<AbstractState> enterUnfollowed(NodeId node, const CallRequest<AbstractReading> &request,
+  std::optional<AbstractState> enter(NodeId node, const CallRequest<AbstractInterpretation> &request,
+                                     AbstractState state);
+  std::optional<AbstractState> enterUnmodelled(NodeId node, const CallRequest<AbstractInterpretation> &request,
                                                AbstractState state);
-  void nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state);
-  std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractReading> &request,
+  void nestingAlarms(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state);
+  std::optional<AbstractState> repeated(NodeId node, const CallRequest<AbstractInterpretation> &request,
                                         const AbstractState &before);
-  std::optional<AbstractState> calledAgain(NodeId node, Frame<AbstractReading> &frame, AbstractState left,
+  std::optional<AbstractState> calledAgain(NodeId node, Frame<AbstractInterpretation> &frame, AbstractState left,
                                            std::optional<double> times);
-  std::optional<AbstractState> once(NodeId node, const Frame<AbstractReading> &frame, AbstractState state);
+  std::optional<AbstractState> once(NodeId node, const Frame<AbstractInterpretation> &frame, AbstractState state);
   void addTo(std::optional<AbstractState> &all, AbstractState state);
-  void walkInto(NodeId node, const Frame<AbstractReading> &frame, Summary &summary);
+  void walkInto(NodeId node, const Frame<AbstractInterpretation> &frame, Summary &summary);
   void searchAlarms(NodeId node, const AbstractValue &number);
   void returnTo(NodeId node, const AbstractValue &target, const AbstractState &state);
   void startAgainAt(NodeId node, const AbstractValue &target, const AbstractState &state);
   void addExit(std::optional<AbstractValue> target, AbstractState state);
-  void unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
+  void unknownCall(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state,
                    std::string_view reason);
   void refineByAlarms(NodeId node, AbstractState &state);
 
   Engine &engine_;
   const ProgramFacts &facts_;
   Summary &summary_;
-  Pass pass_;
-  AbstractReading &reading_;
+  Phase phase_;
+  AbstractInterpretation &interpretation_;
   const ModalTable &modes_;
-  ExecutedWords<AbstractReading> words_;
+  ExecutedWords<AbstractInterpretation> words_;
   std::map<std::uint32_t, Partitions> pending_; // by position
   std::map<std::uint32_t, Partitions> arrived_;
   std::map<std::uint32_t, int> visits_;            // of heads
   std::map<std::uint32_t, LoopCounters> counters_; // by position of the head
   std::optional<std::size_t> modal_;               // the modal call that is being entered
-  std::set<std::uint32_t> passed_;                 // heads that have been gone through in this pass
+  std::set<std::uint32_t> passed_;                 // heads that have been visited in this iteration
   std::vector<Work> work_;
   bool startAgain_ = false; // a new head has been found: what has passed it was not kept
 };

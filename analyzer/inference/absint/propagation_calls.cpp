@@ -12,15 +12,15 @@ constexpr int kMostWalksAgain = 1000; // of programs that find the same in sever
 
 bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &state) {
   AbstractContext context = contextAt(node, state);
-  const CallRequest<AbstractReading> request = prepareCall(context, calling.call);
-  if (reading_.stopped())
+  const CallRequest<AbstractInterpretation> request = prepareCall(context, calling.call);
+  if (interpretation_.stopped())
     return false;
-  if (pass_ == Pass::Walk)
+  if (phase_ == Phase::Walk)
     engine_.visitor_->called(placeOf(node), request);
   switch (request.action) {
   case CallAction::SetModal:
   case CallAction::EndModal: return true;
-  case CallAction::Operation: reading_.havoc(state, "an operation of Macro A", context.place()); return true;
+  case CallAction::Operation: interpretation_.havoc(state, "an operation of Macro A", context.place()); return true;
   case CallAction::Enter: break;
   }
   auto after = enter(node, request, std::move(state));
@@ -30,42 +30,43 @@ bool Propagation::call(NodeId node, const CallProgram &calling, AbstractState &s
   return true;
 }
 
-void Propagation::unknownCall(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state,
+void Propagation::unknownCall(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state,
                               std::string_view reason) {
   AbstractContext context = contextAt(node, state);
   havocCall(context, request, reason);
 }
 
-std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractReading> &request,
+std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<AbstractInterpretation> &request,
                                                 AbstractState state) {
   if (!request.callee) {
     const Span place = contextAt(node, state).place();
-    reading_.alarm(Truth::Maybe, {AlarmKind::ProgramNotFound, place});
+    interpretation_.alarm(Truth::Maybe, {AlarmKind::ProgramNotFound, place});
     if (!request.possible.empty())
-      reading_.alarm(Truth::Maybe,
-                     {request.freshLocals ? AlarmKind::MacroNesting : AlarmKind::SubprogramNesting, place});
+      interpretation_.alarm(Truth::Maybe,
+                            {request.freshLocals ? AlarmKind::MacroNesting : AlarmKind::SubprogramNesting, place});
     for (const Callee &callee : request.possible)
-      engine_.unfollowed_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
+      engine_.unmodelledEntries_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
     if (!request.possible.empty())
-      return enterUnfollowed(node, request, std::move(state));
+      return enterUnmodelled(node, request, std::move(state));
     unknownCall(node, request, state, "a program that was not supplied");
     return state;
   }
-  const auto times = repeatsOf(reading_, request);
+  const auto times = repeatsOf(interpretation_, request);
   if (times && callsNothing(*times))
     return state;
   nestingAlarms(node, request, state);
   const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
   if (!tooDeep && !engine_.isOpen(*request.callee))
     return repeated(node, request, std::move(state));
-  engine_.unfollowed_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()}, *request.callee);
-  return enterUnfollowed(node, request, std::move(state));
+  engine_.unmodelledEntries_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()},
+                                     *request.callee);
+  return enterUnmodelled(node, request, std::move(state));
 }
 
 /// The program is gone through with nothing known; behind the call anything may have happened, and it may come back to
 /// any number that some M99 P names.
-std::optional<AbstractState> Propagation::enterUnfollowed(NodeId node, const CallRequest<AbstractReading> &request,
-                                                          AbstractState state) {
+std::optional<AbstractState>
+Propagation::enterUnmodelled(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState state) {
   state.transformed = Truth::Maybe; // its programs may turn or mirror
   unknownCall(node, request, state,
               request.callee ? "a program that calls itself" : "a program whose number is computed");
@@ -74,31 +75,31 @@ std::optional<AbstractState> Propagation::enterUnfollowed(NodeId node, const Cal
     returnTo(node, AbstractValue::anyNumber(), state);
   else
     for (const std::uint32_t number : returns.numbers)
-      returnTo(node, reading_.number(static_cast<double>(number)), state);
+      returnTo(node, interpretation_.number(static_cast<double>(number)), state);
   return state;
 }
 
 /// Whether the call is one too many.  The same program is gone through once for each depth, and what is known of it
 /// holds at any depth: so the alarm is never certain.
-void Propagation::nestingAlarms(NodeId node, const CallRequest<AbstractReading> &request, AbstractState &state) {
+void Propagation::nestingAlarms(NodeId node, const CallRequest<AbstractInterpretation> &request, AbstractState &state) {
   const Limits &limits = facts_.file->dialect->limits;
   const Span place = contextAt(node, state).place();
   if (!engine_.depthKnown_ || engine_.isOpen(*request.callee)) {
     if (request.freshLocals)
-      reading_.alarm(Truth::Maybe, {AlarmKind::MacroNesting, place});
-    reading_.alarm(Truth::Maybe, {AlarmKind::SubprogramNesting, place});
+      interpretation_.alarm(Truth::Maybe, {AlarmKind::MacroNesting, place});
+    interpretation_.alarm(Truth::Maybe, {AlarmKind::SubprogramNesting, place});
   } else if (const auto alarm = nestingAlarm(limits, engine_.depth_, request.freshLocals)) {
-    reading_.alarm(Truth::Maybe, {*alarm, place});
+    interpretation_.alarm(Truth::Maybe, {*alarm, place});
   }
 }
 
 /// What comes back to the block behind the call.
-std::optional<AbstractState> Propagation::repeated(NodeId node, const CallRequest<AbstractReading> &request,
+std::optional<AbstractState> Propagation::repeated(NodeId node, const CallRequest<AbstractInterpretation> &request,
                                                    const AbstractState &before) {
-  const auto times = repeatsOf(reading_, request);
+  const auto times = repeatsOf(interpretation_, request);
   AbstractState inside = before;
   const CallSite site{placeOf(node), modal_, summary_.modalLimit};
-  auto frame = enterCall(engine_.programs_, inside, request, site, times.value_or(1), reading_, NobodyAsks{});
+  auto frame = enterCall(engine_.programs_, inside, request, site, times.value_or(1), interpretation_, NobodyAsks{});
   auto after = once(node, frame, std::move(inside));
   if (after && times != 1.0)
     after = calledAgain(node, frame, std::move(*after), times);
@@ -111,10 +112,10 @@ std::optional<AbstractState> Propagation::repeated(NodeId node, const CallReques
 }
 
 /// From what the first repetition has left: what the last one leaves.
-std::optional<AbstractState> Propagation::calledAgain(NodeId node, Frame<AbstractReading> &frame, AbstractState left,
-                                                      std::optional<double> times) {
+std::optional<AbstractState> Propagation::calledAgain(NodeId node, Frame<AbstractInterpretation> &frame,
+                                                      AbstractState left, std::optional<double> times) {
   const auto next = [&](AbstractState begins) {
-    repeatCall(engine_.programs_, begins, frame, reading_, NobodyAsks{});
+    repeatCall(engine_.programs_, begins, frame, interpretation_, NobodyAsks{});
     return once(node, frame, std::move(begins));
   };
   if (times && *times <= kMostUnrolled) {
@@ -125,29 +126,30 @@ std::optional<AbstractState> Propagation::calledAgain(NodeId node, Frame<Abstrac
   }
   for (int repetition = 0; !engine_.gaveUp_; ++repetition) {
     const auto more = next(left);
-    if (!more || leq(reading_, *more, left))
+    if (!more || leq(interpretation_, *more, left))
       break;
     if (repetition < 2)
-      joinInto(reading_, left, *more);
+      joinInto(interpretation_, left, *more);
     else
-      widenInto(reading_, left, *more, facts_.thresholds);
+      widenInto(interpretation_, left, *more, facts_.thresholds);
   }
   return left;
 }
 
 /// The state in which the program has returned, before it is left.  Returns to a sequence number leave it here.
-std::optional<AbstractState> Propagation::once(NodeId node, const Frame<AbstractReading> &frame, AbstractState state) {
-  StepObserver *observer = reading_.observer();
-  reading_.observe(nullptr);
+std::optional<AbstractState> Propagation::once(NodeId node, const Frame<AbstractInterpretation> &frame,
+                                               AbstractState state) {
+  StepObserver *observer = interpretation_.observer();
+  interpretation_.observe(nullptr);
   Summary &summary = engine_.summaryOf(frame.callee, state, frame.modalLimit);
-  reading_.observe(observer);
-  if (pass_ == Pass::Walk)
+  interpretation_.observe(observer);
+  if (phase_ == Phase::Walk)
     walkInto(node, frame, summary);
-  reading_.useDialect(*facts_.file->dialect);
-  reading_.start();
+  interpretation_.useDialect(*facts_.file->dialect);
+  interpretation_.start();
   std::optional<AbstractState> behind;
   for (const Exit &exit : summary.exits) {
-    AbstractState left = translated(reading_, exit.state, summary.entry, state);
+    AbstractState left = translated(interpretation_, exit.state, summary.entry, state);
     if (!exit.target) {
       addTo(behind, std::move(left));
       continue;
@@ -158,7 +160,7 @@ std::optional<AbstractState> Propagation::once(NodeId node, const Frame<Abstract
   return behind;
 }
 
-void Propagation::walkInto(NodeId node, const Frame<AbstractReading> &frame, Summary &summary) {
+void Propagation::walkInto(NodeId node, const Frame<AbstractInterpretation> &frame, Summary &summary) {
   const CallDepth before = engine_.depth_;
   CallDepth inside = before.inside(frame.ownLocals);
   if (!engine_.depthKnown_)
@@ -179,8 +181,8 @@ void Propagation::walkInto(NodeId node, const Frame<AbstractReading> &frame, Sum
   engine_.depth_ = inside;
   engine_.calls_.push_back(placeOf(node));
   engine_.open_.push_back(frame.callee);
-  reading_.useDialect(*engine_.programs_.file(frame.callee.file).dialect);
-  Propagation(engine_, engine_.factsOf(frame.callee), summary, Pass::Walk).run();
+  interpretation_.useDialect(*engine_.programs_.file(frame.callee.file).dialect);
+  Propagation(engine_, engine_.factsOf(frame.callee), summary, Phase::Walk).run();
   engine_.open_.pop_back();
   engine_.calls_.pop_back();
   engine_.depth_ = before;
@@ -189,7 +191,7 @@ void Propagation::walkInto(NodeId node, const Frame<AbstractReading> &frame, Sum
 
 void Propagation::addTo(std::optional<AbstractState> &all, AbstractState state) {
   if (all)
-    joinInto(reading_, *all, state);
+    joinInto(interpretation_, *all, state);
   else
     all = std::move(state);
 }
@@ -207,18 +209,18 @@ void Propagation::returnTo(NodeId node, const AbstractValue &target, const Abstr
     const auto place = findLabel(facts_.file->cfg, *facts_.file->model, facts_.entry.program, label.number, from);
     if (!place)
       continue;
-    if (pass_ == Pass::Ascend && !isHead(positionOf(*place))) {
+    if (phase_ == Phase::Ascend && !isHead(positionOf(*place))) {
       summary_.forcedHeads.insert(positionOf(*place));
       startAgain_ = true;
     }
     deliver(*place, AbstractState(state));
   }
   searchAlarms(node, target);
-  reading_.start();
+  interpretation_.start();
 }
 
 bool Propagation::modalCalls(NodeId node, AbstractState &state) {
-  if (mayCallModally(reading_, state, summary_.modalLimit) == Truth::False)
+  if (mayCallModally(interpretation_, state, summary_.modalLimit) == Truth::False)
     return true;
   AbstractContext context = contextAt(node, state);
   const Truth moves = movesAxis(context, words_);
@@ -228,13 +230,13 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
   if (moves == Truth::Maybe)
     before = state;
   if (mayBeTrue(state.modalCallsUnknown)) {
-    CallRequest<AbstractReading> unknown;
+    CallRequest<AbstractInterpretation> unknown;
     unknown.freshLocals = true;
     unknown.possible = engine_.programs_.modalCallees();
     state = *enter(node, unknown, std::move(state)); // what is not known comes back
   } else {
     const std::size_t last = *modalCallOf(state, summary_.modalLimit);
-    const CallRequest<AbstractReading> request = prepareModalCall(context, state.modalCalls[last]);
+    const CallRequest<AbstractInterpretation> request = prepareModalCall(context, state.modalCalls[last]);
     const auto outer = std::exchange(modal_, last);
     auto after = enter(node, request, std::move(state));
     modal_ = outer;
@@ -246,7 +248,7 @@ bool Propagation::modalCalls(NodeId node, AbstractState &state) {
     state = std::move(*after);
   }
   if (before)
-    joinInto(reading_, state, *before);
+    joinInto(interpretation_, state, *before);
   return true;
 }
 

@@ -11,21 +11,21 @@ namespace {
 /// Evaluates without telling anybody, and without stopping the run.
 class Quiet {
 public:
-  explicit Quiet(AbstractReading &reading)
-      : reading_(reading), observer_(reading.observer()), stopped_(reading.stopped()) {
-    reading_.observe(nullptr);
+  explicit Quiet(AbstractInterpretation &interpretation)
+      : interpretation_(interpretation), observer_(interpretation.observer()), stopped_(interpretation.stopped()) {
+    interpretation_.observe(nullptr);
   }
   ~Quiet() {
-    reading_.observe(observer_);
-    reading_.start();
+    interpretation_.observe(observer_);
+    interpretation_.start();
     if (stopped_)
-      reading_.alarm(Truth::True, {});
+      interpretation_.alarm(Truth::True, {});
   }
   Quiet(const Quiet &) = delete;
   Quiet &operator=(const Quiet &) = delete;
 
 private:
-  AbstractReading &reading_;
+  AbstractInterpretation &interpretation_;
   StepObserver *observer_;
   bool stopped_;
 };
@@ -74,7 +74,8 @@ std::optional<AbstractNumber> cut(const AbstractNumber &number, OperatorKind op,
 
 class Refiner {
 public:
-  explicit Refiner(AbstractContext &context) : context_(context), state_(context.state), quiet_(context.reading) {}
+  explicit Refiner(AbstractContext &context)
+      : context_(context), state_(context.state), quiet_(context.interpretation) {}
 
   bool condition(ExpressionId id, Holds holds) {
     const ExpressionId inner = unwrapped(context_.tree(), id);
@@ -99,7 +100,7 @@ public:
 private:
   /// A vacant value counts as 0 where a number stands for a condition.
   bool isZero(ExpressionId id) {
-    const AbstractValue zero = context_.reading.number(0);
+    const AbstractValue zero = context_.interpretation.number(0);
     return relation(OperatorKind::GreaterOrEqual, id, zero) && relation(OperatorKind::LessOrEqual, id, zero);
   }
   AbstractValue value(ExpressionId id) { return evaluate(context_, id); }
@@ -116,7 +117,7 @@ private:
     std::swap(state_, first);
     const bool rightPossible = conditionOrValue(operation.right, holds);
     if (leftPossible && rightPossible)
-      joinInto(context_.reading, state_, first);
+      joinInto(context_.interpretation, state_, first);
     else if (leftPossible)
       state_ = std::move(first);
     return leftPossible || rightPossible;
@@ -134,7 +135,7 @@ private:
       return true; // relations are fuzzy: nothing is learnt
     if (op == OperatorKind::Equal || op == OperatorKind::NotEqual)
       return equality(id, op, of, other);
-    const AbstractNumber bound = context_.reading.asNumber(other).number();
+    const AbstractNumber bound = context_.interpretation.asNumber(other).number();
     const AbstractNumber zero = AbstractNumber::constant(0.0);
     const bool vacantFits = of.mayBeVacant() && cut(zero, op, bound).has_value();
     const auto number = of.mayBeNumber() ? cut(of.number(), op, bound) : std::nullopt;
@@ -176,7 +177,9 @@ private:
     const auto *operation = std::get_if<BinaryOperation>(&expression.node);
     if (!operation)
       return true;
-    const auto number = [&](ExpressionId id) { return context_.reading.asNumber(value(id)).number().interval(); };
+    const auto number = [&](ExpressionId id) {
+      return context_.interpretation.asNumber(value(id)).number().interval();
+    };
     if (operation->op == OperatorKind::Add)
       return within(operation->left, subtract(wanted, number(operation->right))) &&
              within(operation->right, subtract(wanted, number(operation->left)));
@@ -228,7 +231,7 @@ private:
     if (range && (findBitWord(context_.dialect(), number) || feedhold::cellOf(context_.dialect(), number) != number))
       return nullptr;
     if (!state_.variables.find(number))
-      state_.variables.set(number, context_.reading.unwritten(state_, number));
+      state_.variables.set(number, context_.interpretation.unwritten(state_, number));
     for (auto &[key, cell] : state_.variables.entries())
       if (key == number)
         return &cell;
@@ -285,12 +288,12 @@ bool assume(AbstractContext &context, ExpressionId condition, Holds holds) {
 
 bool assumeRoundsTo(AbstractContext &context, ExpressionId expression, double number) {
   Refiner refiner(context);
-  return refiner.relation(OperatorKind::GreaterOrEqual, expression, context.reading.number(number - 0.5)) &&
-         refiner.relation(OperatorKind::LessOrEqual, expression, context.reading.number(number + 0.5));
+  return refiner.relation(OperatorKind::GreaterOrEqual, expression, context.interpretation.number(number - 0.5)) &&
+         refiner.relation(OperatorKind::LessOrEqual, expression, context.interpretation.number(number + 0.5));
 }
 
 bool assumeDiffers(AbstractContext &context, ExpressionId expression, double value) {
-  return Refiner(context).relation(OperatorKind::NotEqual, expression, context.reading.number(value));
+  return Refiner(context).relation(OperatorKind::NotEqual, expression, context.interpretation.number(value));
 }
 
 OperatorKind mirrored(OperatorKind op) {

@@ -1,11 +1,11 @@
 // Refine: what a condition says of the variables in it.
 #pragma once
 
-#include "inference/absint/abstract_reading.h"
+#include "inference/absint/abstract_interpretation.h"
 
 namespace feedhold {
 
-using AbstractContext = StepContext<AbstractReading>;
+using AbstractContext = StepContext<AbstractInterpretation>;
 
 /// Cuts the state down to the runs in which the condition holds, or does not; false when there is none.  What it says
 /// of one variable is carried over to those at a known distance.

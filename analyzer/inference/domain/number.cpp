@@ -20,7 +20,7 @@ std::optional<AbstractNumber> meetOfAlike(const NumberParts &left, const NumberP
   return NumberParts{interval, grid.value_or(left.grid), set.value_or(left.set), left.exactness}.reduced();
 }
 
-/// The exact number speaks of both readings: it is kept, unless the other leaves nothing of either.
+/// The exact number speaks of both arithmetics: it is kept, unless the other leaves nothing of either.
 std::optional<AbstractNumber> meetOfMixed(const NumberParts &exact, const NumberParts &rounded,
                                           const Interval &interval) {
   const auto common = meet(exact.set, rounded.set);
@@ -175,7 +175,7 @@ bool AbstractNumber::containsExactly(const Rational &value) const {
 
 bool leq(const AbstractNumber &left, const AbstractNumber &right) {
   const bool isOnGrid = leq(left.grid(), right.grid()) || (left.isExact() && isOn(right.grid(), left.set()));
-  // Members outside of the interval, as a reading in which nothing is left may have, do not count.
+  // Members outside of the interval, as an arithmetic in which nothing is left may have, do not count.
   const auto computed = left.set().filter([&](double value) { return left.interval().contains(value); });
   const bool isInSet = !computed || leq(*computed, right.set());
   return isOnGrid && isInSet && leq(left.interval(), right.interval()) &&

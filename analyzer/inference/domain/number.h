@@ -38,7 +38,7 @@ public:
   bool isConstant() const { return set().isConstant(); }
   /// The computed value of a constant.
   std::optional<double> constantValue() const;
-  /// Whole in both readings.
+  /// Whole in both arithmetics.
   bool isWhole() const { return isExact() && grid().isWhole(); }
   /// May be a computed value.
   bool contains(double value) const;
@@ -82,7 +82,7 @@ std::optional<AbstractNumber> meetGreater(const AbstractNumber &value, double bo
 /// Takes out one value, as far as the parts can say so.
 std::optional<AbstractNumber> remove(const AbstractNumber &value, double taken);
 
-/// Of both readings.
+/// Of both arithmetics.
 Truth isEqual(const AbstractNumber &left, const AbstractNumber &right);
 Truth isLess(const AbstractNumber &left, const AbstractNumber &right);
 Truth isAtMost(const AbstractNumber &left, const AbstractNumber &right);

@@ -42,7 +42,7 @@ FiniteSet nonZero(const FiniteSet &set) {
 /// Of a function to whole numbers that grows with its argument.
 template <typename Function>
 AbstractNumber toWhole(const AbstractNumber &value, const Interval &interval, Function &&function) {
-  // Two readings that differ a little can come to lie on two whole numbers: only the interval holds both.
+  // Two results that differ a little can come to lie on two whole numbers: only the interval holds both.
   if (!value.isExact())
     return AbstractNumber::integersIn(interval);
   const Grid grid = value.grid().isWhole() ? value.grid() : Grid::integers();
@@ -88,7 +88,7 @@ std::optional<AbstractNumber> remainderTruncated(const AbstractNumber &left, con
   const auto interval = remainderTruncated(left.interval(), right.interval());
   if (!interval)
     return std::nullopt;
-  // fmod is exact (C17 F.10.7.1), so that the readings differ no more than they did before.
+  // fmod is exact (C17 F.10.7.1), so that the results differ no more than they did before.
   return NumberParts{
       *interval, remainder(left.grid(), right.grid()),
       FiniteSet::combine(left.set(), nonZero(right.set()), [](double a, double b) { return std::fmod(a, b); }),

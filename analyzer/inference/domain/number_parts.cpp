@@ -149,14 +149,14 @@ std::optional<AbstractNumber> reducedGrid(const NumberParts &parts) {
   return tight.asGiven();
 }
 
-/// Grid and set hold one reading each: neither can draw the interval tighter, which holds both.
+/// Grid and set hold one arithmetic each: neither can draw the interval tighter, which holds both.
 std::optional<AbstractNumber> reducedRounded(const NumberParts &parts) {
   NumberParts tight = parts;
   const auto set = parts.set.filter([&](double value) { return parts.interval.contains(value); });
   const bool noReal = parts.grid.isConstant() && !meet(parts.interval, Interval::of(parts.grid.offset()));
   if (!set && noReal)
     return std::nullopt;
-  // A reading in which nothing is left may say what it likes.
+  // An arithmetic in which nothing is left may say what it likes.
   if (set)
     tight.set = *set;
   return tight.asGiven();
@@ -166,7 +166,7 @@ std::optional<AbstractNumber> reducedRounded(const NumberParts &parts) {
 
 AbstractNumber NumberParts::asGiven() const {
   NumberParts parts = *this;
-  // Where neither grid nor set says anything, they hold for both readings.
+  // Where neither grid nor set says anything, they hold for both arithmetics.
   if (grid.isAny() && set.isMany())
     parts.exactness = Exactness::Exact;
   AbstractNumber number;

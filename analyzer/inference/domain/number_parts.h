@@ -12,8 +12,8 @@ namespace feedhold {
 
 class AbstractNumber;
 
-/// A program may be read with exact real numbers or with doubles, and how a control computes is not published.  Both
-/// readings are kept: the interval holds the values of both.  Exact: grid and set do so too.  Rounded: the readings
+/// A control may compute with exact real numbers or with doubles: how it does is not published.  Both arithmetics
+/// are kept: the interval holds the values of both.  Exact: grid and set do so too.  Rounded: the two
 /// may differ (as they do from 0.1 on); then the grid speaks of the real value alone, and the set of the computed one.
 enum class Exactness : std::uint8_t { Exact, Rounded };
 

@@ -144,7 +144,7 @@ void Lowering::call(const Call &call) {
   emit(CallProgram{CallId(index)});
 }
 
-/// H80 jumps, H81 to H86 jump on a comparison; the others compute and are left to the reading of the call.
+/// H80 jumps, H81 to H86 jump on a comparison; the others compute and are left to the call itself.
 void Lowering::operationOfMacroA(const Call &call) {
   const auto index = static_cast<std::size_t>(&call - &model_.calls[CallId(0)]);
   const Word *operation = findWord(tree_, block_, 'H');

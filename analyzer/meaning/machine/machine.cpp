@@ -10,16 +10,16 @@ namespace feedhold {
 
 namespace {
 
-using State = MachineState<ConcreteReading>;
+using State = MachineState<ConcreteInterpretation>;
 
 class Machine {
 public:
   Machine(const ProgramSet &programs, Callee entry, const RunOptions &options)
       : programs_(programs), options_(options),
-        reading_(*programs.file(entry.file).dialect, options.variables, options.words),
+        interpretation_(*programs.file(entry.file).dialect, options.variables, options.words),
         modes_(*programs.file(entry.file).dialect),
-        state_(options.state ? *options.state : startState(reading_, modes_, options.start)), at_{entry.file,
-                                                                                                  entry.entry} {
+        state_(options.state ? *options.state : startState(interpretation_, modes_, options.start)), at_{entry.file,
+                                                                                                         entry.entry} {
     for (const auto &[group, code] : options.codes)
       state_.codes[group] = code;
     frames_.push_back({.callee = entry, .call = at_});
@@ -44,8 +44,8 @@ public:
   }
 
 private:
-  StepContext<ConcreteReading> context() {
-    return {reading_, state_, programs_, programs_.file(at_.file), modes_, node().block};
+  StepContext<ConcreteInterpretation> context() {
+    return {interpretation_, state_, programs_, programs_.file(at_.file), modes_, node().block};
   }
   const Node &node() const { return programs_.node(at_); }
   const ProgramFile &file() const { return programs_.file(at_.file); }
@@ -54,8 +54,8 @@ private:
   void one() {
     if (options_.trace)
       options_.trace({at_, state_, frames_.size() - 1, result_.moves.size()});
-    if (circle_)
-      circle_->places.insert(frames_.size() == 1 ? at_ : frames_[1].call);
+    if (cycle_)
+      cycle_->places.insert(frames_.size() == 1 ? at_ : frames_[1].call);
     ++result_.steps;
     const Place here = at_;
     const Node &current = node();
@@ -80,52 +80,52 @@ private:
   }
   void watch() {
     using Outside = RepeatWatch::Outside;
-    if (circle_) {
-      if (circle_->at == at_ && circle_->frames == frames_ && circle_->state == state_)
-        endCircle();
+    if (cycle_) {
+      if (cycle_->at == at_ && cycle_->frames == frames_ && cycle_->state == state_)
+        endInCycle();
       return;
     }
-    const Outside outside = reading_.takeVolatileReads() ? Outside::Read : Outside::Unread;
+    const Outside outside = interpretation_.takeVolatileReads() ? Outside::Read : Outside::Unread;
     if (watch_.comesBack(at_, state_, frames_, outside))
-      circle_ = std::make_unique<Circle>(Circle{at_, state_, frames_, result_.steps, result_.moves.size(), {}});
+      cycle_ = std::make_unique<Cycle>(Cycle{at_, state_, frames_, result_.steps, result_.moves.size(), {}});
   }
   void end(RunEnd how) {
     result_.end = how;
     ended_ = true;
   }
   /// The run is told up to where its state came back first.
-  void endCircle() {
-    result_.cycle.assign(circle_->places.begin(), circle_->places.end());
-    result_.steps = circle_->steps;
-    result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(circle_->moves), result_.moves.end());
+  void endInCycle() {
+    result_.cycle.assign(cycle_->places.begin(), cycle_->places.end());
+    result_.steps = cycle_->steps;
+    result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(cycle_->moves), result_.moves.end());
     end(RunEnd::Repeats);
   }
   void endWithoutFuel() {
-    if (!circle_)
+    if (!cycle_)
       return end(RunEnd::Fuel);
-    circle_->places.clear();
-    at_ = circle_->at;
-    state_ = std::move(circle_->state);
-    frames_ = std::move(circle_->frames);
-    endCircle();
+    cycle_->places.clear();
+    at_ = cycle_->at;
+    state_ = std::move(cycle_->state);
+    frames_ = std::move(cycle_->frames);
+    endInCycle();
   }
 
   // ---- what an instruction has brought ----
 
   void takeEffects(Place here) {
-    const bool refused = reading_.stopped().kind == ConcreteReading::Stop::ControlAlarm;
-    std::vector<Move<ConcreteValue>> moves = reading_.takeMoves();
+    const bool refused = interpretation_.stopped().kind == ConcreteInterpretation::Stop::ControlAlarm;
+    std::vector<Move<ConcreteValue>> moves = interpretation_.takeMoves();
     if (!refused && !moves.empty()) // the control does not begin a block that it does not understand
       record(std::move(moves), here);
-    for (const std::string_view reason : reading_.takeNotes())
+    for (const std::string_view reason : interpretation_.takeNotes())
       if (noted_.insert({here, reason}).second)
         result_.notes.push_back({reason, here});
-    if (reading_.stopped().kind != ConcreteReading::Stop::None)
+    if (interpretation_.stopped().kind != ConcreteInterpretation::Stop::None)
       stop();
   }
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
-    const ToolPoint<ConcreteReading> point = toolPointOf(ctx, entry_);
+    const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
     const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits && point.sameSide;
     const Place own = frames_.size() > 1 ? frames_[1].call : here;
     const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
@@ -137,13 +137,13 @@ private:
     return ctx.inForce(ModalKind::Units, {CodeAction::Inch}, false) ? LengthUnit::Inch : LengthUnit::Millimetre;
   }
   void stop() {
-    const ConcreteReading::Stopped &stopped = reading_.stopped();
+    const ConcreteInterpretation::Stopped &stopped = interpretation_.stopped();
     result_.alarm = stopped.alarm;
     result_.alarmNumber = stopped.number;
     result_.alarmSpan = stopped.place.size() == 0 ? blockSpan() : stopped.place;
-    if (stopped.kind == ConcreteReading::Stop::UserAlarm)
+    if (stopped.kind == ConcreteInterpretation::Stop::UserAlarm)
       result_.alarmText = messageOfBlock();
-    end(stopped.kind == ConcreteReading::Stop::UserAlarm ? RunEnd::UserAlarm : RunEnd::Alarm);
+    end(stopped.kind == ConcreteInterpretation::Stop::UserAlarm ? RunEnd::UserAlarm : RunEnd::Alarm);
   }
   Span blockSpan() const { return file().tree->blocks[node().block].span(); }
   std::string messageOfBlock() const {
@@ -158,7 +158,7 @@ private:
   std::optional<NodeId> straight(const Node &here) {
     auto ctx = context();
     step(ctx, here.instruction, words_);
-    if (reading_.stopped().kind == ConcreteReading::Stop::None &&
+    if (interpretation_.stopped().kind == ConcreteInterpretation::Stop::None &&
         std::holds_alternative<ExecuteWords>(here.instruction) && movesAxis(ctx, words_) && enterModal())
       return std::nullopt;
     return here.next;
@@ -188,7 +188,7 @@ private:
   }
   void endOfText() {
     if (alarmNumber(dialect(), AlarmKind::EndOfRecord))
-      reading_.alarm(true, {AlarmKind::EndOfRecord, blockSpan()});
+      interpretation_.alarm(true, {AlarmKind::EndOfRecord, blockSpan()});
     else
       end(RunEnd::EndOfFile);
   }
@@ -198,12 +198,12 @@ private:
     const double lowest = dialect().grammar.sequenceZero ? 0 : 1;
     const Span place = file().tree->blocks[from].span();
     if (!(number >= lowest && number <= dialect().limits.lastSequenceNumber)) {
-      reading_.alarm(true, {AlarmKind::SequenceOutOfRange, place});
+      interpretation_.alarm(true, {AlarmKind::SequenceOutOfRange, place});
       return std::nullopt;
     }
     const auto found =
         findLabel(file().cfg, *file().model, frames_.back().callee.program, static_cast<std::uint32_t>(number), from);
-    reading_.alarm(!found, {AlarmKind::SequenceNotFound, place});
+    interpretation_.alarm(!found, {AlarmKind::SequenceNotFound, place});
     return found;
   }
 
@@ -211,8 +211,8 @@ private:
 
   std::optional<NodeId> follow(const CallProgram &call, const Node &here) {
     auto ctx = context();
-    const CallRequest<ConcreteReading> request = prepareCall(ctx, call.call);
-    if (reading_.stopped())
+    const CallRequest<ConcreteInterpretation> request = prepareCall(ctx, call.call);
+    if (interpretation_.stopped())
       return here.next;
     switch (request.action) {
     case CallAction::SetModal:
@@ -227,8 +227,8 @@ private:
     return enter(request, std::nullopt) ? std::nullopt : std::optional(here.next);
   }
   std::optional<NodeId> giveUp(std::string_view reason) {
-    reading_.notModelled(reason, blockSpan());
-    end(RunEnd::NotModelled);
+    interpretation_.unmodelled(reason, blockSpan());
+    end(RunEnd::Unmodelled);
     return std::nullopt;
   }
   bool startsInside(CallId call) const {
@@ -243,26 +243,27 @@ private:
     if (!modal)
       return false;
     auto ctx = context();
-    const CallRequest<ConcreteReading> request = prepareModalCall(ctx, state_.modalCalls[*modal]);
-    return !reading_.stopped() && enter(request, modal);
+    const CallRequest<ConcreteInterpretation> request = prepareModalCall(ctx, state_.modalCalls[*modal]);
+    return !interpretation_.stopped() && enter(request, modal);
   }
 
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
-  bool enter(const CallRequest<ConcreteReading> &request, std::optional<std::size_t> modal) {
+  bool enter(const CallRequest<ConcreteInterpretation> &request, std::optional<std::size_t> modal) {
     if (!request.callee && !request.possible.empty()) {
       giveUp("a program whose number several programs of the run have");
       return true;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {
-      reading_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
+      interpretation_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
       return false;
     }
     if (const auto alarm = nestingAlarm(dialect().limits, depthOf(frames_), request.freshLocals)) {
-      reading_.alarm(true, {*alarm, blockSpan()});
+      interpretation_.alarm(true, {*alarm, blockSpan()});
       return false;
     }
     const CallSite site{at_, modal, frames_.back().modalLimit};
-    frames_.push_back(enterCall(programs_, state_, request, site, request.repeats.number, reading_, NobodyAsks{}));
+    frames_.push_back(
+        enterCall(programs_, state_, request, site, request.repeats.number, interpretation_, NobodyAsks{}));
     at_ = {request.callee->file, request.callee->entry};
     return true;
   }
@@ -270,7 +271,7 @@ private:
   std::optional<NodeId> follow(const ReturnFromProgram &from) {
     auto ctx = context();
     const auto target = returnTarget(ctx, from);
-    if (reading_.stopped())
+    if (interpretation_.stopped())
       return std::nullopt;
     ConcreteFrame &frame = frames_.back();
     if (frames_.size() == 1) {
@@ -278,7 +279,7 @@ private:
         return search(target->number, node().block);
       end(RunEnd::Returned);
     } else if (!target && isCalledAgain(frame)) {
-      repeatCall(programs_, state_, frame, reading_, NobodyAsks{});
+      repeatCall(programs_, state_, frame, interpretation_, NobodyAsks{});
       at_ = {frame.callee.file, frame.callee.entry};
     } else {
       leave(target);
@@ -301,16 +302,16 @@ private:
 
   const ProgramSet &programs_;
   const RunOptions &options_;
-  ConcreteReading reading_;
+  ConcreteInterpretation interpretation_;
   ModalTable modes_;
   State state_;
   State entry_; // as it was at the start
   Place at_;
   std::vector<ConcreteFrame> frames_;
-  ExecutedWords<ConcreteReading> words_;
+  ExecutedWords<ConcreteInterpretation> words_;
   RepeatWatch watch_;
   /// A state that came back, and what the run meets on its way round to it.
-  struct Circle {
+  struct Cycle {
     Place at;
     State state;
     std::vector<ConcreteFrame> frames;
@@ -318,7 +319,7 @@ private:
     std::size_t moves;
     std::set<Place> places;
   };
-  std::unique_ptr<Circle> circle_; // null until a state has come back
+  std::unique_ptr<Cycle> cycle_; // null until a state has come back
   std::set<std::pair<Place, std::string_view>> noted_;
   RunResult result_;
   bool ended_ = false;
@@ -336,7 +337,7 @@ std::string_view nameOf(RunEnd end) {
   case RunEnd::UserAlarm: return "alarm";
   case RunEnd::Fuel: return "fuel";
   case RunEnd::Repeats: return "endless";
-  case RunEnd::NotModelled: return "not-modelled";
+  case RunEnd::Unmodelled: return "unmodelled";
   }
   FEEDHOLD_UNREACHABLE("the switch names every end");
 }

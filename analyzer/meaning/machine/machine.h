@@ -1,7 +1,7 @@
 // The concrete machine: runs a program on given values and records the tool path, or why the control stopped.
 #pragma once
 
-#include "meaning/machine/concrete_reading.h"
+#include "meaning/machine/concrete_interpretation.h"
 
 #include <functional>
 #include <string>
@@ -12,7 +12,7 @@ namespace feedhold {
 /// What a run looks like just before an instruction.
 struct RunMoment {
   Place place;
-  const MachineState<ConcreteReading> &state;
+  const MachineState<ConcreteInterpretation> &state;
   std::size_t depth; // calls that are open
   std::size_t moves; // recorded so far
 };
@@ -25,7 +25,7 @@ struct RunOptions {
   std::array<double, kAxisCount> start{};
   std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group and code in force, in place of power-on's
   /// What the run finds in place of the codes, words and shifts of power-on; then `start` is not looked at.
-  std::optional<MachineState<ConcreteReading>> state = std::nullopt;
+  std::optional<MachineState<ConcreteInterpretation>> state = std::nullopt;
   std::uint64_t fuel = 10'000'000;   // instructions
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
@@ -37,13 +37,13 @@ struct RunOptions {
 enum class RunEnd : std::uint8_t {
   M02,
   M30,
-  Returned,    // M99 of the program that was started
-  EndOfFile,   // no M02, M30 or M99 came, on a control that takes this for an end
-  Alarm,       // of the control
-  UserAlarm,   // `#3000=`
-  Fuel,        // still running
-  Repeats,     // a state came back: it would run for ever
-  NotModelled, // something came that the machine does not follow and cannot go on behind
+  Returned,   // M99 of the program that was started
+  EndOfFile,  // no M02, M30 or M99 came, on a control that takes this for an end
+  Alarm,      // of the control
+  UserAlarm,  // `#3000=`
+  Fuel,       // still running
+  Repeats,    // a state came back: it would run for ever
+  Unmodelled, // something came that the machine does not follow and cannot go on behind
 };
 std::string_view nameOf(RunEnd end);
 
@@ -83,7 +83,7 @@ struct RunResult {
   std::vector<OpenCall> calls;       // the innermost last
   std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed
-  MachineState<ConcreteReading> state;
+  MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes; // what was not followed, each once for a place
 };

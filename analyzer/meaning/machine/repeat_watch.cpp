@@ -2,7 +2,7 @@
 
 namespace feedhold {
 
-bool RepeatWatch::comesBack(Place place, const MachineState<ConcreteReading> &state,
+bool RepeatWatch::comesBack(Place place, const MachineState<ConcreteInterpretation> &state,
                             const std::vector<ConcreteFrame> &frames, Outside outside) {
   if (outside == Outside::Read)
     kept_.reset();

@@ -38,11 +38,11 @@ public:
   using Value = typename R::Value;
 
   CallReader(StepContext<R> &context, CallId id)
-      : context_(context), reading_(context.reading), id_(id), call_(context.file.model->calls[id]) {}
+      : context_(context), interpretation_(context.interpretation), id_(id), call_(context.file.model->calls[id]) {}
 
   CallRequest<R> read() {
     CallRequest<R> request;
-    request.repeats = reading_.number(1);
+    request.repeats = interpretation_.number(1);
     switch (call_.kind) {
     case CallKind::ModalCancel: return endModal(std::move(request));
     case CallKind::MacroA: request.action = CallAction::Operation; return request;
@@ -71,15 +71,18 @@ private:
   void requireRoom() {
     const auto unknown = context_.state.modalCallsUnknown;
     const bool isFull = context_.state.modalCalls.size() >= context_.dialect().limits.macroCallDepth;
-    reading_.alarm(isFull ? reading_.negation(unknown) : reading_.both(unknown, reading_.unknownTruth()),
-                   {AlarmKind::MacroNesting, context_.place()});
+    interpretation_.alarm(isFull ? interpretation_.negation(unknown)
+                                 : interpretation_.both(unknown, interpretation_.unknownTruth()),
+                          {AlarmKind::MacroNesting, context_.place()});
   }
   CallRequest<R> endModal(CallRequest<R> request) {
     request.action = CallAction::EndModal;
     if (context_.state.modalCalls.empty()) {
-      const auto none = context_.either(reading_.negation(context_.state.modalCallsUnknown), context_.maybeNot());
+      const auto none =
+          context_.either(interpretation_.negation(context_.state.modalCallsUnknown), context_.maybeNot());
       const auto isIgnored = context_.isOn(context_.dialect().switches.g67, true);
-      reading_.alarm(reading_.both(none, reading_.negation(isIgnored)), {AlarmKind::NoModalCall, context_.place()});
+      interpretation_.alarm(interpretation_.both(none, interpretation_.negation(isIgnored)),
+                            {AlarmKind::NoModalCall, context_.place()});
     }
     if (!context_.state.modalCalls.empty())
       context_.state.modalCalls.pop_back();
@@ -88,7 +91,7 @@ private:
 
   void passArguments(CallRequest<R> &request) {
     request.freshLocals = true;
-    request.locals.fill(reading_.vacant());
+    request.locals.fill(interpretation_.vacant());
     for (const Argument &argument : call_.arguments)
       if (argument.role == ArgumentRole::Passed && argument.variable != 0)
         request.locals[argument.variable] = argumentValue(context_.tree().words[argument.word]);
@@ -103,19 +106,21 @@ private:
   void refuse(AlarmKind alarm, const Argument &argument) {
     const Span place = context_.tree().words[argument.word].span();
     if (call_.kind != CallKind::ModalEach)
-      reading_.alarm(reading_.unknownTruth(), {alarm, place});
-    reading_.havoc(context_.state, "a word of a call that cannot be an argument", place);
+      interpretation_.alarm(interpretation_.unknownTruth(), {alarm, place});
+    interpretation_.havoc(context_.state, "a word of a call that cannot be an argument", place);
   }
   /// Copied as it is: an argument that is dropped leaves its variable vacant, nothing is rounded.
   Value argumentValue(const Word &word) {
     if (word.form() == WordForm::Expression) {
       const Value value = evaluate(context_, word.expression());
       const auto present = isWordPresent(context_, word.expression(), value);
-      return reading_.mayBe(reading_.negation(present)) ? reading_.select(present, value, reading_.vacant()) : value;
+      return interpretation_.mayBe(interpretation_.negation(present))
+                 ? interpretation_.select(present, value, interpretation_.vacant())
+                 : value;
     }
     if (word.form() == WordForm::Number)
       return scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
-    return reading_.anything();
+    return interpretation_.anything();
   }
   /// G and M codes of the machine's tables; T is handed over in #149.
   void passCode(CallRequest<R> &request) {
@@ -123,7 +128,7 @@ private:
     const auto tenths = code.tenths();
     const CodeCall *row = tenths ? findCodeCall(context_.dialect(), code.address(), *tenths) : nullptr;
     if (code.address() == 'T' && code.isNumber())
-      context_.state.variables.set(kToolCallVariable, reading_.literal(code.number()));
+      context_.state.variables.set(kToolCallVariable, interpretation_.literal(code.number()));
     if (row && row->isMacro)
       passArguments(request);
   }
@@ -139,8 +144,9 @@ private:
     const Word &word = context_.tree().words[*call_.programWord];
     if (word.form() != WordForm::Expression)
       return std::nullopt;
-    const Value value = reading_.roundTo(reading_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
-    const std::optional<double> number = reading_.constantOf(value);
+    const Value value =
+        interpretation_.roundTo(interpretation_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
+    const std::optional<double> number = interpretation_.constantOf(value);
     if (!number)
       possible = calleesOf(value);
     if (!number || *number < 0 || *number > 1e9)
@@ -154,8 +160,8 @@ private:
     std::vector<Callee> callees;
     for (std::size_t i = 0; i < context_.programs.size(); ++i)
       for (const Program &program : context_.programs.file(FileId(i)).model->programs)
-        if (program.name.number &&
-            reading_.mayBe(reading_.compare(Relation::Equal, value, reading_.number(*program.name.number))))
+        if (program.name.number && interpretation_.mayBe(interpretation_.compare(
+                                       Relation::Equal, value, interpretation_.number(*program.name.number))))
           addCandidates(*program.name.number, callees);
     return callees;
   }
@@ -168,7 +174,7 @@ private:
   }
   void readRepeats(CallRequest<R> &request) {
     if (call_.repeats) {
-      request.repeats = reading_.number(*call_.repeats);
+      request.repeats = interpretation_.number(*call_.repeats);
       return;
     }
     if (call_.kind == CallKind::OWord)
@@ -180,12 +186,12 @@ private:
   }
   /// A vacant word counts as not written.
   Value repeatsOf(const Value &value) {
-    return reading_.select(reading_.isVacant(value), reading_.number(1),
-                           reading_.roundTo(reading_.asNumber(value), Decimal(1, 0)));
+    return interpretation_.select(interpretation_.isVacant(value), interpretation_.number(1),
+                                  interpretation_.roundTo(interpretation_.asNumber(value), Decimal(1, 0)));
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   CallId id_;
   const Call &call_;
 };

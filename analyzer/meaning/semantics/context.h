@@ -1,4 +1,5 @@
-// StepContext: what every part of the semantics needs: the reading, the state that it changes, and where it stands.
+// StepContext: what every part of the semantics needs: the interpretation, the state that it changes, and where it
+// stands.
 #pragma once
 
 #include "meaning/cfg/program_set.h"
@@ -9,7 +10,7 @@
 namespace feedhold {
 
 template <ValueAlgebra R> struct StepContext {
-  R &reading;
+  R &interpretation;
   MachineState<R> &state;
   const ProgramSet &programs;
   const ProgramFile &file;
@@ -25,23 +26,24 @@ template <ValueAlgebra R> struct StepContext {
   Span place() const { return tree().blocks[block].span(); }
 
   Truth either(Truth a, Truth b) const {
-    return reading.negation(reading.both(reading.negation(a), reading.negation(b)));
+    return interpretation.negation(interpretation.both(interpretation.negation(a), interpretation.negation(b)));
   }
-  bool certain(Truth truth) const { return !reading.mayBe(reading.negation(truth)); }
-  Value zero() const { return reading.number(0); }
+  bool certain(Truth truth) const { return !interpretation.mayBe(interpretation.negation(truth)); }
+  Value zero() const { return interpretation.number(0); }
   /// A setting of the machine.  Where it is not known a run takes `usual`, and all others look at both outcomes.
   Truth isOn(Switch setting, bool usual = false) const {
     if (setting != Switch::Unknown)
-      return reading.truth(setting == Switch::On);
-    return reading.negation(reading.compare(
-        Relation::Equal, reading.either(reading.number(usual ? 1 : 0), reading.number(usual ? 0 : 1)), zero()));
+      return interpretation.truth(setting == Switch::On);
+    return interpretation.negation(interpretation.compare(
+        Relation::Equal,
+        interpretation.either(interpretation.number(usual ? 1 : 0), interpretation.number(usual ? 0 : 1)), zero()));
   }
   /// Not so in a run, and unknown where all runs are looked at.
   Truth maybeNot() const { return isOn(Switch::Unknown); }
   /// The modal state of a kind is one of these codes.  Without such a group: `without`.
   Truth inForce(ModalKind kind, std::initializer_list<CodeAction> actions, Truth without) const {
     const auto group = modes.groupOf(kind);
-    return group ? reading.isOneOf(state.codes[*group], modes.maskOf(kind, actions)) : without;
+    return group ? interpretation.isOneOf(state.codes[*group], modes.maskOf(kind, actions)) : without;
   }
 };
 

@@ -30,10 +30,10 @@ void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kA
 template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance);
 
 /// Zero points have moved by distances that are not known.
-template <ValueAlgebra R> void forgetOrigins(StepContext<R> &context);
+template <ValueAlgebra R> void havocOrigins(StepContext<R> &context);
 
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
-template <ValueAlgebra R> void forgetPosition(StepContext<R> &context);
+template <ValueAlgebra R> void havocPosition(StepContext<R> &context);
 
 /// From programmed to work coordinates, and back.
 template <ValueAlgebra R>
@@ -77,13 +77,15 @@ namespace detail {
 
 /// No absolute word may have named the axis since the mappings changed.
 template <ValueAlgebra R> bool isPending(StepContext<R> &context, Axis axis) {
-  R &reading = context.reading;
-  return reading.mayBe(reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)])));
+  R &interpretation = context.interpretation;
+  return interpretation.mayBe(
+      interpretation.negation(interpretation.isVacant(context.state.transform.pending[indexOf(axis)])));
 }
-template <ValueAlgebra R> void forgetPending(StepContext<R> &context, Axis axis) {
-  R &reading = context.reading;
+template <ValueAlgebra R> void havocPending(StepContext<R> &context, Axis axis) {
+  R &interpretation = context.interpretation;
   auto &pending = context.state.transform.pending[indexOf(axis)];
-  pending = reading.select(reading.isVacant(pending), pending, reading.either(pending, reading.anyNumber()));
+  pending = interpretation.select(interpretation.isVacant(pending), pending,
+                                  interpretation.either(pending, interpretation.anyNumber()));
 }
 
 /// How many work offset systems lie before the one in force: 0 for G54; absent when it is not one of them.
@@ -91,7 +93,7 @@ template <ValueAlgebra R> std::optional<std::uint32_t> workOffsetInForce(StepCon
   const auto group = context.modes.groupOf(ModalKind::WorkOffset);
   if (!group)
     return 0;
-  const auto index = context.reading.onlyCode(context.state.codes[*group]);
+  const auto index = context.interpretation.onlyCode(context.state.codes[*group]);
   if (!index)
     return std::nullopt;
   const auto &codes = context.modes.group(*group).codes;
@@ -105,61 +107,65 @@ template <ValueAlgebra R> std::optional<std::uint32_t> workOffsetInForce(StepCon
 
 template <ValueAlgebra R> typename R::Value offsetVariable(StepContext<R> &context, std::uint32_t number) {
   const auto *value = context.state.variables.find(number);
-  return context.reading.asNumber(value ? *value : context.reading.unwritten(context.state, number));
+  return context.interpretation.asNumber(value ? *value : context.interpretation.unwritten(context.state, number));
 }
 
 template <ValueAlgebra R>
 typename R::Value rotated(StepContext<R> &context, typename R::Value x, typename R::Value y, typename R::Value sine,
                           typename R::Value cosine) {
-  R &reading = context.reading;
-  return reading.subtract(reading.multiply(x, cosine), reading.multiply(y, sine));
+  R &interpretation = context.interpretation;
+  return interpretation.subtract(interpretation.multiply(x, cosine), interpretation.multiply(y, sine));
 }
 
 /// Turns the coordinates of the rotation's plane (that in force) by `angle` about `centre`.
 template <ValueAlgebra R>
 void rotate(StepContext<R> &context, std::array<typename R::Value, kAxisCount> &point, const typename R::Value &angle,
             const std::array<typename R::Value, 2> &centre) {
-  R &reading = context.reading;
-  if (context.certain(reading.compare(Relation::Equal, angle, context.zero())))
+  R &interpretation = context.interpretation;
+  if (context.certain(interpretation.compare(Relation::Equal, angle, context.zero())))
     return;
   const std::optional<Plane> plane = planeOf(context);
   if (!plane) {
     for (auto &coordinate : point)
-      coordinate = reading.anyNumber();
+      coordinate = interpretation.anyNumber();
     return;
   }
-  const auto x = reading.subtract(point[indexOf(plane->first)], centre[0]);
-  const auto y = reading.subtract(point[indexOf(plane->second)], centre[1]);
-  const auto sine = reading.function(FunctionKind::Sin, angle);
-  const auto cosine = reading.function(FunctionKind::Cos, angle);
-  point[indexOf(plane->first)] = reading.add(centre[0], rotated(context, x, y, sine, cosine));
-  point[indexOf(plane->second)] = reading.add(centre[1], rotated(context, y, x, reading.negate(sine), cosine));
+  const auto x = interpretation.subtract(point[indexOf(plane->first)], centre[0]);
+  const auto y = interpretation.subtract(point[indexOf(plane->second)], centre[1]);
+  const auto sine = interpretation.function(FunctionKind::Sin, angle);
+  const auto cosine = interpretation.function(FunctionKind::Cos, angle);
+  point[indexOf(plane->first)] = interpretation.add(centre[0], rotated(context, x, y, sine, cosine));
+  point[indexOf(plane->second)] =
+      interpretation.add(centre[1], rotated(context, y, x, interpretation.negate(sine), cosine));
 }
 
 template <ValueAlgebra R>
 typename R::Value mirrored(StepContext<R> &context, std::size_t axis, const typename R::Value &coordinate) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto &at = context.state.transform.mirrorAt[axis];
-  const auto image = reading.subtract(reading.multiply(reading.number(2), reading.asNumber(at)), coordinate);
-  return reading.select(reading.isVacant(at), coordinate, image);
+  const auto image = interpretation.subtract(
+      interpretation.multiply(interpretation.number(2), interpretation.asNumber(at)), coordinate);
+  return interpretation.select(interpretation.isVacant(at), coordinate, image);
 }
 template <ValueAlgebra R>
 typename R::Value mirroredDistance(StepContext<R> &context, std::size_t axis, const typename R::Value &distance) {
-  R &reading = context.reading;
-  return reading.select(reading.isVacant(context.state.transform.mirrorAt[axis]), distance, reading.negate(distance));
+  R &interpretation = context.interpretation;
+  return interpretation.select(interpretation.isVacant(context.state.transform.mirrorAt[axis]), distance,
+                               interpretation.negate(distance));
 }
 
 template <ValueAlgebra R>
 typename R::Value scaled(StepContext<R> &context, std::size_t axis, const typename R::Value &coordinate) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto &centre = context.state.transform.scaleCentre[axis];
   const auto &factor = context.state.transform.scale[axis];
-  return reading.add(centre, reading.multiply(reading.subtract(coordinate, centre), factor));
+  return interpretation.add(centre, interpretation.multiply(interpretation.subtract(coordinate, centre), factor));
 }
 
 template <ValueAlgebra R> typename R::Truth differ(StepContext<R> &context, typename R::Truth a, typename R::Truth b) {
-  R &reading = context.reading;
-  return context.either(reading.both(a, reading.negation(b)), reading.both(reading.negation(a), b));
+  R &interpretation = context.interpretation;
+  return context.either(interpretation.both(a, interpretation.negation(b)),
+                        interpretation.both(interpretation.negation(a), b));
 }
 
 /// Codes that stay in force and give movements a meaning of their own.
@@ -174,10 +180,10 @@ inline CodeMask otherGeometryMask(const ModalGroup &group) {
 
 /// From here on, where `when` holds, movements mean something else: kModalGeometry or kLastingGeometry.
 template <ValueAlgebra R> void enterOtherGeometry(StepContext<R> &context, int what, typename R::Truth when) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   auto &other = context.state.transform.other;
-  const auto enters = what == kLastingGeometry ? when : reading.both(when, reading.isVacant(other));
-  other = reading.select(enters, reading.number(what), other);
+  const auto enters = what == kLastingGeometry ? when : interpretation.both(when, interpretation.isVacant(other));
+  other = interpretation.select(enters, interpretation.number(what), other);
   context.state.transformed = context.either(context.state.transformed, when);
 }
 
@@ -185,7 +191,7 @@ template <ValueAlgebra R> void enterOtherGeometry(StepContext<R> &context, int w
 
 template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context) {
   const auto truth = [&](CodeAction action) {
-    return context.certain(context.inForce(ModalKind::Plane, {action}, context.reading.truth(false)));
+    return context.certain(context.inForce(ModalKind::Plane, {action}, context.interpretation.truth(false)));
   };
   if (truth(CodeAction::PlaneXY))
     return kPlaneXY;
@@ -198,21 +204,21 @@ template <ValueAlgebra R> std::optional<Plane> planeOf(StepContext<R> &context) 
 
 template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Axis axis) {
   const auto origin = workOriginOf(context, axis);
-  return axis == Axis::Z ? context.reading.add(origin, context.state.lengthOffset) : origin;
+  return axis == Axis::Z ? context.interpretation.add(origin, context.state.lengthOffset) : origin;
 }
 
 template <ValueAlgebra R> typename R::Value workOriginOf(StepContext<R> &context, Axis axis) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto number = static_cast<std::uint32_t>(indexOf(axis));
-  auto origin = reading.add(context.state.shift[indexOf(axis)], context.state.local[indexOf(axis)]);
+  auto origin = interpretation.add(context.state.shift[indexOf(axis)], context.state.local[indexOf(axis)]);
   const VariableRange *external = findVariable(context.dialect(), kFirstWorkOffset);
   if (external && external->role == VariableRole::WorkOffset)
-    origin = reading.add(origin, detail::offsetVariable(context, kFirstWorkOffset + number));
+    origin = interpretation.add(origin, detail::offsetVariable(context, kFirstWorkOffset + number));
   const std::optional<std::uint32_t> system = detail::workOffsetInForce(context);
   if (!system)
-    return reading.anyNumber();
-  return reading.add(origin,
-                     detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
+    return interpretation.anyNumber();
+  return interpretation.add(
+      origin, detail::offsetVariable(context, kFirstWorkOffset + kWorkOffsetStride * (*system + 1) + number));
 }
 
 template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(StepContext<R> &context) {
@@ -224,36 +230,36 @@ template <ValueAlgebra R> std::array<typename R::Value, kAxisCount> originsOf(St
 
 template <ValueAlgebra R>
 void moveOrigins(StepContext<R> &context, const std::array<typename R::Value, kAxisCount> &before) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   for (const Axis axis : kAllAxes) {
-    shiftCoordinate(context, axis, reading.subtract(before[indexOf(axis)], originOf(context, axis)));
+    shiftCoordinate(context, axis, interpretation.subtract(before[indexOf(axis)], originOf(context, axis)));
   }
 }
 
 template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axis, const typename R::Value &distance) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   MachineState<R> &state = context.state;
   const std::size_t i = indexOf(axis);
-  state.at(axis) = reading.add(state.at(axis), distance);
-  if (context.certain(reading.compare(Relation::Equal, distance, context.zero())))
+  state.at(axis) = interpretation.add(state.at(axis), distance);
+  if (context.certain(interpretation.compare(Relation::Equal, distance, context.zero())))
     return;
   if (detail::isPending(context, axis))
-    detail::forgetPending(context, axis);
+    detail::havocPending(context, axis);
   // Mitsubishi M700V: the centre of a rotation stays where it is; other manuals do not say.
   const auto stays = context.isOn(context.dialect().switches.centreStays);
   const auto keep = [&](typename R::Value &coordinate) {
-    const auto isNone = reading.isVacant(coordinate);
+    const auto isNone = interpretation.isVacant(coordinate);
     if (context.certain(isNone))
       return;
-    const auto moved = reading.add(reading.asNumber(coordinate), distance);
-    coordinate = reading.select(isNone, coordinate, reading.select(stays, moved, coordinate));
+    const auto moved = interpretation.add(interpretation.asNumber(coordinate), distance);
+    coordinate = interpretation.select(isNone, coordinate, interpretation.select(stays, moved, coordinate));
   };
   const std::optional<Plane> plane = planeOf(context);
-  if (reading.mayBe(state.transformed)) {
+  if (interpretation.mayBe(state.transformed)) {
     keep(state.transform.scaleCentre[i]);
     keep(state.transform.mirrorAt[i]);
     if (!plane)
-      state.transform.centre.fill(reading.anyNumber());
+      state.transform.centre.fill(interpretation.anyNumber());
     else if (axis == plane->first || axis == plane->second)
       keep(state.transform.centre[axis == plane->first ? 0 : 1]);
   }
@@ -262,24 +268,24 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
       keep(*level);
 }
 
-template <ValueAlgebra R> void forgetOrigins(StepContext<R> &context) {
-  forgetPosition(context);
+template <ValueAlgebra R> void havocOrigins(StepContext<R> &context) {
+  havocPosition(context);
   for (const Axis axis : kAllAxes)
-    shiftCoordinate(context, axis, context.reading.either(context.zero(), context.reading.anyNumber()));
+    shiftCoordinate(context, axis, context.interpretation.either(context.zero(), context.interpretation.anyNumber()));
 }
 
-template <ValueAlgebra R> void forgetPosition(StepContext<R> &context) {
+template <ValueAlgebra R> void havocPosition(StepContext<R> &context) {
   for (auto &coordinate : context.state.position)
-    coordinate = context.reading.either(coordinate, context.reading.anyNumber());
+    coordinate = context.interpretation.either(coordinate, context.interpretation.anyNumber());
   for (const Axis axis : kAllAxes)
     if (detail::isPending(context, axis))
-      detail::forgetPending(context, axis);
+      detail::havocPending(context, axis);
 }
 
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> toWork(StepContext<R> &context,
                                                  std::array<typename R::Value, kAxisCount> point) {
-  if (!context.reading.mayBe(context.state.transformed))
+  if (!context.interpretation.mayBe(context.state.transformed))
     return point;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis)
     point[axis] = detail::scaled(context, axis, point[axis]);
@@ -292,17 +298,17 @@ std::array<typename R::Value, kAxisCount> toWork(StepContext<R> &context,
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> toProgrammed(StepContext<R> &context,
                                                        std::array<typename R::Value, kAxisCount> point) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.transformed))
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(context.state.transformed))
     return point;
   const auto &transform = context.state.transform;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis)
     point[axis] = detail::mirrored(context, axis, point[axis]);
-  detail::rotate(context, point, reading.negate(transform.angle), transform.centre);
+  detail::rotate(context, point, interpretation.negate(transform.angle), transform.centre);
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     const auto &centre = transform.scaleCentre[axis];
-    const auto fromCentre = reading.subtract(point[axis], centre);
-    point[axis] = reading.add(centre, reading.divide(fromCentre, transform.scale[axis]));
+    const auto fromCentre = interpretation.subtract(point[axis], centre);
+    point[axis] = interpretation.add(centre, interpretation.divide(fromCentre, transform.scale[axis]));
   }
   return point;
 }
@@ -310,12 +316,12 @@ std::array<typename R::Value, kAxisCount> toProgrammed(StepContext<R> &context,
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> toWorkDistance(StepContext<R> &context,
                                                          std::array<typename R::Value, kAxisCount> distance) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.transformed))
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(context.state.transformed))
     return distance;
   const auto &transform = context.state.transform;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-    distance[axis] = reading.multiply(distance[axis], transform.scale[axis]);
+    distance[axis] = interpretation.multiply(distance[axis], transform.scale[axis]);
   detail::rotate(context, distance, transform.angle, {context.zero(), context.zero()});
   for (std::size_t axis = 0; axis < kAxisCount; ++axis)
     distance[axis] = detail::mirroredDistance(context, axis, distance[axis]);
@@ -324,53 +330,56 @@ std::array<typename R::Value, kAxisCount> toWorkDistance(StepContext<R> &context
 
 template <ValueAlgebra R>
 typename R::Value toWorkOn(StepContext<R> &context, Axis axis, const typename R::Value &written) {
-  if (!context.reading.mayBe(context.state.transformed))
+  if (!context.interpretation.mayBe(context.state.transformed))
     return written;
   return detail::mirrored(context, indexOf(axis), detail::scaled(context, indexOf(axis), written));
 }
 
 template <ValueAlgebra R>
 typename R::Value toWorkDistanceOn(StepContext<R> &context, Axis axis, const typename R::Value &written) {
-  if (!context.reading.mayBe(context.state.transformed))
+  if (!context.interpretation.mayBe(context.state.transformed))
     return written;
   const auto &factor = context.state.transform.scale[indexOf(axis)];
-  return detail::mirroredDistance(context, indexOf(axis), context.reading.multiply(written, factor));
+  return detail::mirroredDistance(context, indexOf(axis), context.interpretation.multiply(written, factor));
 }
 
 template <ValueAlgebra R> typename R::Truth isReversed(StepContext<R> &context, Axis axis) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.transformed))
-    return reading.truth(false);
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(context.state.transformed))
+    return interpretation.truth(false);
   const auto &transform = context.state.transform;
-  const auto isMirrored = reading.negation(reading.isVacant(transform.mirrorAt[indexOf(axis)]));
-  const auto isNegative = reading.compare(Relation::Less, transform.scale[indexOf(axis)], context.zero());
+  const auto isMirrored = interpretation.negation(interpretation.isVacant(transform.mirrorAt[indexOf(axis)]));
+  const auto isNegative = interpretation.compare(Relation::Less, transform.scale[indexOf(axis)], context.zero());
   return detail::differ(context, isMirrored, isNegative);
 }
 
 template <ValueAlgebra R> CircleMapping<R> circleMappingOf(StepContext<R> &context, const Plane &plane) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.transformed))
-    return {reading.truth(true), reading.truth(false), reading.number(1)};
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(context.state.transformed))
+    return {interpretation.truth(true), interpretation.truth(false), interpretation.number(1)};
   const auto size = [&](Axis axis) {
     const auto &factor = context.state.transform.scale[indexOf(axis)];
-    return reading.select(reading.compare(Relation::Less, factor, context.zero()), reading.negate(factor), factor);
+    return interpretation.select(interpretation.compare(Relation::Less, factor, context.zero()),
+                                 interpretation.negate(factor), factor);
   };
   const auto first = size(plane.first);
-  return {reading.compare(Relation::Equal, first, size(plane.second)),
+  return {interpretation.compare(Relation::Equal, first, size(plane.second)),
           detail::differ(context, isReversed(context, plane.first), isReversed(context, plane.second)), first};
 }
 
 template <ValueAlgebra R> typename R::Truth otherGeometry(StepContext<R> &context) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto &other = context.state.transform.other;
-  const auto entered = reading.both(context.state.transformed, reading.negation(reading.isVacant(other)));
-  if (!reading.mayBe(entered))
-    return reading.truth(false);
-  auto inForce = reading.compare(Relation::Equal, reading.asNumber(other), reading.number(kLastingGeometry));
+  const auto entered =
+      interpretation.both(context.state.transformed, interpretation.negation(interpretation.isVacant(other)));
+  if (!interpretation.mayBe(entered))
+    return interpretation.truth(false);
+  auto inForce =
+      interpretation.compare(Relation::Equal, interpretation.asNumber(other), interpretation.number(kLastingGeometry));
   for (std::size_t group = 1; group < kModalGroups; ++group)
     if (const CodeMask mask = detail::otherGeometryMask(context.modes.group(group)); mask != 0)
-      inForce = context.either(inForce, reading.isOneOf(context.state.codes[group], mask));
-  return reading.both(entered, inForce);
+      inForce = context.either(inForce, interpretation.isOneOf(context.state.codes[group], mask));
+  return interpretation.both(entered, inForce);
 }
 
 } // namespace feedhold

@@ -23,7 +23,7 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
 
 /// No cycle is active any more.
 template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
-  const auto vacant = context.reading.vacant();
+  const auto vacant = context.interpretation.vacant();
   context.state.cycle = {vacant, vacant, vacant, vacant, vacant};
 }
 
@@ -34,11 +34,11 @@ namespace detail {
 /// Of a block that begins a cycle; `isBare`: its depth or its R level has never been given.
 template <ValueAlgebra R>
 void alarmOfBareCycle(StepContext<R> &context, const ExecutedWords<R> &words, typename R::Truth isBare) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto begins = [](const CodeWord &word) { return isDrillingCycle(word.code->action); };
   if (std::any_of(words.codes.begin(), words.codes.end(), begins))
-    reading.alarm(reading.both(isBare, context.isOn(context.dialect().switches.bareCycleStops)),
-                  {AlarmKind::CycleWithoutLevel, context.place()});
+    interpretation.alarm(interpretation.both(isBare, context.isOn(context.dialect().switches.bareCycleStops)),
+                         {AlarmKind::CycleWithoutLevel, context.place()});
 }
 
 template <ValueAlgebra R> class DrillingCycle {
@@ -48,13 +48,14 @@ public:
   using Point = std::array<Value, kAxisCount>;
 
   DrillingCycle(StepContext<R> &context, const ExecutedWords<R> &words, Plane plane)
-      : context_(context), reading_(context.reading), state_(context.state), cycle_(context.state.cycle), words_(words),
-        plane_(plane) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), cycle_(context.state.cycle),
+        words_(words), plane_(plane) {}
 
   void run() {
     learnLevels();
-    alarmOfBareCycle(context_, words_,
-                     context_.either(reading_.isVacant(cycle_.bottom), reading_.isVacant(cycle_.retract)));
+    alarmOfBareCycle(
+        context_, words_,
+        context_.either(interpretation_.isVacant(cycle_.bottom), interpretation_.isVacant(cycle_.retract)));
     settleLevels();
     const std::optional<double> repeats = repeatCount();
     if (!repeats)
@@ -69,52 +70,57 @@ public:
 private:
   enum class Kind { Straight, FeedBack, OutSomehow, Peck, ChipBreak, NotFollowed };
   static constexpr double kMostRepeats = 9999;
-  static constexpr double kMostFollowed = 64; // of a reading that only wants to know where it ends
+  static constexpr double kMostFollowed = 64; // of an interpretation that only needs the end point
 
   void learnLevels() {
     Value &level = state_.at(plane_.normal);
-    cycle_.initial = reading_.select(reading_.isVacant(cycle_.initial), level, reading_.asNumber(cycle_.initial));
+    cycle_.initial = interpretation_.select(interpretation_.isVacant(cycle_.initial), level,
+                                            interpretation_.asNumber(cycle_.initial));
     const Truth absolute = isAbsolute(context_);
-    const Value before = reading_.asNumber(cycle_.retract);
+    const Value before = interpretation_.asNumber(cycle_.retract);
     if (const auto *entry = words_.find('R'))
       learn(cycle_.retract, *entry, absolute, cycle_.initial);
     if (context_.behaviour().cycleKeepsDepth) // below the R level
-      cycle_.bottom = reading_.select(
-          context_.either(absolute, reading_.isVacant(cycle_.bottom)), cycle_.bottom,
-          reading_.add(reading_.asNumber(cycle_.bottom), reading_.subtract(reading_.asNumber(cycle_.retract), before)));
+      cycle_.bottom = interpretation_.select(
+          context_.either(absolute, interpretation_.isVacant(cycle_.bottom)), cycle_.bottom,
+          interpretation_.add(interpretation_.asNumber(cycle_.bottom),
+                              interpretation_.subtract(interpretation_.asNumber(cycle_.retract), before)));
     if (const auto *entry = words_.find(letterOf(plane_.normal)))
-      learn(cycle_.bottom, *entry, absolute, reading_.asNumber(cycle_.retract));
+      learn(cycle_.bottom, *entry, absolute, interpretation_.asNumber(cycle_.retract));
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
       if (const auto *entry = words_.find(letter))
-        *kept = reading_.select(entry->present, entry->value, *kept);
+        *kept = interpretation_.select(entry->present, entry->value, *kept);
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
   void settleLevels() {
     const auto settled = [&](const Value &level, const Value &usual) {
-      const Truth open = reading_.isVacant(level);
-      const Value given = reading_.asNumber(level);
-      return reading_.mayBe(open) ? reading_.select(open, reading_.either(usual, reading_.anyNumber()), given) : given;
+      const Truth open = interpretation_.isVacant(level);
+      const Value given = interpretation_.asNumber(level);
+      return interpretation_.mayBe(open)
+                 ? interpretation_.select(open, interpretation_.either(usual, interpretation_.anyNumber()), given)
+                 : given;
     };
-    retract_ = settled(cycle_.retract, reading_.asNumber(cycle_.initial));
+    retract_ = settled(cycle_.retract, interpretation_.asNumber(cycle_.initial));
     bottom_ = settled(cycle_.bottom, retract_);
   }
   /// With G91 the level is a distance from `base`.
   void learn(Value &level, const typename ExecutedWords<R>::Entry &entry, Truth absolute, const Value &base) {
-    const Value wanted = reading_.select(absolute, toWorkOn(context_, plane_.normal, entry.value),
-                                         reading_.add(base, toWorkDistanceOn(context_, plane_.normal, entry.value)));
-    level = reading_.select(entry.present, wanted, level);
+    const Value wanted =
+        interpretation_.select(absolute, toWorkOn(context_, plane_.normal, entry.value),
+                               interpretation_.add(base, toWorkDistanceOn(context_, plane_.normal, entry.value)));
+    level = interpretation_.select(entry.present, wanted, level);
   }
   std::optional<double> repeatCount() {
     for (const char letter : {'L', 'K'}) {
       if (letter == 'K' && !context_.behaviour().repeatsByK)
         continue;
       if (const auto *entry = words_.find(letter)) {
-        if (context_.certain(reading_.negation(entry->present)))
+        if (context_.certain(interpretation_.negation(entry->present)))
           continue;
-        std::optional<double> count = reading_.constantOf(reading_.asNumber(entry->value));
+        std::optional<double> count = interpretation_.constantOf(interpretation_.asNumber(entry->value));
         if (const std::optional<double> literal = literalOf(letter))
           count = literal;
-        const double most = reading_.wantsMoves() ? kMostRepeats : kMostFollowed;
+        const double most = interpretation_.wantsMoves() ? kMostRepeats : kMostFollowed;
         return count && *count <= most && context_.certain(entry->present) ? count : std::nullopt;
       }
     }
@@ -134,30 +140,30 @@ private:
     if (!context_.certain(isAbsolute(context_))) {
       const Point first = state_.position;
       for (const Axis axis : {plane_.first, plane_.second})
-        if (words_.find(letterOf(axis)) || reading_.mayBe(state_.transformed))
-          state_.at(axis) = reading_.anyNumber();
-      tell(context_, MoveKind::Unfollowed, first);
+        if (words_.find(letterOf(axis)) || interpretation_.mayBe(state_.transformed))
+          state_.at(axis) = interpretation_.anyNumber();
+      tell(context_, MoveKind::Unmodelled, first);
     }
-    reading_.join(state_, reading_.unknownTruth(), notDrilled);
+    interpretation_.join(state_, interpretation_.unknownTruth(), notDrilled);
   }
 
   const Value &retractLevel() const { return retract_; }
   const Value &bottomLevel() const { return bottom_; }
   Value returnLevel() {
     const Truth toInitial =
-        context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, reading_.truth(true));
+        context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, interpretation_.truth(true));
     const Value initial =
         context_.behaviour().cycleClearsFirst ? higher(cycle_.initial, retractLevel()) : cycle_.initial;
-    return reading_.select(toInitial, initial, retractLevel());
+    return interpretation_.select(toInitial, initial, retractLevel());
   }
 
   /// A cycle that begins below its R level goes up to it before anything else.
   void clearFirst() {
     if (!context_.behaviour().cycleClearsFirst)
       return;
-    const Truth below = reading_.compare(Relation::Less, cycle_.initial, retractLevel());
-    if (reading_.mayBe(below))
-      go(MoveKind::Rapid, reading_.select(below, retractLevel(), state_.at(plane_.normal)));
+    const Truth below = interpretation_.compare(Relation::Less, cycle_.initial, retractLevel());
+    if (interpretation_.mayBe(below))
+      go(MoveKind::Rapid, interpretation_.select(below, retractLevel(), state_.at(plane_.normal)));
   }
   /// The level at which the tool goes from hole to hole.
   Value travelLevel() {
@@ -166,29 +172,31 @@ private:
       return present;
     return higher(present, higher(retractLevel(), returnLevel()));
   }
-  Value higher(const Value &a, const Value &b) { return reading_.select(reading_.compare(Relation::Less, a, b), b, a); }
+  Value higher(const Value &a, const Value &b) {
+    return interpretation_.select(interpretation_.compare(Relation::Less, a, b), b, a);
+  }
 
   void drill() {
     const Point start = state_.position;
     Point target = targetOf(context_, words_);
     target[indexOf(plane_.normal)] = travelLevel();
     state_.position = target;
-    tell(context_, isOpenTarget(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid, start);
-    const Kind kind = reading_.wantsMoves() ? kindOf() : Kind::Straight;
+    tell(context_, isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Rapid, start);
+    const Kind kind = interpretation_.wantsMoves() ? kindOf() : Kind::Straight;
     if (kind == Kind::NotFollowed) {
-      reading_.notModelled("the way of this boring cycle", context_.place());
+      interpretation_.unmodelled("the way of this boring cycle", context_.place());
       const Point hole = state_.position;
       state_.at(plane_.normal) = returnLevel();
-      return tell(context_, MoveKind::Unfollowed, hole);
+      return tell(context_, MoveKind::Unmodelled, hole);
     }
     go(MoveKind::Rapid, retractLevel());
-    if (reading_.wantsMoves())
+    if (interpretation_.wantsMoves())
       stroke(kind);
     go(MoveKind::Rapid, returnLevel());
   }
   void go(MoveKind kind, const Value &level) {
     const Point start = state_.position;
-    if (context_.certain(reading_.compare(Relation::Equal, start[indexOf(plane_.normal)], level)))
+    if (context_.certain(interpretation_.compare(Relation::Equal, start[indexOf(plane_.normal)], level)))
       return;
     state_.at(plane_.normal) = level;
     tell(context_, kind, start);
@@ -205,7 +213,7 @@ private:
     case Kind::OutSomehow:
       go(MoveKind::Feed, bottomLevel());
       dwell();
-      return go(MoveKind::Unfollowed, returnLevel());
+      return go(MoveKind::Unmodelled, returnLevel());
     case Kind::Peck: return pecks(retractLevel());
     case Kind::ChipBreak: return pecks(std::nullopt);
     case Kind::NotFollowed: return;
@@ -216,19 +224,19 @@ private:
            isInForce({CodeAction::CycleBoreDwell, CodeAction::CycleTap, CodeAction::CycleTapLeft});
   }
   bool isInForce(std::initializer_list<CodeAction> actions) {
-    return context_.certain(context_.inForce(ModalKind::Cycle, actions, reading_.truth(false)));
+    return context_.certain(context_.inForce(ModalKind::Cycle, actions, interpretation_.truth(false)));
   }
   void dwell() {
-    if (!context_.certain(reading_.negation(reading_.isVacant(cycle_.dwell))))
+    if (!context_.certain(interpretation_.negation(interpretation_.isVacant(cycle_.dwell))))
       return;
     Move<Value> move;
     move.kind = MoveKind::Dwell;
     move.start = move.end = state_.position;
     move.feed = cycle_.dwell;
-    reading_.move(move);
+    interpretation_.move(move);
   }
   Kind kindOf() {
-    if (!context_.certain(reading_.negation(isReversed(context_, plane_.normal))))
+    if (!context_.certain(interpretation_.negation(isReversed(context_, plane_.normal))))
       return Kind::NotFollowed; // whether a hole is drilled upwards then, no manual says
     if (isInForce({CodeAction::CyclePeck}))
       return Kind::Peck;
@@ -245,8 +253,9 @@ private:
   }
   /// G83 goes back to the R level after each peck, G73 only by the clearance.
   void pecks(std::optional<Value> backTo) {
-    const std::optional<double> step = reading_.constantOf(reading_.asNumber(cycle_.peck));
-    if (!step || (*step > 0 && !(reading_.constantOf(retractLevel()) && reading_.constantOf(bottomLevel()))))
+    const std::optional<double> step = interpretation_.constantOf(interpretation_.asNumber(cycle_.peck));
+    if (!step ||
+        (*step > 0 && !(interpretation_.constantOf(retractLevel()) && interpretation_.constantOf(bottomLevel()))))
       unknownPecks();
     else
       knownPecks(*step, std::move(backTo));
@@ -257,11 +266,11 @@ private:
   void unknownPecks() {
     go(MoveKind::Feed, bottomLevel());
     go(MoveKind::Rapid, retractLevel());
-    go(MoveKind::Rapid, reading_.between(retractLevel(), bottomLevel()));
+    go(MoveKind::Rapid, interpretation_.between(retractLevel(), bottomLevel()));
   }
   void knownPecks(double depth, std::optional<Value> backTo) {
-    const std::optional<double> top = reading_.constantOf(retractLevel());
-    const std::optional<double> bottom = reading_.constantOf(bottomLevel());
+    const std::optional<double> top = interpretation_.constantOf(retractLevel());
+    const std::optional<double> bottom = interpretation_.constantOf(bottomLevel());
     if (!(depth > 0) || !top || !bottom)
       return; // in one go
     if ((*top - *bottom) / depth >= kMostRepeats)
@@ -269,15 +278,15 @@ private:
     const bool metric = context_.certain(isMetric(context_));
     const double clearance = context_.behaviour().peckClearance / (metric ? 1 : 25.4);
     for (double level = *top - depth; level > *bottom; level -= depth) {
-      go(MoveKind::Feed, reading_.number(level));
+      go(MoveKind::Feed, interpretation_.number(level));
       if (backTo)
         go(MoveKind::Rapid, *backTo);
-      go(MoveKind::Rapid, reading_.number(std::min(level + clearance, *top)));
+      go(MoveKind::Rapid, interpretation_.number(std::min(level + clearance, *top)));
     }
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   MachineState<R> &state_;
   CycleState<Value> &cycle_;
   const ExecutedWords<R> &words_;
@@ -288,17 +297,17 @@ private:
 
 /// Along the normal of the plane, or always along Z: parameter 5101#0 of FANUC controls.
 template <ValueAlgebra R> void drillAlong(StepContext<R> &context, const ExecutedWords<R> &words, const Plane &plane) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto byPlane = context.isOn(context.dialect().switches.fxy, true);
   if (plane.normal == Axis::Z || context.certain(byPlane))
     return DrillingCycle<R>(context, words, plane).run();
-  if (!reading.mayBe(byPlane))
+  if (!interpretation.mayBe(byPlane))
     return DrillingCycle<R>(context, words, kPlaneXY).run();
   auto before = context.state;
   DrillingCycle<R>(context, words, plane).run();
   std::swap(context.state, before);
   DrillingCycle<R>(context, words, kPlaneXY).run();
-  reading.join(context.state, byPlane, before);
+  interpretation.join(context.state, byPlane, before);
 }
 
 } // namespace detail
@@ -308,12 +317,12 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
   if (plane)
     return detail::drillAlong(context, words, *plane);
   detail::alarmOfBareCycle(context, words, context.maybeNot());
-  const auto any = context.reading.anything();
+  const auto any = context.interpretation.anything();
   context.state.cycle = {any, any, any, any, any};
   const auto start = context.state.position;
-  forgetPosition(context);
-  tell(context, MoveKind::Unfollowed, start);
-  context.reading.notModelled("a canned cycle whose plane is not known", context.place());
+  havocPosition(context);
+  tell(context, MoveKind::Unmodelled, start);
+  context.interpretation.unmodelled("a canned cycle whose plane is not known", context.place());
 }
 
 } // namespace feedhold

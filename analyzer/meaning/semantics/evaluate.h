@@ -25,22 +25,23 @@ public:
   using Value = typename R::Value;
   using Truth = typename R::Truth;
 
-  Evaluator(StepContext<R> &context, RoundingUnit unit) : context_(context), reading_(context.reading), unit_(unit) {}
+  Evaluator(StepContext<R> &context, RoundingUnit unit)
+      : context_(context), interpretation_(context.interpretation), unit_(unit) {}
 
   Value value(ExpressionId id) {
     const Expression &expression = context_.tree().expressions[id];
     const Value result = match(
-        expression.node, [&](const NumberLiteral &literal) { return reading_.literal(literal.value); },
+        expression.node, [&](const NumberLiteral &literal) { return interpretation_.literal(literal.value); },
         [&](const NumberedVariable &variable) { return numbered(variable, expression.span); },
         [&](const IndirectVariable &variable) { return indirect(variable, expression.span); },
         [&](const NamedVariable &variable) { return named(variable, expression.span); },
-        [&](const Negation &negation) { return reading_.negate(number(negation.operand)); },
+        [&](const Negation &negation) { return interpretation_.negate(number(negation.operand)); },
         [&](const Identity &identity) { return value(identity.operand); },
         [&](const Bracketed &bracketed) { return inBrackets(bracketed); },
         [&](const BinaryOperation &operation) { return binary(id, operation, expression.span); },
         [&](const FunctionCall &call) { return function(call, expression.span); },
         [&](const BrokenExpression &) { return broken(expression.span); });
-    reading_.evaluated(id, result);
+    interpretation_.evaluated(id, result);
     return result;
   }
 
@@ -53,41 +54,43 @@ public:
       if (isBitwise(operation->op) && isCondition(operation->left) && isCondition(operation->right))
         return joined(*operation);
     }
-    return reading_.negation(reading_.compare(Relation::Equal, number(inner), context_.zero()));
+    return interpretation_.negation(interpretation_.compare(Relation::Equal, number(inner), context_.zero()));
   }
 
 private:
-  Value number(ExpressionId id) { return reading_.asNumber(value(id)); }
+  Value number(ExpressionId id) { return interpretation_.asNumber(value(id)); }
 
   Value numbered(const NumberedVariable &variable, Span place) {
     const std::optional<std::int64_t> number = variable.number.asInteger();
     if (number && *number < 0 && *number >= -0xffffffffLL) // reserved: no program text gives it (language/contract)
       return storedValue(context_, static_cast<std::uint32_t>(-*number));
     if (!number || *number < 0 || *number >= kFirstNamedVariable)
-      return reading_.anything(); // a bit of a setting (#30057.21), or no variable at all
+      return interpretation_.anything(); // a bit of a setting (#30057.21), or no variable at all
     return readVariable(context_, static_cast<std::uint32_t>(*number), place);
   }
   Value indirect(const IndirectVariable &variable, Span place) {
     const Value index = value(variable.index);
     if (const auto number = variableAt(context_, index, place))
       return readVariable(context_, *number, place);
-    return reading_.readAnyOf(context_.state, reading_.asNumber(index), place);
+    return interpretation_.readAnyOf(context_.state, interpretation_.asNumber(index), place);
   }
   Value named(const NamedVariable &variable, Span place) {
     if (const auto number = context_.programs.variableOf(context_.file.file, variable.name))
       return readVariable(context_, *number, place);
-    return reading_.anything();
+    return interpretation_.anything();
   }
   /// Whether `#2=[#1]` copies vacancy is not stated by any manual.
   Value inBrackets(const Bracketed &bracketed) {
     const Value inner = value(bracketed.inner);
-    return reading_.mayBe(reading_.isVacant(inner)) ? reading_.either(inner, reading_.asNumber(inner)) : inner;
+    return interpretation_.mayBe(interpretation_.isVacant(inner))
+               ? interpretation_.either(inner, interpretation_.asNumber(inner))
+               : inner;
   }
   Value broken(Span place) {
-    reading_.notModelled("an expression that could not be read", place);
-    return reading_.anything();
+    interpretation_.unmodelled("an expression that could not be read", place);
+    return interpretation_.anything();
   }
-  Value asValue(Truth truth) { return reading_.select(truth, reading_.number(1), context_.zero()); }
+  Value asValue(Truth truth) { return interpretation_.select(truth, interpretation_.number(1), context_.zero()); }
 
   Value binary(ExpressionId id, const BinaryOperation &operation, Span place) {
     if (isRelation(operation.op) ||
@@ -96,10 +99,10 @@ private:
     const Value left = number(operation.left);
     const Value right = number(operation.right);
     switch (operation.op) {
-    case OperatorKind::Add: return reading_.add(left, right);
-    case OperatorKind::Subtract: return reading_.subtract(left, right);
-    case OperatorKind::Multiply: return reading_.multiply(left, right);
-    case OperatorKind::Divide: requireNotZero(right, operation.right); return reading_.divide(left, right);
+    case OperatorKind::Add: return interpretation_.add(left, right);
+    case OperatorKind::Subtract: return interpretation_.subtract(left, right);
+    case OperatorKind::Multiply: return interpretation_.multiply(left, right);
+    case OperatorKind::Divide: requireNotZero(right, operation.right); return interpretation_.divide(left, right);
     case OperatorKind::Modulo: return modulo(left, right, operation.right);
     case OperatorKind::Power: return power(left, right, place);
     case OperatorKind::And:
@@ -116,35 +119,37 @@ private:
   }
 
   void requireNotZero(const Value &divisor, ExpressionId place) {
-    reading_.alarm(reading_.compare(Relation::Equal, divisor, context_.zero()),
-                   {AlarmKind::DivideByZero, spanOf(place)});
+    interpretation_.alarm(interpretation_.compare(Relation::Equal, divisor, context_.zero()),
+                          {AlarmKind::DivideByZero, spanOf(place)});
   }
   Value modulo(const Value &left, const Value &right, ExpressionId rightPlace) {
     if (context_.behaviour().modulo == ModuloMeaning::OfIntegers) {
-      const Value divisor = reading_.roundTo(right, Decimal(1, 0));
+      const Value divisor = interpretation_.roundTo(right, Decimal(1, 0));
       requireNotZero(divisor, rightPlace);
-      return reading_.remainder(reading_.roundTo(left, Decimal(1, 0)), divisor);
+      return interpretation_.remainder(interpretation_.roundTo(left, Decimal(1, 0)), divisor);
     }
     requireNotZero(right, rightPlace);
-    const Value rest = reading_.remainder(left, right);
-    const Value size = reading_.function(FunctionKind::Abs, right);
-    return reading_.select(reading_.compare(Relation::Less, rest, context_.zero()), reading_.add(rest, size), rest);
+    const Value rest = interpretation_.remainder(left, right);
+    const Value size = interpretation_.function(FunctionKind::Abs, right);
+    return interpretation_.select(interpretation_.compare(Relation::Less, rest, context_.zero()),
+                                  interpretation_.add(rest, size), rest);
   }
   Value logic(OperatorKind op, const Value &left, const Value &right) {
     if (context_.behaviour().logic == LogicMeaning::Bitwise)
-      return reading_.bitwise(op, reading_.roundTo(left, Decimal(1, 0)), reading_.roundTo(right, Decimal(1, 0)));
+      return interpretation_.bitwise(op, interpretation_.roundTo(left, Decimal(1, 0)),
+                                     interpretation_.roundTo(right, Decimal(1, 0)));
     const auto isTrue = [&](const Value &value) {
-      return reading_.negation(reading_.compare(Relation::Equal, value, context_.zero()));
+      return interpretation_.negation(interpretation_.compare(Relation::Equal, value, context_.zero()));
     };
     return asValue(combine(op, isTrue(left), isTrue(right)));
   }
   Truth combine(OperatorKind op, Truth left, Truth right) {
     if (op == OperatorKind::And)
-      return reading_.both(left, right);
+      return interpretation_.both(left, right);
     if (op == OperatorKind::Or)
       return context_.either(left, right);
-    return context_.either(reading_.both(left, reading_.negation(right)),
-                           reading_.both(reading_.negation(left), right));
+    return context_.either(interpretation_.both(left, interpretation_.negation(right)),
+                           interpretation_.both(interpretation_.negation(left), right));
   }
 
   // ---- conditions ----
@@ -165,15 +170,18 @@ private:
     const Value right = value(operation.right);
     switch (operation.op) {
     case OperatorKind::Equal: return equal(left, right);
-    case OperatorKind::NotEqual: return reading_.negation(equal(left, right));
+    case OperatorKind::NotEqual: return interpretation_.negation(equal(left, right));
     case OperatorKind::GreaterThan:
-      return reading_.compare(Relation::Greater, reading_.asNumber(left), reading_.asNumber(right));
+      return interpretation_.compare(Relation::Greater, interpretation_.asNumber(left),
+                                     interpretation_.asNumber(right));
     case OperatorKind::GreaterOrEqual:
-      return reading_.compare(Relation::GreaterOrEqual, reading_.asNumber(left), reading_.asNumber(right));
+      return interpretation_.compare(Relation::GreaterOrEqual, interpretation_.asNumber(left),
+                                     interpretation_.asNumber(right));
     case OperatorKind::LessThan:
-      return reading_.compare(Relation::Less, reading_.asNumber(left), reading_.asNumber(right));
+      return interpretation_.compare(Relation::Less, interpretation_.asNumber(left), interpretation_.asNumber(right));
     case OperatorKind::LessOrEqual:
-      return reading_.compare(Relation::LessOrEqual, reading_.asNumber(left), reading_.asNumber(right));
+      return interpretation_.compare(Relation::LessOrEqual, interpretation_.asNumber(left),
+                                     interpretation_.asNumber(right));
     case OperatorKind::Add:
     case OperatorKind::Subtract:
     case OperatorKind::Multiply:
@@ -184,21 +192,23 @@ private:
     case OperatorKind::Or:
     case OperatorKind::Xor: break;
     }
-    return reading_.unknownTruth();
+    return interpretation_.unknownTruth();
   }
   Truth equal(const Value &left, const Value &right) {
-    const Truth leftVacant = reading_.isVacant(left);
-    const Truth rightVacant = reading_.isVacant(right);
-    const Truth numbers = reading_.both(reading_.negation(leftVacant), reading_.negation(rightVacant));
-    return context_.either(reading_.both(leftVacant, rightVacant),
-                           reading_.both(numbers, near(reading_.asNumber(left), reading_.asNumber(right))));
+    const Truth leftVacant = interpretation_.isVacant(left);
+    const Truth rightVacant = interpretation_.isVacant(right);
+    const Truth numbers =
+        interpretation_.both(interpretation_.negation(leftVacant), interpretation_.negation(rightVacant));
+    return context_.either(
+        interpretation_.both(leftVacant, rightVacant),
+        interpretation_.both(numbers, near(interpretation_.asNumber(left), interpretation_.asNumber(right))));
   }
   Truth near(const Value &left, const Value &right) {
     const double tolerance = context_.behaviour().equalTolerance;
     if (tolerance == 0)
-      return reading_.compare(Relation::Equal, left, right);
-    const Value distance = reading_.function(FunctionKind::Abs, reading_.subtract(left, right));
-    return reading_.compare(Relation::Less, distance, reading_.number(tolerance));
+      return interpretation_.compare(Relation::Equal, left, right);
+    const Value distance = interpretation_.function(FunctionKind::Abs, interpretation_.subtract(left, right));
+    return interpretation_.compare(Relation::Less, distance, interpretation_.number(tolerance));
   }
   // ---- functions ----
 
@@ -206,17 +216,18 @@ private:
     if (call.arguments().empty())
       return broken(place);
     switch (call.function) {
-    case FunctionKind::Round: return reading_.roundTo(number(call.arguments()[0]), unit_.step);
+    case FunctionKind::Round: return interpretation_.roundTo(number(call.arguments()[0]), unit_.step);
     case FunctionKind::Fix: return integerPart(number(call.arguments()[0]), IntegerSide::Fix);
     case FunctionKind::Fup: return integerPart(number(call.arguments()[0]), IntegerSide::Fup);
     case FunctionKind::Atan: return arcTangent(call);
     case FunctionKind::Pow:
       return call.arguments().size() < 2 ? broken(place)
                                          : power(number(call.arguments()[0]), number(call.arguments()[1]), place);
-    case FunctionKind::Exists: return asValue(reading_.negation(reading_.isVacant(unread(call.arguments()[0]))));
+    case FunctionKind::Exists:
+      return asValue(interpretation_.negation(interpretation_.isVacant(unread(call.arguments()[0]))));
     case FunctionKind::Sin:
     case FunctionKind::Cos:
-    case FunctionKind::Abs: return reading_.function(call.function, number(call.arguments()[0]));
+    case FunctionKind::Abs: return interpretation_.function(call.function, number(call.arguments()[0]));
     case FunctionKind::Tan:
     case FunctionKind::Asin:
     case FunctionKind::Acos:
@@ -228,7 +239,7 @@ private:
     case FunctionKind::Adp:
     case FunctionKind::Prm:
     case FunctionKind::Ax:
-    case FunctionKind::AxNumber: return reading_.anyNumber(); // parameters of the machine
+    case FunctionKind::AxNumber: return interpretation_.anyNumber(); // parameters of the machine
     }
     return broken(place);
   }
@@ -237,86 +248,89 @@ private:
   Value unread(ExpressionId id) {
     const auto *name = std::get_if<NamedVariable>(&context_.tree().expressions[unwrapped(context_.tree(), id)].node);
     const auto number = name ? context_.programs.variableOf(context_.file.file, name->name) : std::nullopt;
-    return number ? storedValue(context_, *number) : reading_.anything();
+    return number ? storedValue(context_, *number) : interpretation_.anything();
   }
 
   enum class IntegerSide { Fix, Fup };
   Value integerPart(const Value &value, IntegerSide side) {
     if (context_.behaviour().integerPart == IntegerPart::TowardZero)
-      return side == IntegerSide::Fix ? reading_.fix(value) : reading_.fup(value);
-    return side == IntegerSide::Fix ? reading_.floor(value) : reading_.ceiling(value);
+      return side == IntegerSide::Fix ? interpretation_.fix(value) : interpretation_.fup(value);
+    return side == IntegerSide::Fix ? interpretation_.floor(value) : interpretation_.ceiling(value);
   }
 
   /// Two arguments: 0 to 360 degrees, or -180 to 180 with parameter NAT.  One: -90 to 90.
   Value arcTangent(const FunctionCall &call) {
     const Value opposite = number(call.arguments()[0]);
     if (call.arguments().size() < 2)
-      return reading_.atan2(opposite, reading_.number(1));
-    const Value angle = reading_.atan2(opposite, number(call.arguments()[1]));
+      return interpretation_.atan2(opposite, interpretation_.number(1));
+    const Value angle = interpretation_.atan2(opposite, number(call.arguments()[1]));
     return bySwitch(fullTurn(angle), angle);
   }
   Value fullTurn(const Value &angle) {
-    const Truth negative = reading_.compare(Relation::Less, angle, context_.zero());
-    return reading_.select(negative, reading_.add(angle, reading_.number(360)), angle);
+    const Truth negative = interpretation_.compare(Relation::Less, angle, context_.zero());
+    return interpretation_.select(negative, interpretation_.add(angle, interpretation_.number(360)), angle);
   }
   Value bySwitch(const Value &natOff, const Value &natOn) {
     switch (context_.dialect().switches.nat) {
     case Switch::Off: return natOff;
     case Switch::On: return natOn;
-    case Switch::Unknown: return reading_.either(natOff, natOn);
+    case Switch::Unknown: return interpretation_.either(natOff, natOn);
     }
     return natOff;
   }
   Value power(const Value &base, const Value &exponent, Span place) {
-    const Truth negativeBase = reading_.compare(Relation::Less, base, context_.zero());
-    const Truth whole = reading_.compare(Relation::Equal, exponent, reading_.fix(exponent));
-    const Truth zeroBase = reading_.compare(Relation::Equal, base, context_.zero());
-    const Truth negativeExponent = reading_.compare(Relation::Less, exponent, context_.zero());
-    reading_.alarm(context_.either(reading_.both(negativeBase, reading_.negation(whole)),
-                                   reading_.both(zeroBase, negativeExponent)),
-                   {AlarmKind::ArgumentOutOfDomain, place});
-    return reading_.power(base, exponent);
+    const Truth negativeBase = interpretation_.compare(Relation::Less, base, context_.zero());
+    const Truth whole = interpretation_.compare(Relation::Equal, exponent, interpretation_.fix(exponent));
+    const Truth zeroBase = interpretation_.compare(Relation::Equal, base, context_.zero());
+    const Truth negativeExponent = interpretation_.compare(Relation::Less, exponent, context_.zero());
+    interpretation_.alarm(context_.either(interpretation_.both(negativeBase, interpretation_.negation(whole)),
+                                          interpretation_.both(zeroBase, negativeExponent)),
+                          {AlarmKind::ArgumentOutOfDomain, place});
+    return interpretation_.power(base, exponent);
   }
 
   /// The alarm comes from the dialect's row of the function, so that a control that takes any argument has none.
   Value inDomain(FunctionKind kind, const Value &argument, Span place) {
     const Function *row = findFunction(context_.dialect(), kind);
     if (row)
-      reading_.alarm(
+      interpretation_.alarm(
           outside(row->domain, argument),
           {row->domain == FunctionDomain::Exponent ? AlarmKind::Overflow : AlarmKind::ArgumentOutOfDomain, place});
-    const Value result = reading_.function(kind, argument);
+    const Value result = interpretation_.function(kind, argument);
     if (kind == FunctionKind::Asin)
       return bySwitch(fullTurn(result), result);
     return result;
   }
   Truth outside(FunctionDomain domain, const Value &argument) {
     switch (domain) {
-    case FunctionDomain::Any: return reading_.truth(false);
+    case FunctionDomain::Any: return interpretation_.truth(false);
     case FunctionDomain::NotNegative:
-    case FunctionDomain::Bcd: return reading_.compare(Relation::Less, argument, context_.zero());
-    case FunctionDomain::Positive: return reading_.compare(Relation::LessOrEqual, argument, context_.zero());
+    case FunctionDomain::Bcd: return interpretation_.compare(Relation::Less, argument, context_.zero());
+    case FunctionDomain::Positive: return interpretation_.compare(Relation::LessOrEqual, argument, context_.zero());
     case FunctionDomain::MinusOneToOne:
-      return reading_.compare(Relation::Greater, reading_.function(FunctionKind::Abs, argument), reading_.number(1));
+      return interpretation_.compare(Relation::Greater, interpretation_.function(FunctionKind::Abs, argument),
+                                     interpretation_.number(1));
     case FunctionDomain::Exponent: return overflows(argument);
     case FunctionDomain::NotPole: {
-      const Value cosine = reading_.function(FunctionKind::Cos, argument);
-      return reading_.compare(Relation::Less, reading_.function(FunctionKind::Abs, cosine), reading_.number(1e-12));
+      const Value cosine = interpretation_.function(FunctionKind::Cos, argument);
+      return interpretation_.compare(Relation::Less, interpretation_.function(FunctionKind::Abs, cosine),
+                                     interpretation_.number(1e-12));
     }
     }
-    return reading_.unknownTruth();
+    return interpretation_.unknownTruth();
   }
   /// Of EXP: beyond about 1e308, or with the value range of Series 16 (6008#0) beyond 1e47 and below 1e-29.
   Truth overflows(const Value &exponent) {
-    const Truth beyond = reading_.compare(Relation::Greater, exponent, reading_.number(709));
-    const Truth outside = context_.either(reading_.compare(Relation::Greater, exponent, reading_.number(108)),
-                                          reading_.compare(Relation::Less, exponent, reading_.number(-66)));
-    return context_.either(beyond, reading_.both(outside, context_.isOn(context_.dialect().switches.f16)));
+    const Truth beyond = interpretation_.compare(Relation::Greater, exponent, interpretation_.number(709));
+    const Truth outside =
+        context_.either(interpretation_.compare(Relation::Greater, exponent, interpretation_.number(108)),
+                        interpretation_.compare(Relation::Less, exponent, interpretation_.number(-66)));
+    return context_.either(beyond, interpretation_.both(outside, context_.isOn(context_.dialect().switches.f16)));
   }
   Span spanOf(ExpressionId id) const { return context_.tree().expressions[id].span; }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   RoundingUnit unit_;
 };
 

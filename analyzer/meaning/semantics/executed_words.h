@@ -30,10 +30,10 @@ template <typename R> struct ExecutedWords {
   /// A code that is restored may be one that takes the axis words for itself: where they lead is not known.
   bool mayTakeAxes = false;
   /// One of the codes is not known: nothing that the block does can be relied on.
-  bool unfollowed = false;
+  bool unmodelled = false;
 
   void clear() {
-    unfollowed = false;
+    unmodelled = false;
     mayTakeAxes = false;
     codes.clear();
     computed.clear();
@@ -79,7 +79,7 @@ inline bool takesIncrement(const AddressFormat &format, char address) {
 }
 
 template <ValueAlgebra R> typename R::Truth isMetric(StepContext<R> &context) {
-  return context.inForce(ModalKind::Units, {CodeAction::Metric}, context.reading.truth(true));
+  return context.inForce(ModalKind::Units, {CodeAction::Metric}, context.interpretation.truth(true));
 }
 
 /// What depends on the units in force; angles have the metric increment.
@@ -91,28 +91,29 @@ typename R::Value byUnits(StepContext<R> &context, const AddressFormat &format, 
   const auto metric = isMetric(context);
   if (context.certain(metric))
     return make(behaviour.leastIncrementMetric);
-  if (!context.reading.mayBe(metric))
+  if (!context.interpretation.mayBe(metric))
     return make(behaviour.leastIncrementInch);
-  return context.reading.select(metric, make(behaviour.leastIncrementMetric), make(behaviour.leastIncrementInch));
+  return context.interpretation.select(metric, make(behaviour.leastIncrementMetric),
+                                       make(behaviour.leastIncrementInch));
 }
 
 /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
 /// `value`: of the expression.
 template <ValueAlgebra R>
 typename R::Truth isWordPresent(StepContext<R> &context, ExpressionId expression, const typename R::Value &value) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (const auto *negated = std::get_if<Negation>(&context.tree().expressions[expression].node)) {
-    const auto operandVacant = reading.isVacant(evaluate(context, negated->operand));
-    if (reading.mayBe(operandVacant))
-      return reading.negation(reading.both(operandVacant, reading.unknownTruth()));
+    const auto operandVacant = interpretation.isVacant(evaluate(context, negated->operand));
+    if (interpretation.mayBe(operandVacant))
+      return interpretation.negation(interpretation.both(operandVacant, interpretation.unknownTruth()));
   }
-  return reading.negation(reading.isVacant(value));
+  return interpretation.negation(interpretation.isVacant(value));
 }
 
 template <ValueAlgebra R> class WordReader {
 public:
   WordReader(StepContext<R> &context, ExecutedWords<R> &words)
-      : context_(context), reading_(context.reading), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), words_(words) {}
 
   void run(const ExecuteWords &execute) {
     forEachExecutedWord(context_.tree(), *context_.file.model, context_.dialect(), context_.block, execute,
@@ -132,21 +133,23 @@ private:
     const AddressFormat &format = formatOf(context_.dialect(), word.address());
     switch (word.form()) {
     case WordForm::Number:
-      return add(word, reading_.truth(true),
+      return add(word, interpretation_.truth(true),
                  scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint)));
     case WordForm::Expression: return readExpression(word, format);
-    case WordForm::Missing: reading_.alarm(reading_.truth(true), {AlarmKind::NoDataAfterAddress, word.span()}); return;
+    case WordForm::Missing:
+      interpretation_.alarm(interpretation_.truth(true), {AlarmKind::NoDataAfterAddress, word.span()});
+      return;
     case WordForm::Name: return;
     case WordForm::Broken:
-      reading_.notModelled("a word that could not be read", word.span());
-      return add(word, reading_.unknownTruth(), reading_.anyNumber());
+      interpretation_.unmodelled("a word that could not be read", word.span());
+      return add(word, interpretation_.unknownTruth(), interpretation_.anyNumber());
     }
   }
 
   void readExpression(const Word &word, const AddressFormat &format) {
     const auto value = evaluate(context_, word.expression(), roundingOf(word.address(), format));
     add(word, isWordPresent(context_, word.expression(), value),
-        roundedToIncrement(context_, format, reading_.asNumber(value)));
+        roundedToIncrement(context_, format, interpretation_.asNumber(value)));
   }
   RoundingUnit roundingOf(char address, const AddressFormat &format) const {
     if (!context_.behaviour().roundsWords || !takesIncrement(format, address))
@@ -160,7 +163,7 @@ private:
     if (word.form() == WordForm::Expression)
       tenths = computedCode(word);
     else if (!tenths)
-      return reading_.notModelled("a code that could not be read", word.span());
+      return interpretation_.unmodelled("a code that could not be read", word.span());
     if (!tenths)
       return;
     const Dialect &dialect = context_.dialect();
@@ -172,12 +175,13 @@ private:
   }
   std::optional<std::uint16_t> computedCode(const Word &word) {
     const auto value = evaluate(context_, word.expression());
-    const std::optional<double> number = reading_.constantOf(reading_.roundTo(reading_.asNumber(value), Decimal(1, 1)));
-    if (number && *number >= 0 && *number < 6000 && !reading_.mayBe(reading_.isVacant(value)))
+    const std::optional<double> number =
+        interpretation_.constantOf(interpretation_.roundTo(interpretation_.asNumber(value), Decimal(1, 1)));
+    if (number && *number >= 0 && *number < 6000 && !interpretation_.mayBe(interpretation_.isVacant(value)))
       return static_cast<std::uint16_t>(std::lround(*number * 10));
-    if (context_.certain(reading_.isVacant(value)))
+    if (context_.certain(interpretation_.isVacant(value)))
       return std::nullopt;
-    const auto code = word.address() == 'G' ? reading_.codeFrom(value, context_.modes) : std::nullopt;
+    const auto code = word.address() == 'G' ? interpretation_.codeFrom(value, context_.modes) : std::nullopt;
     if (code && !isMapping(code->first)) {
       words_.computed.push_back(*code);
       words_.mayTakeAxes = words_.mayTakeAxes || mayTakeAxes(code->first, code->second);
@@ -198,29 +202,29 @@ private:
       if (const CodeAction action = codes[i]->action;
           action == CodeAction::Unmodelled || action == CodeAction::OtherCycle || action == CodeAction::Skip ||
           action == CodeAction::TurningCycle || action == CodeAction::SideCycle)
-        if (reading_.mayBe(reading_.isOneOf(code, CodeMask{1} << i)))
+        if (interpretation_.mayBe(interpretation_.isOneOf(code, CodeMask{1} << i)))
           return true;
     return false;
   }
   void anyCode(const Word &word) {
     if (word.address() == 'G') {
-      reading_.alarm(reading_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
-      context_.state.transformed = reading_.unknownTruth(); // it may be one that turns or mirrors
-      words_.unfollowed = true;
+      interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+      context_.state.transformed = interpretation_.unknownTruth(); // it may be one that turns or mirrors
+      words_.unmodelled = true;
     }
-    reading_.havoc(context_.state, "a code whose number is computed", word.span());
+    interpretation_.havoc(context_.state, "a code whose number is computed", word.span());
   }
   /// Either an alarm, or a macro that the machine's parameters call.
   void unknownCode(const Word &word) {
-    reading_.alarm(reading_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
-    words_.unfollowed = true;
-    reading_.havoc(context_.state, "a G code that the table of the control does not have", word.span());
+    interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+    words_.unmodelled = true;
+    interpretation_.havoc(context_.state, "a G code that the table of the control does not have", word.span());
   }
 
   void add(const Word &word, Truth present, Value value) {
     if (word.address() < 'A' || word.address() > 'Z') { // `@` and `^`, polar coordinates of LinuxCNC; `$`
-      words_.unfollowed = true;
-      return reading_.havoc(context_.state, "a word whose address is no letter", word.span());
+      words_.unmodelled = true;
+      return interpretation_.havoc(context_.state, "a word whose address is no letter", word.span());
     }
     std::uint8_t &slot = words_.slots[static_cast<std::size_t>(word.address() - 'A')];
     if (slot == ExecutedWords<R>::kNone) {
@@ -229,13 +233,13 @@ private:
       return;
     }
     auto &entry = words_.entries[slot]; // the later word wins
-    entry.value = reading_.select(present, value, entry.value);
+    entry.value = interpretation_.select(present, value, entry.value);
     entry.present = context_.either(present, entry.present);
     entry.span = word.span();
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   ExecutedWords<R> &words_;
 };
 
@@ -249,8 +253,8 @@ typename R::Value roundedToIncrement(StepContext<R> &context, const AddressForma
   switch (format.kind) {
   case AddressKind::Length:
   case AddressKind::Angle:
-    return detail::byUnits(context, format, [&](Decimal step) { return context.reading.roundTo(value, step); });
-  case AddressKind::Integer: return context.reading.roundTo(value, Decimal(1, 0));
+    return detail::byUnits(context, format, [&](Decimal step) { return context.interpretation.roundTo(value, step); });
+  case AddressKind::Integer: return context.interpretation.roundTo(value, Decimal(1, 0));
   case AddressKind::None:
   case AddressKind::Rate:
   case AddressKind::Flexible: return value;
@@ -263,14 +267,14 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
   const AddressFormat &format = formatOf(context.dialect(), address);
   if (point || literal.isZero() || !detail::takesIncrement(format, address) ||
       context.dialect().switches.dpi == Switch::On)
-    return context.reading.literal(literal);
+    return context.interpretation.literal(literal);
   const auto inIncrements = detail::byUnits(context, format, [&](Decimal step) {
-    return context.reading.literal(
+    return context.interpretation.literal(
         Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
   });
   if (context.dialect().switches.dpi == Switch::Off)
     return inIncrements;
-  return context.reading.either(inIncrements, context.reading.literal(literal));
+  return context.interpretation.either(inIncrements, context.interpretation.literal(literal));
 }
 
 template <ValueAlgebra R>

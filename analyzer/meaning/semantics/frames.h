@@ -59,11 +59,12 @@ template <typename R>
 std::optional<std::size_t> modalCallOf(const MachineState<R> &state, std::optional<std::size_t> modalLimit);
 /// Some modal call is or may be in force in a program.
 template <typename R>
-typename R::Truth mayCallModally(R &reading, const MachineState<R> &state, std::optional<std::size_t> modalLimit);
+typename R::Truth mayCallModally(R &interpretation, const MachineState<R> &state,
+                                 std::optional<std::size_t> modalLimit);
 
 /// L, where it is one number.
-template <typename R> std::optional<double> repeatsOf(R &reading, const CallRequest<R> &request) {
-  return reading.constantOf(request.repeats);
+template <typename R> std::optional<double> repeatsOf(R &interpretation, const CallRequest<R> &request) {
+  return interpretation.constantOf(request.repeats);
 }
 /// L0: nothing is called.
 constexpr bool callsNothing(double repeats) { return repeats < 0.5; }
@@ -77,10 +78,11 @@ struct NobodyAsks {
 /// Of a request with a callee.  Calls entered(frame, state) at the entry of the program.
 template <typename R, typename Entered>
 Frame<R> enterCall(const ProgramSet &programs, MachineState<R> &state, const CallRequest<R> &request,
-                   const CallSite &site, double repeats, R &reading, Entered &&entered);
+                   const CallSite &site, double repeats, R &interpretation, Entered &&entered);
 /// The program has returned and is entered once more.
 template <typename R, typename Entered>
-void repeatCall(const ProgramSet &programs, MachineState<R> &state, Frame<R> &frame, R &reading, Entered &&entered);
+void repeatCall(const ProgramSet &programs, MachineState<R> &state, Frame<R> &frame, R &interpretation,
+                Entered &&entered);
 /// The program has returned for the last time.
 template <typename R> void leaveCall(const ProgramSet &programs, MachineState<R> &state, const Frame<R> &frame);
 
@@ -109,8 +111,9 @@ std::optional<std::size_t> modalCallOf(const MachineState<R> &state, std::option
 }
 
 template <typename R>
-typename R::Truth mayCallModally(R &reading, const MachineState<R> &state, std::optional<std::size_t> modalLimit) {
-  return modalCallOf(state, modalLimit) ? reading.truth(true) : state.modalCallsUnknown;
+typename R::Truth mayCallModally(R &interpretation, const MachineState<R> &state,
+                                 std::optional<std::size_t> modalLimit) {
+  return modalCallOf(state, modalLimit) ? interpretation.truth(true) : state.modalCallsUnknown;
 }
 
 namespace detail {
@@ -124,19 +127,19 @@ template <typename R> NamedValues<R> ownNames(const ProgramSet &programs, const 
 }
 
 /// No loop has been entered, nothing is counted, no name has been given a value.
-template <typename R> void beginLevel(const ProgramSet &programs, MachineState<R> &state, R &reading) {
+template <typename R> void beginLevel(const ProgramSet &programs, MachineState<R> &state, R &interpretation) {
   state.enteredLoops.clear();
   state.counters.clear();
   for (auto &[variable, value] : state.variables.entries())
     if (programs.isLocalName(variable))
-      value = reading.vacant();
+      value = interpretation.vacant();
 }
 
 } // namespace detail
 
 template <typename R, typename Entered>
 Frame<R> enterCall(const ProgramSet &programs, MachineState<R> &state, const CallRequest<R> &request,
-                   const CallSite &site, double repeats, R &reading, Entered &&entered) {
+                   const CallSite &site, double repeats, R &interpretation, Entered &&entered) {
   Frame<R> frame{.callee = *request.callee,
                  .call = site.call,
                  .repeatsLeft = repeats,
@@ -150,21 +153,22 @@ Frame<R> enterCall(const ProgramSet &programs, MachineState<R> &state, const Cal
     frame.arguments = request.locals;
     frame.callerLocals = std::exchange(state.locals, request.locals);
   }
-  detail::beginLevel(programs, state, reading);
+  detail::beginLevel(programs, state, interpretation);
   entered(std::as_const(frame), std::as_const(state));
   return frame;
 }
 
 template <typename R, typename Entered>
-void repeatCall(const ProgramSet &programs, MachineState<R> &state, Frame<R> &frame, R &reading, Entered &&entered) {
+void repeatCall(const ProgramSet &programs, MachineState<R> &state, Frame<R> &frame, R &interpretation,
+                Entered &&entered) {
   frame.repeatsLeft -= 1;
-  detail::beginLevel(programs, state, reading);
+  detail::beginLevel(programs, state, interpretation);
   if (frame.ownLocals) {
     // With what the last repetition has left (Haas, Mill Operator's Manual, G65), or with the arguments: others are
     // silent.
-    const auto asLeft = reading.unknownTruth();
+    const auto asLeft = interpretation.unknownTruth();
     for (std::size_t local = 1; local <= kLocalVariables; ++local)
-      state.locals[local] = reading.select(asLeft, state.locals[local], frame.arguments[local]);
+      state.locals[local] = interpretation.select(asLeft, state.locals[local], frame.arguments[local]);
   }
   entered(std::as_const(frame), std::as_const(state));
 }
@@ -187,7 +191,7 @@ template <typename R> void havocCall(StepContext<R> &context, const CallRequest<
   const auto names = detail::ownNames(context.programs, state);
   const auto loops = state.enteredLoops;
   const auto counters = state.counters;
-  context.reading.havoc(state, reason, context.place());
+  context.interpretation.havoc(state, reason, context.place());
   if (request.freshLocals)
     state.locals = locals;
   state.enteredLoops = loops;

@@ -20,7 +20,7 @@ public:
   using Truth = typename R::Truth;
 
   Modes(StepContext<R> &context, const ExecutedWords<R> &words)
-      : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
 
   void run() {
     if (!words_.codes.empty() || !words_.computed.empty())
@@ -39,7 +39,7 @@ private:
       leaveUnknownMappings();
     const Truth mapped = state_.transformed;
     const auto programmed = maps ? toProgrammed(context_, state_.position) : std::array<Value, kAxisCount>{};
-    const Truth lengthOff = context_.inForce(ModalKind::Length, {CodeAction::LengthOff}, reading_.truth(true));
+    const Truth lengthOff = context_.inForce(ModalKind::Length, {CodeAction::LengthOff}, interpretation_.truth(true));
     for (const CodeWord &word : words_.codes)
       enter(word);
     computedCodes();
@@ -59,22 +59,22 @@ private:
     if (word.address == 'G') {
       beginCycle(word);
       if (const auto index = context_.modes.indexOf(*word.code))
-        state_.codes[word.code->group] = reading_.code(*index);
+        state_.codes[word.code->group] = interpretation_.code(*index);
       if (word.code->group != 0 && word.code->group == context_.modes.groupOf(ModalKind::Cycle) &&
           !isDrillingCycle(action))
         endCycle(context_);
       if (action == CodeAction::Unmodelled || (action == CodeAction::Incremental && !hasDistanceModes())) {
-        forgetPosition(context_);
-        reading_.notModelled(word.code->meaning, word.span);
+        havocPosition(context_);
+        interpretation_.unmodelled(word.code->meaning, word.span);
       }
       if (action == CodeAction::ExtendedWorkOffset)
-        reading_.notModelled("where an additional work coordinate system lies", word.span);
+        interpretation_.unmodelled("where an additional work coordinate system lies", word.span);
       enterOtherGeometry(word);
       return;
     }
     for (std::size_t i = 0; i < kSpindleActions.size(); ++i)
       if (action == kSpindleActions[i])
-        state_.spindle = reading_.code(static_cast<std::uint8_t>(i));
+        state_.spindle = interpretation_.code(static_cast<std::uint8_t>(i));
   }
   /// Movements mean something else from here on: until another code of the group comes, or for good.  The codes of a
   /// plane's group (feature coordinates, planes of other axes) last until others than those of a plane end them, which
@@ -88,41 +88,41 @@ private:
     else if (isModal && (action == CodeAction::OtherCycle || action == CodeAction::SideCycle))
       enterOther(kModalGeometry);
   }
-  void enterOther(int what) { detail::enterOtherGeometry(context_, what, reading_.truth(true)); }
+  void enterOther(int what) { detail::enterOtherGeometry(context_, what, interpretation_.truth(true)); }
   /// What the control's manual forbids, or what is not told by a code in force.
   void notFollowed(Truth when, std::string_view what) {
-    if (!reading_.mayBe(when))
+    if (!interpretation_.mayBe(when))
       return;
     detail::enterOtherGeometry(context_, kLastingGeometry, when);
-    reading_.notModelled(what, context_.place());
+    interpretation_.unmodelled(what, context_.place());
   }
 
   /// `G#1` where #1 holds what #4003 said: the mode is restored, and with it whatever depends on it.
   void computedCodes() {
     for (const auto &[group, code] : words_.computed) {
       state_.codes[group] = code;
-      if (const Truth other = reading_.isOneOf(code, otherGeometryMask(context_.modes.group(group)));
-          reading_.mayBe(other))
+      if (const Truth other = interpretation_.isOneOf(code, otherGeometryMask(context_.modes.group(group)));
+          interpretation_.mayBe(other))
         detail::enterOtherGeometry(context_, kModalGeometry, other);
       const auto is = [&, of = group](std::initializer_list<ModalKind> kinds) {
         return std::any_of(kinds.begin(), kinds.end(),
                            [&](ModalKind kind) { return context_.modes.groupOf(kind) == of; });
       };
       if (is({ModalKind::WorkOffset, ModalKind::Length}))
-        forgetOrigins(context_);
+        havocOrigins(context_);
       if (is({ModalKind::Units, ModalKind::Cycle}))
-        forgetPosition(context_);
+        havocPosition(context_);
       if (is({ModalKind::Units}))
         for (auto *lengths : {&state_.shift, &state_.local})
-          lengths->fill(reading_.anyNumber());
+          lengths->fill(interpretation_.anyNumber());
       if (is({ModalKind::Units, ModalKind::Length}))
-        state_.lengthOffset = reading_.anyNumber();
+        state_.lengthOffset = interpretation_.anyNumber();
       if (is({ModalKind::Length}))
-        state_.lengthChanged = reading_.truth(true);
+        state_.lengthChanged = interpretation_.truth(true);
       if (is({ModalKind::Units, ModalKind::Cycle}))
         for (Value *level : {&state_.cycle.bottom, &state_.cycle.retract, &state_.cycle.initial, &state_.cycle.peck,
                              &state_.cycle.dwell})
-          *level = reading_.anything();
+          *level = interpretation_.anything();
     }
   }
   /// What is left of a cycle has no part in one that begins.
@@ -130,10 +130,10 @@ private:
     const auto group = context_.modes.groupOf(ModalKind::Cycle);
     if (!isDrillingCycle(word.code->action) || word.code->group != group)
       return;
-    const Truth off = context_.inForce(ModalKind::Cycle, {CodeAction::CycleOff}, reading_.truth(false));
+    const Truth off = context_.inForce(ModalKind::Cycle, {CodeAction::CycleOff}, interpretation_.truth(false));
     const Truth active =
-        reading_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
-    if (context_.certain(off) || !reading_.mayBe(active))
+        interpretation_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
+    if (context_.certain(off) || !interpretation_.mayBe(active))
       endCycle(context_);
   }
   bool hasDistanceModes() const { return context_.modes.groupOf(ModalKind::Distance).has_value(); }
@@ -162,14 +162,15 @@ private:
     }
     if (!moves)
       return;
-    const Truth ends = begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : reading_.truth(true);
+    const Truth ends =
+        begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : interpretation_.truth(true);
     if (context_.certain(ends))
       return leaveCycle(*cycle);
-    if (!reading_.mayBe(ends))
+    if (!interpretation_.mayBe(ends))
       return;
     const auto running = state_;
     leaveCycle(*cycle);
-    reading_.join(state_, reading_.negation(ends), running);
+    interpretation_.join(state_, interpretation_.negation(ends), running);
   }
   void leaveCycle(std::uint8_t group) {
     state_.codes[group] = codeOfAction(ModalKind::Cycle, CodeAction::CycleOff);
@@ -177,7 +178,7 @@ private:
   }
   typename R::ModalCode codeOfAction(ModalKind kind, CodeAction action) {
     const CodeMask mask = context_.modes.maskOf(kind, {action});
-    return reading_.code(static_cast<std::uint8_t>(std::countr_zero(mask)));
+    return interpretation_.code(static_cast<std::uint8_t>(std::countr_zero(mask)));
   }
 
   // ---- units ----
@@ -191,14 +192,14 @@ private:
   }
   /// Lengths that are kept go over into the new units.
   void rescale(CodeAction to, Decimal ratio) {
-    const Truth already = context_.inForce(ModalKind::Units, {to}, reading_.truth(true));
+    const Truth already = context_.inForce(ModalKind::Units, {to}, interpretation_.truth(true));
     if (context_.certain(already))
       return;
-    const Value factor = reading_.literal(ratio);
+    const Value factor = interpretation_.literal(ratio);
     const auto converted = [&](Value &length) {
       const Value other =
-          to == CodeAction::Metric ? reading_.multiply(length, factor) : reading_.divide(length, factor);
-      length = reading_.select(already, length, other);
+          to == CodeAction::Metric ? interpretation_.multiply(length, factor) : interpretation_.divide(length, factor);
+      length = interpretation_.select(already, length, other);
     };
     for (const Axis axis : kAllAxes)
       if (isLinear(axis)) {
@@ -217,7 +218,8 @@ private:
       convertedIfAny(*level, to, factor, already);
   }
   void convertedIfAny(Value &length, CodeAction to, const Value &factor, Truth already) {
-    length = reading_.select(reading_.isVacant(length), length, convertedCopy(length, to, factor, already));
+    length =
+        interpretation_.select(interpretation_.isVacant(length), length, convertedCopy(length, to, factor, already));
   }
   /// Offsets and positions in variables are read in the units in force.
   void rescaleStored(CodeAction to, const Value &factor, Truth already) {
@@ -230,15 +232,16 @@ private:
       for (const auto &[variable, value] : state_.variables.entries())
         if (range.first <= variable && variable <= range.last)
           known.emplace_back(variable, convertedCopy(value, to, factor, already));
-      reading_.forgetVariables(state_, range.first, range.last);
+      interpretation_.havocVariables(state_, range.first, range.last);
       for (auto &[variable, value] : known)
         state_.variables.set(variable, std::move(value));
     }
   }
   Value convertedCopy(const Value &level, CodeAction to, const Value &factor, Truth already) {
-    const Value length = reading_.asNumber(level);
-    const Value other = to == CodeAction::Metric ? reading_.multiply(length, factor) : reading_.divide(length, factor);
-    return reading_.select(already, length, other);
+    const Value length = interpretation_.asNumber(level);
+    const Value other =
+        to == CodeAction::Metric ? interpretation_.multiply(length, factor) : interpretation_.divide(length, factor);
+    return interpretation_.select(already, length, other);
   }
 
   // ---- zero points ----
@@ -254,29 +257,29 @@ private:
   bool inForceAlready(const CodeWord &word) const {
     const auto index = context_.modes.indexOf(*word.code);
     return index && word.code->action == CodeAction::WorkOffset &&
-           reading_.onlyCode(state_.codes[word.code->group]) == index;
+           interpretation_.onlyCode(state_.codes[word.code->group]) == index;
   }
   /// The tip of the tool gets another coordinate while the machine stands still.
   void length(Truth wasOff) {
     for (const CodeWord &word : words_.codes) {
       const CodeAction action = word.code->action;
       if (action == CodeAction::LengthOff)
-        setLength(context_.zero(), reading_.negation(wasOff));
+        setLength(context_.zero(), interpretation_.negation(wasOff));
       else if (action == CodeAction::LengthGiven)
-        setLength(wordOr('Z', state_.lengthOffset), reading_.truth(true));
+        setLength(wordOr('Z', state_.lengthOffset), interpretation_.truth(true));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
-        setLength(reading_.toolLength(state_, wordOr('H', state_.word('H'))), reading_.truth(true));
+        setLength(interpretation_.toolLength(state_, wordOr('H', state_.word('H'))), interpretation_.truth(true));
     }
   }
   void setLength(const Value &length, Truth isNew) {
-    const Value moved = reading_.subtract(state_.lengthOffset, length);
+    const Value moved = interpretation_.subtract(state_.lengthOffset, length);
     state_.lengthOffset = length;
     state_.lengthChanged = context_.either(state_.lengthChanged, isNew);
     shiftCoordinate(context_, Axis::Z, moved);
   }
   Value wordOr(char letter, const Value &otherwise) const {
     const auto *entry = words_.find(letter);
-    return entry ? reading_.select(entry->present, entry->value, otherwise) : otherwise;
+    return entry ? interpretation_.select(entry->present, entry->value, otherwise) : otherwise;
   }
 
   // ---- mirror, scaling, rotation ----
@@ -284,16 +287,16 @@ private:
   /// FANUC, Mitsubishi M700V: behind G69 the first movement has to be absolute.  Until then the control may take an
   /// axis to be at the coordinate that it had under the mapping that has changed.
   void expectAbsolute(const std::array<Value, kAxisCount> &before, Truth maps) {
-    if (!reading_.mayBe(maps))
+    if (!interpretation_.mayBe(maps))
       return;
     const auto now = toProgrammed(context_, state_.position);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
       Value &pending = state_.transform.pending[axis];
-      const Truth same =
-          reading_.both(reading_.compare(Relation::Equal, before[axis], now[axis]), reading_.isVacant(pending));
-      const Value other =
-          reading_.select(reading_.isVacant(pending), before[axis], reading_.either(pending, reading_.anyNumber()));
-      pending = reading_.select(same, reading_.vacant(), other);
+      const Truth same = interpretation_.both(interpretation_.compare(Relation::Equal, before[axis], now[axis]),
+                                              interpretation_.isVacant(pending));
+      const Value other = interpretation_.select(interpretation_.isVacant(pending), before[axis],
+                                                 interpretation_.either(pending, interpretation_.anyNumber()));
+      pending = interpretation_.select(same, interpretation_.vacant(), other);
     }
   }
   bool changesMapping() const {
@@ -319,10 +322,10 @@ private:
     for (const Mapping &mapping : kMappings) {
       if (!words_.has(mapping.off) && !words_.has(mapping.on))
         continue;
-      const Truth off = context_.inForce(mapping.kind, {mapping.off}, reading_.truth(true));
-      const Truth on = context_.inForce(mapping.kind, {mapping.on}, reading_.truth(false));
+      const Truth off = context_.inForce(mapping.kind, {mapping.off}, interpretation_.truth(true));
+      const Truth on = context_.inForce(mapping.kind, {mapping.on}, interpretation_.truth(false));
       if (!context_.certain(off) && !context_.certain(on))
-        forgetPosition(context_);
+        havocPosition(context_);
     }
   }
   /// A control maps in one order: mirror images are given and ended outside scaling, and that outside rotation.
@@ -332,10 +335,10 @@ private:
     const Truth mirrored = isMirrored();
     for (const CodeWord &word : words_.codes)
       enterMapping(word.code->action);
-    const Truth stillTurned = reading_.both(turned, isTurned());
-    const Truth stillMapped = reading_.both(scaledOrTurned, context_.either(isTurned(), isScaled()));
+    const Truth stillTurned = interpretation_.both(turned, isTurned());
+    const Truth stillMapped = interpretation_.both(scaledOrTurned, context_.either(isTurned(), isScaled()));
     if (words_.has(CodeAction::MirrorOn) || words_.has(CodeAction::MirrorOff))
-      notFollowed(reading_.both(stillMapped, context_.either(mirrored, isMirrored())),
+      notFollowed(interpretation_.both(stillMapped, context_.either(mirrored, isMirrored())),
                   "a mirror image that changes under scaling or rotation");
     if (words_.has(CodeAction::ScalingOn) || words_.has(CodeAction::ScalingOff))
       notFollowed(stillTurned, "scaling that changes under rotation");
@@ -343,7 +346,7 @@ private:
         context_.either(context_.either(isTurned(), isScaled()), context_.either(isMirrored(), isOther()));
   }
   void otherPlane(const std::optional<Plane> &before) {
-    if (!reading_.mayBe(state_.transformed) || !namesPlane())
+    if (!interpretation_.mayBe(state_.transformed) || !namesPlane())
       return;
     const std::optional<Plane> now = planeOf(context_);
     if (!now || !before || now->normal != before->normal)
@@ -367,87 +370,89 @@ private:
     else if (action == CodeAction::ScalingOn)
       scaling();
     else if (action == CodeAction::ScalingOff)
-      state_.transform.scale.fill(reading_.number(1));
+      state_.transform.scale.fill(interpretation_.number(1));
   }
   Truth isTurned() {
-    return reading_.negation(reading_.compare(Relation::Equal, state_.transform.angle, context_.zero()));
+    return interpretation_.negation(interpretation_.compare(Relation::Equal, state_.transform.angle, context_.zero()));
   }
   Truth isScaled() {
-    Truth any = reading_.truth(false);
+    Truth any = interpretation_.truth(false);
     for (const Value &factor : state_.transform.scale)
-      any = context_.either(any, reading_.negation(reading_.compare(Relation::Equal, factor, reading_.number(1))));
+      any = context_.either(
+          any, interpretation_.negation(interpretation_.compare(Relation::Equal, factor, interpretation_.number(1))));
     return any;
   }
   Truth isMirrored() {
-    Truth any = reading_.truth(false);
+    Truth any = interpretation_.truth(false);
     for (const Value &at : state_.transform.mirrorAt)
-      any = context_.either(any, reading_.negation(reading_.isVacant(at)));
+      any = context_.either(any, interpretation_.negation(interpretation_.isVacant(at)));
     return any;
   }
-  Truth isOther() { return reading_.negation(reading_.isVacant(state_.transform.other)); }
+  Truth isOther() { return interpretation_.negation(interpretation_.isVacant(state_.transform.other)); }
 
   /// G68 X Y R: the centre is where the tool stands when it is not written; the angle is then a parameter's.  Whether R
   /// counts from the angle in force under G91 is a parameter's too.
   void rotation() {
     if (words_.find('I') || words_.find('J') || words_.find('K'))
-      notFollowed(reading_.truth(true), "rotation in space");
+      notFollowed(interpretation_.truth(true), "rotation in space");
     const std::optional<Plane> plane = planeOf(context_);
     auto &[first, second] = state_.transform.centre;
-    first = plane ? centreOfRotation(plane->first) : reading_.anyNumber();
-    second = plane ? centreOfRotation(plane->second) : reading_.anyNumber();
+    first = plane ? centreOfRotation(plane->first) : interpretation_.anyNumber();
+    second = plane ? centreOfRotation(plane->second) : interpretation_.anyNumber();
     Value &angle = state_.transform.angle;
     const Value before = angle;
-    angle = plane ? wordOrParameter('R', 0, "rotation by the angle of a parameter") : reading_.anyNumber();
-    const Truth adds =
-        reading_.both(context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, reading_.truth(false)),
-                      reading_.negation(reading_.compare(Relation::Equal, before, context_.zero())));
-    if (reading_.mayBe(adds))
-      angle = reading_.select(adds, reading_.either(angle, reading_.add(before, angle)), angle);
+    angle = plane ? wordOrParameter('R', 0, "rotation by the angle of a parameter") : interpretation_.anyNumber();
+    const Truth adds = interpretation_.both(
+        context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, interpretation_.truth(false)),
+        interpretation_.negation(interpretation_.compare(Relation::Equal, before, context_.zero())));
+    if (interpretation_.mayBe(adds))
+      angle = interpretation_.select(adds, interpretation_.either(angle, interpretation_.add(before, angle)), angle);
   }
   Value centreOfRotation(Axis axis) {
     const Value present = mirrored(context_, indexOf(axis), state_.at(axis));
     const auto *entry = words_.find(letterOf(axis));
-    return entry ? reading_.select(entry->present, scaled(context_, indexOf(axis), entry->value), present) : present;
+    return entry ? interpretation_.select(entry->present, scaled(context_, indexOf(axis), entry->value), present)
+                 : present;
   }
   /// A parameter of the machine stands in for a word that is not written; a run takes `usual` for it.
   Value wordOrParameter(char letter, double usual, std::string_view otherwise) {
     const auto *entry = words_.find(letter);
     if (entry && context_.certain(entry->present))
       return entry->value;
-    reading_.notModelled(otherwise, context_.place());
-    const Value parameter = reading_.either(reading_.number(usual), reading_.anyNumber());
-    return entry ? reading_.select(entry->present, entry->value, parameter) : parameter;
+    interpretation_.unmodelled(otherwise, context_.place());
+    const Value parameter = interpretation_.either(interpretation_.number(usual), interpretation_.anyNumber());
+    return entry ? interpretation_.select(entry->present, entry->value, parameter) : parameter;
   }
   void mirror() {
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis)))
         state_.transform.mirrorAt[indexOf(axis)] =
-            reading_.select(entry->present, entry->value, state_.transform.mirrorAt[indexOf(axis)]);
+            interpretation_.select(entry->present, entry->value, state_.transform.mirrorAt[indexOf(axis)]);
   }
   /// G50.1 names the axes that are not mirrored any more; alone it ends all.
   void mirrorOff() {
     bool named = false;
     for (const Axis axis : kAllAxes)
       if (words_.find(letterOf(axis))) {
-        state_.transform.mirrorAt[indexOf(axis)] = reading_.vacant();
+        state_.transform.mirrorAt[indexOf(axis)] = interpretation_.vacant();
         named = true;
       }
     if (!named)
-      state_.transform.mirrorAt.fill(reading_.vacant());
+      state_.transform.mirrorAt.fill(interpretation_.vacant());
   }
   /// G51 X Y Z P, or I J K for each axis; the centre is where the tool stands when it is not written.
   void scaling() {
     const std::array<char, 3> own = {'I', 'J', 'K'};
     for (std::size_t i = 0; i < own.size(); ++i)
       state_.transform.scaleCentre[i] = wordOr(letterOf(kAllAxes[i]), mirrored(context_, i, state_.position[i]));
-    const Value all = factorOf('P', reading_.either(reading_.number(1), reading_.anyNumber()));
+    const Value all = factorOf('P', interpretation_.either(interpretation_.number(1), interpretation_.anyNumber()));
     bool written = words_.find('P') != nullptr;
     for (std::size_t i = 0; i < own.size(); ++i) {
       state_.transform.scale[i] = factorOf(own[i], all);
       written = written || words_.find(own[i]);
     }
     if (!written)
-      reading_.notModelled("scaling by the factor of a parameter", context_.place());
+      interpretation_.unmodelled("scaling by the factor of a parameter", context_.place());
   }
   /// Or that of a parameter.
   Value factorOf(char letter, const Value &otherwise) {
@@ -455,23 +460,24 @@ private:
     if (!entry)
       return otherwise;
     const Value value = factor(letter, entry->value);
-    reading_.alarm(reading_.both(entry->present, reading_.compare(Relation::Equal, value, context_.zero())),
-                   {AlarmKind::Overflow, context_.place()});
-    return reading_.select(entry->present, value, otherwise);
+    interpretation_.alarm(
+        interpretation_.both(entry->present, interpretation_.compare(Relation::Equal, value, context_.zero())),
+        {AlarmKind::Overflow, context_.place()});
+    return interpretation_.select(entry->present, value, otherwise);
   }
   /// As it is written: I, J, K are lengths elsewhere, and a number without a point would be taken for increments.
   Value factor(char letter, const Value &value) {
     Value written = value;
     for (const Word &word : context_.tree().wordsOf(context_.block))
       if (word.address() == letter && word.isNumber()) {
-        written = reading_.literal(word.number());
+        written = interpretation_.literal(word.number());
         if (word.has(Word::kPoint))
           return written;
       }
     if (!context_.behaviour().scalesByIncrements)
       return written;
-    return reading_.either(reading_.multiply(written, reading_.literal(Decimal(1, 3))),
-                           reading_.multiply(written, reading_.literal(Decimal(1, 5))));
+    return interpretation_.either(interpretation_.multiply(written, interpretation_.literal(Decimal(1, 3))),
+                                  interpretation_.multiply(written, interpretation_.literal(Decimal(1, 5))));
   }
 
   // ---- words that stay in force ----
@@ -480,12 +486,12 @@ private:
     for (const char letter : kModalWords)
       if (const auto *entry = words_.find(letter)) {
         Value &kept = state_.word(letter);
-        kept = reading_.select(entry->present, entry->value, kept);
+        kept = interpretation_.select(entry->present, entry->value, kept);
       }
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
 };

@@ -24,7 +24,7 @@ public:
   using Point = std::array<Value, kAxisCount>;
 
   Motion(StepContext<R> &context, const ExecutedWords<R> &words)
-      : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
 
   void run() {
     const bool others = namesOtherAxes();
@@ -32,12 +32,12 @@ public:
     act();
     if (const CodeWord *word = ownWords(); !word || isMovement(*word->code))
       settlePending(context_, words_);
-    if ((!words_.entries.empty() || ownWords()) && reading_.mayBe(otherGeometry(context_))) {
-      forgetPosition(context_);
+    if ((!words_.entries.empty() || ownWords()) && interpretation_.mayBe(otherGeometry(context_))) {
+      havocPosition(context_);
       state_.axisTurned = context_.either(state_.axisTurned, otherGeometry(context_));
     }
     if (words_.mayTakeAxes)
-      state_.axisTurned = context_.either(state_.axisTurned, reading_.unknownTruth());
+      state_.axisTurned = context_.either(state_.axisTurned, interpretation_.unknownTruth());
     if (others)
       noteOtherAxes(before);
   }
@@ -60,31 +60,32 @@ private:
       if (isOther(axis) && words_.find(letterOf(axis)))
         state_.axisTurned = context_.either(
             state_.axisTurned,
-            reading_.negation(reading_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
+            interpretation_.negation(interpretation_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
   }
   void act() {
     if (const CodeWord *word = ownWords())
       return consume(*word);
     const Truth cycle = cycleActive();
-    const Truth moves = context_.either(axisWords(), reading_.both(isFullCircle(), reading_.negation(cycle)));
-    if (!reading_.mayBe(moves))
+    const Truth moves =
+        context_.either(axisWords(), interpretation_.both(isFullCircle(), interpretation_.negation(cycle)));
+    if (!interpretation_.mayBe(moves))
       return;
     if (context_.certain(moves))
       return move(cycle, moves);
     const auto before = state_;
     move(cycle, moves);
-    reading_.join(state_, reading_.negation(moves), before);
+    interpretation_.join(state_, interpretation_.negation(moves), before);
   }
   void move(Truth cycle, Truth moves) {
     if (context_.certain(cycle))
       return runCycle(context_, words_);
-    if (!reading_.mayBe(cycle))
+    if (!interpretation_.mayBe(cycle))
       return plain(moves);
     auto drilled = state_; // either: both are followed, and what they leave is joined
-    plain(reading_.both(moves, reading_.negation(cycle)));
+    plain(interpretation_.both(moves, interpretation_.negation(cycle)));
     std::swap(state_, drilled);
     runCycle(context_, words_);
-    reading_.join(state_, reading_.negation(cycle), drilled);
+    interpretation_.join(state_, interpretation_.negation(cycle), drilled);
   }
 
   // ---- what takes the axis words ----
@@ -138,26 +139,26 @@ private:
       roundTrip(word.code->meaning, word.span);
     else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled ||
              action == CodeAction::Anything)
-      unfollowed(word);
+      unmodelled(word);
     else
       Offsets<R>(context_, words_).carryOut(word);
   }
-  void unfollowed(const CodeWord &word) {
+  void unmodelled(const CodeWord &word) {
     const Point start = state_.position;
-    forgetPosition(context_);
-    tell(context_, MoveKind::Unfollowed, start);
-    reading_.notModelled(word.code->meaning, word.span);
+    havocPosition(context_);
+    tell(context_, MoveKind::Unmodelled, start);
+    interpretation_.unmodelled(word.code->meaning, word.span);
   }
   /// A cycle of a lathe ends where it starts.
   void roundTrip(std::string_view what, Span place) {
-    tell(context_, MoveKind::Unfollowed, state_.position);
-    reading_.notModelled(what, place);
+    tell(context_, MoveKind::Unmodelled, state_.position);
+    interpretation_.unmodelled(what, place);
   }
 
   // ---- targets ----
 
   Truth axisWords() const {
-    Truth any = reading_.truth(false);
+    Truth any = interpretation_.truth(false);
     for (const Axis axis : kAllAxes)
       any = context_.either(any, present(letterOf(axis)));
     return context_.dialect().machine == MachineKind::Turning ? context_.either(any, present('H')) : any;
@@ -165,63 +166,63 @@ private:
   /// An arc whose end point is not written ends where it starts.
   Truth isFullCircle() {
     const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
-    const Truth arc = reading_.both(centre, isArc());
+    const Truth arc = interpretation_.both(centre, isArc());
     const std::optional<Plane> plane = planeOf(context_);
-    if (!plane || !reading_.mayBe(arc))
+    if (!plane || !interpretation_.mayBe(arc))
       return arc;
     const Truth inPlane = context_.either(present(plane->firstCentre), present(plane->secondCentre));
-    if (reading_.mayBe(reading_.both(arc, reading_.negation(inPlane))))
-      reading_.notModelled("a distance to the centre beside the plane of the arc", context_.place());
-    return reading_.both(arc, context_.either(inPlane, context_.maybeNot()));
+    if (interpretation_.mayBe(interpretation_.both(arc, interpretation_.negation(inPlane))))
+      interpretation_.unmodelled("a distance to the centre beside the plane of the arc", context_.place());
+    return interpretation_.both(arc, context_.either(inPlane, context_.maybeNot()));
   }
   /// A distance to the centre on the axis that is not of the plane: a control may refuse it, or pass over it.
   Truth centreBeside(const Plane &plane) const {
-    Truth beside = reading_.truth(false);
+    Truth beside = interpretation_.truth(false);
     for (const char letter : {'I', 'J', 'K'})
       if (letter != plane.firstCentre && letter != plane.secondCentre)
         beside = context_.either(beside, present(letter));
     return beside;
   }
   Truth cycleActive() {
-    const Truth none = reading_.truth(false);
+    const Truth none = interpretation_.truth(false);
     const auto group = context_.modes.groupOf(ModalKind::Cycle);
     if (!group)
       return none;
-    return reading_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
+    return interpretation_.isOneOf(state_.codes[*group], context_.modes.maskOf(ModalKind::Cycle, kDrillingCycles));
   }
 
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
-    const Truth turning = context_.inForce(ModalKind::Motion, {CodeAction::TurningCycle}, reading_.truth(false));
+    const Truth turning = context_.inForce(ModalKind::Motion, {CodeAction::TurningCycle}, interpretation_.truth(false));
     if (context_.certain(turning))
       return roundTrip("a turning cycle that is repeated", context_.place());
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
     if (hasCommaWord("A")) {
-      reading_.notModelled("a coordinate that an angle stands for", context_.place());
-      forgetPosition(context_);
+      interpretation_.unmodelled("a coordinate that an angle stands for", context_.place());
+      havocPosition(context_);
     }
     const Truth arc = isArc();
-    if (reading_.mayBe(arc))
-      followArc(start, arc, reading_.both(arc, holds));
-    if (!context_.certain(arc) && reading_.wantsMoves())
+    if (interpretation_.mayBe(arc))
+      followArc(start, arc, interpretation_.both(arc, holds));
+    if (!context_.certain(arc) && interpretation_.wantsMoves())
       tellLine(start);
-    if (reading_.mayBe(turning))
+    if (interpretation_.mayBe(turning))
       for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-        state_.position[axis] = reading_.select(turning, start[axis], state_.position[axis]);
+        state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
   }
   Truth isArc() {
     return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
-                            reading_.truth(false));
+                            interpretation_.truth(false));
   }
   void tellLine(const Point &start) {
     const auto isMotion = [&](CodeAction action) {
-      return context_.certain(context_.inForce(ModalKind::Motion, {action}, reading_.truth(false)));
+      return context_.certain(context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false)));
     };
-    const MoveKind kind = hasOtherWay() || hasLatheCorner()                              ? MoveKind::Unfollowed
+    const MoveKind kind = hasOtherWay() || hasLatheCorner()                              ? MoveKind::Unmodelled
                           : isMotion(CodeAction::Rapid)                                  ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
-                                                                                         : MoveKind::Unfollowed;
+                                                                                         : MoveKind::Unmodelled;
     tell(context_, kind, start);
   }
   /// Corners that are rounded or chamfered, dimensions given by an angle, single direction positioning (G60).
@@ -251,62 +252,65 @@ private:
   };
   void followArc(const Point &start, Truth arc, Truth follows) {
     const std::optional<Plane> plane = planeOf(context_);
-    if (!plane || reading_.mayBe(otherGeometry(context_))) { // only the end point is known
+    if (!plane || interpretation_.mayBe(otherGeometry(context_))) { // only the end point is known
       alarmsOfUnknownPlane(follows);
       if (context_.certain(arc))
-        tell(context_, MoveKind::Unfollowed, start);
+        tell(context_, MoveKind::Unmodelled, start);
       return;
     }
     closeCircle(*plane, start);
     const Truth byRadius = present('R');
     const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
-    const Truth without = reading_.negation(context_.either(byRadius, byCentre));
+    const Truth without = interpretation_.negation(context_.either(byRadius, byCentre));
     const Truth beside = centreBeside(*plane);
-    reading_.alarm(
-        reading_.both(reading_.both(follows, without), context_.either(reading_.negation(beside), context_.maybeNot())),
-        {AlarmKind::ArcWithoutCentre, context_.place()});
+    interpretation_.alarm(interpretation_.both(interpretation_.both(follows, without),
+                                               context_.either(interpretation_.negation(beside), context_.maybeNot())),
+                          {AlarmKind::ArcWithoutCentre, context_.place()});
     const auto [first, second] = centreOf(*plane, start);
     const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
-    alarmsOfRadius(*plane, start, mapping, reading_.both(follows, byRadius));
+    alarmsOfRadius(*plane, start, mapping, interpretation_.both(follows, byRadius));
     const Value difference = radiusDifference(*plane, start, first, second);
-    const Truth differs = reading_.compare(Relation::Greater, difference, tolerance());
-    const Truth isCircle =
-        reading_.both(reading_.both(mapping.staysCircle, byCentre), reading_.truth(turnsOf().has_value()));
-    const Truth mayDiffer = context_.either(reading_.both(isCircle, differs),
-                                            reading_.both(reading_.negation(isCircle), context_.maybeNot()));
-    reading_.alarm(reading_.both(reading_.both(follows, reading_.negation(byRadius)), mayDiffer),
-                   {AlarmKind::ArcRadius, context_.place()});
-    if (reading_.wantsMoves() && context_.certain(arc))
-      tellArc(start, {*plane, first, second, byRadius, reading_.both(without, beside)}, mapping);
+    const Truth differs = interpretation_.compare(Relation::Greater, difference, tolerance());
+    const Truth isCircle = interpretation_.both(interpretation_.both(mapping.staysCircle, byCentre),
+                                                interpretation_.truth(turnsOf().has_value()));
+    const Truth mayDiffer =
+        context_.either(interpretation_.both(isCircle, differs),
+                        interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
+    interpretation_.alarm(
+        interpretation_.both(interpretation_.both(follows, interpretation_.negation(byRadius)), mayDiffer),
+        {AlarmKind::ArcRadius, context_.place()});
+    if (interpretation_.wantsMoves() && context_.certain(arc))
+      tellArc(start, {*plane, first, second, byRadius, interpretation_.both(without, beside)}, mapping);
   }
   /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
   /// parameter of most, and one that is accepted makes half a circle.
   void alarmsOfRadius(const Plane &plane, const Point &start, const CircleMapping<R> &mapping, Truth follows) {
     const auto *entry = words_.find('R');
-    if (!entry || !reading_.mayBe(follows))
+    if (!entry || !interpretation_.mayBe(follows))
       return;
-    const Value radius = reading_.function(FunctionKind::Abs, reading_.multiply(entry->value, mapping.scale));
+    const Value radius =
+        interpretation_.function(FunctionKind::Abs, interpretation_.multiply(entry->value, mapping.scale));
     const auto [a, b] = chordOf(plane, start);
-    const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
-    const Value halfSquare = reading_.divide(chordSquare, reading_.number(4));
-    const auto reaches = [&](const Value &length) {
-      return reading_.negation(reading_.compare(Relation::Greater, halfSquare, reading_.multiply(length, length)));
+    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
+    const Value halfSquare = interpretation_.divide(chordSquare, interpretation_.number(4));
+    const auto isTooShort = [&](const Value &length) {
+      return interpretation_.compare(Relation::Greater, halfSquare, interpretation_.multiply(length, length));
     };
     const Switches &switches = context_.dialect().switches;
-    const Truth isShort = reading_.both(reading_.negation(reaches(radius)),
-                                        context_.either(reading_.negation(reaches(reading_.add(radius, tolerance()))),
-                                                        context_.isOn(switches.shortArcStops)));
-    const Truth isPoint = reading_.both(reading_.compare(Relation::Equal, chordSquare, context_.zero()),
-                                        context_.isOn(switches.pointArcStops));
+    const Truth isShort =
+        interpretation_.both(isTooShort(radius), context_.either(isTooShort(interpretation_.add(radius, tolerance())),
+                                                                 context_.isOn(switches.shortArcStops)));
+    const Truth isPoint = interpretation_.both(interpretation_.compare(Relation::Equal, chordSquare, context_.zero()),
+                                               context_.isOn(switches.pointArcStops));
     const Truth asMapped = context_.either(mapping.staysCircle, context_.maybeNot());
-    reading_.alarm(reading_.both(follows, reading_.both(asMapped, isShort)),
-                   {AlarmKind::ArcTooShort, context_.place()});
-    reading_.alarm(reading_.both(follows, isPoint), {AlarmKind::ArcWithoutLength, context_.place()});
+    interpretation_.alarm(interpretation_.both(follows, interpretation_.both(asMapped, isShort)),
+                          {AlarmKind::ArcTooShort, context_.place()});
+    interpretation_.alarm(interpretation_.both(follows, isPoint), {AlarmKind::ArcWithoutLength, context_.place()});
   }
   /// From start to end, as radii are counted.
   std::pair<Value, Value> chordOf(const Plane &plane, const Point &start) {
     const auto along = [&](Axis axis) {
-      return asRadius(axis, reading_.subtract(state_.at(axis), start[indexOf(axis)]));
+      return asRadius(axis, interpretation_.subtract(state_.at(axis), start[indexOf(axis)]));
     };
     return {along(plane.first), along(plane.second)};
   }
@@ -314,32 +318,32 @@ private:
   void closeCircle(const Plane &plane, const Point &start) {
     constexpr double kSame = 1e-9;
     const auto isBack = [&](Axis axis) {
-      const auto before = reading_.constantOf(start[indexOf(axis)]);
-      const auto after = reading_.constantOf(state_.at(axis));
+      const auto before = interpretation_.constantOf(start[indexOf(axis)]);
+      const auto after = interpretation_.constantOf(state_.at(axis));
       return before && after && std::abs(*before - *after) < kSame;
     };
-    if (!reading_.mayBe(state_.transformed) || !isBack(plane.first) || !isBack(plane.second))
+    if (!interpretation_.mayBe(state_.transformed) || !isBack(plane.first) || !isBack(plane.second))
       return;
     state_.at(plane.first) = start[indexOf(plane.first)];
     state_.at(plane.second) = start[indexOf(plane.second)];
   }
   void alarmsOfUnknownPlane(Truth arc) {
-    const Truth byCentre = reading_.both(arc, reading_.negation(present('R')));
+    const Truth byCentre = interpretation_.both(arc, interpretation_.negation(present('R')));
     const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
-    const Truth without = context_.either(reading_.negation(anyDistance), context_.maybeNot());
-    reading_.alarm(reading_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
+    const Truth without = context_.either(interpretation_.negation(anyDistance), context_.maybeNot());
+    interpretation_.alarm(interpretation_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
     const auto mayStop = [&](Truth when, AlarmKind kind) {
-      reading_.alarm(reading_.both(when, context_.maybeNot()), {kind, context_.place()});
+      interpretation_.alarm(interpretation_.both(when, context_.maybeNot()), {kind, context_.place()});
     };
     mayStop(byCentre, AlarmKind::ArcRadius);
-    const Truth byRadius = reading_.both(arc, present('R'));
+    const Truth byRadius = interpretation_.both(arc, present('R'));
     mayStop(byRadius, AlarmKind::ArcTooShort);
     if (context_.dialect().switches.pointArcStops != Switch::Off)
       mayStop(byRadius, AlarmKind::ArcWithoutLength);
   }
   Truth present(char letter) const {
     const auto *entry = words_.find(letter);
-    return entry ? entry->present : reading_.truth(false);
+    return entry ? entry->present : interpretation_.truth(false);
   }
   /// I, J, K are distances from the start point, mapped like those of the axes; absolute only where the control has
   /// that mode.
@@ -350,55 +354,59 @@ private:
     distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(plane.secondCentre));
     const Point mapped = toWorkDistance(context_, distance);
     const auto centreOn = [&](Axis axis, char letter) {
-      const Value fromStart = reading_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
+      const Value fromStart = interpretation_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
       if (!context_.behaviour().arcDistanceModes)
         return fromStart;
-      const Truth absolute = context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, reading_.truth(false));
-      return reading_.select(absolute, distanceWord(letter), fromStart);
+      const Truth absolute =
+          context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, interpretation_.truth(false));
+      return interpretation_.select(absolute, distanceWord(letter), fromStart);
     };
     return {centreOn(plane.first, plane.firstCentre), centreOn(plane.second, plane.secondCentre)};
   }
   Value distanceWord(char letter) {
     const auto *entry = words_.find(letter);
-    return entry ? reading_.select(entry->present, entry->value, context_.zero()) : context_.zero();
+    return entry ? interpretation_.select(entry->present, entry->value, context_.zero()) : context_.zero();
   }
   /// On a lathe X is a diameter, I a radius.
   Value asCoordinate(Axis axis, const Value &length) {
     return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
-               ? reading_.multiply(length, reading_.number(2))
+               ? interpretation_.multiply(length, interpretation_.number(2))
                : length;
   }
   Value asRadius(Axis axis, const Value &length) {
     return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
-               ? reading_.divide(length, reading_.number(2))
+               ? interpretation_.divide(length, interpretation_.number(2))
                : length;
   }
   Value distance(const Plane &plane, const Point &point, const Value &first, const Value &second) {
-    const Value a = asRadius(plane.first, reading_.subtract(point[indexOf(plane.first)], first));
-    const Value b = asRadius(plane.second, reading_.subtract(point[indexOf(plane.second)], second));
-    return reading_.function(FunctionKind::Sqrt, reading_.add(reading_.multiply(a, a), reading_.multiply(b, b)));
+    const Value a = asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first));
+    const Value b = asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second));
+    return interpretation_.function(
+        FunctionKind::Sqrt, interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b)));
   }
   Value radiusDifference(const Plane &plane, const Point &start, const Value &first, const Value &second) {
-    return reading_.function(FunctionKind::Abs, reading_.subtract(distance(plane, start, first, second),
-                                                                  distance(plane, state_.position, first, second)));
+    return interpretation_.function(FunctionKind::Abs,
+                                    interpretation_.subtract(distance(plane, start, first, second),
+                                                             distance(plane, state_.position, first, second)));
   }
   Value tolerance() {
-    const Value metric = reading_.number(context_.behaviour().arcTolerance);
-    return reading_.select(isMetric(context_), metric, reading_.number(context_.behaviour().arcTolerance / 25.4));
+    const Value metric = interpretation_.number(context_.behaviour().arcTolerance);
+    return interpretation_.select(isMetric(context_), metric,
+                                  interpretation_.number(context_.behaviour().arcTolerance / 25.4));
   }
 
   void tellArc(const Point &start, const Arc &arc, const CircleMapping<R> &mapping) {
     const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
     const std::optional<std::uint32_t> turns = turnsOf();
-    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || reading_.mayBe(arc.unknown) ||
+    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || interpretation_.mayBe(arc.unknown) ||
         hasOtherWay()) {
       if (!context_.certain(mapping.staysCircle))
-        reading_.notModelled("an arc whose axes are scaled differently", context_.place());
+        interpretation_.unmodelled("an arc whose axes are scaled differently", context_.place());
       else if (!clockwise)
-        reading_.notModelled("an arc that may go either way round", context_.place());
+        interpretation_.unmodelled("an arc that may go either way round", context_.place());
       else if (!turns)
-        reading_.notModelled("an arc with words of a spiral or of turns", context_.place());
-      return tell(context_, MoveKind::Unfollowed, start);
+        interpretation_.unmodelled("an arc with words of a spiral or of turns", context_.place());
+      return tell(context_, MoveKind::Unmodelled, start);
     }
     Move<Value> move;
     move.kind = *clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
@@ -406,8 +414,8 @@ private:
     move.end = state_.position;
     move.plane = arc.plane;
     const auto byRadius = centreFromRadius(arc.plane, start, *clockwise, mapping.scale);
-    move.firstCentre = reading_.select(arc.byRadius, byRadius.first, arc.first);
-    move.secondCentre = reading_.select(arc.byRadius, byRadius.second, arc.second);
+    move.firstCentre = interpretation_.select(arc.byRadius, byRadius.first, arc.first);
+    move.secondCentre = interpretation_.select(arc.byRadius, byRadius.second, arc.second);
     move.turns = *turns;
     move.feed = state_.word('F');
     if (context_.certain(arc.byRadius) && sameInPlane(arc.plane, start))
@@ -416,11 +424,11 @@ private:
   }
   /// Seen in work coordinates; absent when it can be either.
   std::optional<bool> turnsClockwise(Truth turnsOver) {
-    const Truth none = reading_.truth(false);
+    const Truth none = interpretation_.truth(false);
     const bool clockwise = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, none));
     const bool counter = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcCounterclockwise}, none));
     const bool over = context_.certain(turnsOver);
-    if (clockwise == counter || (!over && reading_.mayBe(turnsOver)))
+    if (clockwise == counter || (!over && interpretation_.mayBe(turnsOver)))
       return std::nullopt;
     return clockwise != over;
   }
@@ -433,14 +441,14 @@ private:
     const auto *entry = words_.find('P');
     if (!entry)
       return 1;
-    const std::optional<double> turns = reading_.constantOf(entry->value);
+    const std::optional<double> turns = interpretation_.constantOf(entry->value);
     if (!turns || *turns >= 1e6 || !context_.certain(entry->present))
       return std::nullopt;
     return *turns >= 1 ? static_cast<std::uint32_t>(*turns) : 1;
   }
   bool sameInPlane(const Plane &plane, const Point &start) {
     const auto same = [&](Axis axis) {
-      return context_.certain(reading_.compare(Relation::Equal, start[indexOf(axis)], state_.at(axis)));
+      return context_.certain(interpretation_.compare(Relation::Equal, start[indexOf(axis)], state_.at(axis)));
     };
     return same(plane.first) && same(plane.second);
   }
@@ -450,32 +458,34 @@ private:
     const auto *entry = words_.find('R');
     if (!entry)
       return {zero, zero};
-    const Value radius = reading_.multiply(entry->value, scale);
-    const Value two = reading_.number(2);
+    const Value radius = interpretation_.multiply(entry->value, scale);
+    const Value two = interpretation_.number(2);
     const auto [a, b] = chordOf(plane, start);
-    const Value chordSquare = reading_.add(reading_.multiply(a, a), reading_.multiply(b, b));
-    const Value heightSquare =
-        reading_.subtract(reading_.multiply(radius, radius), reading_.divide(chordSquare, reading_.number(4)));
-    const Truth negative = reading_.compare(Relation::Less, heightSquare, zero);
-    const Value height = reading_.function(FunctionKind::Sqrt, reading_.select(negative, zero, heightSquare));
-    const Truth noChord = reading_.compare(Relation::Equal, chordSquare, zero);
-    const Value chord =
-        reading_.function(FunctionKind::Sqrt, reading_.select(noChord, reading_.number(1), chordSquare));
-    const Truth longArc = reading_.compare(Relation::Less, entry->value, zero);
-    const Value side =
-        reading_.select(longArc, reading_.number(clockwise ? 1 : -1), reading_.number(clockwise ? -1 : 1));
-    const Value ratio = reading_.multiply(side, reading_.divide(height, chord));
+    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
+    const Value heightSquare = interpretation_.subtract(interpretation_.multiply(radius, radius),
+                                                        interpretation_.divide(chordSquare, interpretation_.number(4)));
+    const Truth negative = interpretation_.compare(Relation::Less, heightSquare, zero);
+    const Value height =
+        interpretation_.function(FunctionKind::Sqrt, interpretation_.select(negative, zero, heightSquare));
+    const Truth noChord = interpretation_.compare(Relation::Equal, chordSquare, zero);
+    const Value chord = interpretation_.function(
+        FunctionKind::Sqrt, interpretation_.select(noChord, interpretation_.number(1), chordSquare));
+    const Truth longArc = interpretation_.compare(Relation::Less, entry->value, zero);
+    const Value side = interpretation_.select(longArc, interpretation_.number(clockwise ? 1 : -1),
+                                              interpretation_.number(clockwise ? -1 : 1));
+    const Value ratio = interpretation_.multiply(side, interpretation_.divide(height, chord));
     const auto from = [&](Axis axis, const Value &length) {
-      return reading_.add(start[indexOf(axis)], asCoordinate(axis, length));
+      return interpretation_.add(start[indexOf(axis)], asCoordinate(axis, length));
     };
-    return {from(plane.first, reading_.subtract(reading_.divide(a, two), reading_.multiply(ratio, b))),
-            from(plane.second, reading_.add(reading_.divide(b, two), reading_.multiply(ratio, a)))};
+    return {
+        from(plane.first, interpretation_.subtract(interpretation_.divide(a, two), interpretation_.multiply(ratio, b))),
+        from(plane.second, interpretation_.add(interpretation_.divide(b, two), interpretation_.multiply(ratio, a)))};
   }
 
   // ---- codes that are not modal ----
 
   void dwell() {
-    if (!reading_.wantsMoves())
+    if (!interpretation_.wantsMoves())
       return;
     Move<Value> move;
     move.kind = MoveKind::Dwell;
@@ -483,50 +493,53 @@ private:
     for (const char letter : {'X', 'U', 'P'})
       if (const auto *entry = words_.find(letter))
         move.feed = entry->value;
-    reading_.move(move);
+    interpretation_.move(move);
   }
   void machineMove() {
     const Point start = state_.position;
-    const Truth incremental = context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, reading_.truth(false));
+    const Truth incremental =
+        context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, interpretation_.truth(false));
     const MachineIncrement meaning = context_.behaviour().machineIncrement;
     if (meaning == MachineIncrement::Alarm)
-      reading_.alarm(reading_.both(incremental, axisWords()), {AlarmKind::MachineIncrement, context_.place()});
+      interpretation_.alarm(interpretation_.both(incremental, axisWords()),
+                            {AlarmKind::MachineIncrement, context_.place()});
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         Value &position = state_.at(axis);
-        const Value absolute = reading_.subtract(entry->value, originOf(context_, axis));
-        const Value increment = meaning == MachineIncrement::Distance ? reading_.add(position, entry->value)
-                                                                      : reading_.either(position, reading_.anyNumber());
-        const Value target = reading_.select(incremental, increment, absolute);
-        position = reading_.select(entry->present, target, position);
+        const Value absolute = interpretation_.subtract(entry->value, originOf(context_, axis));
+        const Value increment = meaning == MachineIncrement::Distance
+                                    ? interpretation_.add(position, entry->value)
+                                    : interpretation_.either(position, interpretation_.anyNumber());
+        const Value target = interpretation_.select(incremental, increment, absolute);
+        position = interpretation_.select(entry->present, target, position);
       }
-    if (meaning == MachineIncrement::NotFollowed && reading_.mayBe(incremental)) {
-      reading_.notModelled("G53 under G91", context_.place());
-      return tell(context_, MoveKind::Unfollowed, start);
+    if (meaning == MachineIncrement::NotFollowed && interpretation_.mayBe(incremental)) {
+      interpretation_.unmodelled("G53 under G91", context_.place());
+      return tell(context_, MoveKind::Unmodelled, start);
     }
     if (!context_.behaviour().machineMoveByMode)
       tell(context_, MoveKind::Rapid, start);
-    else if (reading_.wantsMoves())
+    else if (interpretation_.wantsMoves())
       tellLine(start);
   }
   /// By way of the programmed point to the reference position.
   void referenceReturn(const CodeWord &word) {
     const Point start = state_.position;
-    const MoveKind way = isOpenTarget(context_, words_) ? MoveKind::Unfollowed : MoveKind::Rapid;
+    const MoveKind kind = isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Rapid;
     state_.position = targetOf(context_, words_);
-    tell(context_, way, start);
+    tell(context_, kind, start);
     const Point between = state_.position;
-    const Truth all =
-        reading_.both(reading_.truth(context_.behaviour().bareReferenceReturn), reading_.negation(axisWords()));
+    const Truth all = interpretation_.both(interpretation_.truth(context_.behaviour().bareReferenceReturn),
+                                           interpretation_.negation(axisWords()));
     for (const Axis axis : kAllAxes)
-      if (const Truth homes = context_.either(present(letterOf(axis)), all); reading_.mayBe(homes))
+      if (const Truth homes = context_.either(present(letterOf(axis)), all); interpretation_.mayBe(homes))
         home(axis, homes, word);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
         home(axis, entry->present, word);
     const bool isKnown =
         word.code->action == CodeAction::ReferenceReturn || referenceRange(VariableRole::SecondReference);
-    tell(context_, isKnown ? MoveKind::Rapid : MoveKind::Unfollowed, between);
+    tell(context_, isKnown ? MoveKind::Rapid : MoveKind::Unmodelled, between);
   }
   /// G27: rapid to where the reference position should be.
   void referenceCheck() {
@@ -536,8 +549,8 @@ private:
   }
   void home(Axis axis, Truth present, const CodeWord &word) {
     Value &position = state_.at(axis);
-    const Value reference = reading_.subtract(referencePosition(axis, word), originOf(context_, axis));
-    position = reading_.select(present, reference, position);
+    const Value reference = interpretation_.subtract(referencePosition(axis, word), originOf(context_, axis));
+    position = interpretation_.select(present, reference, position);
   }
   /// Machine coordinate; that of G28 is the machine's zero where no variable says otherwise.
   Value referencePosition(Axis axis, const CodeWord &word) {
@@ -546,8 +559,8 @@ private:
       return offsetVariable(context_, range->first + static_cast<std::uint32_t>(indexOf(axis)));
     if (isFirst)
       return context_.zero();
-    reading_.notModelled("where the second reference position lies", word.span);
-    return reading_.anyNumber();
+    interpretation_.unmodelled("where the second reference position lies", word.span);
+    return interpretation_.anyNumber();
   }
   const VariableRange *referenceRange(VariableRole role) const { return rangeWithRole(context_.dialect(), role); }
   void storeReference(VariableRole role) {
@@ -555,15 +568,15 @@ private:
     for (const Axis axis : kAllAxes)
       if (range)
         state_.variables.set(range->first + static_cast<std::uint32_t>(indexOf(axis)),
-                             reading_.add(state_.at(axis), originOf(context_, axis)));
+                             interpretation_.add(state_.at(axis), originOf(context_, axis)));
   }
   /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
   void skip() {
     const Point start = state_.position;
     const Point target = targetOf(context_, words_);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-      if (words_.find(kAxisLetters[axis]) || reading_.mayBe(state_.transformed))
-        state_.position[axis] = reading_.between(start[axis], target[axis]);
+      if (words_.find(kAxisLetters[axis]) || interpretation_.mayBe(state_.transformed))
+        state_.position[axis] = interpretation_.between(start[axis], target[axis]);
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::SkipPosition)
         for (std::uint32_t axis = 0; axis < kAxisCount && range.first + axis <= range.last; ++axis)
@@ -572,7 +585,7 @@ private:
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
 };

@@ -10,7 +10,7 @@ std::string_view nameOf(MoveKind kind) {
   case MoveKind::ArcCounterclockwise: return "arc-counterclockwise";
   case MoveKind::Dwell: return "dwell";
   case MoveKind::Probe: return "probe";
-  case MoveKind::Unfollowed: return "unfollowed";
+  case MoveKind::Unmodelled: return "unmodelled";
   }
   return "";
 }

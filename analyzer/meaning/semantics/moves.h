@@ -16,7 +16,7 @@ enum class MoveKind : std::uint8_t {
   ArcCounterclockwise,
   Dwell,
   Probe,      // towards a signal: may end anywhere on the way
-  Unfollowed, // on a way that is not known; nor need it lead from `start` to `end`
+  Unmodelled, // its path is not known; nor need it lead from `start` to `end`
 };
 std::string_view nameOf(MoveKind kind);
 

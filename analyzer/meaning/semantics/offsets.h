@@ -20,7 +20,7 @@ public:
   using Truth = typename R::Truth;
 
   Offsets(StepContext<R> &context, const ExecutedWords<R> &words)
-      : context_(context), reading_(context.reading), state_(context.state), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
 
   /// Whether the code is one of these; then it has been carried out.
   bool carryOut(const CodeWord &word) {
@@ -62,25 +62,25 @@ private:
     auto &shifts = context_.behaviour().oneSetOffset ? state_.shift : state_.local;
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis)))
-        moveTo(shifts, axis, reading_.select(entry->present, entry->value, shifts[indexOf(axis)]));
+        moveTo(shifts, axis, interpretation_.select(entry->present, entry->value, shifts[indexOf(axis)]));
     keep();
   }
   /// G92: the tool stands, from now on, at the named coordinates.
   void set() {
-    if (reading_.mayBe(state_.transformed)) {
+    if (interpretation_.mayBe(state_.transformed)) {
       for (auto *numbers : {&state_.shift, &state_.position})
-        numbers->fill(reading_.anyNumber());
-      reading_.notModelled("the tool's coordinates set under mirror, scaling or rotation", context_.place());
+        numbers->fill(interpretation_.anyNumber());
+      interpretation_.unmodelled("the tool's coordinates set under mirror, scaling or rotation", context_.place());
       return keep();
     }
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         const Value position = state_.at(axis);
         Value &shift = state_.shift[indexOf(axis)];
-        const Value target = reading_.select(entry->present, entry->value, position);
-        shift = reading_.add(shift, reading_.subtract(position, target));
+        const Value target = interpretation_.select(entry->present, entry->value, position);
+        shift = interpretation_.add(shift, interpretation_.subtract(position, target));
         endLocal(axis, entry->present);
-        shiftCoordinate(context_, axis, reading_.subtract(target, position));
+        shiftCoordinate(context_, axis, interpretation_.subtract(target, position));
         state_.at(axis) = target;
       }
     keep();
@@ -89,11 +89,12 @@ private:
   void endLocal(Axis axis, Truth when) {
     Value &local = state_.local[indexOf(axis)];
     Value &shift = state_.shift[indexOf(axis)];
-    const Truth ends = reading_.both(when, context_.isOn(context_.dialect().switches.setEndsLocal));
-    if (!reading_.mayBe(ends) || context_.certain(reading_.compare(Relation::Equal, local, context_.zero())))
+    const Truth ends = interpretation_.both(when, context_.isOn(context_.dialect().switches.setEndsLocal));
+    if (!interpretation_.mayBe(ends) ||
+        context_.certain(interpretation_.compare(Relation::Equal, local, context_.zero())))
       return;
-    shift = reading_.select(ends, reading_.add(shift, local), shift);
-    local = reading_.select(ends, context_.zero(), local);
+    shift = interpretation_.select(ends, interpretation_.add(shift, local), shift);
+    local = interpretation_.select(ends, context_.zero(), local);
   }
   void setOff(Kept kept) {
     for (const Axis axis : kAllAxes)
@@ -110,7 +111,7 @@ private:
   }
   void moveTo(std::array<Value, kAxisCount> &shifts, Axis axis, const Value &wanted) {
     Value &shift = shifts[indexOf(axis)];
-    shiftCoordinate(context_, axis, reading_.subtract(shift, wanted));
+    shiftCoordinate(context_, axis, interpretation_.subtract(shift, wanted));
     shift = wanted;
   }
   void keep() {
@@ -123,21 +124,21 @@ private:
 
   void setData(const CodeWord &word) {
     const auto *kind = words_.find('L');
-    const std::optional<double> which = kind ? reading_.constantOf(kind->value) : std::nullopt;
+    const std::optional<double> which = kind ? interpretation_.constantOf(kind->value) : std::nullopt;
     const std::optional<std::uint32_t> first = firstOfSystem();
     if (which == 50.0 || which == 52.0)
-      return reading_.abandon("parameters of the control that G10 sets", word.span);
+      return interpretation_.abandon("parameters of the control that G10 sets", word.span);
     turnSystem(word, which);
     if (first && which == 2.0)
       return setWorkOffset(*first);
     if (first && which == 20.0 && context_.behaviour().positionByData)
       return setPosition(*first);
-    forgetStored(word);
+    havocStored(word);
   }
   /// The first variable of the work offset that P names: 0 is the external one, or where there is none, that in force.
   std::optional<std::uint32_t> firstOfSystem() {
     const auto *system = words_.find('P');
-    const std::optional<double> number = system ? reading_.constantOf(system->value) : std::nullopt;
+    const std::optional<double> number = system ? interpretation_.constantOf(system->value) : std::nullopt;
     if (!number || *number < 0 || *number > 9)
       return std::nullopt;
     auto row = static_cast<std::uint32_t>(*number);
@@ -157,16 +158,17 @@ private:
     const auto *angle = words_.find('R');
     if (!angle || (which && which != 2.0))
       return;
-    const Truth isSystem = which ? reading_.truth(true) : reading_.unknownTruth();
-    const Truth isAngle = reading_.negation(reading_.compare(Relation::Equal, angle->value, context_.zero()));
-    const Truth turns = reading_.both(reading_.both(angle->present, isAngle), isSystem);
-    if (!reading_.mayBe(turns))
+    const Truth isSystem = which ? interpretation_.truth(true) : interpretation_.unknownTruth();
+    const Truth isAngle =
+        interpretation_.negation(interpretation_.compare(Relation::Equal, angle->value, context_.zero()));
+    const Truth turns = interpretation_.both(interpretation_.both(angle->present, isAngle), isSystem);
+    if (!interpretation_.mayBe(turns))
       return;
     detail::enterOtherGeometry(context_, kLastingGeometry, turns);
-    reading_.notModelled("a coordinate system that is turned by G10", word.span);
+    interpretation_.unmodelled("a coordinate system that is turned by G10", word.span);
   }
   void setWorkOffset(std::uint32_t first) {
-    const Truth always = reading_.truth(true);
+    const Truth always = interpretation_.truth(true);
     const Truth absolute = context_.behaviour().dataIsAbsolute
                                ? always
                                : context_.inForce(ModalKind::Distance, {CodeAction::Absolute}, always);
@@ -174,8 +176,8 @@ private:
       if (const auto *entry = words_.find(letterOf(axis))) {
         const std::uint32_t variable = first + static_cast<std::uint32_t>(indexOf(axis));
         const Value old = detail::offsetVariable(context_, variable);
-        const Value wanted = reading_.select(absolute, entry->value, reading_.add(old, entry->value));
-        detail::writeWorkOffset(context_, variable, reading_.select(entry->present, wanted, old));
+        const Value wanted = interpretation_.select(absolute, entry->value, interpretation_.add(old, entry->value));
+        detail::writeWorkOffset(context_, variable, interpretation_.select(entry->present, wanted, old));
       }
   }
   /// The offset with which the axes, where they stand, would be at the named coordinates.
@@ -186,23 +188,23 @@ private:
         const auto number = static_cast<std::uint32_t>(indexOf(axis));
         const Value present =
             inForce ? detail::offsetVariable(context_, kFirstWorkOffset + kWorkOffsetStride * (*inForce + 1) + number)
-                    : reading_.anyNumber();
-        const Value wanted = reading_.subtract(reading_.add(present, state_.at(axis)), entry->value);
+                    : interpretation_.anyNumber();
+        const Value wanted = interpretation_.subtract(interpretation_.add(present, state_.at(axis)), entry->value);
         const Value old = detail::offsetVariable(context_, first + number);
-        detail::writeWorkOffset(context_, first + number, reading_.select(entry->present, wanted, old));
+        detail::writeWorkOffset(context_, first + number, interpretation_.select(entry->present, wanted, old));
       }
   }
-  void forgetStored(const CodeWord &word) {
+  void havocStored(const CodeWord &word) {
     for (const VariableRange &range : context_.dialect().variables)
       if (range.role == VariableRole::Stored || range.role == VariableRole::WorkOffset ||
           range.role == VariableRole::AdditionalWorkOffset)
-        reading_.forgetVariables(state_, range.first, range.last);
-    forgetOrigins(context_);
-    reading_.notModelled("offsets set by G10", word.span);
+        interpretation_.havocVariables(state_, range.first, range.last);
+    havocOrigins(context_);
+    interpretation_.unmodelled("offsets set by G10", word.span);
   }
 
   StepContext<R> &context_;
-  R &reading_;
+  R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
 };

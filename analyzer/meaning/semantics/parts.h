@@ -139,26 +139,27 @@ template <typename R> bool haveSameLists(const MachineState<R> &a, const Machine
 template <typename R> bool haveSameParts(const MachineState<R> &a, const MachineState<R> &b);
 
 /// Gives both states the same parts.  False when they hold different modal calls: then those are as they were.
-template <typename Reading, typename R> bool align(Reading &reading, MachineState<R> &a, MachineState<R> &b);
+template <typename Interpretation, typename R>
+bool align(Interpretation &interpretation, MachineState<R> &a, MachineState<R> &b);
 /// The same; of different modal calls nothing is known but that there may be some.
-template <typename R> void alignToJoin(R &reading, MachineState<R> &a, MachineState<R> &b);
+template <typename R> void alignToJoin(R &interpretation, MachineState<R> &a, MachineState<R> &b);
 /// Of different modal calls none is looked at.
 template <typename R> void dropDifferentModalCalls(MachineState<R> &a, MachineState<R> &b);
 
-template <typename R> void setNeutral(R &reading, PartId id, typename R::Value &value);
-template <typename R> void setNeutral(R &reading, PartId id, typename R::Truth &truth);
+template <typename R> void setNeutral(R &interpretation, PartId id, typename R::Value &value);
+template <typename R> void setNeutral(R &interpretation, PartId id, typename R::Truth &truth);
 /// Anything that the part can hold.
-template <typename R> void setAnything(R &reading, PartId id, typename R::Value &value);
-template <typename R> void setAnything(R &reading, PartId id, typename R::ModalCode &code);
-template <typename R> void setAnything(R &reading, PartId id, typename R::Truth &truth);
+template <typename R> void setAnything(R &interpretation, PartId id, typename R::Value &value);
+template <typename R> void setAnything(R &interpretation, PartId id, typename R::ModalCode &code);
+template <typename R> void setAnything(R &interpretation, PartId id, typename R::Truth &truth);
 
 /// The state in which a program starts: given(PartId, part &) sets what is PartEntry::Given, unknown(PartId, part &)
 /// what is PartEntry::Unknown.
-template <typename R, typename Reading, typename Given, typename Unknown>
-MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown);
+template <typename R, typename Interpretation, typename Given, typename Unknown>
+MachineState<R> entryParts(Interpretation &interpretation, Given &&given, Unknown &&unknown);
 
 /// Anything may have happened.  `keptGroup`: polar coordinates are a mapping, too, that only a code tells of.
-template <typename R> void havocParts(R &reading, MachineState<R> &state, std::optional<std::uint8_t> keptGroup);
+template <typename R> void havocParts(R &interpretation, MachineState<R> &state, std::optional<std::uint8_t> keptGroup);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
 
@@ -184,10 +185,10 @@ template <typename Member> ShapeMember shape(Member &) { return {}; }
 template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
-    auto &[locals, variables, forgotten, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
+    auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
            cycle, transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
     return std::tuple(
-        is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(forgotten), is<Part::Code>(codes),
+        is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(havocked), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
         is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
         is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), is<Part::Transformed>(transformed),
@@ -270,18 +271,18 @@ template <typename List> bool haveSameNumbers(const List &a, const List &b) {
 }
 
 /// A loop that is not listed has been entered, a counter that is not there counts nothing.
-template <typename Reading, typename R>
-void completeLists(Reading &reading, MachineState<R> &to, const MachineState<R> &from) {
+template <typename Interpretation, typename R>
+void completeLists(Interpretation &interpretation, MachineState<R> &to, const MachineState<R> &from) {
   for (const auto &[number, value] : from.variables.entries())
     if (!to.variables.find(number))
-      to.variables.set(number, reading.unwritten(to, number));
+      to.variables.set(number, interpretation.unwritten(to, number));
   for (const auto &[number, entered] : from.enteredLoops) {
     typename R::Truth neutral;
-    setNeutral(reading, {Part::EnteredLoop, number}, neutral);
+    setNeutral(interpretation, {Part::EnteredLoop, number}, neutral);
     enteredLoop(to, number, neutral);
   }
   while (to.counters.size() < from.counters.size())
-    setNeutral(reading, {Part::Counter}, to.counters.emplace_back());
+    setNeutral(interpretation, {Part::Counter}, to.counters.emplace_back());
 }
 
 } // namespace detail
@@ -322,19 +323,20 @@ template <typename R> bool haveSameParts(const MachineState<R> &a, const Machine
   return haveSameLists(a, b) && detail::haveSameNumbers(a.variables.entries(), b.variables.entries());
 }
 
-template <typename Reading, typename R> bool align(Reading &reading, MachineState<R> &a, MachineState<R> &b) {
+template <typename Interpretation, typename R>
+bool align(Interpretation &interpretation, MachineState<R> &a, MachineState<R> &b) {
   if (haveSameParts(a, b))
     return true;
-  detail::completeLists(reading, a, b);
-  detail::completeLists(reading, b, a);
+  detail::completeLists(interpretation, a, b);
+  detail::completeLists(interpretation, b, a);
   return haveSameModalCalls(a, b);
 }
 
-template <typename R> void alignToJoin(R &reading, MachineState<R> &a, MachineState<R> &b) {
-  if (align(reading, a, b))
+template <typename R> void alignToJoin(R &interpretation, MachineState<R> &a, MachineState<R> &b) {
+  if (align(interpretation, a, b))
     return;
   dropDifferentModalCalls(a, b);
-  setAnything(reading, {Part::OtherModalCalls}, a.modalCallsUnknown);
+  setAnything(interpretation, {Part::OtherModalCalls}, a.modalCallsUnknown);
   b.modalCallsUnknown = a.modalCallsUnknown;
 }
 
@@ -345,30 +347,33 @@ template <typename R> void dropDifferentModalCalls(MachineState<R> &a, MachineSt
   b.modalCalls.clear();
 }
 
-template <typename R> void setNeutral(R &reading, PartId id, typename R::Value &value) {
+template <typename R> void setNeutral(R &interpretation, PartId id, typename R::Value &value) {
   const PartNeutral neutral = traitsOf(id.part).neutral;
-  value = neutral == PartNeutral::Vacant ? reading.vacant() : reading.number(neutral == PartNeutral::One ? 1 : 0);
+  value = neutral == PartNeutral::Vacant ? interpretation.vacant()
+                                         : interpretation.number(neutral == PartNeutral::One ? 1 : 0);
 }
-template <typename R> void setNeutral(R &reading, PartId id, typename R::Truth &truth) {
-  truth = reading.truth(traitsOf(id.part).neutral == PartNeutral::Yes);
+template <typename R> void setNeutral(R &interpretation, PartId id, typename R::Truth &truth) {
+  truth = interpretation.truth(traitsOf(id.part).neutral == PartNeutral::Yes);
 }
 
-template <typename R> void setAnything(R &reading, PartId id, typename R::Value &value) {
+template <typename R> void setAnything(R &interpretation, PartId id, typename R::Value &value) {
   switch (domainOf(id)) {
-  case PartDomain::Vacancy: value = reading.vacant(); break;
-  case PartDomain::Number: value = reading.anyNumber(); break;
-  case PartDomain::Value: value = reading.anything(); break;
+  case PartDomain::Vacancy: value = interpretation.vacant(); break;
+  case PartDomain::Number: value = interpretation.anyNumber(); break;
+  case PartDomain::Value: value = interpretation.anything(); break;
   case PartDomain::Code:
   case PartDomain::Truth: FEEDHOLD_UNREACHABLE("a part that is no value");
   }
 }
-template <typename R> void setAnything(R &reading, PartId, typename R::ModalCode &code) {
-  code = reading.unknownCode();
+template <typename R> void setAnything(R &interpretation, PartId, typename R::ModalCode &code) {
+  code = interpretation.unknownCode();
 }
-template <typename R> void setAnything(R &reading, PartId, typename R::Truth &truth) { truth = reading.unknownTruth(); }
+template <typename R> void setAnything(R &interpretation, PartId, typename R::Truth &truth) {
+  truth = interpretation.unknownTruth();
+}
 
-template <typename R, typename Reading, typename Given, typename Unknown>
-MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown) {
+template <typename R, typename Interpretation, typename Given, typename Unknown>
+MachineState<R> entryParts(Interpretation &interpretation, Given &&given, Unknown &&unknown) {
   MachineState<R> state;
   forEachPart(
       [&](PartId id, auto &part) {
@@ -376,8 +381,8 @@ MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown) {
         case PartEntry::Given: return given(id, part);
         case PartEntry::Unknown: return unknown(id, part);
         case PartEntry::Neutral:
-          if constexpr (requires { setNeutral(reading, id, part); })
-            return setNeutral(reading, id, part);
+          if constexpr (requires { setNeutral(interpretation, id, part); })
+            return setNeutral(interpretation, id, part);
           FEEDHOLD_UNREACHABLE("a code is given");
         }
       },
@@ -385,21 +390,22 @@ MachineState<R> entryParts(Reading &reading, Given &&given, Unknown &&unknown) {
   return state;
 }
 
-template <typename R> void havocParts(R &reading, MachineState<R> &state, std::optional<std::uint8_t> keptGroup) {
-  const bool isMapped = reading.mayBe(state.transformed);
-  reading.forgetVariables(state, 0, 0xffffffff);
+template <typename R>
+void havocParts(R &interpretation, MachineState<R> &state, std::optional<std::uint8_t> keptGroup) {
+  const bool isMapped = interpretation.mayBe(state.transformed);
+  interpretation.havocVariables(state, 0, 0xffffffff);
   forEachPart(
       [&](PartId id, auto &part) {
         if (!isMapped && id == PartId{Part::Code, keptGroup.value_or(kModalGroups)})
           return;
-        if constexpr (requires { setNeutral(reading, id, part); })
+        if constexpr (requires { setNeutral(interpretation, id, part); })
           if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping)
-            return setNeutral(reading, id, part);
-        if constexpr (requires { reading.isVacant(part); })
+            return setNeutral(interpretation, id, part);
+        if constexpr (requires { interpretation.isVacant(part); })
           if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Pending &&
-              !reading.mayBe(reading.negation(reading.isVacant(part))))
+              !interpretation.mayBe(interpretation.negation(interpretation.isVacant(part))))
             return;
-        setAnything(reading, id, part);
+        setAnything(interpretation, id, part);
       },
       state);
 }

@@ -1,4 +1,4 @@
-// MachineState: what the control and the machine hold between two instructions, for any reading of values.
+// MachineState: what the control and the machine hold between two instructions, for any interpretation.
 #pragma once
 
 #include "meaning/semantics/axes.h"
@@ -103,7 +103,7 @@ template <typename R> struct MachineState {
   std::array<Value, kLocalVariables + 1> locals; // of the present level; [0] is not used
   VariableMap<Value> variables;                  // all others
   /// Ranges of numbers, first and last, of which nothing is known but what `variables` has.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> forgotten;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> havocked;
   std::array<ModalCode, kModalGroups> codes;
   std::array<Value, kAxisCount> position;      // end point of the last block: work coordinates, units in force
   std::array<Value, kModalWords.size()> words; // in force; vacant: none yet

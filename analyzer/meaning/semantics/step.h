@@ -32,7 +32,7 @@ std::optional<typename R::Value> returnTarget(StepContext<R> &context, const Ret
 namespace detail {
 
 template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId target, typename R::Value value) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const Expression &expression = context.tree().expressions[target];
   if (const auto *numbered = std::get_if<NumberedVariable>(&expression.node)) {
     const auto number = numbered->number.asInteger();
@@ -42,14 +42,14 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
     const auto index = evaluate(context, indirect->index);
     if (const auto number = variableAt(context, index, expression.span))
       return writeVariable(context, *number, std::move(value), expression.span);
-    if (reading.writeAnyOf(context.state, reading.asNumber(index), value, expression.span))
-      forgetOrigins(context);
+    if (interpretation.writeAnyOf(context.state, interpretation.asNumber(index), value, expression.span))
+      havocOrigins(context);
     return;
   } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
     if (const auto number = context.programs.variableOf(context.file.file, named->name))
       return writeVariable(context, *number, std::move(value), expression.span);
   }
-  reading.havoc(context.state, "an assignment whose target is not known", expression.span);
+  interpretation.havoc(context.state, "an assignment whose target is not known", expression.span);
 }
 
 /// A name on the left of `=` is there, and 0, while the right side is read: `#<new>=[#<new>+1]`.
@@ -57,16 +57,16 @@ template <ValueAlgebra R> void introduceName(StepContext<R> &context, Expression
   const auto *named = std::get_if<NamedVariable>(&context.tree().expressions[target].node);
   const auto number = named ? context.programs.variableOf(context.file.file, named->name) : std::nullopt;
   if (number)
-    context.state.variables.set(*number, context.reading.asNumber(storedValue(context, *number)));
+    context.state.variables.set(*number, context.interpretation.asNumber(storedValue(context, *number)));
 }
 
-/// A reading that goes through a program several times may know the value from the last time.
+/// An interpretation that goes through a program several times may know the value from the last time.
 template <ValueAlgebra R> typename R::Value assignedValue(StepContext<R> &context, ExpressionId expression) {
-  if constexpr (requires { context.reading.recalled(context.file, context.state, expression); }) {
-    if (auto known = context.reading.recalled(context.file, context.state, expression))
+  if constexpr (requires { context.interpretation.recalled(context.file, context.state, expression); }) {
+    if (auto known = context.interpretation.recalled(context.file, context.state, expression))
       return *std::move(known);
     auto value = evaluate(context, expression);
-    context.reading.remember(context.file, expression, value);
+    context.interpretation.remember(context.file, expression, value);
     return value;
   } else {
     return evaluate(context, expression);
@@ -86,7 +86,7 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
   };
   if (const Assignment *only = assign.count == 1 ? assignmentAt(0) : nullptr) { // nearly always: no list is needed
     auto value = read(*only);
-    if (!context.reading.stopped())
+    if (!context.interpretation.stopped())
       store(context, only->target, std::move(value));
     return;
   }
@@ -94,7 +94,7 @@ template <ValueAlgebra R> void assign(StepContext<R> &context, const Assign &ass
   for (std::uint32_t i = 0; i < assign.count; ++i)
     if (const Assignment *assignment = assignmentAt(i))
       values.push_back(read(*assignment));
-  if (context.reading.stopped())
+  if (context.interpretation.stopped())
     return; // with an alarm, and nothing has been assigned
   auto value = values.begin();
   for (std::uint32_t i = 0; i < assign.count; ++i)
@@ -114,53 +114,55 @@ void executeWords(StepContext<R> &context, const ExecuteWords &execute, Executed
   applyModes(context, words);
   applyMotion(context, words);
   if (words.mayTakeAxes) {
-    forgetPosition(context);
+    havocPosition(context);
     for (const VariableRange &range : context.dialect().variables)
       if (range.role == VariableRole::SkipPosition)
-        context.reading.forgetVariables(context.state, range.first, range.last);
+        context.interpretation.havocVariables(context.state, range.first, range.last);
   }
   for (const CodeWord &word : words.codes)
     if (word.code->action == CodeAction::Anything)
-      context.reading.havoc(context.state, word.code->meaning, word.span);
+      context.interpretation.havoc(context.state, word.code->meaning, word.span);
     else if (word.code->action == CodeAction::InterruptOn)
-      context.reading.abandon("a macro interrupt is armed, and its program may run between any two blocks", word.span);
-  if (words.unfollowed)
-    context.reading.havoc(context.state, "a code that is not known", context.place());
+      context.interpretation.abandon("a macro interrupt is armed, and its program may run between any two blocks",
+                                     word.span);
+  if (words.unmodelled)
+    context.interpretation.havoc(context.state, "a code that is not known", context.place());
 }
 
 template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCount &start) {
   auto &counters = context.state.counters;
   if (counters.size() <= start.counter.index())
     counters.resize(start.counter.index() + 1, context.zero());
-  const auto times = context.reading.asNumber(evaluate(context, start.times));
-  counters[start.counter.index()] = context.reading.roundTo(times, Decimal(1, 0));
+  const auto times = context.interpretation.asNumber(evaluate(context, start.times));
+  counters[start.counter.index()] = context.interpretation.roundTo(times, Decimal(1, 0));
 }
 
 } // namespace detail
 
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (const auto *execute = std::get_if<ExecuteWords>(&instruction))
     return detail::executeWords(context, *execute, words);
   if (const auto *assign = std::get_if<Assign>(&instruction))
     return detail::assign(context, *assign);
   if (const auto *enter = std::get_if<EnterLoop>(&instruction))
-    enteredLoop(context.state, enter->number, reading.truth(true)) = reading.truth(true);
+    enteredLoop(context.state, enter->number, interpretation.truth(true)) = interpretation.truth(true);
   else if (const auto *into = std::get_if<JumpIntoLoop>(&instruction))
-    enteredLoop(context.state, into->number, reading.truth(false)) = reading.truth(false);
+    enteredLoop(context.state, into->number, interpretation.truth(false)) = interpretation.truth(false);
   else if (const auto *require = std::get_if<RequireLoop>(&instruction))
-    reading.alarm(reading.negation(enteredLoop(context.state, require->number, reading.truth(true))),
-                  {AlarmKind::MissingDo, context.place()});
+    interpretation.alarm(
+        interpretation.negation(enteredLoop(context.state, require->number, interpretation.truth(true))),
+        {AlarmKind::MissingDo, context.place()});
   else if (const auto *start = std::get_if<StartCount>(&instruction))
     detail::startCount(context, *start);
   else if (const auto *stop = std::get_if<StopWithAlarm>(&instruction))
-    reading.alarm(reading.truth(true), {stop->alarm, context.place()});
+    interpretation.alarm(interpretation.truth(true), {stop->alarm, context.place()});
   else if (const auto *havoc = std::get_if<Havoc>(&instruction))
-    reading.havoc(context.state, havoc->reason, context.place());
+    interpretation.havoc(context.state, havoc->reason, context.place());
 }
 
 template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words) {
-  auto moves = context.reading.truth(false);
+  auto moves = context.interpretation.truth(false);
   for (const CodeWord &word : words.codes)
     if (word.code->action == CodeAction::Dwell || word.code->action == CodeAction::LocalShift ||
         word.code->action == CodeAction::CoordinateSet || word.code->role == CodeRole::DataSetting)
@@ -172,38 +174,38 @@ template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, c
 }
 
 template <ValueAlgebra R> typename R::Truth conditionOf(StepContext<R> &context, const Test &test) {
-  return test.condition ? evaluateCondition(context, *test.condition) : context.reading.unknownTruth();
+  return test.condition ? evaluateCondition(context, *test.condition) : context.interpretation.unknownTruth();
 }
 
 template <ValueAlgebra R> typename R::Truth countDown(StepContext<R> &context, const CountDown &count) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   auto &counters = context.state.counters;
   if (counters.size() <= count.counter.index())
     counters.resize(count.counter.index() + 1, context.zero());
   auto &left = counters[count.counter.index()];
-  const auto goesOn = reading.compare(Relation::Greater, left, context.zero());
-  left = reading.select(goesOn, reading.subtract(left, reading.number(1)), left);
+  const auto goesOn = interpretation.compare(Relation::Greater, left, context.zero());
+  left = interpretation.select(goesOn, interpretation.subtract(left, interpretation.number(1)), left);
   return goesOn;
 }
 
 template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, const JumpTo &jump) {
-  return context.reading.roundTo(context.reading.asNumber(evaluate(context, jump.target)), Decimal(1, 0));
+  return context.interpretation.roundTo(context.interpretation.asNumber(evaluate(context, jump.target)), Decimal(1, 0));
 }
 
 template <ValueAlgebra R>
 std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (context.dialect().grammar.namedParameters && !from.target) {
-    const auto value = from.value ? reading.asNumber(evaluate(context, *from.value)) : context.zero();
+    const auto value = from.value ? interpretation.asNumber(evaluate(context, *from.value)) : context.zero();
     detail::setNamed(context, "_value", value);
-    detail::setNamed(context, "_value_returned", reading.number(from.value ? 1 : 0));
+    detail::setNamed(context, "_value_returned", interpretation.number(from.value ? 1 : 0));
   }
   if (!from.target)
     return std::nullopt;
   const Word &word = context.tree().words[*from.target];
   if (word.form() == WordForm::Expression)
-    return reading.roundTo(reading.asNumber(evaluate(context, word.expression())), Decimal(1, 0));
-  return word.isNumber() ? reading.literal(word.number()) : reading.anyNumber();
+    return interpretation.roundTo(interpretation.asNumber(evaluate(context, word.expression())), Decimal(1, 0));
+  return word.isNumber() ? interpretation.literal(word.number()) : interpretation.anyNumber();
 }
 
 } // namespace feedhold

@@ -22,7 +22,7 @@ template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const Execu
 /// Behind a movement: an axis that an absolute word has named is where the control takes it to be.
 template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words);
 
-/// Tells the reading of a movement from `start` to the present position.
+/// Reports a movement to the interpretation, from `start` to the present position.
 template <ValueAlgebra R>
 void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start);
 /// In a mode that is not followed no movement is told as one whose way is known.
@@ -38,19 +38,19 @@ typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords
 namespace detail {
 
 template <ValueAlgebra R> typename R::Truth isAbsolute(StepContext<R> &context) {
-  return context.inForce(ModalKind::Distance, {CodeAction::Absolute}, context.reading.truth(true));
+  return context.inForce(ModalKind::Distance, {CodeAction::Absolute}, context.interpretation.truth(true));
 }
 
 template <ValueAlgebra R> typename R::Truth isPolar(StepContext<R> &context) {
-  return context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, context.reading.truth(false));
+  return context.inForce(ModalKind::Polar, {CodeAction::PolarOn}, context.interpretation.truth(false));
 }
 
 /// Polar coordinates of which one is not written, or incremental ones: where they lead is not followed.
 template <ValueAlgebra R> bool isOpenPolar(StepContext<R> &context, const ExecutedWords<R> &words) {
   const auto polar = isPolar(context);
   const std::optional<Plane> plane = planeOf(context);
-  if (!context.reading.mayBe(polar) || !plane)
-    return context.reading.mayBe(polar);
+  if (!context.interpretation.mayBe(polar) || !plane)
+    return context.interpretation.mayBe(polar);
   const bool radius = words.find(letterOf(plane->first));
   const bool angle = words.find(letterOf(plane->second));
   const bool isKnown = radius && angle && context.certain(isAbsolute(context)) && context.certain(polar);
@@ -61,12 +61,12 @@ template <ValueAlgebra R> bool isOpenPolar(StepContext<R> &context, const Execut
 template <ValueAlgebra R>
 void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
                std::array<typename R::Value, kAxisCount> &target) {
-  R &reading = context.reading;
-  if (!reading.mayBe(isPolar(context)))
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(isPolar(context)))
     return;
   const std::optional<Plane> plane = planeOf(context);
   if (!plane) {
-    target.fill(reading.anyNumber());
+    target.fill(interpretation.anyNumber());
     return;
   }
   const auto *radius = words.find(letterOf(plane->first));
@@ -76,11 +76,12 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
   if (!radius && !angle)
     return;
   if (isOpenPolar(context, words)) {
-    first = second = reading.anyNumber();
-    return reading.notModelled("polar coordinates of which one is not written, or incremental ones", context.place());
+    first = second = interpretation.anyNumber();
+    return interpretation.unmodelled("polar coordinates of which one is not written, or incremental ones",
+                                     context.place());
   }
-  first = reading.multiply(radius->value, reading.function(FunctionKind::Cos, angle->value));
-  second = reading.multiply(radius->value, reading.function(FunctionKind::Sin, angle->value));
+  first = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Cos, angle->value));
+  second = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Sin, angle->value));
 }
 
 } // namespace detail
@@ -88,12 +89,12 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
 template <ValueAlgebra R>
 typename R::Value targetOn(StepContext<R> &context, const typename ExecutedWords<R>::Entry &entry,
                            const typename R::Value &from) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto absolute = detail::isAbsolute(context);
   if (context.certain(absolute) && context.certain(entry.present))
     return entry.value;
-  const auto moved = reading.select(absolute, entry.value, reading.add(from, entry.value));
-  return reading.select(entry.present, moved, from);
+  const auto moved = interpretation.select(absolute, entry.value, interpretation.add(from, entry.value));
+  return interpretation.select(entry.present, moved, from);
 }
 
 namespace detail {
@@ -101,57 +102,61 @@ namespace detail {
 template <ValueAlgebra R>
 typename R::Truth isWritten(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis) {
   const auto *entry = words.find(letterOf(axis));
-  return entry ? entry->present : context.reading.truth(false);
+  return entry ? entry->present : context.interpretation.truth(false);
 }
 
 /// The words may be distances from somewhere else than where the tool is.
 template <ValueAlgebra R> typename R::Truth isOpenIncrement(StepContext<R> &context, Axis axis) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (!isPending(context, axis))
-    return reading.truth(false);
-  const auto pending = reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)]));
-  const auto unmapped =
-      context.behaviour().absoluteBehindMappings ? reading.truth(true) : reading.negation(context.state.transformed);
-  return reading.both(reading.both(pending, unmapped), reading.negation(isAbsolute(context)));
+    return interpretation.truth(false);
+  const auto pending = interpretation.negation(interpretation.isVacant(context.state.transform.pending[indexOf(axis)]));
+  const auto unmapped = context.behaviour().absoluteBehindMappings ? interpretation.truth(true)
+                                                                   : interpretation.negation(context.state.transformed);
+  return interpretation.both(interpretation.both(pending, unmapped), interpretation.negation(isAbsolute(context)));
 }
 template <ValueAlgebra R>
 typename R::Value openedUp(StepContext<R> &context, Axis axis, const typename R::Value &coordinate) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto open = isOpenIncrement(context, axis);
-  if (!reading.mayBe(open))
+  if (!interpretation.mayBe(open))
     return coordinate;
-  reading.notModelled("an incremental movement before an absolute one, behind mirror, scaling or rotation",
-                      context.place());
-  return reading.select(open, reading.either(coordinate, reading.anyNumber()), coordinate);
+  interpretation.unmodelled("an incremental movement before an absolute one, behind mirror, scaling or rotation",
+                            context.place());
+  return interpretation.select(open, interpretation.either(coordinate, interpretation.anyNumber()), coordinate);
 }
 
 /// Whether an axis of the plane without a word, of which the other has one, is taken to the coordinate that it had
 /// under the mapping before.  11600#5 says so of rotation; no manual says what holds of mirror and scaling.
 template <ValueAlgebra R>
 typename R::Truth takesPending(StepContext<R> &context, const ExecutedWords<R> &words, Axis axis, Axis other) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (!isPending(context, axis))
-    return reading.truth(false);
-  const auto turned = reading.negation(reading.compare(Relation::Equal, context.state.transform.angle, context.zero()));
+    return interpretation.truth(false);
+  const auto turned =
+      interpretation.negation(interpretation.compare(Relation::Equal, context.state.transform.angle, context.zero()));
   const auto keeps = context.isOn(context.certain(turned) ? context.dialect().switches.ax1 : Switch::Unknown, true);
-  const auto alone = reading.both(isWritten(context, words, other), reading.negation(isWritten(context, words, axis)));
-  const auto pending = reading.negation(reading.isVacant(context.state.transform.pending[indexOf(axis)]));
-  return reading.both(reading.both(alone, isAbsolute(context)), reading.both(pending, reading.negation(keeps)));
+  const auto alone =
+      interpretation.both(isWritten(context, words, other), interpretation.negation(isWritten(context, words, axis)));
+  const auto pending = interpretation.negation(interpretation.isVacant(context.state.transform.pending[indexOf(axis)]));
+  return interpretation.both(interpretation.both(alone, isAbsolute(context)),
+                             interpretation.both(pending, interpretation.negation(keeps)));
 }
 template <ValueAlgebra R>
 void takePending(StepContext<R> &context, const ExecutedWords<R> &words,
                  std::array<typename R::Value, kAxisCount> &target, std::array<bool, kAxisCount> &taken) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const std::optional<Plane> plane = planeOf(context);
   if (!plane)
     return;
   for (const auto &[axis, other] : {std::pair{plane->first, plane->second}, std::pair{plane->second, plane->first}}) {
     const auto takes = takesPending(context, words, axis, other);
-    if (!reading.mayBe(takes))
+    if (!interpretation.mayBe(takes))
       continue;
     taken[indexOf(axis)] = true;
     auto &coordinate = target[indexOf(axis)];
-    coordinate = reading.select(takes, reading.asNumber(context.state.transform.pending[indexOf(axis)]), coordinate);
+    coordinate = interpretation.select(takes, interpretation.asNumber(context.state.transform.pending[indexOf(axis)]),
+                                       coordinate);
   }
 }
 
@@ -161,7 +166,7 @@ void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
                  std::array<typename R::Value, kAxisCount> &target, const std::array<bool, kAxisCount> &taken) {
   const std::optional<Plane> plane = planeOf(context);
   const bool turned =
-      !context.certain(context.reading.compare(Relation::Equal, context.state.transform.angle, context.zero()));
+      !context.certain(context.interpretation.compare(Relation::Equal, context.state.transform.angle, context.zero()));
   if (turned && !plane)
     return;
   const auto named = [&](Axis axis) { return words.find(letterOf(axis)) != nullptr; };
@@ -176,15 +181,16 @@ void keepUnnamed(StepContext<R> &context, const ExecutedWords<R> &words,
 /// Under G91 the distances alone are mapped.
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> mappedIncrement(StepContext<R> &context, const ExecutedWords<R> &words) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   std::array<typename R::Value, kAxisCount> distance;
   for (const Axis axis : kAllAxes) {
     const auto *entry = words.find(letterOf(axis));
-    distance[indexOf(axis)] = entry ? reading.select(entry->present, entry->value, context.zero()) : context.zero();
+    distance[indexOf(axis)] =
+        entry ? interpretation.select(entry->present, entry->value, context.zero()) : context.zero();
   }
   distance = toWorkDistance(context, std::move(distance));
   for (const Axis axis : kAllAxes) {
-    distance[indexOf(axis)] = reading.add(context.state.at(axis), distance[indexOf(axis)]);
+    distance[indexOf(axis)] = interpretation.add(context.state.at(axis), distance[indexOf(axis)]);
     if (words.find(letterOf(axis)))
       distance[indexOf(axis)] = openedUp(context, axis, distance[indexOf(axis)]);
   }
@@ -195,10 +201,10 @@ std::array<typename R::Value, kAxisCount> mappedIncrement(StepContext<R> &contex
 
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words) {
-  R &reading = context.reading;
-  const bool isMapped = reading.mayBe(context.state.transformed);
-  if (isMapped && context.modes.groupOf(ModalKind::Distance) && !reading.mayBe(detail::isAbsolute(context)) &&
-      !reading.mayBe(detail::isPolar(context)))
+  R &interpretation = context.interpretation;
+  const bool isMapped = interpretation.mayBe(context.state.transformed);
+  if (isMapped && context.modes.groupOf(ModalKind::Distance) && !interpretation.mayBe(detail::isAbsolute(context)) &&
+      !interpretation.mayBe(detail::isPolar(context)))
     return detail::mappedIncrement(context, words);
   auto target = context.state.position;
   if (isMapped)
@@ -215,7 +221,7 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = words.find(letter)) {
         auto &coordinate = target[indexOf(axis)];
-        coordinate = reading.select(entry->present, reading.add(coordinate, entry->value), coordinate);
+        coordinate = interpretation.select(entry->present, interpretation.add(coordinate, entry->value), coordinate);
       }
   detail::fromPolar(context, words, target);
   if (isMapped)
@@ -228,13 +234,13 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words) {
   return detail::isOpenPolar(context, words) || std::any_of(kAllAxes.begin(), kAllAxes.end(), [&](Axis axis) {
            const auto open = detail::isOpenIncrement(context, axis);
-           return context.reading.mayBe(open) &&
-                  context.reading.mayBe(context.reading.both(open, detail::isWritten(context, words, axis)));
+           return context.interpretation.mayBe(open) && context.interpretation.mayBe(context.interpretation.both(
+                                                            open, detail::isWritten(context, words, axis)));
          });
 }
 
 template <ValueAlgebra R> void settlePending(StepContext<R> &context, const ExecutedWords<R> &words) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const std::optional<Plane> plane = planeOf(context);
   const auto absolute = detail::isAbsolute(context);
   const auto named = [&](Axis axis) { return detail::isWritten(context, words, axis); };
@@ -245,18 +251,18 @@ template <ValueAlgebra R> void settlePending(StepContext<R> &context, const Exec
     const bool isInPlane = plane && (axis == plane->first || axis == plane->second);
     const auto moved =
         isInPlane && anyInPlane ? context.either(named(plane->first), named(plane->second)) : named(axis);
-    if (!reading.mayBe(moved))
+    if (!interpretation.mayBe(moved))
       continue;
-    if (reading.mayBe(reading.negation(absolute)))
-      detail::forgetPending(context, axis);
+    if (interpretation.mayBe(interpretation.negation(absolute)))
+      detail::havocPending(context, axis);
     auto &pending = context.state.transform.pending[indexOf(axis)];
-    pending = reading.select(reading.both(moved, absolute), reading.vacant(), pending);
+    pending = interpretation.select(interpretation.both(moved, absolute), interpretation.vacant(), pending);
   }
 }
 
 template <ValueAlgebra R>
 void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::Value, kAxisCount> &start) {
-  if (!context.reading.wantsMoves())
+  if (!context.interpretation.wantsMoves())
     return;
   Move<typename R::Value> move;
   move.kind = kind;
@@ -269,9 +275,9 @@ void tell(StepContext<R> &context, MoveKind kind, const std::array<typename R::V
 }
 
 template <ValueAlgebra R> void tell(StepContext<R> &context, Move<typename R::Value> move) {
-  if (move.kind != MoveKind::Dwell && context.reading.mayBe(otherGeometry(context)))
-    move.kind = MoveKind::Unfollowed;
-  context.reading.move(move);
+  if (move.kind != MoveKind::Dwell && context.interpretation.mayBe(otherGeometry(context)))
+    move.kind = MoveKind::Unmodelled;
+  context.interpretation.move(move);
 }
 
 } // namespace feedhold

@@ -42,71 +42,73 @@ template <ValueAlgebra R> bool offsetIsOpen(StepContext<R> &context) {
     if (row.role != VariableRole::WorkOffset)
       return false;
     const auto &written = context.state.variables.entries();
-    const auto &forgotten = context.state.forgotten;
+    const auto &havocked = context.state.havocked;
     return std::any_of(written.begin(), written.end(),
                        [&](const auto &each) { return row.first <= each.first && each.first <= row.last; }) ||
-           std::any_of(forgotten.begin(), forgotten.end(),
+           std::any_of(havocked.begin(), havocked.end(),
                        [&](const auto &range) { return range.first <= row.last && row.first <= range.second; });
   });
 }
 
 /// How far the zero point of an axis lies from that of the start.
 template <ValueAlgebra R> typename R::Value zeroShift(StepContext<R> &context, MachineState<R> &entry, Axis axis) {
-  R &reading = context.reading;
-  StepContext<R> atEntry{reading, entry, context.programs, context.file, context.modes, context.block};
+  R &interpretation = context.interpretation;
+  StepContext<R> atEntry{interpretation, entry, context.programs, context.file, context.modes, context.block};
   const bool sameSystem = isAsAtEntry(context, entry, ModalKind::WorkOffset);
   const bool unknownSystem = !workOffsetInForce(context);
   // `G54.1 P2` stays the same code when another P comes.
   const auto additional = [&] {
     const auto group = context.modes.groupOf(ModalKind::WorkOffset);
-    return group && reading.onlyCode(context.state.codes[*group]) ? reading.anyNumber() : context.zero();
+    return group && interpretation.onlyCode(context.state.codes[*group]) ? interpretation.anyNumber() : context.zero();
   };
   const std::size_t i = indexOf(axis);
   if (unknownSystem && sameSystem && !offsetIsOpen(context))
-    return reading.add(reading.subtract(reading.add(context.state.shift[i], context.state.local[i]),
-                                        reading.add(entry.shift[i], entry.local[i])),
-                       additional());
-  return reading.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
+    return interpretation.add(
+        interpretation.subtract(interpretation.add(context.state.shift[i], context.state.local[i]),
+                                interpretation.add(entry.shift[i], entry.local[i])),
+        additional());
+  return interpretation.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
 }
 
 /// The length of a tool is in force; G43 H0 takes it away as G49 does.
 template <ValueAlgebra R> typename R::Truth withLength(StepContext<R> &context) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const auto byNumber =
-      context.inForce(ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus}, reading.truth(true));
+      context.inForce(ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus}, interpretation.truth(true));
   const auto &number = context.state.word('H');
-  const auto isNone = reading.both(reading.negation(reading.isVacant(number)),
-                                   reading.compare(Relation::Equal, reading.asNumber(number), context.zero()));
-  return context.either(context.inForce(ModalKind::Length, {CodeAction::LengthGiven}, reading.truth(true)),
-                        reading.both(byNumber, reading.negation(isNone)));
+  const auto isNone =
+      interpretation.both(interpretation.negation(interpretation.isVacant(number)),
+                          interpretation.compare(Relation::Equal, interpretation.asNumber(number), context.zero()));
+  return context.either(context.inForce(ModalKind::Length, {CodeAction::LengthGiven}, interpretation.truth(true)),
+                        interpretation.both(byNumber, interpretation.negation(isNone)));
 }
 
 /// The other axes stand where they stood at the start.
 template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, MachineState<R> &entry) {
-  R &reading = context.reading;
-  if (!reading.mayBe(context.state.axisTurned))
-    return reading.truth(true);
-  auto same = reading.truth(true);
+  R &interpretation = context.interpretation;
+  if (!interpretation.mayBe(context.state.axisTurned))
+    return interpretation.truth(true);
+  auto same = interpretation.truth(true);
   for (const Axis axis : kAllAxes)
     if (indexOf(axis) > indexOf(Axis::Z)) {
-      const auto now = reading.add(context.state.at(axis), zeroShift(context, entry, axis));
-      same = reading.both(same, reading.compare(Relation::Equal, now, entry.at(axis)));
+      const auto now = interpretation.add(context.state.at(axis), zeroShift(context, entry, axis));
+      same = interpretation.both(same, interpretation.compare(Relation::Equal, now, entry.at(axis)));
     }
-  return context.either(reading.negation(context.state.axisTurned), same);
+  return context.either(interpretation.negation(context.state.axisTurned), same);
 }
 
 } // namespace detail
 
 template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, MachineState<R> &entry) {
-  R &reading = context.reading;
-  const auto always = reading.truth(true);
+  R &interpretation = context.interpretation;
+  const auto always = interpretation.truth(true);
   const auto orAsAtEntry = [&](ModalKind kind, std::initializer_list<CodeAction> actions) {
     return detail::isAsAtEntry(context, entry, kind) ? always : context.inForce(kind, actions, always);
   };
   const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
   return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
           context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
-          context.either(reading.negation(context.state.lengthChanged), detail::withLength(context)),
+          context.either(interpretation.negation(context.state.lengthChanged), detail::withLength(context)),
           orAsAtEntry(ModalKind::Units, {}),
           orAsAtEntry(ModalKind::FeedMode, {}),
           orAsAtEntry(ModalKind::Spindle, {}),

@@ -15,13 +15,13 @@ void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Va
 /// The variable that an index value names: rounded to the nearest; absent when it is not one constant.
 template <ValueAlgebra R>
 std::optional<std::uint32_t> variableAt(StepContext<R> &context, const typename R::Value &index, Span place) {
-  R &reading = context.reading;
-  const auto number = reading.asNumber(index);
-  reading.alarm(reading.compare(Relation::Less, number, reading.number(-0.5)),
-                {AlarmKind::VariableNotAvailable, place});
-  reading.alarm(reading.compare(Relation::Greater, number, reading.number(1e9)),
-                {AlarmKind::VariableNotAvailable, place});
-  const std::optional<double> constant = reading.constantOf(number);
+  R &interpretation = context.interpretation;
+  const auto number = interpretation.asNumber(index);
+  interpretation.alarm(interpretation.compare(Relation::Less, number, interpretation.number(-0.5)),
+                       {AlarmKind::VariableNotAvailable, place});
+  interpretation.alarm(interpretation.compare(Relation::Greater, number, interpretation.number(1e9)),
+                       {AlarmKind::VariableNotAvailable, place});
+  const std::optional<double> constant = interpretation.constantOf(number);
   if (!constant || *constant < -0.5 || *constant > 1e9)
     return std::nullopt;
   return static_cast<std::uint32_t>(std::floor(*constant + 0.5));
@@ -45,35 +45,36 @@ constexpr std::optional<char> letterOfModalWord(std::uint32_t offset) {
 
 template <ValueAlgebra R> typename R::Value storedValue(StepContext<R> &context, std::uint32_t number) {
   const auto *value = context.state.variables.find(number);
-  return value ? *value : context.reading.unwritten(context.state, number);
+  return value ? *value : context.interpretation.unwritten(context.state, number);
 }
 
 template <ValueAlgebra R>
 typename R::Value readPosition(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
   const std::uint32_t axis = number - range.first;
   if (axis >= kAxisCount)
-    return context.reading.anyNumber();
+    return context.interpretation.anyNumber();
   if (range.role != VariableRole::MachinePosition)
     return context.state.position[axis];
-  return context.reading.add(context.state.position[axis], originOf(context, kAllAxes[axis]));
+  return context.interpretation.add(context.state.position[axis], originOf(context, kAllAxes[axis]));
 }
 
 /// The number whose bits are the variables of the row, where all of them are known.
 template <ValueAlgebra R> typename R::Value readBits(StepContext<R> &context, const BitWord &row) {
   double number = 0;
   for (std::uint32_t bit = 0; bit < row.bits; ++bit) {
-    const auto value = context.reading.constantOf(context.reading.asNumber(storedValue(context, row.firstBit + bit)));
+    const auto value =
+        context.interpretation.constantOf(context.interpretation.asNumber(storedValue(context, row.firstBit + bit)));
     const bool isBit = value == 0.0 || (value == 1.0 && bit < row.sureBits);
     if (!isBit)
-      return context.reading.volatileRead(row.word);
+      return context.interpretation.volatileRead(row.word);
     number += *value * std::ldexp(1.0, static_cast<int>(bit));
   }
-  return context.reading.number(number);
+  return context.interpretation.number(number);
 }
 
 template <ValueAlgebra R>
 typename R::Value readSystem(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   switch (range.role) {
   case VariableRole::Plain:
   case VariableRole::Stored:
@@ -85,57 +86,57 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::SkipPosition: return storedValue(context, number);
   case VariableRole::Volatile:
   case VariableRole::Alarm:
-  case VariableRole::MessageStop: return reading.volatileRead(number);
+  case VariableRole::MessageStop: return interpretation.volatileRead(number);
   case VariableRole::ModalCode: {
     const std::uint32_t group = number - range.first + 1;
-    return group < kModalGroups
-               ? reading.numberOfCode(context.state.codes[group], context.modes, static_cast<std::uint8_t>(group))
-               : reading.anyNumber();
+    return group < kModalGroups ? interpretation.numberOfCode(context.state.codes[group], context.modes,
+                                                              static_cast<std::uint8_t>(group))
+                                : interpretation.anyNumber();
   }
   case VariableRole::ModalWord: {
     const std::optional<char> letter = letterOfModalWord(number - range.first + 1);
-    return letter ? context.state.word(*letter) : reading.volatileRead(number);
+    return letter ? context.state.word(*letter) : interpretation.volatileRead(number);
   }
   case VariableRole::BlockEndPosition:
   case VariableRole::MachinePosition:
   case VariableRole::WorkPosition: return readPosition(context, range, number);
-  case VariableRole::Pi: return reading.number(3.14159265358979323846);
-  case VariableRole::EulersNumber: return reading.number(2.71828182845904523536);
+  case VariableRole::Pi: return interpretation.number(3.14159265358979323846);
+  case VariableRole::EulersNumber: return interpretation.number(2.71828182845904523536);
   }
-  return reading.anything();
+  return interpretation.anything();
 }
 
 template <ValueAlgebra R> typename R::Value readAsStored(StepContext<R> &context, std::uint32_t number, Span place) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (number == kVacantVariable)
-    return reading.vacant();
+    return interpretation.vacant();
   if (number >= kFirstNamedVariable)
     return storedValue(context, number);
   const VariableRange *range = findVariable(context.dialect(), number);
   if (!range) {
-    reading.alarm(reading.truth(true), {AlarmKind::VariableNotAvailable, place});
-    return reading.anything();
+    interpretation.alarm(interpretation.truth(true), {AlarmKind::VariableNotAvailable, place});
+    return interpretation.anything();
   }
   if (range->kind == VariableKind::Local && number <= kLocalVariables)
     return context.state.locals[number];
   if (range->kind == VariableKind::Vacant)
-    return reading.vacant();
+    return interpretation.vacant();
   if (range->access == VariableAccess::WriteOnly)
-    reading.alarm(reading.truth(true), {AlarmKind::ReadProtected, place});
+    interpretation.alarm(interpretation.truth(true), {AlarmKind::ReadProtected, place});
   if (const BitWord *row = findBitWord(context.dialect(), number))
     return readBits(context, *row);
   const std::uint32_t cell = cellOf(context.dialect(), number);
   const VariableRange *kept = cell == number ? range : findVariable(context.dialect(), cell);
-  return kept ? readSystem(context, *kept, cell) : reading.anything();
+  return kept ? readSystem(context, *kept, cell) : interpretation.anything();
 }
 
 /// A work offset in force is changed: the machine stands still, its work coordinates change.
 template <ValueAlgebra R>
 void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typename R::Value &value) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   const std::uint32_t axis = (number - kFirstWorkOffset) % kWorkOffsetStride;
   const std::uint32_t written = (number - kFirstWorkOffset) / kWorkOffsetStride; // 0: external
-  const auto moved = reading.subtract(offsetVariable(context, number), reading.asNumber(value));
+  const auto moved = interpretation.subtract(offsetVariable(context, number), interpretation.asNumber(value));
   context.state.variables.set(number, value);
   if (axis >= kAxisCount)
     return;
@@ -143,46 +144,47 @@ void writeWorkOffset(StepContext<R> &context, std::uint32_t number, const typena
   if (written == 0 || inForce == written - 1)
     shiftCoordinate(context, kAllAxes[axis], moved);
   else if (!inForce)
-    shiftCoordinate(context, kAllAxes[axis], reading.anyNumber());
+    shiftCoordinate(context, kAllAxes[axis], interpretation.anyNumber());
 }
 
 /// The offsets in force are not told by a code that is followed: one of these may be among them.
 template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, Span place) {
   if (workOffsetInForce(context))
     return;
-  forgetOrigins(context);
-  context.reading.notModelled("an additional work offset is changed while one may be in force", place);
+  havocOrigins(context);
+  context.interpretation.unmodelled("an additional work offset is changed while one may be in force", place);
 }
 
 template <ValueAlgebra R>
 void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_t cell, typename R::Value value,
                Span place) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (range.kind == VariableKind::System) // cells of the control hold numbers
-    value = reading.asNumber(value);
+    value = interpretation.asNumber(value);
   if (range.role == VariableRole::WorkOffset)
     return writeWorkOffset(context, cell, value);
   if (range.role == VariableRole::AdditionalWorkOffset)
     changeAdditionalOffset(context, place);
   if (range.role != VariableRole::MessageStop && range.role != VariableRole::Volatile)
     context.state.variables.set(cell, std::move(value));
-  else if constexpr (requires { reading.writesUnkept(cell); })
+  else if constexpr (requires { interpretation.writesUnkept(cell); })
     if (range.role == VariableRole::Volatile)
-      reading.writesUnkept(cell);
+      interpretation.writesUnkept(cell);
 }
 
 /// Bits beyond those that are certain keep what they hold, or not.
 template <ValueAlgebra R> void writeBits(StepContext<R> &context, const BitWord &row, const typename R::Value &value) {
-  R &reading = context.reading;
-  const auto number = reading.constantOf(reading.roundTo(reading.asNumber(value), Decimal(1, 0)));
+  R &interpretation = context.interpretation;
+  const auto number = interpretation.constantOf(interpretation.roundTo(interpretation.asNumber(value), Decimal(1, 0)));
   const bool isKnown = number && *number >= 0 && *number < std::ldexp(1.0, static_cast<int>(row.bits));
   const auto bits = isKnown ? static_cast<std::uint64_t>(*number) : 0;
   for (std::uint32_t bit = 0; bit < row.bits; ++bit) {
-    const auto written = isKnown ? reading.number((bits >> bit & 1U) != 0 ? 1 : 0)
-                                 : reading.between(reading.number(0), reading.number(1));
+    const auto written = isKnown ? interpretation.number((bits >> bit & 1U) != 0 ? 1 : 0)
+                                 : interpretation.between(interpretation.number(0), interpretation.number(1));
     const std::uint32_t cell = row.firstBit + bit;
     context.state.variables.set(
-        cell, bit < row.sureBits ? written : reading.either(written, reading.asNumber(storedValue(context, cell))));
+        cell, bit < row.sureBits ? written
+                                 : interpretation.either(written, interpretation.asNumber(storedValue(context, cell))));
   }
 }
 
@@ -193,22 +195,22 @@ template <ValueAlgebra R> typename R::Value readVariable(StepContext<R> &context
   if (context.behaviour().variablesMayBeVacant)
     return value;
   if (number >= kFirstNamedVariable)
-    context.reading.alarm(context.reading.isVacant(value), {AlarmKind::VariableNotAvailable, place});
-  return context.reading.asNumber(value);
+    context.interpretation.alarm(context.interpretation.isVacant(value), {AlarmKind::VariableNotAvailable, place});
+  return context.interpretation.asNumber(value);
 }
 
 template <ValueAlgebra R>
 void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Value value, Span place) {
-  R &reading = context.reading;
+  R &interpretation = context.interpretation;
   if (number >= kFirstNamedVariable)
     return context.state.variables.set(number, std::move(value));
   const VariableRange *range = findVariable(context.dialect(), number);
   if (!range) {
-    reading.alarm(reading.truth(true), {AlarmKind::VariableNotAvailable, place});
+    interpretation.alarm(interpretation.truth(true), {AlarmKind::VariableNotAvailable, place});
     return;
   }
   if (range->access == VariableAccess::ReadOnly) {
-    reading.alarm(reading.truth(true), {AlarmKind::WriteProtected, place});
+    interpretation.alarm(interpretation.truth(true), {AlarmKind::WriteProtected, place});
     return;
   }
   if (range->kind == VariableKind::Local && number <= kLocalVariables) {
@@ -216,13 +218,14 @@ void writeVariable(StepContext<R> &context, std::uint32_t number, typename R::Va
     return;
   }
   if (range->role == VariableRole::Alarm)
-    return reading.userAlarm(value, place);
+    return interpretation.userAlarm(value, place);
   if (const BitWord *row = findBitWord(context.dialect(), number))
     return detail::writeBits(context, *row, value);
   const std::uint32_t cell = cellOf(context.dialect(), number);
   for (const std::uint32_t other : perhapsSameAs(context.dialect(), cell))
     if (const VariableRange *otherRange = findVariable(context.dialect(), other))
-      detail::writeCell(context, *otherRange, other, reading.either(value, detail::storedValue(context, other)), place);
+      detail::writeCell(context, *otherRange, other, interpretation.either(value, detail::storedValue(context, other)),
+                        place);
   if (const VariableRange *kept = findVariable(context.dialect(), cell))
     detail::writeCell(context, *kept, cell, std::move(value), place);
 }

@@ -40,7 +40,7 @@ std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables 
   const ProveOptions options{.guards = InferGuards::No, .contractsOf = subject_.options.contractsOf};
   const ProofSubject subject{subject_.programs, subject_.program, subject_.contracts, options};
   ProofStart start(subject, &given);
-  const Exploration found = explore(start.reading(), subject.programs, subject.program, start.entry(),
+  const Exploration found = explore(start.interpretation(), subject.programs, subject.program, start.entry(),
                                     start.exploreOptions(subject, exactOptions()));
   std::vector<Broken> broken;
   for (Question &question : promisesOf_({subject, start, found}))

@@ -68,10 +68,11 @@ Obligation ProofSubject::obligation(ObligationKind kind, Place place, Span span,
           .claim = std::move(claim)};
 }
 
-ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given) : reading_(store_, subject.dialect()) {
+ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
+    : interpretation_(store_, subject.dialect()) {
   if (given)
-    startExactly(reading_, *given);
-  entry_ = symbolicEntry(reading_);
+    startExactly(interpretation_, *given);
+  entry_ = symbolicEntry(interpretation_);
   keepPolar(subject.dialect());
   anyEntry_ = entry_;
   codes_ = entry_.codes;
@@ -84,15 +85,15 @@ void ProofStart::keepPolar(const Dialect &dialect) {
   const auto polar = modes.groupOf(ModalKind::Polar);
   if (!polar)
     return;
-  reading_.keepPolar(*polar);
+  interpretation_.keepPolar(*polar);
   const CodeMask off = modes.maskOf(ModalKind::Polar, {CodeAction::PolarOff});
   if (off != 0)
-    entry_.codes[*polar] = reading_.code(static_cast<std::uint8_t>(std::countr_zero(off)));
+    entry_.codes[*polar] = interpretation_.code(static_cast<std::uint8_t>(std::countr_zero(off)));
 }
 
 void ProofStart::readContract(const ProofSubject &subject) {
   const Contract &contract = *subject.contract();
-  terms_ = std::make_unique<ContractTerms>(reading_, subject.programs, subject.program.file, *subject.contracts);
+  terms_ = std::make_unique<ContractTerms>(interpretation_, subject.programs, subject.program.file, *subject.contracts);
   terms_->prepare(contract, entry_);
   codes_ = entry_.codes;
   leaveMappingsOpen(subject);
@@ -128,7 +129,7 @@ std::map<Axis, TermId> ProofStart::place() const {
 }
 
 Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
-  const std::vector<TermId> &facts = reading_.facts();
+  const std::vector<TermId> &facts = interpretation_.facts();
   facts_.add(facts);
   Query query = relevantQuery(store_, facts_, facts, conditions, goal);
   for (const TermId condition : conditions) { // the path itself may be what is impossible

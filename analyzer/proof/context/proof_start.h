@@ -53,7 +53,7 @@ public:
   ProofStart &operator=(const ProofStart &) = delete;
 
   smt::TermStore &store() { return store_; }
-  SymbolicInterpretation &reading() { return reading_; }
+  SymbolicInterpretation &interpretation() { return interpretation_; }
   ContractTerms &terms() { return *terms_; }
   const SpaceClaims &space() const { return *space_; }
   const SymbolicState &entry() const { return entry_; }
@@ -77,7 +77,7 @@ private:
   void leaveMappingsOpen(const ProofSubject &subject);
 
   smt::TermStore store_;
-  SymbolicInterpretation reading_;
+  SymbolicInterpretation interpretation_;
   SymbolicState anyEntry_;
   SymbolicState entry_;                  // as the contract says
   decltype(SymbolicState::codes) codes_; // as the contract says

@@ -74,7 +74,8 @@ private:
 } // namespace
 
 WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::vector<smt::TermId> demands) {
-  WitnessSearch runs(start.reading(), subject.programs, subject.program, std::move(demands), subject.constants());
+  WitnessSearch runs(start.interpretation(), subject.programs, subject.program, std::move(demands),
+                     subject.constants());
   runs.startFrom(start.runStart(), start.place());
   runs.sample();
   return runs;

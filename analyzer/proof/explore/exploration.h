@@ -59,13 +59,13 @@ struct LoopInstance {
   std::optional<std::size_t> unmodelledCall = {};
 
   /// The variable stands for a value from before the loop or from the start of the run: no iteration changes it.
-  bool isFixed(const SymbolicInterpretation &reading, smt::TermId variable) const {
-    return variable.index() < mark || reading.isFromEntry(variable);
+  bool isFixed(const SymbolicInterpretation &interpretation, smt::TermId variable) const {
+    return variable.index() < mark || interpretation.isFromEntry(variable);
   }
   /// No iteration changes the value of the term.
-  bool isConstant(const SymbolicInterpretation &reading, const smt::TermStore &store, smt::TermId term) const;
+  bool isConstant(const SymbolicInterpretation &interpretation, const smt::TermStore &store, smt::TermId term) const;
   /// The term is over the state before an iteration alone: fixed values, and those that the iterations change.
-  bool isOfState(const SymbolicInterpretation &reading, const smt::TermStore &store, smt::TermId term) const;
+  bool isOfState(const SymbolicInterpretation &interpretation, const smt::TermStore &store, smt::TermId term) const;
 };
 
 enum class ExitKind : std::uint8_t { Returns, Ends };
@@ -186,7 +186,7 @@ struct ExploreOptions {
 
 /// Explores every path of the program.  Paths are merged if there are too many for a share of the budget, unless loops
 /// are unrolled: programs that call large macros one after another are long, but have few paths.
-Exploration explore(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                     const SymbolicState &start, const ExploreOptions &options);
 
 } // namespace feedhold::prove

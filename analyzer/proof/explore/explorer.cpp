@@ -77,32 +77,34 @@ bool Path::assume(const smt::TermStore &store, TermId condition) {
 
 // ---- LoopInstance ----
 
-bool LoopInstance::isConstant(const SymbolicInterpretation &reading, const smt::TermStore &store, TermId term) const {
+bool LoopInstance::isConstant(const SymbolicInterpretation &interpretation, const smt::TermStore &store,
+                              TermId term) const {
   const auto terms = smt::variablesOf(store, term);
-  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) { return isFixed(reading, variable); });
+  return std::all_of(terms.begin(), terms.end(), [&](TermId variable) { return isFixed(interpretation, variable); });
 }
 
-bool LoopInstance::isOfState(const SymbolicInterpretation &reading, const smt::TermStore &store, TermId term) const {
+bool LoopInstance::isOfState(const SymbolicInterpretation &interpretation, const smt::TermStore &store,
+                             TermId term) const {
   const auto terms = smt::variablesOf(store, term);
   return std::all_of(terms.begin(), terms.end(), [&](TermId variable) {
-    return isFixed(reading, variable) || (!transitions.empty() && transitions.front().next.contains(variable));
+    return isFixed(interpretation, variable) || (!transitions.empty() && transitions.front().next.contains(variable));
   });
 }
 
 // ---- Explorer ----
 
-Explorer::Explorer(SymbolicInterpretation &reading, const ProgramSet &programs, const ExploreOptions &options,
+Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
                    PathMerging merging)
-    : reading_(reading), store_(reading.store()), programs_(programs), options_(options), merging_(merging),
-      termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
-  reading_.usePath(this);
+    : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), options_(options),
+      merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
+  interpretation_.usePath(this);
   entails_.allow(options.mostWork);
 }
 
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   result_.treatment = options_.loops;
   entry_ = start;
-  reading_.start();
+  interpretation_.start();
   Path path{.at = {entry.file, entry.entry},
             .state = start,
             .conditions = {},
@@ -110,7 +112,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
             .loops = {},
             .moved = store_.no()};
   if (options_.moves != KeepMoves::No) {
-    path.state.variables.set(kBesidePath, reading_.number(0));
+    path.state.variables.set(kBesidePath, interpretation_.number(0));
     takeMoves(path);
   }
   const bool isWithin = smt::within(options_.mostWork * kStepsOfWork, [&] {
@@ -130,9 +132,9 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     for (const std::size_t loop : result_.unmodelledCalls[call].loops)
       result_.loops[loop].unmodelledCall = call;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
-  result_.facts = reading_.facts();
+  result_.facts = interpretation_.facts();
   result_.work = entails_.work();
-  reading_.usePath(nullptr);
+  interpretation_.usePath(nullptr);
   return std::move(result_);
 }
 
@@ -159,7 +161,7 @@ bool Explorer::says(TermId condition) const { return path_ && path_->says(store_
 bool Explorer::proves(TermId condition) {
   if (const auto known = byEnclosure(condition))
     return *known;
-  return path_ && entails_(reading_.facts(), path_->conditions, condition);
+  return path_ && entails_(interpretation_.facts(), path_->conditions, condition);
 }
 
 std::optional<bool> Explorer::byEnclosure(TermId condition) {
@@ -172,14 +174,14 @@ bool Explorer::isPossible(const Path &path, TermId condition) {
   const TermId opposite = store_.logicalNot(condition);
   if (condition == store_.no() || path.says(store_, opposite))
     return false;
-  return !entails_(reading_.facts(), path.conditions, opposite);
+  return !entails_(interpretation_.facts(), path.conditions, opposite);
 }
 
 StepContext<SymbolicInterpretation> Explorer::contextOf(Path &path) {
   const ProgramFile &file = fileOf(path);
-  reading_.useDialect(*file.dialect);
+  interpretation_.useDialect(*file.dialect);
   path_ = &path;
-  return {reading_, path.state, programs_, file, modesOf(path.at.file), nodeOf(path).block};
+  return {interpretation_, path.state, programs_, file, modesOf(path.at.file), nodeOf(path).block};
 }
 
 const ModalTable &Explorer::modesOf(FileId file) {
@@ -251,7 +253,7 @@ std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) 
     if (same == left.end())
       left.push_back(std::move(path));
     else
-      mergeInto(reading_, *same, std::move(path));
+      mergeInto(interpretation_, *same, std::move(path));
   }
   return left;
 }
@@ -325,14 +327,14 @@ void Explorer::recordIteration(const Path &path) {
 // ---- what a step may have stopped at ----
 
 bool Explorer::takeStops(Path &path) {
-  if (const auto reason = reading_.abandoned())
+  if (const auto reason = interpretation_.abandoned())
     giveUp(*reason);
-  if (reading_.takeTooLarge())
-    reading_.notModelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
-  for (const auto &[reason, span] : reading_.takeNotes())
+  if (interpretation_.takeTooLarge())
+    interpretation_.unmodelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
+  for (const auto &[reason, span] : interpretation_.takeNotes())
     if (purpose_ == Purpose::Record)
       result_.unmodelled.push_back({reason, path.at, span});
-  for (const PossibleStop &stop : reading_.possibleStops()) {
+  for (const PossibleStop &stop : interpretation_.possibleStops()) {
     if (purpose_ == Purpose::Record) {
       const auto same = [&](const StopSite &known) {
         return known.place == path.at && known.span == stop.place && known.alarm == stop.alarm;
@@ -346,16 +348,16 @@ bool Explorer::takeStops(Path &path) {
     if (!path.assume(store_, store_.logicalNot(stop.when.term)))
       return false;
   }
-  if (reading_.moved())
+  if (interpretation_.moved())
     path.moved = store_.yes();
   if (options_.moves != KeepMoves::No)
     takeMoves(path);
-  reading_.start();
+  interpretation_.start();
   return true;
 }
 
 void Explorer::stopsWhen(Path &path, Condition when, AlarmKind alarm) {
-  reading_.alarm(when, {alarm, fileOf(path).tree->blocks[nodeOf(path).block].span()});
+  interpretation_.alarm(when, {alarm, fileOf(path).tree->blocks[nodeOf(path).block].span()});
 }
 
 void Explorer::exit(const Path &path, ExitKind kind) {
@@ -367,7 +369,7 @@ void Explorer::exit(const Path &path, ExitKind kind) {
 // ---- instructions ----
 
 std::vector<Path> Explorer::execute(Path path) {
-  reading_.start();
+  interpretation_.start();
   const Instruction &instruction = nodeOf(path).instruction;
   return match(
       instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },
@@ -386,9 +388,10 @@ std::vector<Path> Explorer::straight(Path path) {
   auto writes = beginWrites(path);
   step(context, node.instruction, words_);
   if (writes)
-    writes->unkept = reading_.unkeptWrites();
+    writes->unkept = interpretation_.unkeptWrites();
   const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
-  const Condition moves = isBlock && !reading_.stopped() ? movesAxis(context, words_) : reading_.truth(false);
+  const Condition moves =
+      isBlock && !interpretation_.stopped() ? movesAxis(context, words_) : interpretation_.truth(false);
   if (!takeStops(path))
     return {};
   if (writes)
@@ -419,7 +422,7 @@ std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken)
 }
 
 std::vector<Path> Explorer::follow(Path path, const BlockSkip &skip) {
-  return branch(std::move(path), reading_.unknownTruth(), skip.skipped);
+  return branch(std::move(path), interpretation_.unknownTruth(), skip.skipped);
 }
 std::vector<Path> Explorer::follow(Path path, const Test &test) {
   auto context = contextOf(path);
@@ -441,7 +444,7 @@ std::vector<Path> Explorer::follow(Path path, const JumpTo &jump) {
 /// A path for each sequence number of the program that the number may be.
 std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, BlockId from) {
   const ProgramFile &file = fileOf(path);
-  const auto constant = [&](double value) { return reading_.number(value).number; };
+  const auto constant = [&](double value) { return interpretation_.number(value).number; };
   const TermId inRange = store_.logicalAnd(
       store_.lessOrEqual(constant(file.dialect->grammar.sequenceZero ? 0 : 1), number.number),
       store_.lessOrEqual(number.number, constant(static_cast<double>(file.dialect->limits.lastSequenceNumber))));
@@ -470,7 +473,7 @@ std::vector<Path> Explorer::search(Path path, const SymbolicValue &number, Block
 std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
   const ProgramFile &file = fileOf(path);
   if (end.end == ProgramEnd::EndOfFile && alarmNumber(*file.dialect, AlarmKind::EndOfRecord)) {
-    stopsWhen(path, reading_.truth(true), AlarmKind::EndOfRecord);
+    stopsWhen(path, interpretation_.truth(true), AlarmKind::EndOfRecord);
     takeStops(path);
     return {};
   }
@@ -478,19 +481,19 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
   return {};
 }
 
-Exploration explore(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                     const SymbolicState &start, const ExploreOptions &options) {
   if (options.loops == LoopTreatment::EachIteration)
-    return Explorer(reading, programs, options, PathMerging::No).run(entry, start);
+    return Explorer(interpretation, programs, options, PathMerging::No).run(entry, start);
   ExploreOptions first = options;
   first.mostSteps /= 4;
   first.mostPaths /= 4;
   first.mostWork /= 2;
   first.mostTerms /= 2;
-  Exploration found = Explorer(reading, programs, first, PathMerging::No).run(entry, start);
+  Exploration found = Explorer(interpretation, programs, first, PathMerging::No).run(entry, start);
   if (!found.isTooLarge)
     return found;
-  return Explorer(reading, programs, options, PathMerging::Yes).run(entry, start);
+  return Explorer(interpretation, programs, options, PathMerging::Yes).run(entry, start);
 }
 
 } // namespace feedhold::prove

@@ -14,7 +14,7 @@ namespace feedhold::prove {
 
 class Explorer : public PathKnowledge {
 public:
-  Explorer(SymbolicInterpretation &reading, const ProgramSet &programs, const ExploreOptions &options,
+  Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
            PathMerging merging);
 
   Exploration run(Callee entry, const SymbolicState &start);
@@ -102,7 +102,7 @@ private:
   const ModalTable &modesOf(FileId file);
   Path to(Path path, NodeId node) const;
 
-  SymbolicInterpretation &reading_;
+  SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const ExploreOptions &options_;

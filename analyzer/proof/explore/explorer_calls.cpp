@@ -55,7 +55,7 @@ std::vector<Path> Explorer::modalCall(Path path, Condition moves) {
   if (unknown) {
     CallRequest<SymbolicInterpretation> request;
     request.freshLocals = true;
-    request.repeats = reading_.number(1);
+    request.repeats = interpretation_.number(1);
     called = unknownCall(std::move(path), request, std::nullopt, "an unknown modal call",
                          "which modal call is active is unknown");
   } else {
@@ -116,7 +116,7 @@ void Explorer::recordEntry(const Path &path, std::size_t callerDepth, const Symb
   if (purpose_ != Purpose::Record || !options_.demands || (callerDepth > 1 && !frame.modal))
     return;
   const TermId modalCall =
-      programs_.hasModalCalls() ? mayCallModally(reading_, state, frame.modalLimit).term : store_.no();
+      programs_.hasModalCalls() ? mayCallModally(interpretation_, state, frame.modalLimit).term : store_.no();
   const Callee &callee = frame.callee;
   const Callee &own = path.frames.front().callee;
   const bool isInside = callee.entry != programs_.file(callee.file).cfg.entryOf(callee.program);
@@ -142,23 +142,23 @@ void Explorer::recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpret
   for (const Callee &callee : callees) {
     request.callee = callee;
     SymbolicState state = path.state;
-    SymbolicFrame frame = enterCall(programs_, state, request, {path.at, modal, limit}, 1, reading_, record);
-    if (repeatsOf(reading_, request) == 1.0)
+    SymbolicFrame frame = enterCall(programs_, state, request, {path.at, modal, limit}, 1, interpretation_, record);
+    if (repeatsOf(interpretation_, request) == 1.0)
       continue;
-    havocParts(reading_, state, std::nullopt); // by the repetitions before
-    repeatCall(programs_, state, frame, reading_, record);
+    havocParts(interpretation_, state, std::nullopt); // by the repetitions before
+    repeatCall(programs_, state, frame, interpretation_, record);
   }
   const auto innermost = modalCallOf(path.state, modal ? modal : limit);
   if (!innermost)
     return;
   SymbolicState inside = path.state;
-  havocParts(reading_, inside, std::nullopt);
+  havocParts(interpretation_, inside, std::nullopt);
   for (std::size_t i = 0; i <= *innermost; ++i) {
     auto context = contextOf(path);
     const auto modalRequest = prepareModalCall(context, inside.modalCalls[i]);
     SymbolicState state = inside;
     if (modalRequest.callee)
-      enterCall(programs_, state, modalRequest, {path.at, i, limit}, 1, reading_, record);
+      enterCall(programs_, state, modalRequest, {path.at, i, limit}, 1, interpretation_, record);
   }
 }
 
@@ -166,14 +166,14 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
                                   std::optional<std::size_t> modal) {
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
-    stopsWhen(path, reading_.unknownTruth(), AlarmKind::ProgramNotFound);
+    stopsWhen(path, interpretation_.unknownTruth(), AlarmKind::ProgramNotFound);
     const std::string name = nameOfCallee(path, modal);
     return unknownCall(std::move(path), request, modal, "a program that was not supplied",
                        name.empty()               ? "the number of the called program is unknown"
                        : request.possible.empty() ? fmt::format("{} was not supplied", name)
                                                   : fmt::format("several programs are named {}", name));
   }
-  const auto repeats = repeatsOf(reading_, request);
+  const auto repeats = repeatsOf(interpretation_, request);
   if (repeats && callsNothing(*repeats))
     return {to(std::move(path), next)};
   if (!repeats || *repeats > kMostRepeats)
@@ -181,12 +181,12 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
                        fmt::format("how often {} is repeated is unknown", nameOfCallee(path, modal)));
   const Limits &limits = fileOf(path).dialect->limits;
   if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
-    stopsWhen(path, reading_.truth(true), *alarm);
+    stopsWhen(path, interpretation_.truth(true), *alarm);
     takeStops(path);
     return {};
   }
   const CallSite site{path.at, modal, path.frames.back().modalLimit};
-  SymbolicFrame frame = enterCall(programs_, path.state, request, site, *repeats, reading_,
+  SymbolicFrame frame = enterCall(programs_, path.state, request, site, *repeats, interpretation_,
                                   [&](const SymbolicFrame &entered, const SymbolicState &state) {
                                     recordEntry(path, path.frames.size(), entered, state);
                                   });
@@ -215,9 +215,10 @@ std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {
     return {};
   }
   if (!target && isCalledAgain(frame)) {
-    repeatCall(programs_, path.state, frame, reading_, [&](const SymbolicFrame &entered, const SymbolicState &state) {
-      recordEntry(path, path.frames.size() - 1, entered, state);
-    });
+    repeatCall(programs_, path.state, frame, interpretation_,
+               [&](const SymbolicFrame &entered, const SymbolicState &state) {
+                 recordEntry(path, path.frames.size() - 1, entered, state);
+               });
     path.at = {frame.callee.file, frame.callee.entry};
     return {std::move(path)};
   }

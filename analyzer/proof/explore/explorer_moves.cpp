@@ -11,13 +11,15 @@ using smt::TermId;
 /// The stops of the step have been taken: a control does not begin a block that it refuses.
 void Explorer::takeMoves(Path &path) {
   const bool withColumn = options_.moves == KeepMoves::WithColumn;
-  const bool isMissing = withColumn && !path.state.variables.find(kFreeColumn); // forgotten with all else
-  if (reading_.moves().empty() && !isMissing)
+  const bool isMissing = withColumn && !path.state.variables.find(kFreeColumn); // havocked with all else
+  if (interpretation_.moves().empty() && !isMissing)
     return;
   auto context = contextOf(path);
   ToolPoint<SymbolicInterpretation> point = toolPointOf(context, entry_);
-  const auto level = [&](const SymbolicValue &z) { return reading_.add(z, point.zero[indexOf(Axis::Z)]).number; };
-  const std::vector<Move<SymbolicValue>> moves = reading_.moves();
+  const auto level = [&](const SymbolicValue &z) {
+    return interpretation_.add(z, point.zero[indexOf(Axis::Z)]).number;
+  };
+  const std::vector<Move<SymbolicValue>> moves = interpretation_.moves();
   leavePath(path, moves, point);
   const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
   TermId column = withColumn && !isMissing ? path.state.variables.find(kFreeColumn)->number : level(z);
@@ -40,7 +42,7 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
   const TermId one = store_.number(smt::Number(1));
   const TermId zero = store_.number(smt::Number(0));
   const SymbolicValue *known = path.state.variables.find(kBesidePath);
-  const TermId before = known ? known->number : one; // forgotten with all else
+  const TermId before = known ? known->number : one; // havocked with all else
   const TermId without = point.withoutCompensation.term;
   point.withoutCompensation.term = store_.logicalAnd(without, store_.equal(before, zero));
   auto context = contextOf(path);
@@ -48,7 +50,7 @@ void Explorer::leavePath(Path &path, const std::vector<Move<SymbolicValue>> &mov
   TermId comesBack = store_.no();
   for (const Move<SymbolicValue> &move : moves)
     for (const Axis axis : plane ? std::vector{plane->first, plane->second} : std::vector<Axis>{})
-      if (move.kind != MoveKind::Unfollowed)
+      if (move.kind != MoveKind::Unmodelled)
         comesBack = store_.logicalOr(comesBack, store_.logicalNot(store_.equal(move.start[indexOf(axis)].number,
                                                                                move.end[indexOf(axis)].number)));
   if (!moves.empty())
@@ -63,9 +65,9 @@ std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Mo
     return std::nullopt;
   const TermId radius = entry->value.number;
   const TermId zero = store_.number(smt::Number(0));
-  if (entails_(reading_.facts(), path.conditions, store_.less(zero, radius)))
+  if (entails_(interpretation_.facts(), path.conditions, store_.less(zero, radius)))
     return geometry::ArcRadius{radius, geometry::ArcLength::Short};
-  if (entails_(reading_.facts(), path.conditions, store_.less(radius, zero)))
+  if (entails_(interpretation_.facts(), path.conditions, store_.less(radius, zero)))
     return geometry::ArcRadius{store_.negate(radius), geometry::ArcLength::Long};
   return std::nullopt;
 }
@@ -73,7 +75,7 @@ std::optional<geometry::ArcRadius> Explorer::radiusOf(const Path &path, const Mo
 /// The tool stands at `end`, and has cut down to where it was before if X and Y are the same.
 TermId Explorer::columnBehind(const Path &path, const Move<SymbolicValue> &move, TermId column, TermId end) {
   const auto stays = [&](Axis axis) { return move.start[indexOf(axis)].number == move.end[indexOf(axis)].number; };
-  const auto holds = [&](TermId condition) { return entails_(reading_.facts(), path.conditions, condition); };
+  const auto holds = [&](TermId condition) { return entails_(interpretation_.facts(), path.conditions, condition); };
   const bool isStraight = move.kind == MoveKind::Rapid || move.kind == MoveKind::Feed || move.kind == MoveKind::Probe;
   if (!isStraight || !stays(Axis::X) || !stays(Axis::Y))
     return end;

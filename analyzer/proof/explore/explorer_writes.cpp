@@ -18,11 +18,11 @@ void Explorer::takeWrites(const Path &path, const StepWrites &step) {
     if (isKept != store_.yes())
       result_.writes.push_back({path.at, path.conditions, isKept, variable});
   };
-  if (path.state.forgotten != before.forgotten)
+  if (path.state.havocked != before.havocked)
     record(std::nullopt, store_.no());
   for (const auto &[variable, now] : path.state.variables.entries()) {
     const SymbolicValue *held = before.variables.find(variable);
-    const SymbolicValue old = held ? *held : reading_.unwritten(before, variable);
+    const SymbolicValue old = held ? *held : interpretation_.unwritten(before, variable);
     record(variable, store_.logicalAnd(store_.equal(now.vacant, old.vacant), store_.equal(now.number, old.number)));
   }
   for (const std::uint32_t variable : step.unkept)

@@ -119,7 +119,7 @@ TermId LoopSummarizer::travelled(Work &work, TermId step) {
   for (const Travel &travel : work.shape.travels)
     if (travel.step == step)
       return travel.distance;
-  return work.shape.travels.emplace_back(Travel{step, explorer_.reading_.fresh("travel", Sort::Real)}).distance;
+  return work.shape.travels.emplace_back(Travel{step, explorer_.interpretation_.fresh("travel", Sort::Real)}).distance;
 }
 
 /// What a distance is, and on which side of 0, if that is known of its step.
@@ -127,7 +127,7 @@ void LoopSummarizer::addTravels(Work &work) {
   smt::TermStore &store = explorer_.store_;
   const TermId zero = store.number(Number(0));
   const auto known = [&](TermId condition) {
-    return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions, condition);
+    return explorer_.entails_(explorer_.interpretation_.facts(), work.arrival.conditions, condition);
   };
   for (const Travel &travel : work.shape.travels) {
     work.facts.push_back(store.equal(travel.distance, store.multiply(work.iterations, travel.step)));
@@ -146,7 +146,7 @@ void LoopSummarizer::addErrors(Work &work) {
     if (part.kind != PartKind::Closed || isSummedExactly(part))
       continue;
     if (!part.error)
-      part.error = explorer_.reading_.fresh("rounding", Sort::Real);
+      part.error = explorer_.interpretation_.fresh("rounding", Sort::Real);
     work.facts.push_back(store.lessOrEqual(store.negate(most), *part.error));
     work.facts.push_back(store.lessOrEqual(*part.error, most));
   }
@@ -201,17 +201,17 @@ bool LoopSummarizer::tryIterations(Work &work) {
 bool LoopSummarizer::relayout(Work &work, bool &grew) {
   grew = false;
   SymbolicState &arrival = work.arrival.state;
-  const auto size = [&] { return termsOf(arrival, work.moved).size() + arrival.forgotten.size(); };
+  const auto size = [&] { return termsOf(arrival, work.moved).size() + arrival.havocked.size(); };
   const std::size_t before = size();
   for (Path &iteration : work.found)
-    if (!alignAll(explorer_.reading_, arrival, iteration.state)) {
+    if (!alignAll(explorer_.interpretation_, arrival, iteration.state)) {
       explorer_.giveUp("a modal call starts or ends inside a loop");
       return false;
     }
   grew = size() != before;
   work.left.clear();
   for (Path &iteration : work.found) {
-    alignAll(explorer_.reading_, arrival, iteration.state); // what a later iteration has made
+    alignAll(explorer_.interpretation_, arrival, iteration.state); // what a later iteration has made
     work.left.push_back(termsOf(iteration.state, iteration.moved));
   }
   return true;
@@ -245,7 +245,7 @@ bool LoopSummarizer::findChanged(Work &work) {
           continue;
         const Sort sort = store.sort(part.arrival) == Sort::Int ? store.sort(left[i]) : store.sort(part.arrival);
         part.kind = PartKind::Free;
-        part.symbol = explorer_.reading_.fresh("part", sort);
+        part.symbol = explorer_.interpretation_.fresh("part", sort);
         changed = true;
       }
     if (!changed)
@@ -256,7 +256,7 @@ bool LoopSummarizer::findChanged(Work &work) {
 }
 
 bool LoopSummarizer::isConstant(const Work &work, TermId term) const {
-  return explorer_.result_.loops[work.instance].isConstant(explorer_.reading_, explorer_.store_, term);
+  return explorer_.result_.loops[work.instance].isConstant(explorer_.interpretation_, explorer_.store_, term);
 }
 
 void LoopSummarizer::classify(Work &work) {
@@ -310,7 +310,7 @@ bool LoopSummarizer::verify(Work &work) {
       if (work.shape.isKeptBy(store, part, left, closed))
         continue;
       if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
-        part.symbol = explorer_.reading_.fresh(
+        part.symbol = explorer_.interpretation_.fresh(
             "part", store.sort(part.arrival) == Sort::Int ? store.sort(left) : store.sort(part.arrival));
       part.kind = PartKind::Free;
       holds = false;
@@ -400,7 +400,7 @@ smt::Substitution LoopSummarizer::atArrival(const Work &work) const {
 bool LoopSummarizer::holdsAtArrival(const Work &work, TermId candidate) {
   smt::TermStore &store = explorer_.store_;
   const smt::Substitution first = atArrival(work);
-  return explorer_.entails_(explorer_.reading_.facts(), work.arrival.conditions,
+  return explorer_.entails_(explorer_.interpretation_.facts(), work.arrival.conditions,
                             smt::substitute(store, candidate, first));
 }
 
@@ -411,7 +411,8 @@ bool LoopSummarizer::holdsAfter(const Work &work, const Path &iteration, TermId 
   for (std::size_t i = 0; i < work.parts().size(); ++i)
     if (work.parts()[i].kind == PartKind::Free)
       next.emplace(work.parts()[i].symbol, left[i]);
-  return explorer_.entails_(explorer_.reading_.facts(), iteration.conditions, smt::substitute(store, candidate, next));
+  return explorer_.entails_(explorer_.interpretation_.facts(), iteration.conditions,
+                            smt::substitute(store, candidate, next));
 }
 
 /// Houdini: candidates that do not hold are dropped until all that are left hold together.
@@ -457,7 +458,8 @@ bool LoopSummarizer::open(Path &path) {
     calls.push_back(path.frames[i].call);
   const auto purpose = explorer_.purpose_;
   const std::size_t mark = store.size();
-  Work work{.arrival = path, .instance = instance, .iterations = explorer_.reading_.fresh("iterations", Sort::Int)};
+  Work work{
+      .arrival = path, .instance = instance, .iterations = explorer_.interpretation_.fresh("iterations", Sort::Int)};
   explorer_.result_.loops.push_back(
       {.head = path.at, .calls = calls, .iterations = work.iterations, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
@@ -496,8 +498,8 @@ bool LoopSummarizer::record(std::size_t instance, const Path &path) {
   LoopInstance &loop = explorer_.result_.loops[instance];
   SymbolicState before = shape.state;
   SymbolicState after = path.state;
-  const std::size_t ranges = before.forgotten.size();
-  if (!alignAll(explorer_.reading_, before, after) || before.forgotten.size() != ranges)
+  const std::size_t ranges = before.havocked.size();
+  if (!alignAll(explorer_.interpretation_, before, after) || before.havocked.size() != ranges)
     return false;
   const std::vector<TermId> left = termsOf(after, path.moved);
   if (left.size() != shape.parts.size())

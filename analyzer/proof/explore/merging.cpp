@@ -19,14 +19,14 @@ std::vector<TermId> without(const std::vector<TermId> &first, const std::vector<
 }
 
 /// True on the second path and false on the first.
-TermId selectorOf(SymbolicInterpretation &reading, const std::vector<TermId> &onlyFirst,
+TermId selectorOf(SymbolicInterpretation &interpretation, const std::vector<TermId> &onlyFirst,
                   const std::vector<TermId> &onlySecond) {
   for (const TermId condition : onlySecond) {
-    const TermId opposite = reading.store().logicalNot(condition);
+    const TermId opposite = interpretation.store().logicalNot(condition);
     if (std::find(onlyFirst.begin(), onlyFirst.end(), opposite) != onlyFirst.end())
       return condition;
   }
-  return reading.unknownTruth().term;
+  return interpretation.unknownTruth().term;
 }
 
 } // namespace
@@ -36,11 +36,11 @@ bool canMerge(const Path &a, const Path &b) {
          haveSameModalCalls(a.state, b.state);
 }
 
-void mergeInto(SymbolicInterpretation &reading, Path &path, Path other) {
-  smt::TermStore &store = reading.store();
+void mergeInto(SymbolicInterpretation &interpretation, Path &path, Path other) {
+  smt::TermStore &store = interpretation.store();
   const std::vector<TermId> onlyFirst = without(path.conditions, other.conditions);
   const std::vector<TermId> onlySecond = without(other.conditions, path.conditions);
-  const TermId second = selectorOf(reading, onlyFirst, onlySecond);
+  const TermId second = selectorOf(interpretation, onlyFirst, onlySecond);
   const TermId first = store.logicalNot(second);
   path.conditions = without(path.conditions, onlyFirst);
   for (const TermId condition : onlyFirst)
@@ -49,7 +49,7 @@ void mergeInto(SymbolicInterpretation &reading, Path &path, Path other) {
   for (const TermId condition : onlySecond)
     if (condition != second)
       path.conditions.push_back(store.implies(second, condition));
-  reading.join(path.state, {second}, other.state);
+  interpretation.join(path.state, {second}, other.state);
   path.moved = store.ite(second, other.moved, path.moved);
   path.steps = std::max(path.steps, other.steps);
 }

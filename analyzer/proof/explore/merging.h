@@ -15,7 +15,7 @@ namespace feedhold::prove {
 /// At the same place, in the same calls and loops, with the same modal calls active.
 bool canMerge(const Path &a, const Path &b);
 /// Of paths that can be merged.
-void mergeInto(SymbolicInterpretation &reading, Path &path, Path other);
+void mergeInto(SymbolicInterpretation &interpretation, Path &path, Path other);
 
 /// The paths that are still to be followed, those that others may meet later first.
 class Worklist {

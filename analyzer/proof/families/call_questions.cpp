@@ -11,7 +11,7 @@ using smt::TermId;
 namespace {
 
 std::optional<std::string> brokenByCall(const RunResult &run, const GivenVariables &) {
-  if (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats || run.end == RunEnd::NotModelled)
+  if (run.end == RunEnd::Fuel || run.end == RunEnd::Repeats || run.end == RunEnd::Unmodelled)
     return std::nullopt;
   return "the call violates the contract of the program that it calls";
 }
@@ -39,7 +39,7 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
     const FileContracts *contracts = subject.contractsOf(call.callee);
     if (!contracts)
       continue;
-    ContractTerms terms(start.reading(), subject.programs, call.callee.file, *contracts);
+    ContractTerms terms(start.interpretation(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
     const TermId met = contract.isSound ? store.logicalAnd(terms.assumptions(contract, call.state)) : store.no();
     auto known = asked.find(keyOf(call));

@@ -14,7 +14,7 @@ namespace {
 std::optional<std::string> getsPastGuards(const RunResult &run, const GivenVariables &) {
   const bool moved = std::any_of(run.moves.begin(), run.moves.end(), [](const RecordedMove &move) {
     // an unmodelled block need not move
-    return move.move.kind != MoveKind::Dwell && move.move.kind != MoveKind::Unfollowed;
+    return move.move.kind != MoveKind::Dwell && move.move.kind != MoveKind::Unmodelled;
   });
   if (moved)
     return "an axis moves before any alarm";
@@ -90,7 +90,8 @@ std::optional<Obligation> guardedRow(const ProofContext &context) {
   ExploreOptions options;
   const Outside outsideStart = outsideOf(start, *subject.contract());
   options.assumptions = {store.logicalNot(store.logicalAnd(outsideStart.allowed))};
-  const Exploration found = explore(start.reading(), subject.programs, subject.program, outsideStart.start, options);
+  const Exploration found =
+      explore(start.interpretation(), subject.programs, subject.program, outsideStart.start, options);
   // Runs of the machine start as the contract says: they show what its variables do.
   WitnessSearch witnesses = sampledRuns(subject, start, {store.logicalNot(store.logicalAnd(start.demands()))});
   if (const smt::Model *model = context.anyCall->counterexample()) // what breaks one clause may keep the others

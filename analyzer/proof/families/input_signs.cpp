@@ -18,7 +18,7 @@ bool mayHaveSign(ProofStart &start, TermId id) {
   const std::vector<TermId> &variables = smt::variablesOf(start.store(), id);
   return isComputed && term.sort != Sort::Bool && !variables.empty() &&
          std::all_of(variables.begin(), variables.end(),
-                     [&](TermId variable) { return start.reading().isFromEntry(variable); });
+                     [&](TermId variable) { return start.interpretation().isFromEntry(variable); });
 }
 
 } // namespace

@@ -67,7 +67,7 @@ public:
 
 private:
   void add(const MoveInstance &move) {
-    if (move.move.kind == MoveKind::Unfollowed)
+    if (move.move.kind == MoveKind::Unmodelled)
       return addUnmodelled(move.own, move.conditions);
     Question &question = at(move.own);
     question.goals.push_back({&move.conditions, start_.space().keepsLimit(limit_, move)});

@@ -33,7 +33,7 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
 
 /// With these inputs the loop never ends.
 bool goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
-  return recurrenceFrom(context.start.reading(), context.start.store(), context.found, loop,
+  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
                         context.witnesses.modelOf(given))
       .has_value();
 }
@@ -63,7 +63,7 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
 /// Inputs with which the loop is met in a state whose iteration always leads to one like it.
 std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopInstance &loop) {
   smt::TermStore &store = context.start.store();
-  const auto iteration = recurrentIteration(context.start.reading(), store, loop);
+  const auto iteration = recurrentIteration(context.start.interpretation(), store, loop);
   if (!iteration)
     return std::nullopt;
   std::vector<smt::TermId> conditions;
@@ -89,7 +89,7 @@ Termination foundEnd(const ProofContext &context, const LoopInstance &loop) {
   end.endless = endless(context, loop);
   if (end.endless)
     return end;
-  end = provesEnd(context.start.reading(), context.start.store(), loop);
+  end = provesEnd(context.start.interpretation(), context.start.store(), loop);
   if (!end.proved)
     end.endless = endlessFromStart(context, loop);
   return end;

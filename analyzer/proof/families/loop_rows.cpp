@@ -77,7 +77,8 @@ void explainEnd(const ProofContext &context, verdict::Proved &proved, const Inst
     const auto end = context.ends.find(instance);
     if (end == context.ends.end())
       continue;
-    TerminationExplanation next = explain(context.start.reading(), context.subject.programs, *instance, end->second);
+    TerminationExplanation next =
+        explain(context.start.interpretation(), context.subject.programs, *instance, end->second);
     if (explanation && explanation->why != next.why)
       return;
     if (explanation && explanation->bound != next.bound)

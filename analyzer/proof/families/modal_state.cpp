@@ -60,7 +60,8 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
     const CodeMask off = modes.maskOf(kind, {cancel});
     if (!group || off == 0)
       return store.yes();
-    const TermId cancelled = program.start.reading().code(static_cast<std::uint8_t>(std::countr_zero(off))).index;
+    const TermId cancelled =
+        program.start.interpretation().code(static_cast<std::uint8_t>(std::countr_zero(off))).index;
     return store.logicalNot(store.equal(state.codes[*group].index, cancelled));
   };
   constexpr std::array kOfCycle = {Part::CycleBottom, Part::CycleRetract, Part::CycleInitial, Part::CyclePeck,
@@ -77,11 +78,11 @@ TermId isUsed(const ExploredProgram &program, PartId id, const SymbolicState &st
 template <typename Visit>
 void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state,
                       Visit visit) {
-  SymbolicInterpretation &reading = program.start.reading();
+  SymbolicInterpretation &interpretation = program.start.interpretation();
   smt::TermStore &store = program.start.store();
   SymbolicState before = program.start.entry();
   SymbolicState now = state;
-  if (!alignAll(reading, before, now))
+  if (!alignAll(interpretation, before, now))
     visit(PartId{Part::OtherModalCalls}, store.no());
   dropDifferentModalCalls(before, now);
   const ModalTable modes(program.subject.dialect());

@@ -24,7 +24,7 @@ std::optional<std::string> howItEnded(const RunResult &run) {
   case RunEnd::Alarm: return "the control stops the program with an alarm of its own";
   case RunEnd::Fuel:
   case RunEnd::Repeats:
-  case RunEnd::NotModelled: return std::nullopt;
+  case RunEnd::Unmodelled: return std::nullopt;
   }
   return std::nullopt;
 }
@@ -39,7 +39,7 @@ std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariable
 
 /// Broken as soon as the write happens, however the run ends.
 std::optional<std::string> brokenByWrite(const RunResult &run) {
-  if (run.end == RunEnd::Fuel || run.end == RunEnd::NotModelled)
+  if (run.end == RunEnd::Fuel || run.end == RunEnd::Unmodelled)
     return std::nullopt;
   return "the run changes a variable that the clause does not list";
 }
@@ -84,8 +84,8 @@ TermId codesHold(const ExploredProgram &program, const std::vector<ModalCode> &c
   for (const ModalCode &code : codes) {
     const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
     const auto index = row ? modes.indexOf(*row) : std::nullopt;
-    all = index ? store.logicalAnd(
-                      all, store.equal(state.codes[row->group].index, program.start.reading().code(*index).index))
+    all = index ? store.logicalAnd(all, store.equal(state.codes[row->group].index,
+                                                    program.start.interpretation().code(*index).index))
                 : store.no();
   }
   return all;
@@ -167,7 +167,7 @@ Questions alarmQuestions(const ExploredProgram &program) {
   smt::TermStore &store = start.store();
   for (const AlarmPromise &alarm : subject.contract()->alarms) {
     const TermId condition = start.terms().condition(alarm.condition, start.entry(), start.entry());
-    const TermId number = start.reading().number(alarm.number).number;
+    const TermId number = start.interpretation().number(alarm.number).number;
     const bool isIff = alarm.claim == AlarmClaim::IfAndOnlyIf;
     Question question = promise(subject, ObligationKind::AlarmIff, alarm.clause);
     question.row.id = fmt::format("{}.alarm-iff.{}", subject.name(), alarm.number);

@@ -28,7 +28,7 @@ void markRounding(const ProofContext &context, std::vector<Obligation> &rows) {
   ExploreOptions options = context.start.exploreOptions(subject);
   options.sums = Sums::Rounded;
   const Exploration rounded =
-      explore(context.start.reading(), subject.programs, subject.program, context.start.entry(), options);
+      explore(context.start.interpretation(), subject.programs, subject.program, context.start.entry(), options);
   if (rounded.incomplete)
     return;
   const Budget budget{.search = subject.options.budget.search, .z3 = 0, .cvc5 = 0};

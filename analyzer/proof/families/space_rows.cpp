@@ -229,7 +229,7 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
       return fmt::format("the modal code of the group of G{:02} at the start is unknown; state it with `@MODAL`",
                          code.tenths / 10);
     }
-  for (const auto &[variable, value] : start_.reading().entryValues())
+  for (const auto &[variable, value] : start_.interpretation().entryValues())
     if (const VariableRange *range = findVariable(dialect, variable);
         range && range->role == VariableRole::WorkOffset && variables.contains(value.number))
       return fmt::format("the work offset in #{0} is unknown; state it with `@GLOBAL #{0} ..`", variable);

@@ -44,11 +44,12 @@ std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &fo
   return "this block raises only alarms that the contract declares";
 }
 
-TermId isOneOf(SymbolicInterpretation &reading, const SymbolicValue &value, const std::vector<std::uint32_t> &numbers) {
-  smt::TermStore &store = reading.store();
+TermId isOneOf(SymbolicInterpretation &interpretation, const SymbolicValue &value,
+               const std::vector<std::uint32_t> &numbers) {
+  smt::TermStore &store = interpretation.store();
   std::vector<TermId> any;
   for (const std::uint32_t number : numbers)
-    any.push_back(store.equal(value.number, reading.number(number).number));
+    any.push_back(store.equal(value.number, interpretation.number(number).number));
   return store.logicalAnd(store.logicalNot(value.vacant), store.logicalOr(any));
 }
 
@@ -82,7 +83,7 @@ Questions stopQuestions(const ExploredProgram &program) {
                       .broken = stopAt(stop, foreseen)};
     question.row.alarm = stop.alarm;
     for (const StopInstance &instance : stop.instances) {
-      const TermId isForeseen = stop.alarm ? store.no() : isOneOf(start.reading(), instance.number, foreseen);
+      const TermId isForeseen = stop.alarm ? store.no() : isOneOf(start.interpretation(), instance.number, foreseen);
       question.goals.push_back({&instance.conditions, store.implies(instance.stops, isForeseen)});
     }
     questions.push_back(std::move(question));

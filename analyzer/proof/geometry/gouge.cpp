@@ -18,7 +18,7 @@ bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == Mov
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }
 
 bool isFollowed(const RecordedMove &recorded) {
-  return recorded.isOfTool && recorded.move.kind != MoveKind::Unfollowed && recorded.move.kind != MoveKind::Dwell &&
+  return recorded.isOfTool && recorded.move.kind != MoveKind::Unmodelled && recorded.move.kind != MoveKind::Dwell &&
          std::isfinite(GougePath(recorded).length());
 }
 

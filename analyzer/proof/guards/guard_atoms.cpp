@@ -40,9 +40,9 @@ std::string bracketed(const std::string &text) {
 
 } // namespace
 
-AtomMaker::AtomMaker(SymbolicInterpretation &reading, const ProgramSet &programs, const Dialect &dialect)
-    : store_(reading.store()), comparesExactly_(dialect.behaviour.equalTolerance == 0) {
-  for (const auto &[variable, value] : reading.entryValues()) {
+AtomMaker::AtomMaker(SymbolicInterpretation &interpretation, const ProgramSet &programs, const Dialect &dialect)
+    : store_(interpretation.store()), comparesExactly_(dialect.behaviour.equalTolerance == 0) {
+  for (const auto &[variable, value] : interpretation.entryValues()) {
     const VariableRange *row = variable < kFirstNamedVariable ? findVariable(dialect, variable) : nullptr;
     if (row && row->kind == VariableKind::System)
       continue;

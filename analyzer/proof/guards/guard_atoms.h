@@ -31,7 +31,7 @@ struct GuardAtom {
 /// Makes atoms over the inputs that a program or a contract can ask about: local and common variables.
 class AtomMaker {
 public:
-  AtomMaker(SymbolicInterpretation &reading, const ProgramSet &programs, const Dialect &dialect);
+  AtomMaker(SymbolicInterpretation &interpretation, const ProgramSet &programs, const Dialect &dialect);
 
   /// The term is compared with 0.  Absent when it speaks of anything else than such inputs, or of more than their sums
   /// and products.

@@ -30,8 +30,8 @@ struct Inequality {
 
 class Candidates {
 public:
-  Candidates(AtomMaker &make, SymbolicInterpretation &reading, const Exploration &found)
-      : make_(make), store_(reading.store()), found_(found) {}
+  Candidates(AtomMaker &make, SymbolicInterpretation &interpretation, const Exploration &found)
+      : make_(make), store_(interpretation.store()), found_(found) {}
 
   std::vector<GuardAtom> of(const GuardSubject &subject, const std::vector<double> &constants) {
     for (const Query &query : subject.queries)
@@ -227,9 +227,10 @@ private:
 
 } // namespace
 
-std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &reading, const GuardSubject &subject,
-                                       const Exploration &found, const std::vector<double> &constants) {
-  return Candidates(make, reading, found).of(subject, constants);
+std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &interpretation,
+                                       const GuardSubject &subject, const Exploration &found,
+                                       const std::vector<double> &constants) {
+  return Candidates(make, interpretation, found).of(subject, constants);
 }
 
 } // namespace feedhold::prove

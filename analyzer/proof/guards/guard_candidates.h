@@ -16,7 +16,8 @@ struct GuardSubject {
 };
 
 /// Each once; by rank, then in the order in which the subject speaks of them.
-std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &reading, const GuardSubject &subject,
-                                       const Exploration &found, const std::vector<double> &constants);
+std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &interpretation,
+                                       const GuardSubject &subject, const Exploration &found,
+                                       const std::vector<double> &constants);
 
 } // namespace feedhold::prove

@@ -206,8 +206,9 @@ void GuardInference::showSamples(GuardSearch &search, const Obligation &claim) c
 
 /// Guesses, what is left of each guess that was right, and what a wrong one has shown.
 std::optional<GuardInference::Atoms> GuardInference::atomsFor(const Obligation &claim, const GuardSubject &subject) {
-  AtomMaker make(start_.reading(), context_.subject.programs, context_.subject.dialect());
-  GuardSearch search(guardCandidates(make, start_.reading(), subject, context_.found, context_.subject.constants()));
+  AtomMaker make(start_.interpretation(), context_.subject.programs, context_.subject.dialect());
+  GuardSearch search(
+      guardCandidates(make, start_.interpretation(), subject, context_.found, context_.subject.constants()));
   showSamples(search, claim);
   if (!subject.loops.empty() && search.neverEnds())
     return std::nullopt; // an alarm that cuts the loop short is no end
@@ -310,7 +311,8 @@ Trial GuardInference::exploredWith(const Obligation &claim, TermId condition) {
   ExploreOptions options = start_.exploreOptions(subject);
   options.assumptions.push_back(condition);
   options.mostWork = work_;
-  const Exploration found = explore(start_.reading(), subject.programs, subject.program, start_.entry(), options);
+  const Exploration found =
+      explore(start_.interpretation(), subject.programs, subject.program, start_.entry(), options);
   const std::uint64_t done = found.work + (claim.kind == ObligationKind::NoControlAlarm ? kWorkOfStop : kWorkOfEnd);
   work_ -= std::min(work_, done);
   const WitnessSearch witnesses = context_.witnesses.narrowed(condition, sampleInputs_);

@@ -24,7 +24,7 @@ public:
   explicit Work(const ProofSubject &subject)
       : subject_(subject), start_(subject), promises_(subject, promiseQuestions), stage_(std::make_unique<Stage>()) {
     const ExploreOptions options = start_.exploreOptions(subject);
-    stage_->found = explore(start_.reading(), subject.programs, subject.program, start_.entry(), options);
+    stage_->found = explore(start_.interpretation(), subject.programs, subject.program, start_.entry(), options);
     witnesses_.emplace(sampledRuns(subject, start_, start_.demands()));
     if (subject.contract())
       sampleContract();
@@ -155,7 +155,7 @@ void Work::followIterations() {
   options.mostWork = 200'000;
   options.mostTerms = 100'000;
   auto each = std::make_unique<Stage>();
-  each->found = explore(start_.reading(), subject_.programs, subject_.program, start_.entry(), options);
+  each->found = explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
   if (each->found.incomplete || !each->found.unmodelledCalls.empty())
     return;
   settleStage(*each);

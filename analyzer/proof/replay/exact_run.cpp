@@ -19,14 +19,14 @@ ExploreOptions exactOptions() {
   return options;
 }
 
-void startExactly(SymbolicInterpretation &reading, const GivenVariables &given) {
-  smt::TermStore &store = reading.store();
+void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given) {
+  smt::TermStore &store = interpretation.store();
   std::map<std::uint32_t, SymbolicValue> values;
   for (const auto &[variable, value] : given.entries())
     values.emplace(variable, value.vacant
-                                 ? reading.vacant()
+                                 ? interpretation.vacant()
                                  : SymbolicValue{store.no(), store.number(smt::Number::fromTyped(value.number))});
-  reading.startFrom(std::move(values));
+  interpretation.startFrom(std::move(values));
 }
 
 InputsKey keyOf(const GivenVariables &given) {
@@ -45,7 +45,7 @@ bool ExactRuns::has(const Ends &ends, const RunResult &run) {
   case RunEnd::UserAlarm: return stopsAt(std::nullopt);
   case RunEnd::Fuel:
   case RunEnd::Repeats: return ends.repeats;
-  case RunEnd::NotModelled: return false;
+  case RunEnd::Unmodelled: return false;
   case RunEnd::M02:
   case RunEnd::M30:
   case RunEnd::EndOfFile:
@@ -57,11 +57,11 @@ bool ExactRuns::has(const Ends &ends, const RunResult &run) {
 ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   smt::TermStore store;
   const Dialect &dialect = *programs_.file(entry_.file).dialect;
-  SymbolicInterpretation reading(store, dialect);
-  startExactly(reading, given);
+  SymbolicInterpretation interpretation(store, dialect);
+  startExactly(interpretation, given);
   const ModalTable modes(dialect);
-  reading.keepPolar(modes.groupOf(ModalKind::Polar));
-  const Exploration found = explore(reading, programs_, entry_, symbolicEntry(reading), exactOptions());
+  interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
+  const Exploration found = explore(interpretation, programs_, entry_, symbolicEntry(interpretation), exactOptions());
   Ends ends;
   ends.repeats = !found.repeats.empty();
   ends.isIncomplete = found.incomplete.has_value();

@@ -19,8 +19,8 @@ enum class Agreement : std::uint8_t {
 
 /// To follow single runs.
 ExploreOptions exactOptions();
-/// The reading starts from these inputs.
-void startExactly(SymbolicInterpretation &reading, const GivenVariables &given);
+/// The interpretation starts from these inputs.
+void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given);
 
 /// Each input by its number; no value: vacant.
 using InputsKey = std::vector<std::pair<std::uint32_t, std::optional<double>>>;

@@ -94,12 +94,12 @@ std::optional<ExampleRun> exampleRun(const ProgramSet &programs, Callee program,
   if (contract == nullptr)
     return started(programs, program, contracts, {});
   smt::TermStore store;
-  SymbolicInterpretation reading(store, *programs.file(program.file).dialect);
-  SymbolicState entry = symbolicEntry(reading);
-  ContractTerms terms(reading, programs, program.file, contracts);
+  SymbolicInterpretation interpretation(store, *programs.file(program.file).dialect);
+  SymbolicState entry = symbolicEntry(interpretation);
+  ContractTerms terms(interpretation, programs, program.file, contracts);
   terms.prepare(*contract, entry);
   const std::vector<smt::TermId> demands = terms.demands(*contract, entry);
-  WitnessSearch inputs(reading, programs, program, demands, {});
+  WitnessSearch inputs(interpretation, programs, program, demands, {});
   const Outcome anyCall = discharge(store, {demands, store.no()});
   if (const smt::Model *model = anyCall.counterexample())
     inputs.sampleAround(*model);

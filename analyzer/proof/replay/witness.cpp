@@ -41,7 +41,7 @@ std::string howItEnded(const RunResult &run) {
   case RunEnd::UserAlarm: return fmt::format("the run stops with alarm {:.15g}", run.alarmNumber);
   case RunEnd::Fuel: return fmt::format("the run had not ended after {} instructions", run.steps);
   case RunEnd::Repeats: return "the run repeats for ever";
-  case RunEnd::NotModelled: return "the run comes to a block that is not modelled";
+  case RunEnd::Unmodelled: return "the run comes to a block that is not modelled";
   }
   FEEDHOLD_UNREACHABLE("the switch names every end");
 }
@@ -50,23 +50,23 @@ double rounded(double value, double step) { return std::round(value / step) * st
 
 } // namespace
 
-WitnessSearch::WitnessSearch(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+WitnessSearch::WitnessSearch(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                              std::vector<smt::TermId> demands, std::vector<double> constants)
-    : reading_(reading), programs_(programs), entry_(entry), demands_(std::move(demands)),
+    : interpretation_(interpretation), programs_(programs), entry_(entry), demands_(std::move(demands)),
       constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)) {}
 
 std::vector<std::uint32_t> WitnessSearch::inputs() const {
   std::vector<std::uint32_t> inputs;
-  for (const auto &[variable, value] : reading_.entryValues())
+  for (const auto &[variable, value] : interpretation_.entryValues())
     inputs.push_back(variable);
   return inputs;
 }
 
 smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   smt::Model model;
-  const smt::TermStore &store = reading_.store();
-  smt::spend(kStepsOfInput * reading_.entryValues().size());
-  for (const auto &[variable, value] : reading_.entryValues()) {
+  const smt::TermStore &store = interpretation_.store();
+  smt::spend(kStepsOfInput * interpretation_.entryValues().size());
+  for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
     model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromTyped(held->number);
@@ -81,18 +81,18 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
     return true;
   const smt::Model model = modelOf(given);
   return std::all_of(demands_.begin(), demands_.end(),
-                     [&](smt::TermId demand) { return smt::isTrue(reading_.store(), demand, model); });
+                     [&](smt::TermId demand) { return smt::isTrue(interpretation_.store(), demand, model); });
 }
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {
-  WitnessSearch narrowed(reading_, programs_, entry_, demands_, constants_);
+  WitnessSearch narrowed(interpretation_, programs_, entry_, demands_, constants_);
   narrowed.startFrom(start_, place_);
   narrowed.others_ = others_;
   narrowed.exactRuns_ = exactRuns_;
   narrowed.replays_ = replays_;
   narrowed.demands_.push_back(demand);
   for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (smt::isTrue(reading_.store(), demand, inputs[i]))
+    if (smt::isTrue(interpretation_.store(), demand, inputs[i]))
       narrowed.samples_.push_back(samples_[i]);
   return narrowed;
 }
@@ -102,7 +102,7 @@ RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   options.variables = given;
   const smt::Model model = place_.empty() ? smt::Model() : modelOf(given);
   for (const auto &[axis, place] : place_)
-    if (const auto value = smt::evaluate(reading_.store(), place, model))
+    if (const auto value = smt::evaluate(interpretation_.store(), place, model))
       if (const auto *number = std::get_if<smt::Number>(&*value))
         options.start[indexOf(axis)] = number->toDouble();
   return options;
@@ -162,7 +162,7 @@ void WitnessSearch::sampleAround(const smt::Model &allowed) {
 }
 
 void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
-  const smt::TermStore &store = reading_.store();
+  const smt::TermStore &store = interpretation_.store();
   std::mt19937 random(1);
   for (int i = 0; i < kSamplesOfEnds; ++i) {
     GivenVariables given = inputsOf(others_);
@@ -251,9 +251,9 @@ std::optional<Witness> WitnessSearch::tried(const GivenVariables &given, const V
 
 /// An input without a number, or with one beyond all doubles, is left out.
 GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
-  const smt::TermStore &store = reading_.store();
+  const smt::TermStore &store = interpretation_.store();
   GivenVariables given;
-  for (const auto &[variable, value] : reading_.entryValues()) {
+  for (const auto &[variable, value] : interpretation_.entryValues()) {
     const auto number = model.find(store[value.number].name);
     const auto vacant =
         store[value.vacant].kind == smt::TermKind::Variable ? model.find(store[value.vacant].name) : model.end();

@@ -35,7 +35,7 @@ struct Violation {
 class WitnessSearch {
 public:
   /// `demands`: what the inputs have to satisfy.
-  WitnessSearch(SymbolicInterpretation &reading, const ProgramSet &programs, Callee entry,
+  WitnessSearch(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                 std::vector<smt::TermId> demands, std::vector<double> constants);
 
   /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
@@ -94,7 +94,7 @@ private:
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
-  SymbolicInterpretation &reading_;
+  SymbolicInterpretation &interpretation_;
   const ProgramSet &programs_;
   Callee entry_;
   std::vector<smt::TermId> demands_;

@@ -119,7 +119,7 @@ private:
 
   void sine(TermId value, TermId angle) {
     fact(within(-1, value, 1));
-    circle(value, store_.apply(Function::Cos, angle));
+    pythagorean(value, store_.apply(Function::Cos, angle));
     if (store_.isNumber(angle))
       return enclose(value, store_[angle].number);
     signWithin(angle, 0, 180, atMost(number(0), value));
@@ -129,7 +129,7 @@ private:
 
   void cosine(TermId value, TermId angle) {
     fact(within(-1, value, 1));
-    circle(value, store_.apply(Function::Sin, angle));
+    pythagorean(value, store_.apply(Function::Sin, angle));
     if (store_.isNumber(angle))
       return enclose(value, store_[angle].number + 90);
     signWithin(angle, -90, 90, atMost(number(0), value));
@@ -142,7 +142,7 @@ private:
     factWhere(store_.notEqual(cos, number(0)), equal(times(value, cos), store_.apply(Function::Sin, angle)));
   }
 
-  void circle(TermId value, TermId other) {
+  void pythagorean(TermId value, TermId other) {
     fact(equal(store_.add(times(value, value), times(other, other)), number(1)));
   }
 

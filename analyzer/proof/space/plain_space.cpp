@@ -8,14 +8,14 @@ namespace feedhold::prove {
 
 namespace {
 
-using State = MachineState<ConcreteReading>;
+using State = MachineState<ConcreteInterpretation>;
 
 /// Reads the expressions of a contract with the values of one call.
 class ContractNumbers {
 public:
   ContractNumbers(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run)
       : programs_(programs), file_(programs.file(program.file)), contracts_(contracts), modes_(*file_.dialect),
-        reading_(*file_.dialect, run.variables), state_(startState(reading_, modes_, run.start)) {
+        interpretation_(*file_.dialect, run.variables), state_(startState(interpretation_, modes_, run.start)) {
     for (const auto &[group, code] : run.codes)
       state_.codes[group] = code;
     for (const Axis axis : kAllAxes) {
@@ -40,7 +40,7 @@ private:
                                .tree = &contracts_.tree,
                                .model = file_.model,
                                .dialect = file_.dialect};
-    StepContext<ConcreteReading> context{reading_, state, programs_, contract, modes_, BlockId(0)};
+    StepContext<ConcreteInterpretation> context{interpretation_, state, programs_, contract, modes_, BlockId(0)};
     return evaluateIt(context);
   }
 
@@ -48,7 +48,7 @@ private:
   const ProgramFile &file_;
   const FileContracts &contracts_;
   ModalTable modes_;
-  ConcreteReading reading_;
+  ConcreteInterpretation interpretation_;
   State state_;
 };
 

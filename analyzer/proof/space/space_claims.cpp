@@ -178,7 +178,7 @@ SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
 
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
   const MoveKind kind = instance.move.kind;
-  if (kind == MoveKind::Unfollowed)
+  if (kind == MoveKind::Unmodelled)
     return true;
   if (rule.kind == ObligationKind::KeepIn || rule.kind == ObligationKind::Limit)
     return isCutting(kind);
@@ -186,7 +186,7 @@ bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) 
 }
 
 std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance) const {
-  if (instance.move.kind == MoveKind::Unfollowed)
+  if (instance.move.kind == MoveKind::Unmodelled)
     return "the motion of this block is unknown: it could not be read, its code is not modelled, or the motion code or "
            "the plane at the start is unknown, which `@MODAL` states";
   for (const Axis axis : kAllAxes)

@@ -16,7 +16,7 @@ constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over wh
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
 template <typename Evaluate>
-auto inContract(SymbolicInterpretation &reading, const ProgramSet &programs, FileId file,
+auto inContract(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
                 const FileContracts &contracts, SymbolicState &state, Evaluate &&evaluate) {
   const ProgramFile &program = programs.file(file);
   const ProgramFile within{.file = file,
@@ -25,10 +25,10 @@ auto inContract(SymbolicInterpretation &reading, const ProgramSet &programs, Fil
                            .model = program.model,
                            .dialect = program.dialect};
   const ModalTable modes(*program.dialect);
-  reading.useDialect(*program.dialect);
-  StepContext<SymbolicInterpretation> context{reading, state, programs, within, modes, BlockId(0)};
+  interpretation.useDialect(*program.dialect);
+  StepContext<SymbolicInterpretation> context{interpretation, state, programs, within, modes, BlockId(0)};
   auto result = evaluate(context);
-  reading.start(); // what a condition of a contract would stop at is no alarm of the program
+  interpretation.start(); // what a condition of a contract would stop at is no alarm of the program
   return result;
 }
 
@@ -36,7 +36,7 @@ auto inContract(SymbolicInterpretation &reading, const ProgramSet &programs, Fil
 
 SymbolicValue ContractTerms::value(ExpressionId expression, const SymbolicState &state) {
   SymbolicState copy = state;
-  return inContract(reading_, programs_, file_, contracts_, copy,
+  return inContract(interpretation_, programs_, file_, contracts_, copy,
                     [&](auto &context) { return evaluate(context, expression); });
 }
 
@@ -50,7 +50,7 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
     state.variables.set(oldVariable(local), entry.locals[local]);
   for (const std::uint32_t variable : oldVariables_)
     state.variables.set(oldVariable(variable),
-                        reading_.unwritten(entry, cellOf(*programs_.file(file_).dialect, variable)));
+                        interpretation_.unwritten(entry, cellOf(*programs_.file(file_).dialect, variable)));
   smt::spend(kStepsOfTerm);
   return state;
 }
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> ContractTerms::oldOf(const FileContracts &contracts) 
 
 TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
   SymbolicState state = withReserved(entry, now);
-  return inContract(reading_, programs_, file_, contracts_, state,
+  return inContract(interpretation_, programs_, file_, contracts_, state,
                     [&](auto &context) { return evaluateCondition(context, expression); })
       .term;
 }
@@ -81,8 +81,8 @@ TermId ContractTerms::conditionAt(ExpressionId expression, const SymbolicState &
                                   const std::array<TermId, 3> &point) {
   SymbolicState state = withReserved(entry, entry);
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
-    state.variables.set(pointVariable(letterOf(axis)), {reading_.store().no(), point[indexOf(axis)]});
-  return inContract(reading_, programs_, file_, contracts_, state,
+    state.variables.set(pointVariable(letterOf(axis)), {interpretation_.store().no(), point[indexOf(axis)]});
+  return inContract(interpretation_, programs_, file_, contracts_, state,
                     [&](auto &context) { return evaluateCondition(context, expression); })
       .term;
 }
@@ -96,11 +96,11 @@ SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState
     return state.locals[variable];
   const std::uint32_t cell = cellOf(*programs_.file(file_).dialect, variable);
   const SymbolicValue *written = state.variables.find(cell);
-  return written ? *written : reading_.unwritten(state, cell);
+  return written ? *written : interpretation_.unwritten(state, cell);
 }
 
 TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {
-  smt::TermStore &store = reading_.store();
+  smt::TermStore &store = interpretation_.store();
   const SymbolicValue held = valueOf(given.variable, entry);
   std::vector<TermId> demands;
   match(
@@ -153,7 +153,7 @@ std::vector<TermId> ContractTerms::modesOfStart(const Contract &contract, const 
   prepare(contract, prepared);
   std::vector<TermId> all;
   for (std::size_t group = 0; group < kModalGroups; ++group)
-    all.push_back(reading_.store().equal(started.codes[group].index, prepared.codes[group].index));
+    all.push_back(interpretation_.store().equal(started.codes[group].index, prepared.codes[group].index));
   return all;
 }
 
@@ -162,7 +162,7 @@ std::vector<TermId> ContractTerms::placeOfStart(const Contract &contract, const 
   prepare(contract, prepared);
   std::vector<TermId> all;
   for (const Axis axis : kAllAxes)
-    all.push_back(reading_.store().equal(started.at(axis).number, prepared.at(axis).number));
+    all.push_back(interpretation_.store().equal(started.at(axis).number, prepared.at(axis).number));
   return all;
 }
 
@@ -180,12 +180,12 @@ void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
     const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
     const auto index = row ? modes.indexOf(*row) : std::nullopt;
     if (index)
-      entry.codes[row->group] = reading_.code(*index);
+      entry.codes[row->group] = interpretation_.code(*index);
   }
   if (contract.start)
     for (const AxisValue &axis : contract.start->axes)
       if (const auto known = axisOf(axis.axis))
-        entry.at(*known) = reading_.asNumber(value(axis.value, entry));
+        entry.at(*known) = interpretation_.asNumber(value(axis.value, entry));
 }
 
 } // namespace feedhold::prove

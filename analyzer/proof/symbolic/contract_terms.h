@@ -17,9 +17,10 @@ struct InputEnds {
 
 class ContractTerms {
 public:
-  ContractTerms(SymbolicInterpretation &reading, const ProgramSet &programs, FileId file,
+  ContractTerms(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
                 const FileContracts &contracts)
-      : reading_(reading), programs_(programs), file_(file), contracts_(contracts), oldVariables_(oldOf(contracts)) {}
+      : interpretation_(interpretation), programs_(programs), file_(file), contracts_(contracts),
+        oldVariables_(oldOf(contracts)) {}
 
   /// The modal codes and the start position of the contract are put into the state.
   void prepare(const Contract &contract, SymbolicState &entry);
@@ -49,7 +50,7 @@ private:
   SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
   static std::vector<std::uint32_t> oldOf(const FileContracts &contracts);
 
-  SymbolicInterpretation &reading_;
+  SymbolicInterpretation &interpretation_;
   const ProgramSet &programs_;
   FileId file_;
   const FileContracts &contracts_;

@@ -153,7 +153,7 @@ public:
   Value toolLength(const State &state, const Value &number);
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
-  void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
+  void havocVariables(State &state, std::uint32_t first, std::uint32_t last);
   void join(State &state, Truth truth, const State &second);
 
   // ---- what happens ----
@@ -161,7 +161,7 @@ public:
   void userAlarm(const Value &number, Span place);
   bool wantsMoves() const { return true; }
   void move(const Move<Value> &move);
-  void notModelled(std::string_view reason, Span place) { notes_.emplace_back(reason, place); }
+  void unmodelled(std::string_view reason, Span place) { notes_.emplace_back(reason, place); }
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why no claim on the program is made.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
@@ -200,7 +200,7 @@ private:
 };
 
 /// An arbitrary state at the start: each part is a variable of its own.
-SymbolicState symbolicEntry(SymbolicInterpretation &reading);
+SymbolicState symbolicEntry(SymbolicInterpretation &interpretation);
 
 /// Calls visit(smt::TermId &) for each term of the state, in the order of forEachPart.
 template <typename State, typename Visit> void forEachTerm(State &state, Visit &&visit) {
@@ -221,6 +221,6 @@ template <typename State, typename Visit> void forEachTerm(State &state, Visit &
 
 /// Gives both states the same parts and the same havocked variables.  False when they hold different
 /// modal calls.
-bool alignAll(SymbolicInterpretation &reading, SymbolicState &a, SymbolicState &b);
+bool alignAll(SymbolicInterpretation &interpretation, SymbolicState &a, SymbolicState &b);
 
 } // namespace feedhold::prove

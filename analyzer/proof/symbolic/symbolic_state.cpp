@@ -16,20 +16,20 @@ template <typename Values, typename Make> void fillWith(Values &values, Make &&m
     value = make();
 }
 
-bool isForgotten(const SymbolicState &state, std::uint32_t variable) {
-  return std::any_of(state.forgotten.begin(), state.forgotten.end(),
+bool isHavocked(const SymbolicState &state, std::uint32_t variable) {
+  return std::any_of(state.havocked.begin(), state.havocked.end(),
                      [&](const auto &range) { return range.first <= variable && variable <= range.second; });
 }
 
-void shareForgotten(SymbolicState &to, const SymbolicState &from) {
-  for (const auto &range : from.forgotten)
-    if (std::find(to.forgotten.begin(), to.forgotten.end(), range) == to.forgotten.end())
-      to.forgotten.push_back(range);
+void shareHavocked(SymbolicState &to, const SymbolicState &from) {
+  for (const auto &range : from.havocked)
+    if (std::find(to.havocked.begin(), to.havocked.end(), range) == to.havocked.end())
+      to.havocked.push_back(range);
 }
 
 } // namespace
 
-SymbolicState symbolicEntry(SymbolicInterpretation &reading) {
+SymbolicState symbolicEntry(SymbolicInterpretation &interpretation) {
   using Vacancy = SymbolicInterpretation::MayBeVacant;
   const auto nameOf = [](PartId id) {
     return id.part == Part::Position ? fmt::format("{} at the start", kAxisLetters[id.key])
@@ -38,30 +38,30 @@ SymbolicState symbolicEntry(SymbolicInterpretation &reading) {
   const auto value = [&](PartId id, SymbolicValue &input) {
     const bool isNumber = domainOf(id) == PartDomain::Number;
     if (domainOf(id) == PartDomain::Vacancy)
-      input = reading.vacant();
+      input = interpretation.vacant();
     else if (id.part == Part::LocalVariable)
-      input = reading.atEntry(id.key);
+      input = interpretation.atEntry(id.key);
     else
-      input = reading.named(nameOf(id), isNumber ? Vacancy::No : Vacancy::Yes);
+      input = interpretation.named(nameOf(id), isNumber ? Vacancy::No : Vacancy::Yes);
   };
   const auto code = [&](PartId id, SymbolicCode &input) {
     const std::string name = id.part == Part::Spindle ? "spindle" : fmt::format("code of group {}", id.key);
-    input = {reading.store().variable(name, Sort::Int)};
+    input = {interpretation.store().variable(name, Sort::Int)};
   };
-  const auto truth = [&](PartId, Condition &input) { input = reading.unknownTruth(); };
-  return entryParts<SymbolicInterpretation>(reading, Overloaded{value, code, truth},
-                                            [&](PartId id, auto &part) { setAnything(reading, id, part); });
+  const auto truth = [&](PartId, Condition &input) { input = interpretation.unknownTruth(); };
+  return entryParts<SymbolicInterpretation>(interpretation, Overloaded{value, code, truth},
+                                            [&](PartId id, auto &part) { setAnything(interpretation, id, part); });
 }
 
-bool alignAll(SymbolicInterpretation &reading, SymbolicState &a, SymbolicState &b) {
-  const bool haveSameCalls = align(reading, a, b);
-  shareForgotten(a, b);
-  shareForgotten(b, a);
+bool alignAll(SymbolicInterpretation &interpretation, SymbolicState &a, SymbolicState &b) {
+  const bool haveSameCalls = align(interpretation, a, b);
+  shareHavocked(a, b);
+  shareHavocked(b, a);
   return haveSameCalls;
 }
 
 SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_t variable) {
-  if (!isForgotten(state, variable))
+  if (!isHavocked(state, variable))
     return atEntry(variable);
   const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
   return range && range->kind == VariableKind::System ? anyNumber() : anything();
@@ -72,8 +72,8 @@ SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
 }
 SymbolicValue SymbolicInterpretation::toolLength(const State &, const Value &) { return anyNumber(); }
 
-void SymbolicInterpretation::forgetVariables(State &state, std::uint32_t first, std::uint32_t last) {
-  state.forgotten.emplace_back(first, last);
+void SymbolicInterpretation::havocVariables(State &state, std::uint32_t first, std::uint32_t last) {
+  state.havocked.emplace_back(first, last);
   std::erase_if(state.variables.entries(),
                 [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
@@ -87,7 +87,7 @@ void SymbolicInterpretation::join(State &state, Truth truth, const State &second
     return;
   }
   alignToJoin(*this, state, other);
-  shareForgotten(state, other);
+  shareHavocked(state, other);
   forEachPart(Overloaded{[&](PartId, Value &mine, Value &theirs) { mine = select(truth, theirs, mine); },
                          [&](PartId, ModalCode &mine, ModalCode &theirs) { mine = selectCode(truth, theirs, mine); },
                          [&](PartId, Truth &mine, Truth &theirs) {
@@ -140,10 +140,10 @@ bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const 
       state.locals[0] = vacant();
       continue;
     }
-    forgetVariables(state, row.first, row.last);
+    havocVariables(state, row.first, row.last);
     const std::vector<VariableSpan> beside = cellsBeside(*dialect_, row.first, row.last);
     for (const VariableSpan &other : beside)
-      forgetVariables(state, other.first, other.last);
+      havocVariables(state, other.first, other.last);
     mayMoveZero |= (row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty();
   }
   return mayMoveZero;
@@ -152,8 +152,8 @@ bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const 
 // ---- havoc ----
 
 void SymbolicInterpretation::havoc(State &state, std::string_view reason, Span place) {
-  notModelled(reason, place);
-  Move<Value> anywhere{.kind = MoveKind::Unfollowed, .start = state.position};
+  unmodelled(reason, place);
+  Move<Value> anywhere{.kind = MoveKind::Unmodelled, .start = state.position};
   havocParts(*this, state, polarGroup_);
   anywhere.end = state.position;
   move(anywhere);

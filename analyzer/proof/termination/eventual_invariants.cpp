@@ -95,7 +95,8 @@ bool EventualInvariants::holds(Trial &trial, std::span<const TermId> conditions,
   trial.broken.reset();
   if (goal == store_.yes())
     return true;
-  Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), kEffortOfInvariant);
+  Outcome outcome =
+      discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, goal), kEffortOfInvariant);
   trial.work += outcome.effort + 100;
   const bool proved = outcome.proved();
   if (proved)
@@ -109,7 +110,7 @@ bool EventualInvariants::holds(Trial &trial, std::span<const TermId> conditions,
 
 /// Of its variables and of what no iteration changes; and not of the latter alone.
 bool EventualInvariants::isOfTheLoop(TermId term) const {
-  return loop_.isOfState(reading_, store_, term) && !loop_.isConstant(reading_, store_, term);
+  return loop_.isOfState(interpretation_, store_, term) && !loop_.isConstant(interpretation_, store_, term);
 }
 
 std::vector<TermId> EventualInvariants::numbers() const {
@@ -148,7 +149,7 @@ std::set<TermId> EventualInvariants::candidates(std::span<const std::size_t> ite
       addComparison(part, iterations, all);
     for (const TermId number : numbers()) {
       const TermId next = loop_.transitions[iteration].next.at(number);
-      if (!loop_.isConstant(reading_, store_, next))
+      if (!loop_.isConstant(interpretation_, store_, next))
         continue;
       all.insert(store_.lessOrEqual(number, next));
       all.insert(store_.lessOrEqual(next, number));

@@ -15,8 +15,8 @@ namespace feedhold::prove {
 
 class EventualInvariants {
 public:
-  EventualInvariants(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop)
-      : reading_(reading), store_(store), loop_(loop) {}
+  EventualInvariants(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop)
+      : interpretation_(interpretation), store_(store), loop_(loop) {}
 
   struct Found {
     std::vector<smt::TermId> facts;
@@ -47,7 +47,7 @@ private:
   void addIntervals(const Start &start, std::span<const std::size_t> iterations, std::set<smt::TermId> &all) const;
   bool isOfTheLoop(smt::TermId term) const;
 
-  const SymbolicInterpretation &reading_;
+  const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
 };

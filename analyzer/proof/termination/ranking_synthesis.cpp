@@ -129,10 +129,10 @@ private:
   std::vector<Form> rankings_;
 };
 
-RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &reading, smt::TermStore &store,
+RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                    const LoopInstance &loop, std::span<const std::size_t> iterations,
                                    std::span<const TermId> more)
-    : reading_(reading), store_(store), loop_(loop), iterations_(iterations.begin(), iterations.end()) {
+    : interpretation_(interpretation), store_(store), loop_(loop), iterations_(iterations.begin(), iterations.end()) {
   for (const auto &[variable, next] : loop.transitions.front().next)
     if (store.sort(variable) != Sort::Bool)
       variables_.push_back(variable);
@@ -155,7 +155,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &reading, smt::T
     std::vector<TermId> numbers = smt::variablesOf(store, all);
     std::erase_if(numbers, [&](TermId each) { return store.sort(each) == Sort::Bool; });
     const TermId aboutAll = store.lessOrEqual(zero, store.add(numbers));
-    const std::vector<TermId> relevant = relevantQuery(store, reading.facts(), conditions, aboutAll).assumptions;
+    const std::vector<TermId> relevant = relevantQuery(store, interpretation.facts(), conditions, aboutAll).assumptions;
     formulas.insert(formulas.end(), next.begin(), next.end());
     formulas.insert(formulas.end(), relevant.begin(), relevant.end());
     ends.push_back(formulas.size());
@@ -208,7 +208,7 @@ bool RankingSynthesis::isSteady(Atom atom) const {
   TermId term = atom;
   for (auto known = applications_.rbegin(); known != applications_.rend(); ++known)
     term = smt::substitute(store_, term, {{known->first, known->second}});
-  return loop_.isConstant(reading_, store_, term);
+  return loop_.isConstant(interpretation_, store_, term);
 }
 
 // ---- cases ----

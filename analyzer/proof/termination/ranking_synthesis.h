@@ -20,7 +20,7 @@ namespace feedhold::prove {
 class RankingSynthesis {
 public:
   /// `more`: holds before each of the iterations, and behind it.
-  RankingSynthesis(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop,
+  RankingSynthesis(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop,
                    std::span<const std::size_t> iterations, std::span<const smt::TermId> more);
 
   /// Lowered by the iteration, before which it is not negative; raised by none; lowered by as many others as can be.
@@ -65,7 +65,7 @@ private:
   smt::TermId ranking(const Program &program, std::size_t component);
   void makePlain(Program &program, std::size_t components);
 
-  const SymbolicInterpretation &reading_;
+  const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<std::size_t> iterations_;

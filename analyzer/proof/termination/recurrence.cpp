@@ -41,10 +41,10 @@ bool isSignal(const smt::Term &variable) {
 
 class RecurrenceSearch {
 public:
-  RecurrenceSearch(const SymbolicInterpretation &reading, smt::TermStore &store, const Exploration &exploration,
+  RecurrenceSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const Exploration &exploration,
                    const LoopInstance &loop, const Model &inputs)
-      : store_(store), exploration_(exploration), loop_(loop), facts_(reading.facts()), inputs_(inputs) {
-    for (const auto &[variable, value] : reading.entryValues())
+      : store_(store), exploration_(exploration), loop_(loop), facts_(interpretation.facts()), inputs_(inputs) {
+    for (const auto &[variable, value] : interpretation.entryValues())
       for (const TermId part : {value.number, value.vacant})
         fix(part);
     for (const LoopInstance &each : exploration.loops)
@@ -378,11 +378,11 @@ private:
 
 } // namespace
 
-std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &reading, smt::TermStore &store,
+std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                          const Exploration &exploration, const LoopInstance &loop,
                                          const Model &inputs) {
   return smt::within(3 * kStepsOfWork * kMostRecurrenceWork,
-                     [&] { return RecurrenceSearch(reading, store, exploration, loop, inputs).run(); })
+                     [&] { return RecurrenceSearch(interpretation, store, exploration, loop, inputs).run(); })
       .value_or(std::nullopt);
 }
 

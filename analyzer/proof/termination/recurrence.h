@@ -24,7 +24,7 @@ struct Recurrence {
 
 /// `inputs`: of every variable of programs whose first value is used.  Signals that the program reads are taken to stay
 /// 0.
-std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &reading, smt::TermStore &store,
+std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                          const Exploration &exploration, const LoopInstance &loop,
                                          const smt::Model &inputs);
 

@@ -31,8 +31,8 @@ constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
 
 class RankingSearch {
 public:
-  RankingSearch(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop)
-      : reading_(reading), store_(store), loop_(loop) {}
+  RankingSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop)
+      : interpretation_(interpretation), store_(store), loop_(loop) {}
 
   Termination run() {
     std::vector<std::size_t> all;
@@ -88,7 +88,7 @@ private:
 
   /// With more facts that hold before every iteration.
   bool rankWithSupport(const std::vector<std::size_t> &iterations) {
-    const EventualInvariants lasting(reading_, store_, loop_);
+    const EventualInvariants lasting(interpretation_, store_, loop_);
     const EventualInvariants::Found found = lasting.fromArrival(kMostWork / 4);
     work_ = 0;
     if (found.facts.empty())
@@ -101,7 +101,7 @@ private:
   bool afterIteration(const std::vector<std::size_t> &iterations) {
     if (phases_.size() >= kMostPhases)
       return false;
-    const EventualInvariants lasting(reading_, store_, loop_);
+    const EventualInvariants lasting(interpretation_, store_, loop_);
     for (const std::size_t iteration : iterations) {
       if (work_ > kMostWork)
         return false;
@@ -129,7 +129,7 @@ private:
   /// Ranking functions of which each falls when the one before it is negative.
   bool inPhases(const std::vector<std::size_t> &iterations) {
     for (const std::size_t depth : {2u, 3u}) {
-      RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
+      RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
       const auto nested = synthesis.nested(depth);
       work_ += synthesis.work();
       if (!nested)
@@ -168,7 +168,7 @@ private:
     if (phases_.size() >= kMostPhases)
       return false;
     std::vector<TermId> decreasing = decreasingRankings(iterations);
-    RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
+    RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
     if (const auto found = synthesis.decreasing())
       decreasing.insert(decreasing.begin(), *found);
     work_ += synthesis.work();
@@ -192,7 +192,7 @@ private:
   bool lowerByProgram(std::vector<std::size_t> &iterations) {
     if (iterations.size() > kMostDecreasing || work_ > kMostWork)
       return false;
-    RankingSynthesis synthesis(reading_, store_, loop_, iterations, phases_);
+    RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
     bool lowered = false;
     for (const std::size_t iteration : iterations) {
       const auto ranking = synthesis.loweredBy(iteration);
@@ -256,7 +256,7 @@ private:
   }
   bool mayLower(TermId decrease) const { return !store_.isNumber(decrease) || store_[decrease].number.sign() > 0; }
 
-  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
+  bool isConstant(TermId term) const { return loop_.isConstant(interpretation_, store_, term); }
   bool holds(std::size_t iteration, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
@@ -264,7 +264,7 @@ private:
       return false;
     std::vector<TermId> conditions = loop_.transitions[iteration].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
-    Outcome outcome = discharge(store_, relevantQuery(store_, reading_.facts(), conditions, goal), effort_);
+    Outcome outcome = discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, goal), effort_);
     const bool proved = outcome.proved();
     work_ += outcome.effort;
     if (proved)
@@ -408,13 +408,13 @@ private:
       goals.push_back(smt::substitute(store_, phase, next));
     for (const TermId condition : loop_.transitions[second].conditions) {
       for (const TermId variable : smt::variablesOf(store_, condition))
-        if (!loop_.isFixed(reading_, variable) && !next.contains(variable))
+        if (!loop_.isFixed(interpretation_, variable) && !next.contains(variable))
           next.emplace(variable, store_.variable("again " + store_[variable].name, store_.sort(variable)));
       goals.push_back(smt::substitute(store_, condition, next));
     }
     const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
     Outcome outcome =
-        discharge(store_, relevantQuery(store_, reading_.facts(), conditions, impossible), Budget::quick());
+        discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, impossible), Budget::quick());
     work_ += outcome.effort;
     if (!outcome.proved())
       return true;
@@ -422,7 +422,7 @@ private:
     return false;
   }
 
-  const SymbolicInterpretation &reading_;
+  const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<TermId> candidates_;
@@ -433,15 +433,16 @@ private:
   Termination result_;
 };
 
-std::optional<std::size_t> recurrentIterationOf(const SymbolicInterpretation &reading, smt::TermStore &store,
+std::optional<std::size_t> recurrentIterationOf(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                                 const LoopInstance &loop) {
   Entailment entails(store);
   for (std::size_t i = 0; i < loop.transitions.size(); ++i) {
     const Transition &iteration = loop.transitions[i];
     const bool holdsAgain =
         std::all_of(iteration.conditions.begin(), iteration.conditions.end(), [&](TermId condition) {
-          return loop.isOfState(reading, store, condition) &&
-                 entails(reading.facts(), iteration.conditions, smt::substitute(store, condition, iteration.next));
+          return loop.isOfState(interpretation, store, condition) &&
+                 entails(interpretation.facts(), iteration.conditions,
+                         smt::substitute(store, condition, iteration.next));
         });
     if (holdsAgain)
       return i;
@@ -451,8 +452,8 @@ std::optional<std::size_t> recurrentIterationOf(const SymbolicInterpretation &re
 
 } // namespace
 
-Termination provesEnd(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop) {
-  auto found = smt::within(kMostSteps, [&] { return RankingSearch(reading, store, loop).run(); });
+Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop) {
+  auto found = smt::within(kMostSteps, [&] { return RankingSearch(interpretation, store, loop).run(); });
   if (found)
     return std::move(*found);
   Termination given;
@@ -461,9 +462,9 @@ Termination provesEnd(const SymbolicInterpretation &reading, smt::TermStore &sto
   return given;
 }
 
-std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &reading, smt::TermStore &store,
+std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                               const LoopInstance &loop) {
-  const auto found = smt::within(kMostSteps, [&] { return recurrentIterationOf(reading, store, loop); });
+  const auto found = smt::within(kMostSteps, [&] { return recurrentIterationOf(interpretation, store, loop); });
   return found.value_or(std::nullopt);
 }
 

@@ -28,10 +28,10 @@ struct Termination {
   std::optional<Witness> endless = {}; // inputs with which it never ends
 };
 
-Termination provesEnd(const SymbolicInterpretation &reading, smt::TermStore &store, const LoopInstance &loop);
+Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop);
 
 /// The number of an iteration whose conditions hold again after it, so that it repeats for ever.
-std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &reading, smt::TermStore &store,
+std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                               const LoopInstance &loop);
 
 } // namespace feedhold::prove

@@ -19,9 +19,9 @@ constexpr int kMostUsefulBound = 1'000'000; // iterations
 
 class Explainer {
 public:
-  Explainer(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop)
-      : reading_(reading), store_(reading.store()), programs_(programs), loop_(loop) {
-    for (const auto &[variable, value] : reading.entryValues())
+  Explainer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const LoopInstance &loop)
+      : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), loop_(loop) {
+    for (const auto &[variable, value] : interpretation.entryValues())
       atCall_.emplace(value.number, programs.nameOfVariable(variable));
     for (const LoopInstance::Value &value : loop.values)
       if (value.generic != value.arrival && !store_.isNumber(value.generic))
@@ -64,7 +64,8 @@ private:
   }
   /// It holds whenever the loop is met.
   bool isMetWith(TermId goal) {
-    return discharge(store_, relevantQuery(store_, reading_.facts(), loop_.arrival, goal), Budget::quick()).proved();
+    return discharge(store_, relevantQuery(store_, interpretation_.facts(), loop_.arrival, goal), Budget::quick())
+        .proved();
   }
   /// FUP and FIX go by the sign of what they round: whole numbers beside it come into its brackets, where the sum is
   /// not negative if there are iterations.
@@ -91,7 +92,8 @@ private:
   bool isPositive(const RankingFunction &ranking) {
     const TermId goal = store_.less(store_.number(Number(0)), ranking.value);
     return std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
-      return discharge(store_, relevantQuery(store_, reading_.facts(), iteration.conditions, goal), Budget::quick())
+      return discharge(store_, relevantQuery(store_, interpretation_.facts(), iteration.conditions, goal),
+                       Budget::quick())
           .proved();
     });
   }
@@ -199,9 +201,9 @@ private:
     return shopText(store_, term, names);
   }
 
-  bool isConstant(TermId term) const { return loop_.isConstant(reading_, store_, term); }
+  bool isConstant(TermId term) const { return loop_.isConstant(interpretation_, store_, term); }
 
-  SymbolicInterpretation &reading_;
+  SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const ProgramSet &programs_;
   const LoopInstance &loop_;
@@ -211,10 +213,10 @@ private:
 
 } // namespace
 
-TerminationExplanation explain(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop,
-                               const Termination &end) {
+TerminationExplanation explain(SymbolicInterpretation &interpretation, const ProgramSet &programs,
+                               const LoopInstance &loop, const Termination &end) {
   constexpr std::uint64_t kStepsOfExplanation = 200'000'000;
-  return smt::within(kStepsOfExplanation, [&] { return Explainer(reading, programs, loop).of(end); })
+  return smt::within(kStepsOfExplanation, [&] { return Explainer(interpretation, programs, loop).of(end); })
       .value_or(TerminationExplanation());
 }
 

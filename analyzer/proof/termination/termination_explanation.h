@@ -11,7 +11,7 @@ struct TerminationExplanation {
 };
 
 /// Of a loop that is proved to end.
-TerminationExplanation explain(SymbolicInterpretation &reading, const ProgramSet &programs, const LoopInstance &loop,
-                               const Termination &end);
+TerminationExplanation explain(SymbolicInterpretation &interpretation, const ProgramSet &programs,
+                               const LoopInstance &loop, const Termination &end);
 
 } // namespace feedhold::prove

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The block at which the finding is; absent: it is of an older text.
-std::optional<BlockId> blockOf(const Remark &remark, const ProjectFile &file) {
-  if (remark.span.begin > file.source.text().size())
+std::optional<BlockId> blockOf(const PublishedDiagnostic &published, const ProjectFile &file) {
+  if (published.span.begin > file.source.text().size())
     return std::nullopt;
-  return file.tree.blockAt(remark.span.begin);
+  return file.tree.blockAt(published.span.begin);
 }
 
 /// Of the block, when it is the first one of that number in its program: a clause means that one.
@@ -75,16 +75,16 @@ Span placeForComment(BlockId at, const ProjectFile &file) {
 
 } // namespace
 
-std::optional<Edit> commentAllowing(const Remark &remark, const ProjectFile &file) {
-  const std::optional<BlockId> at = blockOf(remark, file);
+std::optional<Edit> commentAllowing(const PublishedDiagnostic &published, const ProjectFile &file) {
+  const std::optional<BlockId> at = blockOf(published, file);
   if (!at)
     return std::nullopt;
   const Span place = placeForComment(*at, file);
-  return Edit{{place.end, place.end}, fmt::format("{}(@ALLOW {} )", place.empty() ? "" : " ", remark.code)};
+  return Edit{{place.end, place.end}, fmt::format("{}(@ALLOW {} )", place.empty() ? "" : " ", published.code)};
 }
 
-std::optional<SidecarClause> clauseAllowing(const Remark &remark, const ProjectFile &file) {
-  const std::optional<BlockId> block = blockOf(remark, file);
+std::optional<SidecarClause> clauseAllowing(const PublishedDiagnostic &published, const ProjectFile &file) {
+  const std::optional<BlockId> block = blockOf(published, file);
   std::error_code ignored; // what cannot be asked has no files beside it
   if (!block || !fs::is_regular_file(file.path, ignored) || file.model.programs.empty())
     return std::nullopt;
@@ -102,9 +102,9 @@ std::optional<SidecarClause> clauseAllowing(const Remark &remark, const ProjectF
   const auto end = static_cast<std::uint32_t>(text.size());
   const bool isInLine = !text.empty() && text.back() != '\n' && text.back() != '\r';
   clause.place = number ? fmt::format("N{}", *number) : "the whole program";
-  clause.edit = {
-      {end, end},
-      fmt::format("{}@ALLOW {}{} \n", isInLine ? "\n" : "", remark.code, number ? fmt::format(" N{}", *number) : "")};
+  clause.edit = {{end, end},
+                 fmt::format("{}@ALLOW {}{} \n", isInLine ? "\n" : "", published.code,
+                             number ? fmt::format(" N{}", *number) : "")};
   return clause;
 }
 

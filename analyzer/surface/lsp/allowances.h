@@ -3,7 +3,7 @@
 #pragma once
 
 #include "findings/project/project.h"
-#include "surface/lsp/remarks.h"
+#include "surface/lsp/published_diagnostics.h"
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 namespace feedhold::lsp {
 
 /// A comment behind what the block says.
-std::optional<Edit> commentAllowing(const Remark &remark, const ProjectFile &file);
+std::optional<Edit> commentAllowing(const PublishedDiagnostic &published, const ProjectFile &file);
 
 /// A clause in the file with contracts beside the program.
 struct SidecarClause {
@@ -23,6 +23,6 @@ struct SidecarClause {
 };
 /// For the block, if it has a number of its own; else for the whole program.  Absent: the program has no name that a
 /// clause could say.
-std::optional<SidecarClause> clauseAllowing(const Remark &remark, const ProjectFile &file);
+std::optional<SidecarClause> clauseAllowing(const PublishedDiagnostic &published, const ProjectFile &file);
 
 } // namespace feedhold::lsp

@@ -26,8 +26,8 @@ View withFolder(const View &view) {
 
 std::uint32_t offsetOf(const View &view, const Json &params) { return view.places().offset(params.at("position")); }
 
-std::optional<ThingAt> thingAt(const View &view, const Json &params) {
-  return thingAt(*view.programs, offsetOf(view, params));
+std::optional<SymbolAt> symbolAt(const View &view, const Json &params) {
+  return symbolAt(*view.programs, offsetOf(view, params));
 }
 
 Json rangeOf(const View &view, FileId file, Span span) { return view.places(file).range(span); }

@@ -11,7 +11,7 @@ View withFolder(const View &view);
 /// The offset of `params.position` in the document.
 std::uint32_t offsetOf(const View &view, const Json &params);
 /// What stands at `params.position`.
-std::optional<ThingAt> thingAt(const View &view, const Json &params);
+std::optional<SymbolAt> symbolAt(const View &view, const Json &params);
 Json rangeOf(const View &view, FileId file, Span span);
 /// `{"uri": .., "range": ..}`
 Json locationOf(const View &view, FileId file, Span span);

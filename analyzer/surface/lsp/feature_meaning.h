@@ -1,7 +1,7 @@
-// Meaning: what people call the things of a program: titles, names of arguments, what a variable or a code is.
+// Meaning: what people call the parts of a program: titles, names of arguments, what a variable or a code is.
 #pragma once
 
-#include "surface/lsp/feature_thing.h"
+#include "surface/lsp/feature_symbol.h"
 
 #include <optional>
 #include <string>

@@ -80,7 +80,7 @@ void checkNoRangeHolds(const Project &programs, const VariableRef &variable) {
                                       file->contracts.clauses[assigns.clause].text));
 }
 
-// ---- what may reach it by another way ----
+// ---- what may reach it indirectly ----
 
 void checkNothingIsComputed(const Project &programs, const VariableRef &variable) {
   eachProgram(programs, variable, [&](ProgramRef program) {

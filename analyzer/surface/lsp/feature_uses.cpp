@@ -110,39 +110,39 @@ std::vector<Use> usesOf(const Project &programs, ProgramRef program) {
   return inOrder(std::move(uses));
 }
 
-std::vector<Use> usesOf(const Project &programs, const Thing &thing) {
+std::vector<Use> usesOf(const Project &programs, const ProgramSymbol &symbol) {
   const ProjectFile &file = programs.file(kDocument);
   return match(
-      thing,
-      [&](const HeaderThing &it) {
+      symbol,
+      [&](const HeaderSymbol &it) {
         return usesOf(programs, ProgramRef{kDocument, it.program});
       },
-      [&](const LabelThing &it) { return usesOf(programs, it.label); },
-      [&](const JumpThing &it) {
+      [&](const LabelSymbol &it) { return usesOf(programs, it.label); },
+      [&](const JumpSymbol &it) {
         std::vector<Use> uses;
         for (const LabelRef &label : labelsOf(programs, kDocument, file.model.jumps[it.jump]))
           for (const Use &use : usesOf(programs, label))
             uses.push_back(use);
         return inOrder(std::move(uses));
       },
-      [&](const CallThing &it) {
+      [&](const CallSymbol &it) {
         const auto callee = programs.set->callGraph().callee(kDocument, file.model.calls[it.call]);
         return callee ? usesOf(programs, *callee) : std::vector<Use>();
       },
-      [&](const ArgumentThing &it) {
+      [&](const ArgumentSymbol &it) {
         const auto callee = programs.set->callGraph().callee(kDocument, file.model.calls[it.call]);
         return callee && it.argument.variable != 0
                    ? usesOf(programs, variableOf(programs, *callee, it.argument.variable))
                    : std::vector<Use>();
       },
-      [&](const VariableThing &it) {
+      [&](const VariableSymbol &it) {
         const auto variable = variableOf(programs, kDocument, it.use);
         return variable ? usesOf(programs, *variable) : std::vector<Use>();
       },
-      [&](const LoopThing &it) { return usesOfLoop(programs, file.model.loops[it.loop]); },
-      [&](const OWordThing &it) { return usesOfConstruct(programs, file.model.oWords[it.oWord]); },
-      [](const CodeThing &) { return std::vector<Use>(); }, [](const WordThing &) { return std::vector<Use>(); },
-      [](const ClauseThing &) { return std::vector<Use>(); });
+      [&](const LoopSymbol &it) { return usesOfLoop(programs, file.model.loops[it.loop]); },
+      [&](const OWordSymbol &it) { return usesOfConstruct(programs, file.model.oWords[it.oWord]); },
+      [](const CodeSymbol &) { return std::vector<Use>(); }, [](const WordSymbol &) { return std::vector<Use>(); },
+      [](const ClauseSymbol &) { return std::vector<Use>(); });
 }
 
 } // namespace feedhold::lsp

@@ -1,7 +1,7 @@
 // Uses: all places at which a name of a program stands.
 #pragma once
 
-#include "surface/lsp/feature_thing.h"
+#include "surface/lsp/feature_symbol.h"
 
 #include <vector>
 
@@ -23,6 +23,6 @@ std::vector<Use> usesOf(const Project &programs, const LabelRef &label);
 std::vector<Use> usesOf(const Project &programs, const VariableRef &variable);
 std::vector<Use> usesOf(const Project &programs, ProgramRef program);
 /// Of what stands at a place of the document; empty: it has no name, or its name is computed.
-std::vector<Use> usesOf(const Project &programs, const Thing &thing);
+std::vector<Use> usesOf(const Project &programs, const ProgramSymbol &symbol);
 
 } // namespace feedhold::lsp

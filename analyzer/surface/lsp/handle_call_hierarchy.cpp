@@ -52,12 +52,12 @@ Json listed(const View &view, const Calls &calls, const char *end) {
 } // namespace
 
 Json prepareCallHierarchy(const View &view, const Json &params) {
-  const auto at = thingAt(view, params);
+  const auto at = symbolAt(view, params);
   if (!at)
     return nullptr;
-  if (const auto *header = std::get_if<HeaderThing>(&at->thing))
+  if (const auto *header = std::get_if<HeaderSymbol>(&at->symbol))
     return Json::array({itemOf(view, {kDocument, header->program})});
-  const auto *call = std::get_if<CallThing>(&at->thing);
+  const auto *call = std::get_if<CallSymbol>(&at->symbol);
   const auto callee =
       call ? view.programs->set->callGraph().callee(kDocument, view.file().model.calls[call->call]) : std::nullopt;
   return callee ? Json::array({itemOf(view, *callee)}) : Json();

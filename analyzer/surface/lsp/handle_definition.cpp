@@ -10,8 +10,8 @@ constexpr int kRead = 2; // DocumentHighlightKind
 constexpr int kWrite = 3;
 
 std::vector<Use> usesAt(const View &view, const Json &params) {
-  const auto thing = thingAt(view, params);
-  return thing ? usesOf(*view.programs, thing->thing) : std::vector<Use>();
+  const auto symbol = symbolAt(view, params);
+  return symbol ? usesOf(*view.programs, symbol->symbol) : std::vector<Use>();
 }
 
 /// From either end of a loop to the other one.
@@ -27,13 +27,13 @@ Json otherEnds(const View &view, const std::vector<Use> &uses, Span here) {
 
 Json definition(const View &document, const Json &params) {
   const View view = withFolder(document); // callers give arguments their first values
-  const auto thing = thingAt(view, params);
-  if (!thing)
+  const auto symbol = symbolAt(view, params);
+  if (!symbol)
     return nullptr;
-  const std::vector<Use> uses = usesOf(*view.programs, thing->thing);
-  if (std::holds_alternative<LoopThing>(thing->thing) || std::holds_alternative<OWordThing>(thing->thing))
-    return otherEnds(view, uses, thing->span);
-  if (const auto *jump = std::get_if<JumpThing>(&thing->thing)) {
+  const std::vector<Use> uses = usesOf(*view.programs, symbol->symbol);
+  if (std::holds_alternative<LoopSymbol>(symbol->symbol) || std::holds_alternative<OWordSymbol>(symbol->symbol))
+    return otherEnds(view, uses, symbol->span);
+  if (const auto *jump = std::get_if<JumpSymbol>(&symbol->symbol)) {
     const Jump &from = view.file().model.jumps[jump->jump];
     if (from.target && from.kind != JumpKind::ReturnTo) // of several with one number the one that is found first
       return locationOf(view, kDocument, view.file().tree.blocks[*from.target].span());

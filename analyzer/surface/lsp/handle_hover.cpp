@@ -1,10 +1,10 @@
-// What the thing at a place is, and what is known of it there.
+// What the symbol at a place is, and what is known of it there.
 #include "base/support/match.h"
 #include "base/support/text.h"
 #include "language/model/block_facts.h"
 #include "meaning/semantics/modal_table.h"
+#include "surface/lsp/facts_at_cursor.h"
 #include "surface/lsp/feature_handlers.h"
-#include "surface/lsp/feature_here.h"
 #include "surface/lsp/feature_json.h"
 #include "surface/lsp/feature_meaning.h"
 
@@ -25,22 +25,23 @@ std::string modeName(const ModalTable &modes, std::uint8_t group) {
 
 class Hover {
 public:
-  Hover(const View &view, const ThingAt &at) : view_(view), programs_(*view.programs), file_(view.file()), at_(at) {}
+  Hover(const View &view, const SymbolAt &at) : view_(view), programs_(*view.programs), file_(view.file()), at_(at) {}
 
   std::string write() {
     match(
-        at_.thing,
-        [&](const HeaderThing &it) {
+        at_.symbol,
+        [&](const HeaderSymbol &it) {
           program({kDocument, it.program});
         },
-        [&](const LabelThing &it) { label(it.label); }, [&](const JumpThing &it) { jump(file_.model.jumps[it.jump]); },
-        [&](const CallThing &it) { call(file_.model.calls[it.call]); },
-        [&](const ArgumentThing &it) { argument(file_.model.calls[it.call], it.argument); },
-        [&](const VariableThing &it) { variable(it.use); },
-        [&](const LoopThing &it) { loop(file_.model.loops[it.loop]); }, [](const OWordThing &) {},
-        [&](const CodeThing &it) { code(file_.tree.words[it.word]); },
-        [&](const WordThing &it) { word(file_.tree.words[it.word]); },
-        [&](const ClauseThing &it) {
+        [&](const LabelSymbol &it) { label(it.label); },
+        [&](const JumpSymbol &it) { jump(file_.model.jumps[it.jump]); },
+        [&](const CallSymbol &it) { call(file_.model.calls[it.call]); },
+        [&](const ArgumentSymbol &it) { argument(file_.model.calls[it.call], it.argument); },
+        [&](const VariableSymbol &it) { variable(it.use); },
+        [&](const LoopSymbol &it) { loop(file_.model.loops[it.loop]); }, [](const OWordSymbol &) {},
+        [&](const CodeSymbol &it) { code(file_.tree.words[it.word]); },
+        [&](const WordSymbol &it) { word(file_.tree.words[it.word]); },
+        [&](const ClauseSymbol &it) {
           const ClauseKind kind = file_.contracts.clauses[it.clause].kind;
           line("**{}** {}", feedhold::nameOf(kind), helpOf(kind));
         });
@@ -161,16 +162,16 @@ private:
         std::find_if(facts.begin(), facts.end(), [&](const ValueFact &fact) { return fact.name == name; });
     return found == facts.end() ? otherwise : feedhold::textOf(*found);
   }
-  /// What is known before this line, on each way of calls.
+  /// What is known before this line, for each chain of calls.
   template <typename Tell> void before(Tell tell) {
     const auto known = knownBefore(view_, at_.block);
     if (!known)
       return;
-    if (known->ways.empty())
+    if (known->contexts.empty())
       return line("no run comes to this line");
     std::vector<std::pair<std::string, std::string>> texts;
-    for (const FactsHere &way : known->ways)
-      texts.emplace_back(way.way, tell(way.facts));
+    for (const FactsOfContext &context : known->contexts)
+      texts.emplace_back(context.caller, tell(context.facts));
     if (const std::string text = together(texts); !text.empty())
       line("before this line{}: {}", known->assumed.empty() ? "" : ", " + known->assumed, text);
   }
@@ -215,20 +216,20 @@ private:
   const View &view_;
   const Project &programs_;
   const ProjectFile &file_;
-  const ThingAt &at_;
+  const SymbolAt &at_;
   std::string text_;
 };
 
 } // namespace
 
 Json hover(const View &view, const Json &params) {
-  const auto thing = thingAt(view, params);
-  if (!thing)
+  const auto symbol = symbolAt(view, params);
+  if (!symbol)
     return nullptr;
-  std::string text = Hover(view, *thing).write();
+  std::string text = Hover(view, *symbol).write();
   if (text.empty())
     return nullptr;
-  return {{"contents", markdown(std::move(text))}, {"range", rangeOf(view, kDocument, thing->span)}};
+  return {{"contents", markdown(std::move(text))}, {"range", rangeOf(view, kDocument, symbol->span)}};
 }
 
 } // namespace feedhold::lsp

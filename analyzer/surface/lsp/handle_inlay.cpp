@@ -76,7 +76,7 @@ private:
       before = {block, codes};
     }
   }
-  /// What may be in force before the blocks of a range and the one above it, over all ways of calls.
+  /// What may be in force before the blocks of a range and the one above it, over all chains of calls.
   std::map<BlockId, CodeSet> codesIn(const BlockStates &states, std::uint8_t group, BlockId first, BlockId last) const {
     std::map<BlockId, CodeSet> codes;
     for (const ContextStates &context : states.contexts) {

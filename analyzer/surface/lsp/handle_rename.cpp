@@ -29,16 +29,16 @@ LabelRef onlyLabel(const Project &programs, const Jump &jump) {
 
 Renamed namedAt(const View &view, const Json &params) {
   constexpr std::string_view kNothing = "only sequence numbers and variables can get another name";
-  const auto at = thingAt(view, params);
+  const auto at = symbolAt(view, params);
   if (!at)
     throw Refused(std::string(kNothing));
-  if (const auto *label = std::get_if<LabelThing>(&at->thing))
+  if (const auto *label = std::get_if<LabelSymbol>(&at->symbol))
     return {label->label, at->span};
-  if (const auto *jump = std::get_if<JumpThing>(&at->thing)) {
+  if (const auto *jump = std::get_if<JumpSymbol>(&at->symbol)) {
     const Jump &from = view.file().model.jumps[jump->jump];
     return {onlyLabel(*view.programs, from), from.targetSpan};
   }
-  const auto *variable = std::get_if<VariableThing>(&at->thing);
+  const auto *variable = std::get_if<VariableSymbol>(&at->symbol);
   if (!variable)
     throw Refused(std::string(kNothing));
   const auto ref = variableOf(*view.programs, kDocument, variable->use);

@@ -58,9 +58,9 @@ private:
   void checkQuickly(OpenDocument &document);
   void publish(const OpenDocument &document);
   void complainAbout(const std::vector<PathProblem> &problems);
-  Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks);
+  Json diagnosticsOf(const OpenDocument &document, std::span<const std::vector<PublishedDiagnostic> *const> lists);
   Json findingsOf(const OpenDocument &document);
-  RemarkContext remarkContext();
+  PublishContext publishContext();
   std::string pageOf(std::string_view rule);
 
   // ---- findings that follow the flow (session_flow.cpp) ----
@@ -100,7 +100,7 @@ private:
 
   // ---- what can be done (session_actions.cpp) ----
   Json codeActions(const Json &params);
-  void addActions(const Remark &remark, OpenDocument &document, const Places &places, Json &actions);
+  void addActions(const PublishedDiagnostic &published, OpenDocument &document, const Places &places, Json &actions);
   Json sidecarEdit(const SidecarClause &clause) const;
   std::optional<Edit> fixAll(OpenDocument &document);
   Json formatting(const Json &params);

@@ -39,18 +39,18 @@ bool isWanted(const Json &context, std::string_view kind) {
   });
 }
 
-std::vector<const Remark *> remarksAt(Span span, const OpenDocument &document) {
-  std::vector<const Remark *> found;
-  for (const std::vector<Remark> *some : {&document.proofs, &document.quick, &document.flow})
-    for (const Remark &remark : *some)
-      if (remark.span.begin <= span.end && span.begin <= remark.span.end)
-        found.push_back(&remark);
+std::vector<const PublishedDiagnostic *> diagnosticsAt(Span span, const OpenDocument &document) {
+  std::vector<const PublishedDiagnostic *> found;
+  for (const std::vector<PublishedDiagnostic> *some : {&document.proofs, &document.quick, &document.flow})
+    for (const PublishedDiagnostic &published : *some)
+      if (published.span.begin <= span.end && span.begin <= published.span.end)
+        found.push_back(&published);
   return found;
 }
 
-bool hasSafeFix(const std::vector<Remark> &remarks) {
-  return std::any_of(remarks.begin(), remarks.end(), [](const Remark &remark) {
-    return std::any_of(remark.fixes.begin(), remark.fixes.end(),
+bool hasSafeFix(const std::vector<PublishedDiagnostic> &diagnostics) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const PublishedDiagnostic &published) {
+    return std::any_of(published.fixes.begin(), published.fixes.end(),
                        [](const FixIt &fix) { return fix.safety == FixSafety::Safe; });
   });
 }
@@ -70,8 +70,8 @@ Json ClientSession::codeActions(const Json &params) {
   const Places places(SourceFile::fromText({}, *document.document.text), workspace_.encoding);
   Json actions = Json::array();
   if (isWanted(context, kQuickFix))
-    for (const Remark *remark : remarksAt(places.span(params.at("range")), document))
-      addActions(*remark, document, places, actions);
+    for (const PublishedDiagnostic *published : diagnosticsAt(places.span(params.at("range")), document))
+      addActions(*published, document, places, actions);
   if (isWanted(context, kFixAll) && (hasSafeFix(document.quick) || hasSafeFix(document.flow)))
     if (const std::optional<Edit> edit = fixAll(document))
       actions.push_back(
@@ -79,9 +79,10 @@ Json ClientSession::codeActions(const Json &params) {
   return actions;
 }
 
-void ClientSession::addActions(const Remark &remark, OpenDocument &document, const Places &places, Json &actions) {
-  const Json diagnostics = Json::array({diagnosticOf(remark, places, document.document.uri, remarkContext())});
-  for (const FixIt &fix : remark.fixes) {
+void ClientSession::addActions(const PublishedDiagnostic &published, OpenDocument &document, const Places &places,
+                               Json &actions) {
+  const Json diagnostics = Json::array({diagnosticOf(published, places, document.document.uri, publishContext())});
+  for (const FixIt &fix : published.fixes) {
     Json action = {{"title", fix.title},
                    {"kind", kQuickFix},
                    {"diagnostics", diagnostics},
@@ -90,26 +91,26 @@ void ClientSession::addActions(const Remark &remark, OpenDocument &document, con
       action["isPreferred"] = true;
     actions.push_back(std::move(action));
   }
-  for (Json command : remark.commands) {
+  for (Json command : published.commands) {
     for (Json &argument : command["arguments"])
       argument["uri"] = document.document.uri;
     const Json title = command["title"];
     actions.push_back({{"title", title}, {"kind", kQuickFix}, {"diagnostics", diagnostics}, {"command", command}});
   }
   const auto programs = workspace_.programsOf(document);
-  const RegisteredRule *rule = findRule(options_.known.rules, remark.code);
+  const RegisteredRule *rule = findRule(options_.known.rules, published.code);
   const bool isOfSuppression = rule && rule->rule->info.category == Category::Suppression;
-  if (!programs || !remark.subject.empty() || isOfSuppression)
+  if (!programs || !published.subject.empty() || isOfSuppression)
     return; // a verdict is no matter of opinion, and what is wrong with a suppression cannot be suppressed
   const ProjectFile &file = programs->file(FileId(0));
-  if (const std::optional<Edit> edit = commentAllowing(remark, file))
-    actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", remark.code)},
+  if (const std::optional<Edit> edit = commentAllowing(published, file))
+    actions.push_back({{"title", fmt::format("allow `{}` here, with a reason", published.code)},
                        {"kind", kQuickFix},
                        {"diagnostics", diagnostics},
                        {"edit", workspaceEdit(document, {*edit}, places)}});
-  const std::optional<SidecarClause> clause = clauseAllowing(remark, file);
+  const std::optional<SidecarClause> clause = clauseAllowing(published, file);
   if (clause && (!clause->isNew || createsFiles_))
-    actions.push_back({{"title", fmt::format("allow `{}` for {} in {}, with a reason", remark.code, clause->place,
+    actions.push_back({{"title", fmt::format("allow `{}` for {} in {}, with a reason", published.code, clause->place,
                                              clause->file.filename().generic_string())},
                        {"kind", kQuickFix},
                        {"diagnostics", diagnostics},

@@ -141,7 +141,7 @@ void ClientSession::checkQuickly(OpenDocument &document) {
   bool isKnown = false;
   for (std::size_t i = 0; i < result.files.size(); ++i)
     if (result.files[i].path == name) {
-      document.quick = split(remarksOn(i, result, remarkContext()), document.denied).fresh;
+      document.quick = split(diagnosticsOfCheck(i, result, publishContext()), document.denied).fresh;
       isKnown = true;
     }
   if (!isKnown && !document.isContract())
@@ -153,7 +153,8 @@ void ClientSession::checkQuickly(OpenDocument &document) {
 
 void ClientSession::publish(const OpenDocument &document) {
   // Those who pull get the findings when they ask.
-  const std::array<const std::vector<Remark> *, 3> all = {&document.proofs, &document.quick, &document.flow};
+  const std::array<const std::vector<PublishedDiagnostic> *, 3> all = {&document.proofs, &document.quick,
+                                                                       &document.flow};
   notify("textDocument/publishDiagnostics",
          {{"uri", document.document.uri},
           {"version", document.document.version},
@@ -167,28 +168,29 @@ void ClientSession::complainAbout(const std::vector<PathProblem> &problems) {
 }
 
 Json ClientSession::findingsOf(const OpenDocument &document) {
-  const std::array<const std::vector<Remark> *, 2> findings = {&document.quick, &document.flow};
+  const std::array<const std::vector<PublishedDiagnostic> *, 2> findings = {&document.quick, &document.flow};
   return diagnosticsOf(document, findings);
 }
 
-Json ClientSession::diagnosticsOf(const OpenDocument &document, std::span<const std::vector<Remark> *const> remarks) {
-  const RemarkContext context = remarkContext();
+Json ClientSession::diagnosticsOf(const OpenDocument &document,
+                                  std::span<const std::vector<PublishedDiagnostic> *const> lists) {
+  const PublishContext context = publishContext();
   const std::string &uri = document.document.uri;
   const Places places(SourceFile::fromText({}, *document.document.text), workspace_.encoding);
-  std::vector<const Remark *> all;
-  for (const std::vector<Remark> *some : remarks)
-    for (const Remark &remark : *some)
-      all.push_back(&remark);
-  std::stable_sort(all.begin(), all.end(), [](const Remark *a, const Remark *b) {
+  std::vector<const PublishedDiagnostic *> all;
+  for (const std::vector<PublishedDiagnostic> *some : lists)
+    for (const PublishedDiagnostic &published : *some)
+      all.push_back(&published);
+  std::stable_sort(all.begin(), all.end(), [](const PublishedDiagnostic *a, const PublishedDiagnostic *b) {
     return std::pair(a->span, std::string_view(a->code)) < std::pair(b->span, std::string_view(b->code));
   });
   Json diagnostics = Json::array();
-  for (const Remark *remark : all)
-    diagnostics.push_back(diagnosticOf(*remark, places, uri, context));
+  for (const PublishedDiagnostic *published : all)
+    diagnostics.push_back(diagnosticOf(*published, places, uri, context));
   return diagnostics;
 }
 
-RemarkContext ClientSession::remarkContext() {
+PublishContext ClientSession::publishContext() {
   return {.encoding = workspace_.encoding,
           .uriOf = [this](const fs::path &path) { return workspace_.uriOf(path); },
           .pageOf = [this](std::string_view rule) { return pageOf(rule); }};

@@ -98,17 +98,18 @@ void ClientSession::takeFlow(OpenDocument &document, const CheckResult &result, 
                              Stage stage) {
   const auto own = indexOf(result, subject.name);
   const Json before = subject.isForOthers ? findingsOf(document) : Json();
-  std::vector<Remark> all = own ? remarksOn(*own, result, remarkContext()) : std::vector<Remark>();
+  std::vector<PublishedDiagnostic> all =
+      own ? diagnosticsOfCheck(*own, result, publishContext()) : std::vector<PublishedDiagnostic>();
   if (stage == Stage::Alone) {
     all = split(std::move(all), document.denied).fresh;
   } else {
-    std::vector<Remark> denied = std::move(document.denied);
-    for (const std::vector<Remark> *some : {&document.quick, &document.flow})
+    std::vector<PublishedDiagnostic> denied = std::move(document.denied);
+    for (const std::vector<PublishedDiagnostic> *some : {&document.quick, &document.flow})
       denied.insert(denied.end(), some->begin(), some->end());
     document.denied = split(std::move(denied), all).fresh;
     document.isFlowKnown = true;
   }
-  const std::vector<Remark> quick = std::move(document.quick);
+  const std::vector<PublishedDiagnostic> quick = std::move(document.quick);
   document.quick = split(quick, all).known;
   document.flow = split(std::move(all), quick).fresh;
   if (own && !document.isContract())
@@ -145,7 +146,7 @@ void ClientSession::planOthers(const OpenDocument &changed) {
 
 /// On the files with contracts beside a program: they are not open, so that nobody else speaks for them.
 void ClientSession::publishOthers(OpenDocument &document, const CheckResult &result, std::size_t own) {
-  const RemarkContext context = remarkContext();
+  const PublishContext context = publishContext();
   std::set<std::string> told;
   for (const auto &[uri, diagnostics] : document.others)
     told.insert(uri);
@@ -158,8 +159,8 @@ void ClientSession::publishOthers(OpenDocument &document, const CheckResult &res
     const std::string uri = context.uriOf(file.path);
     const Places places(file.source, workspace_.encoding);
     Json &diagnostics = document.others[uri] = Json::array();
-    for (const Remark &remark : remarksOn(i, result, context))
-      diagnostics.push_back(diagnosticOf(remark, places, uri, context));
+    for (const PublishedDiagnostic &published : diagnosticsOfCheck(i, result, context))
+      diagnostics.push_back(diagnosticOf(published, places, uri, context));
     told.insert(uri);
   }
   for (const std::string &uri : told)

@@ -7,10 +7,10 @@ namespace feedhold::lsp {
 
 namespace {
 
-/// Null where the way leads nowhere.
+/// Null where there is nothing.
 Json at(const Json &json, std::string_view pointer) {
-  const Json::json_pointer way{std::string(pointer)};
-  return json.contains(way) ? json.at(way) : Json();
+  const Json::json_pointer place{std::string(pointer)};
+  return json.contains(place) ? json.at(place) : Json();
 }
 
 bool isTrue(const Json &json, std::string_view pointer) { return at(json, pointer) == true; }

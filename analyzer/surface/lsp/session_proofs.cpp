@@ -72,17 +72,17 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
     return;
   document->verdicts = verdictsOf(result);
   document->proved = result;
-  std::vector<Remark> remarks;
+  std::vector<PublishedDiagnostic> diagnostics;
   if (!result->files.empty()) {
     const ProvedFile &file = result->files.front();
-    remarks = remarksOnProofs(file, *result, remarkContext());
+    diagnostics = diagnosticsOfProofs(file, *result, publishContext());
     // The verdicts name places of the programs that were loaded for them.
     document->programs = std::shared_ptr<const Project>(result, file.project.get());
   }
   for (const PathProblem &problem : result->errors) // the findings say it, too
     log(fmt::format("{}: {}", problem.path, problem.message));
-  const bool isNews = !remarks.empty() || !document->proofs.empty();
-  document->proofs = std::move(remarks);
+  const bool isNews = !diagnostics.empty() || !document->proofs.empty();
+  document->proofs = std::move(diagnostics);
   if (isNews)
     publish(*document);
   if (refreshesHints_)

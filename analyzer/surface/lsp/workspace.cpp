@@ -16,10 +16,11 @@ constexpr std::size_t kQuickFolder = 500;
 /// With more files it is no folder of programs, and only looked at document by document.
 constexpr std::size_t kLargestFolder = 20'000;
 
-std::vector<Remark> movedAll(const std::vector<Remark> &remarks, const std::vector<TextChange> &changes) {
-  std::vector<Remark> result;
-  for (const Remark &remark : remarks) {
-    std::optional<Remark> here = remark;
+std::vector<PublishedDiagnostic> movedAll(const std::vector<PublishedDiagnostic> &diagnostics,
+                                          const std::vector<TextChange> &changes) {
+  std::vector<PublishedDiagnostic> result;
+  for (const PublishedDiagnostic &published : diagnostics) {
+    std::optional<PublishedDiagnostic> here = published;
     for (const TextChange &change : changes)
       if (here)
         here = moved(*here, change);
@@ -132,8 +133,8 @@ FlowScope Workspace::scopeOf(const OpenDocument &document) {
 fs::path Workspace::rootOf(const OpenDocument &document) const {
   fs::path innermost;
   for (const fs::path &folder : folders) {
-    const fs::path way = document.document.path.lexically_relative(folder);
-    const bool isBelow = !way.empty() && *way.begin() != "..";
+    const fs::path relative = document.document.path.lexically_relative(folder);
+    const bool isBelow = !relative.empty() && *relative.begin() != "..";
     if (isBelow && folder.native().size() > innermost.native().size())
       innermost = folder;
   }

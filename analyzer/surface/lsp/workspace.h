@@ -4,7 +4,7 @@
 #include "findings/project/file_store.h"
 #include "surface/lsp/event_queue.h"
 #include "surface/lsp/feature.h"
-#include "surface/lsp/remarks.h"
+#include "surface/lsp/published_diagnostics.h"
 #include "surface/lsp/settings.h"
 
 #include <map>
@@ -24,12 +24,13 @@ struct OpenDocument {
   Document document;
   std::uint64_t stamp = 0; // another one after each change of the text or of what it depends on
 
-  std::vector<Remark> quick;          // found without following the flow, in the text in hand
-  std::vector<Remark> denied;         // of `quick`, what is not so when the other files of the folder are known
-  std::vector<Remark> flow;           // what else is found; those of an older text move with it, as those of `denied`
-  std::vector<Remark> proofs;         // likewise
-  bool isFlowKnown = false;           // `flow` is of the text in hand
-  std::map<std::string, Json> others; // diagnostics for further files, by their URIs
+  std::vector<PublishedDiagnostic> quick;  // found without following the flow, in the text in hand
+  std::vector<PublishedDiagnostic> denied; // of `quick`, what is not so when the other files of the folder are known
+  std::vector<PublishedDiagnostic>
+      flow; // what else is found; those of an older text move with it, as those of `denied`
+  std::vector<PublishedDiagnostic> proofs; // likewise
+  bool isFlowKnown = false;                // `flow` is of the text in hand
+  std::map<std::string, Json> others;      // diagnostics for further files, by their URIs
 
   std::shared_ptr<const Project> programs;               // of the text in hand; null: not read yet
   std::shared_ptr<Flow> kept = std::make_shared<Flow>(); // of `programs`, once it has been asked for

@@ -96,7 +96,7 @@ std::string_view classOf(const RecordedMove &recorded) {
   case MoveKind::ArcCounterclockwise: return recorded.isOfTool ? "path" : "path other";
   case MoveKind::Dwell: return "";
   case MoveKind::Probe:
-  case MoveKind::Unfollowed: return "path other";
+  case MoveKind::Unmodelled: return "path other";
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind");
 }

@@ -212,12 +212,12 @@ private:
       item(fmt::format("{}: {}", paths_.of(skipped.at("path")), prose(skipped.at("reason"))));
     for (const Json &file : document_.at("files"))
       for (const Json &program : file.at("programs"))
-        notModelled(file, program, item);
+        unmodelled(file, program, item);
     if (count == 0)
       item("Nothing was left out: all files were read, all called programs found, all blocks modelled.");
     add("</ul>\n</section>\n");
   }
-  template <typename Item> void notModelled(const Json &file, const Json &program, const Item &item) const {
+  template <typename Item> void unmodelled(const Json &file, const Json &program, const Item &item) const {
     const std::string name = fmt::format("<a href=\"#{}\">{}</a>", anchorOf(file, program), text(program.at("name")));
     if (!program.at("incomplete").is_null())
       item(fmt::format("{}: not all paths were explored: {}", name, prose(program.at("incomplete"))));

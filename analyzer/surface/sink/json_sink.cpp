@@ -10,16 +10,16 @@ using json::fixToJson;
 using json::Json;
 using json::placeOf;
 
-Json wayToJson(const Finding &finding, const CheckedFile &file, const Report &report) {
-  Json way = Json::array();
-  for (const Label &step : finding.diagnostic.way) {
+Json flowToJson(const Finding &finding, const CheckedFile &file, const Report &report) {
+  Json flow = Json::array();
+  for (const Label &step : finding.diagnostic.flow) {
     const CheckedFile &there = step.file ? report.result.files[step.file->index()] : file;
     Json row = {{"path", there.path}};
     row.update(placeOf(there.source, step.span));
     row["message"] = step.text;
-    way.push_back(std::move(row));
+    flow.push_back(std::move(row));
   }
-  return way;
+  return flow;
 }
 
 const std::string &allowedIn(const Finding &finding, const CheckedFile &file) {
@@ -33,7 +33,7 @@ Json findingToJson(const Finding &finding, const CheckedFile &file, const Report
   row["severity"] = nameOf(finding.severity);
   row["message"] = finding.diagnostic.message;
   row["fingerprint"] = finding.fingerprint;
-  row["way"] = wayToJson(finding, file, report);
+  row["flow"] = flowToJson(finding, file, report);
   row["notes"] = finding.diagnostic.notes;
   row["fixes"] = Json::array();
   for (const FixIt &fix : finding.diagnostic.fixes)
@@ -46,7 +46,7 @@ Json findingToJson(const Finding &finding, const CheckedFile &file, const Report
 } // namespace
 
 std::string writeJson(const Report &report) {
-  Json document = {{"version", 1}, {"findings", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  Json document = {{"version", 2}, {"findings", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
     document["findings"].push_back(findingToJson(finding, file, report));
   });

@@ -61,7 +61,7 @@ private:
     }
     for (const auto &[number, value] : state_.variables.entries())
       variable(number, value);
-    facts_.othersAreUnknown = !state_.forgotten.empty();
+    facts_.othersAreUnknown = !state_.havocked.empty();
   }
   void variable(std::uint32_t number, const AbstractValue &value) {
     const VariableRange *range =

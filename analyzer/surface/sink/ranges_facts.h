@@ -26,7 +26,7 @@ struct ValueFact {
 
 struct ModeFact {
   std::string name;               // `distance`, `plane`
-  std::vector<std::string> codes; // `G90`; those that are set on some way
+  std::vector<std::string> codes; // `G90`; those that are set on some path
   bool maybeAsAtStart;            // or nothing has set it
   bool isAnyCode = false;         // all that the control has
 };

@@ -86,7 +86,7 @@ template <typename Items, typename ToJson> std::string listOf(const Items &items
 std::string writeRunJson(const RunReport &report) {
   const RunResult &result = report.result;
   const std::vector<Axis> axes = axesOf(report);
-  std::string text = "{\n  \"version\": 1";
+  std::string text = "{\n  \"version\": 2";
   const auto member = [&](std::string_view name, const std::string &value) {
     text += ",\n  \"" + std::string(name) + "\": " + value;
   };

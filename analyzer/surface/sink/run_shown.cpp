@@ -21,7 +21,7 @@ bool standsInProgram(const RunReport &report, std::uint32_t variable) {
 } // namespace
 
 std::vector<std::pair<std::string, ConcreteValue>> variablesOf(const RunReport &report) {
-  const MachineState<ConcreteReading> &state = report.result.state;
+  const MachineState<ConcreteInterpretation> &state = report.result.state;
   const Dialect &dialect = *report.programs.file(report.result.place.file).dialect;
   const auto shown = [&](const ConcreteValue &value) {
     return value.vacant && !dialect.behaviour.variablesMayBeVacant ? ConcreteValue::of(0) : value;

@@ -87,7 +87,7 @@ private:
     case MoveKind::ArcCounterclockwise: return "arc ccw";
     case MoveKind::Dwell: return "dwell";
     case MoveKind::Probe: return "probe";
-    case MoveKind::Unfollowed: return "unknown";
+    case MoveKind::Unmodelled: return "unknown";
     }
     FEEDHOLD_UNREACHABLE("the switch names every kind");
   }
@@ -127,8 +127,7 @@ private:
              placeAndCalls();
     case RunEnd::Repeats:
       return fmt::format("runs for ever: {} is reached again with nothing changed\n", place) + placeAndCalls();
-    case RunEnd::NotModelled:
-      return fmt::format("stops at a block that is not modelled, {}\n", place) + placeAndCalls();
+    case RunEnd::Unmodelled: return fmt::format("stops at a block that is not modelled, {}\n", place) + placeAndCalls();
     }
     FEEDHOLD_UNREACHABLE("the switch names every end");
   }

@@ -62,7 +62,7 @@ Json codeFlows(const Finding &finding, const CheckedFile &file, const Report &re
     steps.push_back(
         {{"location", {{"physicalLocation", physicalLocation(there, span, report)}, {"message", {{"text", text}}}}}});
   };
-  for (const Label &step : finding.diagnostic.way)
+  for (const Label &step : finding.diagnostic.flow)
     add(step.file ? report.result.files[step.file->index()] : file, step.span, step.text);
   add(file, finding.diagnostic.span, finding.diagnostic.message);
   Json thread = {{"locations", std::move(steps)}};
@@ -88,7 +88,7 @@ Json resultToJson(const Finding &finding, const CheckedFile &file, const Report 
   row["locations"] = Json::array({Json{{"physicalLocation", physicalLocation(file, finding.diagnostic.span, report)}}});
   if (!finding.diagnostic.labels.empty())
     row["relatedLocations"] = relatedLocations(finding, file, report);
-  if (!finding.diagnostic.way.empty())
+  if (!finding.diagnostic.flow.empty())
     row["codeFlows"] = codeFlows(finding, file, report);
   // Code scanning services compare only the first; any stable text will do.
   row["partialFingerprints"] = {{"primaryLocationLineHash", finding.fingerprint + ":1"},

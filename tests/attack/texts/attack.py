@@ -98,7 +98,7 @@ class TextAttack:
     def machines(self, files, dialect, folder, text, start, counts):
         answer = self.engine.run([str(folder / text.file), "--program", f"O{text.number}", "--dialect", dialect,
                                   "--fuel", "1500", *as_words(start)])
-        if answer["end"] == "not-modelled" or answer["notes"]:
+        if answer["end"] == "unmodelled" or answer["notes"]:
             counts["runs that `feedhold run` does not follow"] += 1
             return None
         theirs, first = of_engine(answer), None

@@ -36,7 +36,7 @@ class OwordAttack:
             return None
         answer = self.engine.run([str(folder / "main.ngc"), "--dialect", "linuxcnc", "--fuel", "20000"])
         self.tally.counts["runs compared with `feedhold run`"] += 1
-        if answer["notes"] or answer["end"] == "not-modelled":
+        if answer["notes"] or answer["end"] == "unmodelled":
             return None
         if answer["end"] not in ("M02", "M30"):
             return Wrong("feedhold run differs", f"one ends by M2, the other by {answer['end']} {answer['alarm']}")

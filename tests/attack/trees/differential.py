@@ -24,7 +24,7 @@ def is_comparable(program, inputs) -> bool:
 def difference(project, folder, program, inputs, engine, counts):
     """What differs under every choice that is left open; None when the two agree under one."""
     answer = engine.run(run_arguments(project, folder, program.number, inputs) + ["--fuel", str(FUEL)])
-    if answer["end"] == "not-modelled" or answer["notes"]:
+    if answer["end"] == "unmodelled" or answer["notes"]:
         counts["runs that `feedhold run` does not follow"] += 1
         return None
     asked, tried, first = {}, [], None
@@ -34,7 +34,7 @@ def difference(project, folder, program, inputs, engine, counts):
             return first
         tried.append(rest[0])
         outcome = Machine(project, inputs, Choices(given=rest[0]), FUEL, random=random.Random(0)).run(program)
-        if outcome.end == "not-modelled":
+        if outcome.end == "unmodelled":
             return None
         asked.update(outcome.choices)
         counts["runs on both machines"] += 1

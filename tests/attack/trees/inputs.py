@@ -8,7 +8,7 @@ from . import syntax
 from .machine import Inputs, Machine
 from .choices import Choices
 from .random_programs import ALIASES, expressions_of
-from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled
+from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled
 
 EIGHTH = Fraction(1, 8)
 START_CODES = ("G91", "G91", "G1", "G18", "G99", "G95")
@@ -141,7 +141,7 @@ def evaluator_of(inputs: Inputs) -> Evaluator:
             return inputs.locals.get(number)
         if controls.is_common(number):
             return inputs.cells.get(number)
-        raise NotModelled(f"#{number}")
+        raise Unmodelled(f"#{number}")
     return Evaluator(Arithmetic(Choices()), read)
 
 
@@ -150,5 +150,5 @@ def is_allowed(program: syntax.Program, inputs: Inputs) -> bool:
     try:
         return not contracts.broken_at_entry(program.clauses, evaluator_of(inputs), modes,
                                              lambda axis: inputs.place.get(axis, Fraction(0)))
-    except (ControlAlarm, NotModelled):
+    except (ControlAlarm, Unmodelled):
         return False

@@ -10,7 +10,7 @@ from engine import Claim, Proofs
 
 from .files import line_of
 from .machine import Inputs, Machine, Outcome
-from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled, number_of
+from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled, number_of
 
 # What the claims of a stop are called by the engine, for each kind of stop.
 ALARM_WORDS = {
@@ -203,14 +203,14 @@ class Judge:
         def position(when, axis):
             coordinates = (tool if when == "POS" else entry_tool).coordinates
             if coordinates is None:
-                raise NotModelled("another zero point")
+                raise Unmodelled("another zero point")
             return coordinates[controls.AXES.index(axis)]
         arithmetic = Arithmetic(Choices(given=self.outcome.choices))
         evaluator = Evaluator(arithmetic, reader(locals_, cells), reader(activation.entry_locals, activation.entry_cells),
                               position)
         try:
             return evaluator.holds(condition)
-        except (ControlAlarm, NotModelled):
+        except (ControlAlarm, Unmodelled):
             return True
 
     def preserved(self, activation, claim, state):
@@ -306,5 +306,5 @@ def reader(locals_, cells):
         cell = controls.canonical(number)
         if controls.is_offset(cell):
             return number_of(cells.get(cell))
-        raise NotModelled(f"#{number}")
+        raise Unmodelled(f"#{number}")
     return read

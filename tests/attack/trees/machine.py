@@ -1,6 +1,6 @@
 """Runs the trees of syntax.py as the manuals say: blocks in order, jumps as a search of the text, calls as levels.
 
-What the manuals leave open asks `choices`; what they do not say, or these tests do not need, raises NotModelled, and
+What the manuals leave open asks `choices`; what they do not say, or these tests do not need, raises Unmodelled, and
 the run is judged up to there.
 """
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from . import controls
 from . import syntax
 from .ends import OutOfFuel, ProgramEnd, Repeats, UserAlarm
 from .motion import Tool
-from .values import Arithmetic, ControlAlarm, Evaluator, NotModelled, nearest, number_of
+from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled, nearest, number_of
 
 
 @dataclass
@@ -74,7 +74,7 @@ class ModalCall:
 
 @dataclass
 class Outcome:
-    end: str  # return M30 alarm user-alarm fuel endless not-modelled
+    end: str  # return M30 alarm user-alarm fuel endless unmodelled
     activation: Optional[Activation] = None  # where it stopped
     block: Optional[int] = None
     alarm: object = None  # kind of the control's alarm, or the number
@@ -133,10 +133,10 @@ class Machine:
             except Repeats:
                 outcome.end, outcome.cycle = "endless", frozenset(self.since_look)
                 outcome.lasting = frozenset(self.seen_activations) & frozenset(f.activation for f in self.frames)
-            except NotModelled as reason:
-                outcome.end, outcome.reason = "not-modelled", str(reason)
+            except Unmodelled as reason:
+                outcome.end, outcome.reason = "unmodelled", str(reason)
         except RecursionError:
-            outcome.end, outcome.reason = "not-modelled", "recursion of the host"
+            outcome.end, outcome.reason = "unmodelled", "recursion of the host"
         if self.frames:
             outcome.activation, outcome.block = self.frames[-1].activation, self.frames[-1].at
             outcome.locals = dict(self.frames[0].locals)
@@ -258,7 +258,7 @@ class Machine:
     def alarm(self, number):
         value = self.evaluator.value(number)
         if value is None or not 0 <= value <= self.control.last_alarm_number or value.denominator != 1:
-            raise NotModelled("number of an alarm")
+            raise Unmodelled("number of an alarm")
         raise UserAlarm(int(value))
 
     # ---- jumps ----
@@ -266,7 +266,7 @@ class Machine:
     def jump(self, frame: Frame, target):
         value = self.evaluator.value(target)
         if value is None:
-            raise NotModelled("GOTO of a vacant value")
+            raise Unmodelled("GOTO of a vacant value")
         self.go_to(frame, nearest(value, self.choices))
 
     def go_to(self, frame: Frame, number: int):
@@ -299,7 +299,7 @@ class Machine:
         except ControlAlarm:
             if self.choices.choose("do-without-end-stops-at-do", (True, False)):
                 raise
-            raise NotModelled("where a DO without END stops") from None
+            raise Unmodelled("where a DO without END stops") from None
 
     def end_index(self, frame: Frame, do: int, number: int) -> int:
         blocks = frame.activation.program.blocks
@@ -343,12 +343,12 @@ class Machine:
         if 4001 <= number <= 4022 or number in (4109,) or 5001 <= number <= 5003:
             return self.tool.system_value(number, len(self.modal_calls))
         self.named(number)
-        raise NotModelled(f"#{number}")
+        raise Unmodelled(f"#{number}")
 
     def named(self, number: int):
         """Some Mitsubishi controls have #400 to #499, and options add others."""
         if 200 <= number <= 499 and self.control.dialect == "mitsubishi-m700":
-            raise NotModelled("a variable by option")
+            raise Unmodelled("a variable by option")
         if 34 <= number <= 99 or 200 <= number <= 499 or number < 0:
             raise ControlAlarm("variable")
 
@@ -357,7 +357,7 @@ class Machine:
         if not controls.is_offset(cell):
             return None
         if not self.control.fanuc_offsets and not controls.is_work_offset(number):
-            raise NotModelled("which numbers are one offset")
+            raise Unmodelled("which numbers are one offset")
         return cell
 
     def outputs(self, number: int):
@@ -377,20 +377,20 @@ class Machine:
         self.named(number)
         if number == 3000:
             if value is None or not 0 <= value <= self.control.last_alarm_number or value.denominator != 1:
-                raise NotModelled("number of an alarm")
+                raise Unmodelled("number of an alarm")
             raise UserAlarm(int(value))
         if 4001 <= number <= 4022 or 5001 <= number <= 5003:
             raise ControlAlarm("write")
         cell = number
         if not controls.is_common(number):
             if value is None:
-                raise NotModelled("a vacant value for the control")
+                raise Unmodelled("a vacant value for the control")
             if number == controls.ALL_OUTPUTS or controls.is_bit_of_outputs(number):
                 cell, value = controls.ALL_OUTPUTS, self.with_outputs(number, value)
             else:
                 cell = self.cell_of_offset(number)
             if cell is None:
-                raise NotModelled(f"#{number}")
+                raise Unmodelled(f"#{number}")
         if controls.is_work_offset(cell) and value != number_of(self.cells.get(cell)):
             self.tool.zero_is_known = False
         self.cells[cell] = value
@@ -405,12 +405,12 @@ class Machine:
 
     def with_outputs(self, number: int, value):
         if value.denominator != 1 or not 0 <= value < 2 ** 31 or number != controls.ALL_OUTPUTS and value > 1:
-            raise NotModelled("a value for outputs")
+            raise Unmodelled("a value for outputs")
         if number == controls.ALL_OUTPUTS:
             return value
         whole, bit = int(number_of(self.cells.get(controls.ALL_OUTPUTS))), 1 << (number - 1100)
         if bit >= 2 ** 31:
-            raise NotModelled("the sign of the outputs")
+            raise Unmodelled("the sign of the outputs")
         return Fraction(whole | bit if value else whole & ~bit)
 
     # ---- words ----
@@ -459,14 +459,14 @@ class Machine:
     def program_of(self, expression):
         value = self.evaluator.value(expression)
         if value is None or nearest(value, self.choices) not in self.programs:
-            raise NotModelled("a program that is not there")
+            raise Unmodelled("a program that is not there")
         return self.programs[nearest(value, self.choices)]
 
     def repeats_of(self, expression) -> int:
         value = None if expression is None else self.evaluator.value(expression)
         count = 1 if value is None else nearest(value, self.choices)
         if not 1 <= count <= 9999:
-            raise NotModelled("a number of repeats")
+            raise Unmodelled("a number of repeats")
         return count
 
     def call(self, frame: Frame, call: syntax.Call):
@@ -479,9 +479,9 @@ class Machine:
         if call.kind == "G65":
             return self.repeat_call(frame, program, repeats, arguments)
         if self.fires_below is not None:
-            raise NotModelled("G66 inside of a modal macro")
+            raise Unmodelled("G66 inside of a modal macro")
         if len(self.modal_calls) > 2:
-            raise NotModelled("levels of modal calls")
+            raise Unmodelled("levels of modal calls")
         self.modal_calls.append(ModalCall(program, repeats, dict(arguments), arguments))
         frame.at += 1
         return None
@@ -518,7 +518,7 @@ class Machine:
             self.frames.pop()
             if target.number is not None:
                 if number + 1 < repeats and self.choices.choose("return-to-label-ends-repeats", (True, False)) is False:
-                    raise NotModelled("M99 P within repeats")
+                    raise Unmodelled("M99 P within repeats")
                 frame.pass_of_call = (0, 0)
                 self.go_to(frame, target.number)
                 return None
@@ -528,11 +528,11 @@ class Machine:
 
     def check_depth(self):
         if len(self.frames) > 4:
-            raise NotModelled("levels of calls")
+            raise Unmodelled("levels of calls")
 
     def cancel_modal_call(self):
         if self.fires_below is not None:
-            raise NotModelled("G67 inside of a modal macro")
+            raise Unmodelled("G67 inside of a modal macro")
         if self.modal_calls:
             self.modal_calls.pop()
         elif self.choices.choose("g67-alone-stops", (True, False)):
@@ -546,7 +546,7 @@ class Machine:
             frame.at += 1
             return None
         if level > 1 and self.choices.choose("nested-modal-calls", ("last-first",)) != "last-first":
-            raise NotModelled("nested modal calls")
+            raise Unmodelled("nested modal calls")
         call = self.modal_calls[level - 1]
         self.fires_below = level - 1
         try:
@@ -564,7 +564,7 @@ class Machine:
             self.frames.pop()
             if target.number is not None:
                 if number + 1 < call.repeats:
-                    raise NotModelled("M99 P within repeats")
+                    raise Unmodelled("M99 P within repeats")
                 frame.pass_of_call = (0, 0)
                 self.go_to(frame, target.number)
                 return None
@@ -573,7 +573,7 @@ class Machine:
         return None
 
     def call_local(self, frame: Frame, call: syntax.Call):
-        raise NotModelled("M97")
+        raise Unmodelled("M97")
 
 
 @dataclass

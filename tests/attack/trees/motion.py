@@ -3,7 +3,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from . import controls
-from .values import NotModelled
+from .values import Unmodelled
 
 AXES = controls.AXES
 
@@ -42,7 +42,7 @@ class Tool:
     def coordinate(self, axis: str) -> Fraction:
         """In the work coordinate system in force."""
         if not self.zero_is_known:
-            raise NotModelled("another zero point")
+            raise Unmodelled("another zero point")
         return self.place[axis]
 
     def snapshot(self) -> Snapshot:
@@ -58,14 +58,14 @@ class Tool:
             return self.coordinate(AXES[number - 5001])
         if number == 4109:
             if self.registers["F"] is None:
-                raise NotModelled("F of before")
+                raise Unmodelled("F of before")
             return self.registers["F"]
         group = number - 4000
         if group == 12:
             return Fraction(66 if modal_calls else 67)
         code = self.modes.get(group)
         if code is None:
-            raise NotModelled(f"group {group}")
+            raise Unmodelled(f"group {group}")
         return Fraction(code[1:])
 
     def block(self, codes, words: dict, frame, frames) -> bool:
@@ -77,7 +77,7 @@ class Tool:
             elif code in ("M3", "M5"):
                 self.registers["spindle"] = code
             elif code not in ("M8", "M9", "G67"):
-                raise NotModelled(code)
+                raise Unmodelled(code)
         for letter in "FSTHD":
             if letter in words:
                 self.registers[letter] = words[letter]
@@ -85,9 +85,9 @@ class Tool:
         if not axes:
             return False
         if self.modes[9] != "G80" or self.modes[1] not in ("G0", "G1"):
-            raise NotModelled("arcs and cycles")
+            raise Unmodelled("arcs and cycles")
         if self.modes[14] != "G54" and any(c.startswith("G5") for c in codes):
-            raise NotModelled("a change of the zero point")
+            raise Unmodelled("a change of the zero point")
         return self.move_to(axes, words, frame, frames)
 
     def move_to(self, axes, words, frame, frames) -> bool:
@@ -96,7 +96,7 @@ class Tool:
             self.place[axis] = (self.place[axis] if self.modes[3] == "G91" else 0) + words[axis]
         kind = "rapid" if self.modes[1] == "G0" else "feed"
         if kind == "feed" and self.registers["F"] is not None and self.registers["F"] <= 0:
-            raise NotModelled("F 0")
+            raise Unmodelled("F 0")
         move = Move(kind, tuple(start.values()), tuple(self.place.values()),
                     tuple(self.coordinate(a) for a in AXES), self.registers["F"],
                     frame.activation.program.number, frame.at,

@@ -9,7 +9,7 @@ from .inputs import InputMaker
 from .machine import Machine
 from .random_programs import named_in
 from .syntax import Alarm, Block, IfThen, Number, Relation, Variable
-from .values import ControlAlarm, NotModelled
+from .values import ControlAlarm, Unmodelled
 
 RUNS = 6
 FIRST_ALARM = 20
@@ -38,7 +38,7 @@ def observe(project, rng) -> dict:
         for variable in watched[number]:
             try:
                 values.setdefault(variable, set()).add(machine.read(variable))
-            except (ControlAlarm, NotModelled):
+            except (ControlAlarm, Unmodelled):
                 pass
     for _ in range(RUNS):
         program = project.programs()[0] if rng.random() < 0.7 else rng.choice(project.programs())

@@ -6,7 +6,7 @@ from .choices import Choices
 from .files import file_of, line_of
 from .inputs import is_allowed
 from .machine import Machine
-from .values import ControlAlarm, NotModelled
+from .values import ControlAlarm, Unmodelled
 
 FUEL = 600
 
@@ -47,7 +47,7 @@ def moment_of(project, machine, frame) -> Moment:
     def read(number):
         try:
             return machine.read(number)
-        except (ControlAlarm, NotModelled):
+        except (ControlAlarm, Unmodelled):
             return Unknown
     tool, number = machine.tool, frame.activation.program.number
     place = list(tool.place.values()) if tool.zero_is_known else None

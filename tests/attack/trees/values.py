@@ -20,7 +20,7 @@ class ControlAlarm(Exception):
         self.kind = kind
 
 
-class NotModelled(Exception):
+class Unmodelled(Exception):
     """Facts do not say what comes now: the run is judged up to here."""
 
 
@@ -53,7 +53,7 @@ class Arithmetic:
         if not fits_double(value):
             self.rounds = True
         if abs(value) > 10 ** 12 or value.denominator > 10 ** 15:
-            raise NotModelled("a number too large, too small or too long")
+            raise Unmodelled("a number too large, too small or too long")
         return value
 
     def binary(self, operator: str, left, right) -> Fraction:
@@ -77,7 +77,7 @@ class Arithmetic:
             case "AND" | "OR" | "XOR":
                 a, b = nearest(a, self.choices), nearest(b, self.choices)
                 if max(abs(a), abs(b)) >= 2 ** 31:
-                    raise NotModelled("integers of more than 32 bits")
+                    raise Unmodelled("integers of more than 32 bits")
                 return Fraction(a & b if operator == "AND" else a | b if operator == "OR" else a ^ b)
         raise ValueError(operator)
 
@@ -103,7 +103,7 @@ class Arithmetic:
             case "ASIN" | "ACOS":
                 if abs(a) > 1:
                     raise ControlAlarm("out of domain")
-                raise NotModelled("inverse sine by parameter")
+                raise Unmodelled("inverse sine by parameter")
             case "SIN" | "COS":
                 exact = {("SIN", 0): 0, ("SIN", 90): 1, ("SIN", 180): 0, ("SIN", 270): -1, ("COS", 0): 1,
                          ("COS", 90): 0, ("COS", 180): -1, ("COS", 270): 0, ("SIN", 30): HALF, ("SIN", 150): HALF,
@@ -147,7 +147,7 @@ class Evaluator:
             return variable.index
         value = self.value(variable.index)
         if value is None:
-            raise NotModelled("#[..] of a vacant value")
+            raise Unmodelled("#[..] of a vacant value")
         return nearest(value, self.arithmetic.choices)
 
     def value(self, expression: syntax.Expression):

@@ -57,7 +57,7 @@ def idle_witness(project: syntax.Project, claim: Claim, counts):
                       counts)
         outcome = judge.run(program, inputs, Choices(given=given), random.Random(0), fuel=20000)
         asked.update(outcome.choices)
-        if outcome.end == "not-modelled" or outcome.inexact or any(c.claim is not None for c in judge.found):
+        if outcome.end == "unmodelled" or outcome.inexact or any(c.claim is not None for c in judge.found):
             return None
         if stops_there(project, claim, outcome) or \
                 claim.kind == "call-meets-contract" and called_there(project, claim, outcome.root):

@@ -94,7 +94,7 @@ public:
 private:
   EntryValues entryOf(const GivenVariables &given, const std::array<double, kAxisCount> &start) const {
     const ModalTable modes(loaded_.dialect());
-    EntryValues entry{startState(ConcreteReading(loaded_.dialect(), given), modes, start), given};
+    EntryValues entry{startState(ConcreteInterpretation(loaded_.dialect(), given), modes, start), given};
     promises_.prepare(entry);
     return entry;
   }

@@ -1,5 +1,5 @@
-// The state of an entry holds each call that the contract allows.  Which calls those are is asked of the exact reading
-// of contracts, which shares no code with the analysis.
+// The state of an entry holds each call that the contract allows.  Which calls those are is asked of the exact
+// interpretation of contracts, which shares no code with the analysis.
 #include "inference/absint/contract_entry.h"
 
 #include "dialects/registry.h"

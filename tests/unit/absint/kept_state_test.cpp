@@ -51,8 +51,8 @@ TEST(KeptState, IsTheStateAgain) {
 }
 
 TEST(KeptState, VariablesComeAndGo) {
-  AbstractReading reading(*findDialect(allDialects(), "fanuc-30i"));
-  AbstractState state = entryState(reading);
+  AbstractInterpretation interpretation(*findDialect(allDialects(), "fanuc-30i"));
+  AbstractState state = entryState(interpretation);
   StateKeeper keeper;
   const auto expectKept = [&] { EXPECT_EQ(keeper.keep(state).state(), state); };
   expectKept();
@@ -61,7 +61,7 @@ TEST(KeptState, VariablesComeAndGo) {
     expectKept();
   }
   state.variables.erase(500);
-  state.forgotten = {{500, 500}};
+  state.havocked = {{500, 500}};
   expectKept();
   for (std::uint32_t variable = 101; variable < 200; ++variable) // more than is kept as a difference
     state.variables.set(variable, AbstractValue::vacant());

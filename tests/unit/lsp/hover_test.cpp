@@ -64,7 +64,7 @@ TEST_F(LspHover, ValuesAreThoseThatTheContractAllows) {
   expectIn(at(openText("O1\n#10=#1\nM30\n"), "#1\n"), "before this line: as at start");
 }
 
-TEST_F(LspHover, AVariableThatIsForgottenIsNotAsAtTheStart) {
+TEST_F(LspHover, AHavockedVariableIsNotAsAtTheStart) {
   expectIn(at(openText("O1\nG65P77\n#1=#500\nM30\n"), "#500"), "before this line: not known");
 }
 

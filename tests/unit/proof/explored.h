@@ -32,7 +32,7 @@ struct ParsedProgram {
 /// All paths of its first program, from any start.
 struct Explored : ParsedProgram {
   explicit Explored(std::string_view text, ExploreOptions wish = {}) : ParsedProgram(text) {
-    found = explore(start.reading(), set, main(), start.entry(), start.exploreOptions(subject, std::move(wish)));
+    found = explore(start.interpretation(), set, main(), start.entry(), start.exploreOptions(subject, std::move(wish)));
   }
 
   ProofContext context() { return {{subject, start, found}, *runs(), promises, ends, nullptr, options.budget}; }

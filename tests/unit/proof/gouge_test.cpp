@@ -111,7 +111,7 @@ TEST(KeepIn, OnlyCuttingMovesThatAreFollowed) {
   RecordedMove compensated = feed({0, 0, 0}, {90, 0, 0});
   compensated.isOfTool = false;
   EXPECT_EQ(
-      depthIn(space, {rapid({0, 0, 0}, {90, 0, 0}), compensated, moveOf(MoveKind::Unfollowed, {0, 0, 0}, {90, 0, 0}),
+      depthIn(space, {rapid({0, 0, 0}, {90, 0, 0}), compensated, moveOf(MoveKind::Unmodelled, {0, 0, 0}, {90, 0, 0}),
                       moveOf(MoveKind::Dwell, {90, 0, 0}, {90, 0, 0})}),
       0);
   EXPECT_EQ(smallestMargin(space, SpaceClaim::KeepIn, 0, std::vector{compensated}), std::nullopt);

@@ -22,7 +22,7 @@ protected:
               .frames = {},
               .loops = {},
               .moved = store.no()};
-    made.state.variables.set(500, program.start.reading().number(held));
+    made.state.variables.set(500, program.start.interpretation().number(held));
     return made;
   }
   bool follows(const Path &from, TermId goal) { return discharge(store, {from.conditions, goal}).proved(); }
@@ -37,7 +37,7 @@ protected:
 TEST_F(MergingTest, TheStateIsThatOfTheOneOrOfTheOther) {
   const TermId condition = store.variable("c", smt::Sort::Bool);
   Path merged = path(condition, 1);
-  mergeInto(program.start.reading(), merged, path(store.logicalNot(condition), 2));
+  mergeInto(program.start.interpretation(), merged, path(store.logicalNot(condition), 2));
   EXPECT_TRUE(follows(merged, store.implies(condition, holds(merged, 1))));
   EXPECT_TRUE(follows(merged, store.implies(store.logicalNot(condition), holds(merged, 2))));
   EXPECT_FALSE(follows(merged, holds(merged, 1)));
@@ -46,7 +46,7 @@ TEST_F(MergingTest, TheStateIsThatOfTheOneOrOfTheOther) {
 
 TEST_F(MergingTest, PathsThatShareNoConditionMayBothBeMeant) {
   Path merged = path(store.variable("a", smt::Sort::Bool), 1);
-  mergeInto(program.start.reading(), merged, path(store.variable("b", smt::Sort::Bool), 2));
+  mergeInto(program.start.interpretation(), merged, path(store.variable("b", smt::Sort::Bool), 2));
   EXPECT_TRUE(follows(merged, store.logicalOr(holds(merged, 1), holds(merged, 2))));
   EXPECT_FALSE(follows(merged, holds(merged, 1)));
   EXPECT_FALSE(follows(merged, holds(merged, 2)));

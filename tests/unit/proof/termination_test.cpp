@@ -41,10 +41,10 @@ protected:
       transition.next.emplace(each, each);
     loop.transitions.push_back(std::move(transition));
   }
-  bool ends() { return provesEnd(reading, store, loop).proved; }
+  bool ends() { return provesEnd(interpretation, store, loop).proved; }
 
   TermStore store;
-  SymbolicInterpretation reading{store, *findDialect(allDialects(), "fanuc-30i")};
+  SymbolicInterpretation interpretation{store, *findDialect(allDialects(), "fanuc-30i")};
   TermId n = store.variable("n", Sort::Int);
   TermId zero = number(0);
   LoopInstance loop{.head = {FileId(0), NodeId(0)}, .calls = {}, .iterations = zero, .mark = 0, .arrival = {}};
@@ -149,8 +149,8 @@ class GoesOn : public LoopTest {
 protected:
   /// From x = 501, y = 502.
   std::optional<Recurrence> from(int first, int second) {
-    const SymbolicValue a = reading.atEntry(501);
-    const SymbolicValue b = reading.atEntry(502);
+    const SymbolicValue a = interpretation.atEntry(501);
+    const SymbolicValue b = interpretation.atEntry(502);
     smt::Model inputs;
     for (const auto &[value, held] : {std::pair{a, first}, std::pair{b, second}}) {
       inputs.emplace(store[value.number].name, Number(held));
@@ -161,7 +161,7 @@ protected:
       loop.first.emplace(each, zero);
     Exploration exploration;
     exploration.loops.push_back(loop);
-    return recurrenceFrom(reading, store, exploration, exploration.loops.front(), inputs);
+    return recurrenceFrom(interpretation, store, exploration, exploration.loops.front(), inputs);
   }
 };
 

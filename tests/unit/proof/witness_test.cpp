@@ -18,7 +18,7 @@ Violation stopsWithAlarm() {
 
 /// The model in which the first argument is the number.
 smt::Model modelOf(Explored &program, std::int64_t number) {
-  const auto &inputs = program.start.reading().entryValues();
+  const auto &inputs = program.start.interpretation().entryValues();
   smt::Model model;
   for (const auto &[variable, value] : inputs)
     if (variable == 1) {
@@ -52,7 +52,7 @@ TEST(Witness, InputsThatTheContractForbidsAreNone) {
   Explored program("O1\nIF[#1GT5]THEN#3000=7\nM99\n");
   program.runs();
   smt::TermStore &store = program.start.store();
-  const smt::TermId input = program.start.reading().entryValues().begin()->second.number;
+  const smt::TermId input = program.start.interpretation().entryValues().begin()->second.number;
   std::vector<smt::Model> inputs;
   for (const WitnessSearch::Sample &sample : program.runs()->samples())
     inputs.push_back(program.runs()->modelOf(sample.given));

@@ -39,7 +39,7 @@ protected:
     return loaded ? loaded.take() : nullptr;
   }
 
-  /// Which of the three files are the very same readings.
+  /// Which of the three files are the very same objects.
   static std::vector<bool> kept(const Project &before, const Project &after) {
     std::vector<bool> same;
     for (std::size_t i = 0; i < after.files.size(); ++i)

@@ -68,7 +68,7 @@ TEST(Picture, OtherUnitsAndShiftedZerosAreTheSamePlace) {
 
 TEST(Picture, DwellsAreNotDrawnAndTheUnknownIsTold) {
   EXPECT_EQ(count(drawn({moveOf(MoveKind::Dwell, {0, 0, 0}, {0, 0, 0})}), "<path class=\"path\""), 1U);
-  EXPECT_EQ(count(drawn({moveOf(MoveKind::Unfollowed, {0, 0, 0}, {9, 0, 0})}), "path other"), 3U);
+  EXPECT_EQ(count(drawn({moveOf(MoveKind::Unmodelled, {0, 0, 0}, {9, 0, 0})}), "path other"), 3U);
   RecordedMove compensated = moveOf(MoveKind::Feed, {0, 0, 0}, {9, 0, 0});
   compensated.isOfTool = false;
   EXPECT_EQ(count(drawn({compensated}), "path other"), 3U);

@@ -28,7 +28,7 @@ CheckResult sample() {
   slip.diagnostic.message = "`#510-#6` is 50% of a statement";
   slip.diagnostic.span = {10, 17};
   slip.diagnostic.labels = {{{0, 2}, "in this program"}};
-  slip.diagnostic.way = {{{0, 9}, "the condition holds"}};
+  slip.diagnostic.flow = {{{0, 9}, "the condition holds"}};
   slip.diagnostic.notes = {"the control stops"};
   slip.diagnostic.fixes = {{FixSafety::NeedsReview, "write `=`", {{{14, 15}, "="}}}};
   Finding style{&kStyle, Severity::Info, {}, "fedcba9876543210", true};
@@ -83,12 +83,12 @@ TEST_F(Sink, Summary) {
 
 TEST_F(Sink, Json) {
   const Json document = Json::parse(writeJson(report()));
-  EXPECT_EQ(document["version"], 1);
+  EXPECT_EQ(document["version"], 2);
   ASSERT_EQ(document["findings"].size(), 1U);
   EXPECT_EQ(document["findings"][0], Json::parse(R"({
     "path": "cell 1/part.nc", "line": 2, "column": 1, "endLine": 2, "endColumn": 8, "rule": "missing-equals",
     "severity": "error", "message": "`#510-#6` is 50% of a statement", "fingerprint": "0123456789abcdef",
-    "way": [{"path": "cell 1/part.nc", "line": 1, "column": 1, "endLine": 1, "endColumn": 9,
+    "flow": [{"path": "cell 1/part.nc", "line": 1, "column": 1, "endLine": 1, "endColumn": 9,
              "message": "the condition holds"}],
     "notes": ["the control stops"],
     "fixes": [{"title": "write `=`", "safety": "needs-review",
@@ -109,7 +109,7 @@ bool followsSchema(const Json &document) {
 TEST_F(Sink, JsonFollowsItsSchema) {
   const Json document = Json::parse(writeJson(report(ShowSuppressed::Yes)));
   EXPECT_TRUE(followsSchema(document));
-  for (const char *key : {"rule", "line", "fingerprint", "way", "fixes"}) {
+  for (const char *key : {"rule", "line", "fingerprint", "flow", "fixes"}) {
     Json broken = document;
     broken["findings"][0].erase(key);
     EXPECT_FALSE(followsSchema(broken)) << key;
@@ -138,11 +138,11 @@ TEST_F(Sink, Sarif) {
             Json::parse(R"({"artifactLocation": {"uri": "cell%201/part.nc", "uriBaseId": "%SRCROOT%"},
                             "region": {"startLine": 2, "startColumn": 1, "endLine": 2, "endColumn": 8}})"));
   EXPECT_EQ(slip["relatedLocations"][0]["message"]["text"], "in this program");
-  const Json &way = slip["codeFlows"][0]["threadFlows"][0]["locations"];
-  ASSERT_EQ(way.size(), 2U); // the finding itself is the last step
-  EXPECT_EQ(way[0]["location"]["message"]["text"], "the condition holds");
-  EXPECT_EQ(way[0]["location"]["physicalLocation"]["region"]["startLine"], 1);
-  EXPECT_EQ(way[1]["location"]["physicalLocation"]["region"]["startLine"], 2);
+  const Json &flow = slip["codeFlows"][0]["threadFlows"][0]["locations"];
+  ASSERT_EQ(flow.size(), 2U); // the finding itself is the last step
+  EXPECT_EQ(flow[0]["location"]["message"]["text"], "the condition holds");
+  EXPECT_EQ(flow[0]["location"]["physicalLocation"]["region"]["startLine"], 1);
+  EXPECT_EQ(flow[1]["location"]["physicalLocation"]["region"]["startLine"], 2);
   EXPECT_EQ(slip["fixes"][0]["artifactChanges"][0]["replacements"][0]["insertedContent"]["text"], "=");
 }
 

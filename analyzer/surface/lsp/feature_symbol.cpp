@@ -1,4 +1,4 @@
-#include "surface/lsp/feature_thing.h"
+#include "surface/lsp/feature_symbol.h"
 
 #include "language/model/block_facts.h"
 
@@ -13,7 +13,7 @@ public:
   Finder(const Project &programs, std::uint32_t offset)
       : file_(programs.file(kDocument)), offset_(offset), block_(file_.tree.blockAt(offset)) {}
 
-  std::optional<ThingAt> find() {
+  std::optional<SymbolAt> find() {
     if (file_.tree.blockCount() == 0)
       return std::nullopt;
     headers();
@@ -26,75 +26,75 @@ public:
 
 private:
   /// Equal spans: the first one stays.
-  void offer(Span span, Thing thing) {
+  void offer(Span span, ProgramSymbol symbol) {
     if (offset_ < span.begin || offset_ > span.end || span.empty())
       return;
     const bool goesOn = offset_ < span.end;
     const bool bestGoesOn = best_ && offset_ < best_->span.end;
     if (!best_ || (goesOn && !bestGoesOn) || (goesOn == bestGoesOn && span.size() < best_->span.size()))
-      best_ = ThingAt{span, block_, std::move(thing)};
+      best_ = SymbolAt{span, block_, std::move(symbol)};
   }
   Span span(WordId word) const { return file_.tree.words[word].span(); }
 
   void headers() {
     for (std::size_t i = 0; i < file_.model.programs.size(); ++i)
       if (const Program &program = file_.model.programs[ProgramId(i)]; !program.name.empty())
-        offer(program.header, HeaderThing{ProgramId(i)});
+        offer(program.header, HeaderSymbol{ProgramId(i)});
   }
   void names() {
     const ProgramModel &model = file_.model;
     const BlockId next = block_.next();
     for (const SequenceNumber &each : model.sequenceNumbersIn(block_, next))
-      offer(span(each.word), LabelThing{{{kDocument, model.programOf(block_)}, each.number}});
+      offer(span(each.word), LabelSymbol{{{kDocument, model.programOf(block_)}, each.number}});
     for (const VariableUse &each : model.variablesIn(block_, next))
-      offer(file_.tree.expressions[each.expression].span, VariableThing{each});
+      offer(file_.tree.expressions[each.expression].span, VariableSymbol{each});
     for (const Jump &each : model.jumpsIn(block_, next)) {
-      const JumpThing thing{static_cast<std::size_t>(&each - model.jumps.data())};
-      offer(each.targetSpan, thing);
+      const JumpSymbol symbol{static_cast<std::size_t>(&each - model.jumps.data())};
+      offer(each.targetSpan, symbol);
       if (each.kind == JumpKind::Goto)
-        offer(each.span, thing);
+        offer(each.span, symbol);
     }
     for (const Call &each : model.callsIn(block_, next))
       call(CallId(static_cast<std::size_t>(&each - &*model.calls.begin())), each);
   }
   void call(CallId id, const Call &call) {
     if (call.kind == CallKind::OWord)
-      return offer(call.span, CallThing{id});
-    offer(span(call.code), CallThing{id});
+      return offer(call.span, CallSymbol{id});
+    offer(span(call.code), CallSymbol{id});
     if (call.programWord)
-      offer(span(*call.programWord), CallThing{id});
+      offer(span(*call.programWord), CallSymbol{id});
     for (const Argument &argument : call.arguments)
-      offer(span(argument.word), ArgumentThing{id, argument});
+      offer(span(argument.word), ArgumentSymbol{id, argument});
   }
   void loops() {
     for (std::size_t i = 0; i < file_.model.loops.size(); ++i) {
       const Loop &loop = file_.model.loops[i];
       if (loop.doBlock == block_)
-        offer(file_.tree.statements[loop.doStatement].span, LoopThing{i});
+        offer(file_.tree.statements[loop.doStatement].span, LoopSymbol{i});
       if (loop.endBlock == block_ && loop.endStatement)
-        offer(file_.tree.statements[*loop.endStatement].span, LoopThing{i});
+        offer(file_.tree.statements[*loop.endStatement].span, LoopSymbol{i});
     }
     for (const OWordUse &each : file_.model.oWordsIn(block_, block_.next()))
       offer(file_.tree.statements[each.statement].span,
-            OWordThing{OWordId(static_cast<std::size_t>(&each - &*file_.model.oWords.begin()))});
+            OWordSymbol{OWordId(static_cast<std::size_t>(&each - &*file_.model.oWords.begin()))});
   }
   void words() {
     for (const Word &word : file_.tree.wordsOf(block_))
       if (word.isCode())
-        offer(word.span(), CodeThing{file_.tree.idOf(word)});
+        offer(word.span(), CodeSymbol{file_.tree.idOf(word)});
       else
-        offer(word.span(), WordThing{file_.tree.idOf(word)});
+        offer(word.span(), WordSymbol{file_.tree.idOf(word)});
   }
   void clauses() {
     for (std::size_t i = 0; i < file_.contracts.clauses.size(); ++i)
       if (const Clause &clause = file_.contracts.clauses[ClauseId(i)]; clause.source == kProgramText)
-        offer(clause.span, ClauseThing{ClauseId(i)});
+        offer(clause.span, ClauseSymbol{ClauseId(i)});
   }
 
   const ProjectFile &file_;
   std::uint32_t offset_;
   BlockId block_;
-  std::optional<ThingAt> best_;
+  std::optional<SymbolAt> best_;
 };
 
 std::vector<LabelRef> returnLabels(const Project &programs, ProgramRef own, std::uint32_t number) {
@@ -113,7 +113,7 @@ std::vector<LabelRef> returnLabels(const Project &programs, ProgramRef own, std:
 
 } // namespace
 
-std::optional<ThingAt> thingAt(const Project &programs, std::uint32_t offset) {
+std::optional<SymbolAt> symbolAt(const Project &programs, std::uint32_t offset) {
   return Finder(programs, offset).find();
 }
 

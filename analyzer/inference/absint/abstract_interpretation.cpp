@@ -1,4 +1,4 @@
-#include "inference/absint/abstract_reading.h"
+#include "inference/absint/abstract_interpretation.h"
 
 #include "inference/absint/abstract_state.h"
 
@@ -71,7 +71,7 @@ AbstractNumber roundedToStep(const AbstractNumber &number, Decimal step) {
   return rounded.value_or(number);
 }
 
-/// Copies and distances: two values of one symbol whose offsets differ are apart by that much.  The readings in exact
+/// Copies and distances: two values of one symbol whose offsets differ are apart by that much.  The values in exact
 /// numbers and in doubles may drift apart by roundings, so a distance below this share of the values decides nothing.
 constexpr double kDrift = 1e-9;
 
@@ -89,23 +89,23 @@ std::optional<double> distanceOf(const AbstractValue &a, const AbstractValue &b)
 
 } // namespace
 
-AbstractValue AbstractReading::withSymbol(Value value) {
+AbstractValue AbstractInterpretation::withSymbol(Value value) {
   return value.origin() ? value : value.withOrigin(Origin{freshSymbol(), Rational()});
 }
 
 // ---- values --------------------------------------------------------------------------------------------------------
 
-AbstractValue AbstractReading::literal(Decimal value) const {
+AbstractValue AbstractInterpretation::literal(Decimal value) const {
   return memo_.constant(static_cast<std::uint64_t>(value.mantissa()), value.scale(),
                         [&] { return valueOf(AbstractNumber::constant(value)); });
 }
-AbstractValue AbstractReading::number(double value) const {
+AbstractValue AbstractInterpretation::number(double value) const {
   constexpr std::uint8_t kDouble = 0xff; // no scale of a decimal
   return memo_.constant(std::bit_cast<std::uint64_t>(value), kDouble,
                         [&] { return valueOf(AbstractNumber::constant(value)); });
 }
 
-AbstractValue AbstractReading::asNumber(const Value &value) const {
+AbstractValue AbstractInterpretation::asNumber(const Value &value) const {
   if (value.isNumber())
     return value;
   if (value.isVacant())
@@ -114,22 +114,22 @@ AbstractValue AbstractReading::asNumber(const Value &value) const {
       memo_.of(NumberOperation::OrZero, value.number(), {}, [&] { return feedhold::join(value.number(), kNoNumber); }));
 }
 
-std::optional<double> AbstractReading::constantOf(const Value &value) const {
+std::optional<double> AbstractInterpretation::constantOf(const Value &value) const {
   return value.isNumber() ? value.number().constantValue() : std::nullopt;
 }
 
-AbstractValue AbstractReading::select(Truth truth, const Value &first, const Value &second) const {
+AbstractValue AbstractInterpretation::select(Truth truth, const Value &first, const Value &second) const {
   if (truth == Truth::True)
     return first;
   return truth == Truth::False ? second : feedhold::join(first, second);
 }
-AbstractValue AbstractReading::either(const Value &first, const Value &second) const {
+AbstractValue AbstractInterpretation::either(const Value &first, const Value &second) const {
   return feedhold::join(first, second);
 }
 
 // ---- arithmetic ----------------------------------------------------------------------------------------------------
 
-AbstractValue AbstractReading::add(const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::add(const Value &a, const Value &b) const {
   const AbstractNumber &left = numberOf(a);
   const AbstractNumber &right = numberOf(b);
   const AbstractValue sum =
@@ -140,38 +140,44 @@ AbstractValue AbstractReading::add(const Value &a, const Value &b) const {
     return sum.withOrigin(origin);
   return sum.withOrigin(moved(b, left.grid(), feedhold::add));
 }
-AbstractValue AbstractReading::subtract(const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::subtract(const Value &a, const Value &b) const {
   if (a.origin() && a.origin() == b.origin() && a.isNumber() && b.isNumber())
     return number(0);
   const AbstractValue difference = valueOf(memo_.of(NumberOperation::Subtract, numberOf(a), numberOf(b),
                                                     [&] { return feedhold::subtract(numberOf(a), numberOf(b)); }));
   return difference.origin() ? difference : difference.withOrigin(moved(a, numberOf(b).grid(), feedhold::subtract));
 }
-AbstractValue AbstractReading::multiply(const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::multiply(const Value &a, const Value &b) const {
   return valueOf(memo_.of(NumberOperation::Multiply, numberOf(a), numberOf(b),
                           [&] { return feedhold::multiply(numberOf(a), numberOf(b)); }));
 }
-AbstractValue AbstractReading::divide(const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::divide(const Value &a, const Value &b) const {
   return valueOf(memo_.of(NumberOperation::Divide, numberOf(a), numberOf(b),
                           [&] { return orNone(feedhold::divide(numberOf(a), numberOf(b))); }));
 }
-AbstractValue AbstractReading::remainder(const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::remainder(const Value &a, const Value &b) const {
   return valueOf(memo_.of(NumberOperation::Remainder, numberOf(a), numberOf(b),
                           [&] { return orNone(remainderTruncated(numberOf(a), numberOf(b))); }));
 }
-AbstractValue AbstractReading::ofOne(NumberOperation operation, const Value &a,
-                                     AbstractNumber (*compute)(const AbstractNumber &)) const {
+AbstractValue AbstractInterpretation::ofOne(NumberOperation operation, const Value &a,
+                                            AbstractNumber (*compute)(const AbstractNumber &)) const {
   return valueOf(memo_.of(operation, numberOf(a), {}, [&] { return compute(numberOf(a)); }));
 }
-AbstractValue AbstractReading::negate(const Value &a) const {
+AbstractValue AbstractInterpretation::negate(const Value &a) const {
   return ofOne(NumberOperation::Negate, a, feedhold::negate);
 }
-AbstractValue AbstractReading::fix(const Value &a) const { return ofOne(NumberOperation::Fix, a, feedhold::fix); }
-AbstractValue AbstractReading::fup(const Value &a) const { return ofOne(NumberOperation::Fup, a, feedhold::fup); }
-AbstractValue AbstractReading::floor(const Value &a) const { return ofOne(NumberOperation::Floor, a, floorOf); }
-AbstractValue AbstractReading::ceiling(const Value &a) const { return ofOne(NumberOperation::Ceiling, a, ceilOf); }
+AbstractValue AbstractInterpretation::fix(const Value &a) const {
+  return ofOne(NumberOperation::Fix, a, feedhold::fix);
+}
+AbstractValue AbstractInterpretation::fup(const Value &a) const {
+  return ofOne(NumberOperation::Fup, a, feedhold::fup);
+}
+AbstractValue AbstractInterpretation::floor(const Value &a) const { return ofOne(NumberOperation::Floor, a, floorOf); }
+AbstractValue AbstractInterpretation::ceiling(const Value &a) const {
+  return ofOne(NumberOperation::Ceiling, a, ceilOf);
+}
 
-AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
+AbstractValue AbstractInterpretation::roundTo(const Value &value, Decimal step) const {
   const AbstractNumber &number = numberOf(value);
   const std::optional<Rational> size = Rational::fromDecimal(step);
   if (!size)
@@ -184,23 +190,23 @@ AbstractValue AbstractReading::roundTo(const Value &value, Decimal step) const {
       memo_.of(NumberOperation::RoundTo, number, literal(step).number(), [&] { return roundedToStep(number, step); }));
 }
 
-AbstractValue AbstractReading::function(FunctionKind kind, const Value &argument) const {
+AbstractValue AbstractInterpretation::function(FunctionKind kind, const Value &argument) const {
   const auto operation =
       static_cast<NumberOperation>(static_cast<unsigned>(NumberOperation::FirstFunction) + static_cast<unsigned>(kind));
   return valueOf(
       memo_.of(operation, numberOf(argument), {}, [&] { return orNone(functionOf(kind, numberOf(argument))); }));
 }
-AbstractValue AbstractReading::atan2(const Value &y, const Value &x) const {
+AbstractValue AbstractInterpretation::atan2(const Value &y, const Value &x) const {
   return valueOf(memo_.of(NumberOperation::Atan2, numberOf(y), numberOf(x),
                           [&] { return atan2Degrees(numberOf(y), numberOf(x)); }));
 }
-AbstractValue AbstractReading::power(const Value &base, const Value &exponent) const {
+AbstractValue AbstractInterpretation::power(const Value &base, const Value &exponent) const {
   return valueOf(memo_.of(NumberOperation::Power, numberOf(base), numberOf(exponent),
                           [&] { return orNone(pow(numberOf(base), numberOf(exponent))); }));
 }
 
 /// AND of non-negative numbers is at most either of them, OR and XOR are below the next power of two.
-AbstractValue AbstractReading::bitwise(OperatorKind op, const Value &a, const Value &b) const {
+AbstractValue AbstractInterpretation::bitwise(OperatorKind op, const Value &a, const Value &b) const {
   const Interval left = numberOf(a).interval();
   const Interval right = numberOf(b).interval();
   if (left.lo < 0 || right.lo < 0)
@@ -212,13 +218,13 @@ AbstractValue AbstractReading::bitwise(OperatorKind op, const Value &a, const Va
       {0, std::isfinite(most) ? std::exp2(std::ceil(std::log2(most + 1) + 1e-9)) : INFINITY}));
 }
 
-AbstractValue AbstractReading::between(const Value &start, const Value &end) const {
+AbstractValue AbstractInterpretation::between(const Value &start, const Value &end) const {
   const Interval from = numberOf(start).interval();
   const Interval to = numberOf(end).interval();
   return valueOf(AbstractNumber::inInterval({std::min(from.lo, to.lo), std::max(from.hi, to.hi)}));
 }
 
-Truth AbstractReading::compare(Relation relation, const Value &a, const Value &b) const {
+Truth AbstractInterpretation::compare(Relation relation, const Value &a, const Value &b) const {
   if (const auto apart = distanceOf(a, b)) {
     const bool above = *apart > 0;
     switch (relation) {
@@ -245,7 +251,7 @@ Truth AbstractReading::compare(Relation relation, const Value &a, const Value &b
 
 // ---- modal codes ---------------------------------------------------------------------------------------------------
 
-CodeSet AbstractReading::unknownCode() const {
+CodeSet AbstractInterpretation::unknownCode() const {
   static const CodeSet kAny = [] {
     CodeSet any = CodeSet::atEntry();
     for (std::size_t i = 0; i < CodeSet::kMostCodes; ++i)
@@ -255,25 +261,25 @@ CodeSet AbstractReading::unknownCode() const {
   return kAny;
 }
 
-Truth AbstractReading::isOneOf(ModalCode code, CodeMask mask) const {
+Truth AbstractInterpretation::isOneOf(ModalCode code, CodeMask mask) const {
   if (code.mayBeAtEntry())
     return mask == 0 ? Truth::False : Truth::Maybe;
   return truthOfOutcomes((code.codes() & mask) != 0, (code.codes() & ~mask) != 0);
 }
 
-std::optional<std::uint8_t> AbstractReading::onlyCode(ModalCode code) const {
+std::optional<std::uint8_t> AbstractInterpretation::onlyCode(ModalCode code) const {
   if (!code.isSingle() || code.codes() == 0)
     return std::nullopt;
   return static_cast<std::uint8_t>(std::countr_zero(code.codes()));
 }
 
-CodeSet AbstractReading::selectCode(Truth truth, ModalCode first, ModalCode second) const {
+CodeSet AbstractInterpretation::selectCode(Truth truth, ModalCode first, ModalCode second) const {
   if (truth == Truth::True)
     return first;
   return truth == Truth::False ? second : joined(first, second);
 }
 
-AbstractValue AbstractReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
+AbstractValue AbstractInterpretation::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
   std::optional<AbstractNumber> number;
   const auto &codes = modes.group(group).codes;
   for (std::size_t i = 0; i < codes.size(); ++i)
@@ -286,8 +292,8 @@ AbstractValue AbstractReading::numberOfCode(ModalCode code, const ModalTable &mo
   return atEntry ? value.withOrigin(Origin{kModalSymbols + group, Rational()}) : value;
 }
 
-std::optional<std::pair<std::uint8_t, CodeSet>> AbstractReading::codeFrom(const Value &value,
-                                                                          const ModalTable &modes) const {
+std::optional<std::pair<std::uint8_t, CodeSet>> AbstractInterpretation::codeFrom(const Value &value,
+                                                                                 const ModalTable &modes) const {
   const auto &origin = value.origin();
   if (origin && origin->offset.isZero() && value.isNumber() && origin->symbol >= kModalSymbols &&
       origin->symbol < kModalSymbols + kModalGroups)
@@ -305,8 +311,8 @@ std::optional<std::pair<std::uint8_t, CodeSet>> AbstractReading::codeFrom(const 
   return value.mayBeVacant() ? std::nullopt : found;
 }
 
-std::optional<AbstractValue> AbstractReading::recalled(const ProgramFile &file, const State &state,
-                                                       ExpressionId expression) {
+std::optional<AbstractValue> AbstractInterpretation::recalled(const ProgramFile &file, const State &state,
+                                                              ExpressionId expression) {
   if (observer_) // it is told of all that is evaluated
     return std::nullopt;
   const auto evaluation = evaluations_.recall(*file.tree, *file.dialect, expression, [&](std::uint32_t variable) {
@@ -321,14 +327,14 @@ std::optional<AbstractValue> AbstractReading::recalled(const ProgramFile &file, 
   return evaluation->value;
 }
 
-void AbstractReading::remember(const ProgramFile &file, ExpressionId expression, const Value &value) {
+void AbstractInterpretation::remember(const ProgramFile &file, ExpressionId expression, const Value &value) {
   if (!observer_ && !stopped_)
     evaluations_.remember(*file.tree, expression, {value, mayHaveDividedByZero_});
 }
 
 // ---- what happens --------------------------------------------------------------------------------------------------
 
-void AbstractReading::alarm(Truth truth, const AlarmReport &report) {
+void AbstractInterpretation::alarm(Truth truth, const AlarmReport &report) {
   if (!mayBeTrue(truth) || stopped_)
     return;
   if (observer_)
@@ -337,20 +343,20 @@ void AbstractReading::alarm(Truth truth, const AlarmReport &report) {
   mayHaveDividedByZero_ = mayHaveDividedByZero_ || report.kind == AlarmKind::DivideByZero;
 }
 
-void AbstractReading::userAlarm(const Value &number, Span place) {
+void AbstractInterpretation::userAlarm(const Value &number, Span place) {
   if (observer_ && !stopped_)
     observer_->userAlarm(number, place);
   stopped_ = true;
 }
 
-void AbstractReading::move(const Move<Value> &move) {
+void AbstractInterpretation::move(const Move<Value> &move) {
   if (observer_ && !stopped_)
     observer_->move(move.kind);
 }
 
-void AbstractReading::notModelled(std::string_view reason, Span place) {
+void AbstractInterpretation::unmodelled(std::string_view reason, Span place) {
   if (observer_ && !stopped_)
-    observer_->notModelled(reason, place);
+    observer_->unmodelled(reason, place);
 }
 
 } // namespace feedhold

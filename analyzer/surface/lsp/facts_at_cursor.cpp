@@ -1,4 +1,4 @@
-#include "surface/lsp/feature_here.h"
+#include "surface/lsp/facts_at_cursor.h"
 
 #include "meaning/semantics/modal_table.h"
 #include "surface/lsp/feature_meaning.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostTexts = 4; // in one answer
 
-std::string wayOf(const Project &programs, const ContextStates &context) {
+std::string callerOf(const Project &programs, const ContextStates &context) {
   if (context.calls.empty())
     return {};
   const Place from = context.calls.back();
@@ -23,7 +23,7 @@ std::string wayOf(const Project &programs, const ContextStates &context) {
                                 : fmt::format("called in {}:{}", file.path.filename().generic_string(), line);
 }
 
-/// Of the programs that are started where these ways begin.
+/// Of the programs that are started where these chains of calls begin.
 std::string assumedBy(const Project &programs, const std::vector<const ContextStates *> &contexts, ProgramId own) {
   std::vector<std::string> others;
   bool isOwn = false;
@@ -62,7 +62,7 @@ bool isExecuted(const View &view, BlockId block) {
 
 } // namespace
 
-std::optional<KnownHere> knownBefore(const View &view, BlockId block) {
+std::optional<FactsAtCursor> knownBefore(const View &view, BlockId block) {
   const Project &programs = *view.programs;
   if (!isExecuted(view, block))
     return std::nullopt;
@@ -70,27 +70,28 @@ std::optional<KnownHere> knownBefore(const View &view, BlockId block) {
   const std::optional<BlockStates> one = states && states->isCutShort ? statesOfOne(view, block) : std::nullopt;
   if (!states || (states->isCutShort && !one))
     return std::nullopt;
-  KnownHere known;
+  FactsAtCursor known;
   const ModalTable modes(programs.dialect());
   std::vector<const ContextStates *> contexts;
   for (const ContextStates &context : (one ? *one : *states).contexts)
     if (const auto found = context.blocks.find(block); context.file == kDocument && found != context.blocks.end()) {
-      known.ways.push_back({wayOf(programs, context), factsOf(found->second.state(), context, *programs.set, modes)});
+      known.contexts.push_back(
+          {callerOf(programs, context), factsOf(found->second.state(), context, *programs.set, modes)});
       contexts.push_back(&context);
     }
   known.assumed = assumedBy(programs, contexts, view.file().model.programOf(block));
   return known;
 }
 
-std::string together(const std::vector<std::pair<std::string, std::string>> &wayAndText) {
-  std::vector<std::pair<std::string, std::string>> texts; // each text once, and its ways
-  for (const auto &[way, text] : wayAndText) {
+std::string together(const std::vector<std::pair<std::string, std::string>> &callerAndText) {
+  std::vector<std::pair<std::string, std::string>> texts; // each text once, and the callers for which it holds
+  for (const auto &[caller, text] : callerAndText) {
     const std::string &wanted = text;
     const auto found = std::find_if(texts.begin(), texts.end(), [&](const auto &each) { return each.first == wanted; });
     if (found == texts.end())
-      texts.emplace_back(text, way);
-    else if (!way.empty() && found->second.find(way) == std::string::npos)
-      found->second += (found->second.empty() ? "" : ", ") + way;
+      texts.emplace_back(text, caller);
+    else if (!caller.empty() && found->second.find(caller) == std::string::npos)
+      found->second += (found->second.empty() ? "" : ", ") + caller;
   }
   std::string answer;
   for (std::size_t i = 0; i < std::min(texts.size(), kMostTexts); ++i)

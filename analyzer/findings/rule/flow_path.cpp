@@ -1,4 +1,4 @@
-#include "findings/rule/flow_way.h"
+#include "findings/rule/flow_path.h"
 
 #include <algorithm>
 #include <deque>
@@ -7,7 +7,7 @@ namespace feedhold {
 
 namespace {
 
-constexpr std::size_t kMostSteps = 8; // of a way that a person still reads
+constexpr std::size_t kMostSteps = 8; // of a path that a person still reads
 
 Label labelOf(const FlowFacts &facts, NodeId node, std::string text) {
   return {facts.file.tree->blocks[facts.node(node).block].span(), std::move(text), std::nullopt};
@@ -22,7 +22,7 @@ std::string labelName(const FlowFacts &facts, NodeId from, NodeId next) {
   return "a sequence number";
 }
 
-/// What is decided at a node when the way goes on to `next`; empty for nothing.
+/// What is decided at a node when the path goes on to `next`; empty for nothing.
 std::string decision(const FlowFacts &facts, NodeId node, NodeId next) {
   const Node &here = facts.node(node);
   if (const auto *test = std::get_if<Test>(&here.instruction)) {
@@ -49,9 +49,9 @@ bool isExcluded(const FlowFacts &facts, NodeId node, NodeId next) {
 }
 
 /// Breadth first over what is reached, from behind a node on, not over what is blocked.
-class WaySearch {
+class PathSearch {
 public:
-  WaySearch(const FlowFacts &facts, NodeId from) : facts_(facts), trail_(facts.trail()), from_(from), open_{from} {
+  PathSearch(const FlowFacts &facts, NodeId from) : facts_(facts), trail_(facts.trail()), from_(from), open_{from} {
     trail_.start(facts.end().index() - facts.entry().index());
   }
 
@@ -72,13 +72,13 @@ public:
     return false;
   }
   bool hasReached(NodeId node) const { return trail_.isKnown(slotOf(node)); }
-  std::vector<NodeId> wayTo(NodeId to) const {
-    std::vector<NodeId> way{to};
+  std::vector<NodeId> pathTo(NodeId to) const {
+    std::vector<NodeId> path{to};
     do
-      way.push_back(NodeId(trail_.before(slotOf(way.back()))));
-    while (way.back() != from_);
-    std::reverse(way.begin(), way.end());
-    return way;
+      path.push_back(NodeId(trail_.before(slotOf(path.back()))));
+    while (path.back() != from_);
+    std::reverse(path.begin(), path.end());
+    return path;
   }
 
 private:
@@ -96,35 +96,35 @@ private:
 
 } // namespace
 
-std::optional<std::vector<NodeId>> findWay(const FlowFacts &facts, NodeId from, NodeId to,
-                                           const std::function<bool(NodeId)> &blocked) {
-  WaySearch search(facts, from);
+std::optional<std::vector<NodeId>> findPath(const FlowFacts &facts, NodeId from, NodeId to,
+                                            const std::function<bool(NodeId)> &blocked) {
+  PathSearch search(facts, from);
   if (!search.run(to, [&](NodeId next) { return next == to || !blocked(next); }))
     return std::nullopt;
-  return search.wayTo(to);
+  return search.pathTo(to);
 }
 
 std::optional<NodeId> firstReached(const FlowFacts &facts, NodeId from, std::span<const NodeId> wanted,
                                    const std::function<bool(NodeId)> &blocked) {
-  WaySearch search(facts, from);
+  PathSearch search(facts, from);
   search.run(std::nullopt, [&](NodeId next) { return !blocked(next); });
   const auto found = std::find_if(wanted.begin(), wanted.end(), [&](NodeId node) { return search.hasReached(node); });
   return found == wanted.end() ? std::nullopt : std::optional(*found);
 }
 
-std::vector<Label> describeWay(const FlowFacts &facts, std::span<const NodeId> way) {
+std::vector<Label> describePath(const FlowFacts &facts, std::span<const NodeId> path) {
   std::vector<Label> labels;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i)
-    if (std::string text = decision(facts, way[i], way[i + 1]); !text.empty())
-      labels.push_back(labelOf(facts, way[i], std::move(text)));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (std::string text = decision(facts, path[i], path[i + 1]); !text.empty())
+      labels.push_back(labelOf(facts, path[i], std::move(text)));
   if (labels.size() > kMostSteps) // the last decisions tell most
     labels.erase(labels.begin(), labels.end() - kMostSteps);
   return labels;
 }
 
-std::vector<Label> wayFromEntry(const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked) {
-  const auto way = findWay(facts, facts.entry(), to, blocked);
-  return way ? describeWay(facts, *way) : std::vector<Label>{};
+std::vector<Label> pathFromEntry(const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked) {
+  const auto path = findPath(facts, facts.entry(), to, blocked);
+  return path ? describePath(facts, *path) : std::vector<Label>{};
 }
 
 std::optional<NodeId> reachedNode(const FlowFacts &facts, BlockId block) {

@@ -1,5 +1,5 @@
-// Depth-first search over the graph; each way carries what its conditions have decided.
-#include "rules/flow/consistent_way.h"
+// Depth-first search over the graph; each path carries what its conditions have decided.
+#include "rules/flow/consistent_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,26 +73,28 @@ void restrict(Range &range, OperatorKind relation, double bound) {
 
 using Ranges = std::vector<Range>;
 
-class WaySearch {
+class PathSearch {
 public:
-  WaySearch(const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked)
+  PathSearch(const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked)
       : facts_(facts), tree_(*facts.file.tree), to_(to), blocked_(blocked) {}
 
-  std::optional<std::vector<NodeId>> run() { return go(facts_.entry(), {}, true) ? std::optional(way_) : std::nullopt; }
+  std::optional<std::vector<NodeId>> run() {
+    return go(facts_.entry(), {}, true) ? std::optional(path_) : std::nullopt;
+  }
 
 private:
   static constexpr std::size_t kMostSteps = 20'000;
-  static constexpr std::size_t kLongestWay = 3'000; // each step of a way is a call
+  static constexpr std::size_t kLongestPath = 3'000; // each step of a path is a call
 
   bool go(NodeId node, Ranges ranges, bool fully) {
-    if (++steps_ > kMostSteps || way_.size() > kLongestWay || !seen_.insert(keyOf(node, ranges, fully)).second)
+    if (++steps_ > kMostSteps || path_.size() > kLongestPath || !seen_.insert(keyOf(node, ranges, fully)).second)
       return false;
-    way_.push_back(node);
+    path_.push_back(node);
     if (node == to_)
       return true;
     if (!blocked_(node) && leave(node, ranges, fully))
       return true;
-    way_.pop_back();
+    path_.pop_back();
     return false;
   }
 
@@ -108,8 +110,8 @@ private:
       nexts = {*std::ranges::min_element(nexts)}; // the body stands directly behind the WHILE
     for (const NodeId next : nexts) {
       Ranges decided = ranges;
-      const bool isOneWay = nexts.size() == 2 || !fully;
-      if (test && test->condition && isOneWay && test->taken != facts_.node(node).next &&
+      const bool isOnePath = nexts.size() == 2 || !fully;
+      if (test && test->condition && isOnePath && test->taken != facts_.node(node).next &&
           !assume(*test->condition, next == test->taken, decided))
         continue;
       if (go(next, std::move(decided), !isWhile(next) || node > next))
@@ -209,16 +211,16 @@ private:
   const SyntaxTree &tree_;
   NodeId to_;
   const std::function<bool(NodeId)> &blocked_;
-  std::vector<NodeId> way_;
+  std::vector<NodeId> path_;
   std::set<std::string> seen_;
   std::size_t steps_ = 0;
 };
 
 } // namespace
 
-std::optional<std::vector<NodeId>> findConsistentWay(const FlowFacts &facts, NodeId to,
-                                                     const std::function<bool(NodeId)> &blocked) {
-  return WaySearch(facts, to, blocked).run();
+std::optional<std::vector<NodeId>> findConsistentPath(const FlowFacts &facts, NodeId to,
+                                                      const std::function<bool(NodeId)> &blocked) {
+  return PathSearch(facts, to, blocked).run();
 }
 
 } // namespace feedhold::rules

@@ -1,4 +1,4 @@
-// AbstractReading: programs read with all the values that are possible at once.
+// AbstractInterpretation: programs read with all the values that are possible at once.
 //
 // Values are AbstractValue.  Each carries the symbol that it is a copy of, or at a known distance from: that is how the
 // analysis knows that `#10 = #1 + 17` stays true around a loop.  A condition that may hold and may not is Maybe; the
@@ -15,8 +15,8 @@
 
 namespace feedhold {
 
-class AbstractReading;
-using AbstractState = MachineState<AbstractReading>;
+class AbstractInterpretation;
+using AbstractState = MachineState<AbstractInterpretation>;
 
 /// Symbols: what was there at the entry of the analysed program, and values that were fixed later.
 inline constexpr std::uint32_t kZeroSymbol = 0;                                       // constants are distances from it
@@ -37,18 +37,18 @@ public:
   virtual void alarm(Truth, const AlarmReport &) {}
   virtual void userAlarm(const AbstractValue &, Span) {}
   virtual void move(MoveKind) {}
-  virtual void notModelled(std::string_view, Span) {}
+  virtual void unmodelled(std::string_view, Span) {}
   virtual void evaluated(ExpressionId, const AbstractValue &) {}
 };
 
-class AbstractReading {
+class AbstractInterpretation {
 public:
   using Value = AbstractValue;
   using Truth = feedhold::Truth;
   using ModalCode = CodeSet;
   using State = AbstractState;
 
-  explicit AbstractReading(const Dialect &dialect) : dialect_(&dialect) {}
+  explicit AbstractInterpretation(const Dialect &dialect) : dialect_(&dialect) {}
 
   // ---- for the engine ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
@@ -117,7 +117,7 @@ public:
   Value toolLength(const State &, const Value &) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
-  void forgetVariables(State &state, std::uint32_t first, std::uint32_t last);
+  void havocVariables(State &state, std::uint32_t first, std::uint32_t last);
   Value between(const Value &start, const Value &end) const;
   void join(State &state, Truth truth, const State &second);
 
@@ -128,7 +128,7 @@ public:
   /// Observers ask how a block moves; where it starts and ends is in the states.
   static constexpr bool kAsksForKindsAlone = true;
   void move(const Move<Value> &move);
-  void notModelled(std::string_view reason, Span place);
+  void unmodelled(std::string_view reason, Span place);
   void havoc(State &state, std::string_view reason, Span place);
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why nothing is told of the program.

@@ -1,4 +1,4 @@
-#include "meaning/machine/concrete_reading.h"
+#include "meaning/machine/concrete_interpretation.h"
 
 #include "meaning/semantics/parts.h"
 
@@ -81,23 +81,23 @@ double valueOf(FunctionKind kind, double x) {
 
 } // namespace
 
-std::optional<double> ConcreteReading::constantOf(const Value &value) const {
+std::optional<double> ConcreteInterpretation::constantOf(const Value &value) const {
   if (value.vacant || !std::isfinite(value.number))
     return std::nullopt;
   return value.number;
 }
 
-ConcreteValue ConcreteReading::remainder(const Value &a, const Value &b) const {
+ConcreteValue ConcreteInterpretation::remainder(const Value &a, const Value &b) const {
   return Value::of(b.number == 0 ? 0 : std::fmod(a.number, b.number));
 }
-ConcreteValue ConcreteReading::fix(const Value &a) const { return Value::of(std::trunc(a.number)); }
-ConcreteValue ConcreteReading::fup(const Value &a) const {
+ConcreteValue ConcreteInterpretation::fix(const Value &a) const { return Value::of(std::trunc(a.number)); }
+ConcreteValue ConcreteInterpretation::fup(const Value &a) const {
   return Value::of(a.number < 0 ? std::floor(a.number) : std::ceil(a.number));
 }
-ConcreteValue ConcreteReading::floor(const Value &a) const { return Value::of(std::floor(a.number)); }
-ConcreteValue ConcreteReading::ceiling(const Value &a) const { return Value::of(std::ceil(a.number)); }
+ConcreteValue ConcreteInterpretation::floor(const Value &a) const { return Value::of(std::floor(a.number)); }
+ConcreteValue ConcreteInterpretation::ceiling(const Value &a) const { return Value::of(std::ceil(a.number)); }
 
-ConcreteValue ConcreteReading::roundTo(const Value &value, Decimal step) const {
+ConcreteValue ConcreteInterpretation::roundTo(const Value &value, Decimal step) const {
   if (rounding_ == WordRounding::None && step.scale() != 0) // whole numbers are asked for by name
     return asNumber(value);
   const double size = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
@@ -107,17 +107,17 @@ ConcreteValue ConcreteReading::roundTo(const Value &value, Decimal step) const {
   return Value::of(std::round(steps) / size);
 }
 
-ConcreteValue ConcreteReading::function(FunctionKind kind, const Value &argument) const {
+ConcreteValue ConcreteInterpretation::function(FunctionKind kind, const Value &argument) const {
   return Value::of(valueOf(kind, argument.number));
 }
-ConcreteValue ConcreteReading::atan2(const Value &y, const Value &x) const {
+ConcreteValue ConcreteInterpretation::atan2(const Value &y, const Value &x) const {
   return Value::of(degrees(std::atan2(y.number + 0.0, x.number + 0.0))); // no control has a -0
 }
-ConcreteValue ConcreteReading::power(const Value &base, const Value &exponent) const {
+ConcreteValue ConcreteInterpretation::power(const Value &base, const Value &exponent) const {
   const double result = std::pow(base.number, exponent.number);
   return Value::of(std::isnan(result) ? 0 : result);
 }
-ConcreteValue ConcreteReading::bitwise(OperatorKind op, const Value &a, const Value &b) const {
+ConcreteValue ConcreteInterpretation::bitwise(OperatorKind op, const Value &a, const Value &b) const {
   if (std::fabs(a.number) > kLargestInteger || std::fabs(b.number) > kLargestInteger)
     return Value::of(0);
   const auto left = static_cast<std::int64_t>(a.number);
@@ -127,7 +127,7 @@ ConcreteValue ConcreteReading::bitwise(OperatorKind op, const Value &a, const Va
   return Value::of(static_cast<double>(op == OperatorKind::Or ? left | right : left ^ right));
 }
 
-bool ConcreteReading::compare(Relation relation, const Value &a, const Value &b) const {
+bool ConcreteInterpretation::compare(Relation relation, const Value &a, const Value &b) const {
   switch (relation) {
   case Relation::Equal: return a.number == b.number;
   case Relation::NotEqual: return a.number != b.number;
@@ -139,12 +139,12 @@ bool ConcreteReading::compare(Relation relation, const Value &a, const Value &b)
   return false;
 }
 
-ConcreteValue ConcreteReading::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
+ConcreteValue ConcreteInterpretation::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
   const auto &codes = modes.group(group).codes;
   return Value::of(code < codes.size() ? codes[code]->tenths / 10.0 : 0);
 }
 
-ConcreteValue ConcreteReading::given(std::uint32_t variable) const {
+ConcreteValue ConcreteInterpretation::given(std::uint32_t variable) const {
   if (const Value *value = given_.find(variable))
     return *value;
   if (variable >= kFirstNamedVariable)
@@ -153,61 +153,61 @@ ConcreteValue ConcreteReading::given(std::uint32_t variable) const {
   return range && range->kind == VariableKind::System ? Value::of(0) : Value{};
 }
 
-GivenVariables ConcreteReading::byCell(const Dialect &dialect, const GivenVariables &given) {
+GivenVariables ConcreteInterpretation::byCell(const Dialect &dialect, const GivenVariables &given) {
   GivenVariables cells;
   for (const auto &[variable, value] : given.entries())
     cells.set(cellOf(dialect, variable), value);
   return cells;
 }
 
-bool ConcreteReading::isLocal(std::uint32_t variable) const {
+bool ConcreteInterpretation::isLocal(std::uint32_t variable) const {
   const VariableRange *range = variable <= kLocalVariables ? findVariable(*dialect_, variable) : nullptr;
   return range && range->kind == VariableKind::Local;
 }
 
-ConcreteValue ConcreteReading::volatileRead(std::uint32_t variable) {
+ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
   sawVolatile_ = true;
   return asNumber(given(variable));
 }
 
 /// The offset tables are the operator's: without one the tool has no length.
-ConcreteValue ConcreteReading::toolLength(State &state, const Value &number) const {
+ConcreteValue ConcreteInterpretation::toolLength(State &state, const Value &number) const {
   (void)state;
   (void)number;
   return Value::of(0);
 }
 
-void ConcreteReading::alarm(bool truth, AlarmReport report) {
+void ConcreteInterpretation::alarm(bool truth, AlarmReport report) {
   if (truth && stopped_.kind == Stop::None)
     stopped_ = {Stop::ControlAlarm, report.kind, 0, report.place};
 }
 
-void ConcreteReading::userAlarm(const Value &number, Span place) {
+void ConcreteInterpretation::userAlarm(const Value &number, Span place) {
   if (stopped_.kind == Stop::None)
     stopped_ = {Stop::UserAlarm, {}, number.number, place};
 }
 
-void ConcreteReading::move(const Move<Value> &move) {
+void ConcreteInterpretation::move(const Move<Value> &move) {
   if (stopped_.kind == Stop::None)
     moves_.push_back(move);
 }
 
-MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
-                                         const std::array<double, kAxisCount> &start) {
+MachineState<ConcreteInterpretation> startState(const ConcreteInterpretation &interpretation, const ModalTable &modes,
+                                                const std::array<double, kAxisCount> &start) {
   const auto asAfterPowerOn = Overloaded{[&](PartId id, ConcreteValue &value) {
-                                           setNeutral(reading, id, value);
+                                           setNeutral(interpretation, id, value);
                                            if (id.part == Part::Position)
                                              value = ConcreteValue::of(start[id.key]);
                                          },
                                          [&](PartId id, std::uint8_t &code) {
                                            code = id.part == Part::Spindle
                                                       ? std::uint8_t{0}
-                                                      : modes.powerOn(id.key).value_or(ConcreteReading::kNoCode);
+                                                      : modes.powerOn(id.key).value_or(ConcreteInterpretation::kNoCode);
                                          },
-                                         [&](PartId id, bool &truth) { setNeutral(reading, id, truth); }};
-  auto state = entryParts<ConcreteReading>(reading, asAfterPowerOn, asAfterPowerOn);
-  for (const auto &[variable, value] : reading.allGiven())
-    if (reading.isLocal(variable))
+                                         [&](PartId id, bool &truth) { setNeutral(interpretation, id, truth); }};
+  auto state = entryParts<ConcreteInterpretation>(interpretation, asAfterPowerOn, asAfterPowerOn);
+  for (const auto &[variable, value] : interpretation.allGiven())
+    if (interpretation.isLocal(variable))
       state.locals[variable] = value;
     else
       state.variables.set(variable, value);

@@ -1,4 +1,4 @@
-// Thing: what stands at a place of a program.
+// ProgramSymbol: what the text at a place of a program names.
 #pragma once
 
 #include "findings/project/project.h"
@@ -26,59 +26,59 @@ struct VariableRef {
 };
 
 /// The O word of a program.
-struct HeaderThing {
+struct HeaderSymbol {
   ProgramId program;
 };
 /// An N word.
-struct LabelThing {
+struct LabelSymbol {
   LabelRef label;
 };
 /// A GOTO, the P of M99 and M97, the Q of M98: the index of the jump in its model.
-struct JumpThing {
+struct JumpSymbol {
   std::size_t jump;
 };
 /// The code of a call, or the word that names its program.
-struct CallThing {
+struct CallSymbol {
   CallId call;
 };
 /// A word that a call passes.
-struct ArgumentThing {
+struct ArgumentSymbol {
   CallId call;
   Argument argument;
 };
-struct VariableThing {
+struct VariableSymbol {
   VariableUse use;
 };
 /// WHILE, DO and END: the index of the loop in its model.
-struct LoopThing {
+struct LoopSymbol {
   std::size_t loop;
 };
 /// `o100 if`, `o100 endif` ..
-struct OWordThing {
+struct OWordSymbol {
   OWordId oWord;
 };
 /// A G or M word that is no call.
-struct CodeThing {
+struct CodeSymbol {
   WordId word;
 };
 /// A word with an axis or another address.
-struct WordThing {
+struct WordSymbol {
   WordId word;
 };
-struct ClauseThing {
+struct ClauseSymbol {
   ClauseId clause;
 };
 
-using Thing = std::variant<HeaderThing, LabelThing, JumpThing, CallThing, ArgumentThing, VariableThing, LoopThing,
-                           OWordThing, CodeThing, WordThing, ClauseThing>;
-struct ThingAt {
+using ProgramSymbol = std::variant<HeaderSymbol, LabelSymbol, JumpSymbol, CallSymbol, ArgumentSymbol, VariableSymbol,
+                                   LoopSymbol, OWordSymbol, CodeSymbol, WordSymbol, ClauseSymbol>;
+struct SymbolAt {
   Span span;
   BlockId block;
-  Thing thing;
+  ProgramSymbol symbol;
 };
 
-/// The smallest thing at an offset of the document; the one that ends there when none goes on.
-std::optional<ThingAt> thingAt(const Project &programs, std::uint32_t offset);
+/// The smallest symbol at an offset of the document; the one that ends there when none goes on.
+std::optional<SymbolAt> symbolAt(const Project &programs, std::uint32_t offset);
 
 /// Where a jump with a literal target looks: in its program, in the program that it calls, or in all that call it.
 std::vector<LabelRef> labelsOf(const Project &programs, FileId file, const Jump &jump);

@@ -1,4 +1,4 @@
-// ConcreteReading: programs read with the numbers of one run, in doubles.
+// ConcreteInterpretation: programs read with the numbers of one run, in doubles.
 #pragma once
 
 #include "meaning/semantics/step.h"
@@ -28,16 +28,17 @@ struct MachineNote {
 /// Words are rounded to the least increment, as a control does; or taken as they are written.
 enum class WordRounding : std::uint8_t { Increment, None };
 
-class ConcreteReading {
+class ConcreteInterpretation {
 public:
   using Value = ConcreteValue;
   using Truth = bool;
   /// Index in the group; kNoCode: none is known to be in force.
   using ModalCode = std::uint8_t;
   static constexpr ModalCode kNoCode = 0xff;
-  using State = MachineState<ConcreteReading>;
+  using State = MachineState<ConcreteInterpretation>;
 
-  ConcreteReading(const Dialect &dialect, const GivenVariables &given, WordRounding rounding = WordRounding::Increment)
+  ConcreteInterpretation(const Dialect &dialect, const GivenVariables &given,
+                         WordRounding rounding = WordRounding::Increment)
       : dialect_(&dialect), given_(byCell(dialect, given)), rounding_(rounding) {}
 
   // ---- what happened, for the machine ----
@@ -114,7 +115,7 @@ public:
   Value toolLength(State &state, const Value &number) const;
   Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number
   bool writeAnyOf(State &, const Value &, const Value &, Span) const { return false; } // likewise
-  void forgetVariables(State &, std::uint32_t, std::uint32_t) const {} // they keep what they hold: a note says so
+  void havocVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so
   Value between(const Value &, const Value &end) const { return end; } // no signal comes
   void join(State &state, bool truth, const State &second) const {
     if (truth)
@@ -126,7 +127,7 @@ public:
   void userAlarm(const Value &number, Span place);
   bool wantsMoves() const { return true; }
   void move(const Move<Value> &move);
-  void notModelled(std::string_view reason, Span) { notes_.push_back(reason); }
+  void unmodelled(std::string_view reason, Span) { notes_.push_back(reason); }
   void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
   void evaluated(ExpressionId, const Value &) const {}
@@ -145,7 +146,7 @@ private:
 };
 
 /// The state in which a run starts: power-on codes, all variables as given, the tool at `start`.
-MachineState<ConcreteReading> startState(const ConcreteReading &reading, const ModalTable &modes,
-                                         const std::array<double, kAxisCount> &start);
+MachineState<ConcreteInterpretation> startState(const ConcreteInterpretation &interpretation, const ModalTable &modes,
+                                                const std::array<double, kAxisCount> &start);
 
 } // namespace feedhold
