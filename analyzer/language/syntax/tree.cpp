@@ -75,22 +75,30 @@ std::size_t SyntaxTree::bytes() const {
          (skips.size() + lowerCase.size() + abbreviations.size()) * sizeof(Span);
 }
 
-std::vector<ExpressionId> childrenOf(const SyntaxTree &tree, ExpressionId id) {
-  const auto none = [](const auto &) { return std::vector<ExpressionId>(); };
-  return match(
-      tree.expressions[id].node, [&](const NumberLiteral &node) { return none(node); },
-      [&](const NumberedVariable &node) { return none(node); }, [&](const NamedVariable &node) { return none(node); },
-      [&](const BrokenExpression &node) { return none(node); },
-      [](const IndirectVariable &node) { return std::vector{node.index}; },
-      [](const Negation &node) { return std::vector{node.operand}; },
-      [](const Identity &node) { return std::vector{node.operand}; },
-      [](const Bracketed &node) { return std::vector{node.inner}; },
-      [](const BinaryOperation &node) {
-        return std::vector{node.left, node.right};
+namespace {
+
+/// Behind what `to` has; no list of their own, as expressions are gone through in every pass over a program.
+void appendChildren(const SyntaxTree &tree, ExpressionId id, std::vector<ExpressionId> &to) {
+  match(
+      tree.expressions[id].node, [](const NumberLiteral &) {}, [](const NumberedVariable &) {},
+      [](const NamedVariable &) {}, [](const BrokenExpression &) {},
+      [&](const IndirectVariable &node) { to.push_back(node.index); },
+      [&](const Negation &node) { to.push_back(node.operand); },
+      [&](const Identity &node) { to.push_back(node.operand); },
+      [&](const Bracketed &node) { to.push_back(node.inner); },
+      [&](const BinaryOperation &node) {
+        to.push_back(node.left);
+        to.push_back(node.right);
       },
-      [](const FunctionCall &node) {
-        return std::vector<ExpressionId>(node.arguments().begin(), node.arguments().end());
-      });
+      [&](const FunctionCall &node) { to.insert(to.end(), node.arguments().begin(), node.arguments().end()); });
+}
+
+} // namespace
+
+std::vector<ExpressionId> childrenOf(const SyntaxTree &tree, ExpressionId id) {
+  std::vector<ExpressionId> children;
+  appendChildren(tree, id, children);
+  return children;
 }
 
 std::vector<ExpressionId> subexpressions(const SyntaxTree &tree, ExpressionId root) {
@@ -100,8 +108,9 @@ std::vector<ExpressionId> subexpressions(const SyntaxTree &tree, ExpressionId ro
     const ExpressionId id = open.back();
     open.pop_back();
     found.push_back(id);
-    const std::vector<ExpressionId> children = childrenOf(tree, id);
-    open.insert(open.end(), children.rbegin(), children.rend());
+    const auto first = static_cast<std::ptrdiff_t>(open.size());
+    appendChildren(tree, id, open);
+    std::reverse(open.begin() + first, open.end()); // the leftmost is taken next
   }
   return found;
 }

@@ -181,12 +181,13 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
   Search search(cfg, model, use, first_, last - first_.index());
   search.run(entry);
   positions_.assign(last - first_.index(), kUnreachable);
-  reserve(search.nodes.size());
+  order_.reserve(search.nodes.size());
   if (search.backSources.isEmpty()) { // a tool path: without loops, and without memory for them
     for (auto number = search.postorder.rbegin(); number != search.postorder.rend(); ++number)
-      append(search.nodes[*number], std::nullopt, Head::No);
+      append(search.nodes[*number]);
     return;
   }
+  reserveForLoops(search.nodes.size());
   const std::vector<std::uint32_t> around = loopsAround(search);
 
   // By head, the last to be left last, so that `waiting` gives it back first; what is in no loop under `top`.
@@ -200,8 +201,9 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
   while (!waiting.empty()) {
     const std::uint32_t number = waiting.back();
     waiting.pop_back();
-    append(search.nodes[number], around[number] == kNone ? std::nullopt : std::optional(search.nodes[around[number]]),
-           search.backSources.isEmpty(number) ? Head::No : Head::Yes);
+    appendInLoops(search.nodes[number],
+                  around[number] == kNone ? std::nullopt : std::optional(search.nodes[around[number]]),
+                  search.backSources.isEmpty(number) ? Head::No : Head::Yes);
     inside.forEach(number, [&](std::uint32_t member) { waiting.push_back(member); });
   }
   // A component ends where the last one inside it does; what lies inside stands behind its head.
@@ -210,23 +212,25 @@ Wto::Wto(const Cfg &cfg, const ProgramModel &model, NodeId entry, ProgramUse use
       ends_[arounds_[position]] = std::max(ends_[arounds_[position]], ends_[position]);
 }
 
-void Wto::reserve(std::size_t size) {
-  order_.reserve(size);
+void Wto::reserveForLoops(std::size_t size) {
   isHead_.reserve(size);
   depths_.reserve(size);
   arounds_.reserve(size);
   ends_.reserve(size);
 }
 
-void Wto::append(NodeId node, std::optional<NodeId> around, Head head) {
-  const auto position = static_cast<std::uint32_t>(order_.size());
-  positions_[node.index() - first_.index()] = position;
+void Wto::append(NodeId node) {
+  positions_[node.index() - first_.index()] = static_cast<std::uint32_t>(order_.size());
   order_.push_back(node);
+}
+
+void Wto::appendInLoops(NodeId node, std::optional<NodeId> around, Head head) {
+  append(node);
   isHead_.push_back(head == Head::Yes);
   const std::uint32_t depth = around ? depthOf(*around) : 0;
   depths_.push_back(depth + (head == Head::Yes ? 1 : 0));
   arounds_.push_back(around ? positionOf(*around) : kNone);
-  ends_.push_back(position + 1);
+  ends_.push_back(static_cast<std::uint32_t>(order_.size()));
 }
 
 std::uint32_t Wto::positionOf(NodeId node) const {
@@ -236,28 +240,30 @@ std::uint32_t Wto::positionOf(NodeId node) const {
 
 bool Wto::isHead(NodeId node) const {
   const std::uint32_t position = positionOf(node);
-  return position != kUnreachable && isHead_[position];
+  return position != kUnreachable && hasLoops() && isHead_[position];
 }
 
 NodeId Wto::headOf(NodeId node) const {
   const std::uint32_t position = positionOf(node);
-  const bool own = position == kUnreachable || isHead_[position] || arounds_[position] == kNone;
+  const bool own = position == kUnreachable || !hasLoops() || isHead_[position] || arounds_[position] == kNone;
   return own ? node : order_[arounds_[position]];
 }
 
 std::uint32_t Wto::depthOf(NodeId node) const {
   const std::uint32_t position = positionOf(node);
-  return position == kUnreachable ? 0 : depths_[position];
+  return position == kUnreachable || !hasLoops() ? 0 : depths_[position];
 }
 
 std::uint32_t Wto::endOf(NodeId head) const {
   const std::uint32_t position = positionOf(head);
-  return position == kUnreachable ? kUnreachable : ends_[position];
+  if (position == kUnreachable)
+    return kUnreachable;
+  return hasLoops() ? ends_[position] : position + 1;
 }
 
 std::optional<NodeId> Wto::headAround(NodeId node) const {
   const std::uint32_t position = positionOf(node);
-  if (position == kUnreachable || arounds_[position] == kNone)
+  if (position == kUnreachable || !hasLoops() || arounds_[position] == kNone)
     return std::nullopt;
   return order_[arounds_[position]];
 }

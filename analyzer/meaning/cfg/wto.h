@@ -32,16 +32,19 @@ public:
 
 private:
   enum class Head : std::uint8_t { No, Yes };
-  void reserve(std::size_t size);
-  void append(NodeId node, std::optional<NodeId> around, Head head);
+  bool hasLoops() const { return !isHead_.empty(); }
+  void reserveForLoops(std::size_t size);
+  void append(NodeId node);
+  void appendInLoops(NodeId node, std::optional<NodeId> around, Head head);
 
   std::vector<NodeId> order_;
   NodeId first_;                         // entry of the program; positions_ starts with it
   std::vector<std::uint32_t> positions_; // by node
-  std::vector<std::uint32_t> arounds_;   // by position: the position of the head around it
-  std::vector<std::uint32_t> ends_;      // by position of a head: behind its component; of others behind themselves
-  std::vector<bool> isHead_;             // by position
-  std::vector<std::uint32_t> depths_;    // by position
+  // Empty in a program without loops:
+  std::vector<std::uint32_t> arounds_; // by position: the position of the head around it
+  std::vector<std::uint32_t> ends_;    // by position of a head: behind its component; of others behind themselves
+  std::vector<bool> isHead_;           // by position
+  std::vector<std::uint32_t> depths_;  // by position
 };
 
 } // namespace feedhold
