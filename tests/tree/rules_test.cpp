@@ -81,6 +81,8 @@ TEST(Rules, HaveNamesOfTheirOwnInKebabCase) {
     EXPECT_EQ(rule->info.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string_view::npos)
         << rule->info.name;
   }
+  for (const auto &[rule, text] : allRules().rules)
+    EXPECT_TRUE(rule->info.formerName.empty() || names.insert(rule->info.formerName).second) << rule->info.formerName;
 }
 
 TEST(Rules, ReportEverySyntaxIssue) {

@@ -18,6 +18,8 @@ bool patternMatches(std::string_view pattern, std::string_view path) {
 }
 
 std::optional<std::string> complaintAboutRuleName(std::string_view name, const RuleRegistry &rules) {
+  if (findRule(rules, name) != nullptr)
+    return std::nullopt;
   std::vector<std::string_view> known = {kAllRules};
   for (const RegisteredRule &entry : rules.rules) {
     known.push_back(entry.rule->info.name);

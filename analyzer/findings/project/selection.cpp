@@ -9,7 +9,7 @@ namespace {
 
 bool isNamed(const RuleInfo &rule, const std::vector<std::string> &names) {
   return std::any_of(names.begin(), names.end(), [&](const std::string &name) {
-    return name == rule.name || name == nameOf(rule.category) || name == kAllRules;
+    return hasName(rule, name) || name == nameOf(rule.category) || name == kAllRules;
   });
 }
 

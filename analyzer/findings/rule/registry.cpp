@@ -7,7 +7,7 @@ namespace feedhold {
 
 const RegisteredRule *findRule(const RuleRegistry &registry, std::string_view name) {
   const auto found = std::find_if(registry.rules.begin(), registry.rules.end(),
-                                  [&](const RegisteredRule &entry) { return entry.rule->info.name == name; });
+                                  [&](const RegisteredRule &entry) { return hasName(entry.rule->info, name); });
   return found == registry.rules.end() ? nullptr : &*found;
 }
 

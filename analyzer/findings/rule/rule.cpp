@@ -20,6 +20,10 @@ std::string_view wholeCharacters(std::string_view text, std::size_t size) {
 
 } // namespace
 
+bool hasName(const RuleInfo &rule, std::string_view name) {
+  return name == rule.name || (!rule.formerName.empty() && name == rule.formerName);
+}
+
 std::string_view nameOf(Category category) {
   switch (category) {
   case Category::Syntax: return "syntax";

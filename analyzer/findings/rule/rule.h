@@ -41,7 +41,10 @@ struct RuleInfo {
   Category category;
   Severity severity;
   std::string_view summary; // one sentence, the first of the page
+  /// Suppressions and settings may still use it: programs that are released do not change with a name.
+  std::string_view formerName = {};
 };
+bool hasName(const RuleInfo &rule, std::string_view name);
 
 /// All that a rule may look at: one file, its control, and the other files of the run.
 struct FileContext {

@@ -13,7 +13,7 @@ namespace feedhold {
 namespace {
 
 bool covers(const Suppression &suppression, const RawFinding &finding, BlockId block, const FileContext &context) {
-  if (suppression.rule != finding.rule->name || !suppression.missing.empty())
+  if (!hasName(*finding.rule, suppression.rule) || !suppression.missing.empty())
     return false;
   if (suppression.wholeProgram)
     return *suppression.wholeProgram == context.model.programOf(block);
@@ -60,7 +60,7 @@ public:
 private:
   const Rule *findSelected(std::string_view name) const {
     const auto found =
-        std::find_if(selected_.begin(), selected_.end(), [&](const Rule *rule) { return rule->info.name == name; });
+        std::find_if(selected_.begin(), selected_.end(), [&](const Rule *rule) { return hasName(rule->info, name); });
     return found == selected_.end() ? nullptr : *found;
   }
 

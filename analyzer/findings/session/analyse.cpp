@@ -27,7 +27,7 @@ CheckedFile headOf(const WorkItem &item) {
 
 Severity severityOf(const RawFinding &finding, const Profile &profile) {
   for (const SeveritySetting &setting : profile.severities)
-    if (setting.rule == finding.rule->name)
+    if (hasName(*finding.rule, setting.rule))
       return setting.severity;
   return finding.severity;
 }

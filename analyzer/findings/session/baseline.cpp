@@ -43,7 +43,7 @@ public:
 
   bool holds(const KnownFinding &entry) const {
     return holdsPath(entry.path) && std::any_of(scope_.rules.begin(), scope_.rules.end(),
-                                                [&](const Rule *rule) { return rule->info.name == entry.rule; });
+                                                [&](const Rule *rule) { return hasName(rule->info, entry.rule); });
   }
   bool holds(const KnownObligation &entry) const {
     return holdsPath(entry.path) &&

@@ -1,6 +1,7 @@
 // feedhold.toml: what is read, and where and how a slip of the pen is reported.
 #include "dialects/registry.h"
 #include "findings/project/config.h"
+#include "findings/project/selection.h"
 #include "rules/registry.h"
 
 #include <fmt/format.h>
@@ -73,6 +74,16 @@ TEST(Config, UnknownNamesHaveASuggestion) {
   EXPECT_EQ(errorOf("[severity]\nmising-equals = \"info\"\n"),
             "2:1 there is no rule or category `mising-equals`; did you mean `missing-equals`?");
   EXPECT_EQ(errorOf("error-on = \"errors\"\n"), "1:12 `errors` is not a severity; did you mean `error`?");
+}
+
+TEST(Config, AFormerNameOfARuleIsUnderstood) {
+  EXPECT_EQ(errorOf("select = [\"loop-counter-clobbered\"]\n[severity]\nloop-counter-clobbered = \"info\"\n"),
+            "0 errors");
+  const auto rules =
+      selectRules(allRules(), {{SelectionStep::Kind::Select, {"loop-counter-clobbered", "missing-equals"}},
+                               {SelectionStep::Kind::Ignore, {"missing-equals"}}});
+  ASSERT_EQ(rules.size(), 1U);
+  EXPECT_EQ(rules[0]->info.name, "shared-loop-counter");
 }
 
 TEST(Config, WrongValues) {
