@@ -15,6 +15,18 @@ class ExitCodes(Scratch):
         self.assertExit(result, 1)
         self.assertIn("missing-equals", result.stdout)
 
+    def test_quiet_prints_the_findings_only(self):
+        self.write("cell/bad.nc", BAD)
+        self.write("cell/notes.doc", "no program")
+        loud = self.check("cell")
+        for option in ("-q", "--quiet"):
+            quiet = self.check(option, "cell")
+            self.assertExit(quiet, 1)
+            self.assertIn("missing-equals", quiet.stdout)
+            self.assertTrue(loud.stdout.startswith(quiet.stdout.rstrip()), quiet.stdout)
+            self.assertNotIn("1 file", quiet.stdout)
+            self.assertEqual(quiet.stderr, "")
+
     def test_folder_is_walked(self):
         self.write("cell/one/bad.nc", BAD)
         self.write("cell/two/O1000", GOOD)
@@ -29,6 +41,12 @@ class ExitCodes(Scratch):
     def test_selected_rule(self):
         self.write("bad.nc", BAD)
         self.assertExit(self.check("--select", "missing-equals", "bad.nc"), 1)
+
+    def test_a_former_name_of_a_rule(self):
+        self.write("good.nc", GOOD)
+        self.assertExit(self.check("--select", "loop-counter-clobbered", "good.nc"), 0)
+        page = self.feedhold("explain", "loop-counter-clobbered").stdout
+        self.assertTrue(page.startswith("# shared-loop-counter"), page[:40])
 
     def test_unknown_rule_has_a_suggestion(self):
         self.write("good.nc", GOOD)

@@ -42,7 +42,7 @@ void addOptions(CLI::App &app, CertifyArguments &arguments) {
   app.add_option("--date", arguments.date, "date printed on the report (default: from SOURCE_DATE_EPOCH, else none)")
       ->type_name("TEXT");
   addJobs(app, arguments.jobs);
-  app.add_flag("-q,--quiet", arguments.quiet, "print no summary");
+  addQuiet(app, arguments.quiet, "print no summary");
 }
 
 /// The reproducible-builds.org convention: seconds since 1970, in UTC.

@@ -75,7 +75,7 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   addColor(app, arguments.color);
   addStdinFilename(app, arguments.stdinFilename);
   app.add_flag("--show-suppressed", arguments.showSuppressed, "also print findings that @ALLOW suppresses");
-  app.add_flag("--quiet", arguments.quiet, "print findings only, no summary");
+  addQuiet(app, arguments.quiet);
   app.add_flag("--statistics", arguments.statistics, "print the number of findings per rule instead of the findings");
   app.add_flag("--exit-zero", arguments.exitZero, "exit with 0 even if there are findings");
   app.add_flag("--watch", arguments.watch, "check again whenever a file changes; stop with Ctrl-C");

@@ -58,7 +58,7 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   addColor(app, arguments.color);
   addStdinFilename(app, arguments.stdinFilename);
   app.add_flag("-v,--verbose", arguments.verbose, "print how each proof was found and what it cost");
-  app.add_flag("-q,--quiet", arguments.quiet, "print no summary and no skipped files");
+  addQuiet(app, arguments.quiet);
   app.add_flag("--statistics", arguments.statistics, "print the number of verdicts per kind instead of the verdicts");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);

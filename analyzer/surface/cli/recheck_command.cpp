@@ -225,7 +225,7 @@ Command addRecheckCommand(CLI::App &parent) {
       ->check(CLI::IsMember({"all", "needed"}));
   addJobs(*app, arguments->jobs);
   app->add_flag("-v,--verbose", arguments->verbose, "print the result of each question");
-  app->add_flag("-q,--quiet", arguments->quiet, "print differences only");
+  addQuiet(*app, arguments->quiet, "print differences only");
   return {app, [arguments] { return recheckOrComplain(*arguments); }};
 }
 

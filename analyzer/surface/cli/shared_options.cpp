@@ -38,6 +38,8 @@ void addColor(CLI::App &app, std::string &when) {
       ->check(CLI::IsMember({"auto", "always", "never"}));
 }
 
+void addQuiet(CLI::App &app, bool &quiet, const std::string &meaning) { app.add_flag("-q,--quiet", quiet, meaning); }
+
 void addStdinFilename(CLI::App &app, std::string &path) {
   app.add_option("--stdin-filename", path, "file name to show for standard input")->type_name("PATH");
 }

@@ -30,6 +30,9 @@ void addJobs(CLI::App &app, unsigned &jobs);
 /// `--color`; `when` holds the default.
 void addColor(CLI::App &app, std::string &when);
 
+/// `-q` and `--quiet`; `meaning` is what the command still prints, or no longer prints.
+void addQuiet(CLI::App &app, bool &quiet, const std::string &meaning = "print no summary and no skipped files");
+
 /// `--stdin-filename`; `path` holds the default.
 void addStdinFilename(CLI::App &app, std::string &path);
 
