@@ -70,7 +70,7 @@ const ProgramFacts &Engine::factsOf(Callee entry) {
     const auto loops =
         std::count_if(wto.order().begin(), wto.order().end(), [&](NodeId node) { return wto.isHead(node); });
     if (loops > kMostLoops && !gaveUp_)
-      gaveUp_ = "a program has too many loops for a state to be kept for each";
+      gaveUp_ = "a program has too many loops for the analysis";
     facts = std::make_unique<ProgramFacts>(ProgramFacts{entry, &file, std::move(wto), std::move(joins),
                                                         partitionBy(file, entry.program, modesOf(entry.file)),
                                                         thresholdsOf(file, entry.program)});
@@ -85,7 +85,7 @@ bool Engine::isOpen(Callee entry) const {
 bool Engine::spend(std::uint64_t cost) {
   spent_ += cost;
   if (spent_ > options_.budget && !gaveUp_)
-    gaveUp_ = "the programs are too involved to be followed within the budget";
+    gaveUp_ = "the programs are too complex for the budget of the analysis";
   if (!gaveUp_)
     gaveUp_ = interpretation_.abandoned();
   return !gaveUp_;

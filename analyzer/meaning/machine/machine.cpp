@@ -250,7 +250,7 @@ private:
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
   bool enter(const CallRequest<ConcreteInterpretation> &request, std::optional<std::size_t> modal) {
     if (!request.callee && !request.possible.empty()) {
-      giveUp("a program whose number several programs of the run have");
+      giveUp("a program number that several programs have");
       return true;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {

@@ -107,7 +107,7 @@ private:
     const Span place = context_.tree().words[argument.word].span();
     if (call_.kind != CallKind::ModalEach)
       interpretation_.alarm(interpretation_.unknownTruth(), {alarm, place});
-    interpretation_.havoc(context_.state, "a word of a call that cannot be an argument", place);
+    interpretation_.havoc(context_.state, "a word in a call that cannot be an argument", place);
   }
   /// Copied as it is: an argument that is dropped leaves its variable vacant, nothing is rounded.
   Value argumentValue(const Word &word) {

@@ -184,7 +184,7 @@ private:
     tell(context_, isOpenTarget(context_, words_) ? MoveKind::Unmodelled : MoveKind::Rapid, start);
     const Kind kind = interpretation_.wantsMoves() ? kindOf() : Kind::Straight;
     if (kind == Kind::NotFollowed) {
-      interpretation_.unmodelled("the way of this boring cycle", context_.place());
+      interpretation_.unmodelled("the tool path of this boring cycle", context_.place());
       const Point hole = state_.position;
       state_.at(plane_.normal) = returnLevel();
       return tell(context_, MoveKind::Unmodelled, hole);
@@ -322,7 +322,7 @@ template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedW
   const auto start = context.state.position;
   havocPosition(context);
   tell(context, MoveKind::Unmodelled, start);
-  context.interpretation.unmodelled("a canned cycle whose plane is not known", context.place());
+  context.interpretation.unmodelled("a canned cycle in an unknown plane", context.place());
 }
 
 } // namespace feedhold

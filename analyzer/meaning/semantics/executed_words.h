@@ -212,19 +212,19 @@ private:
       context_.state.transformed = interpretation_.unknownTruth(); // it may be one that turns or mirrors
       words_.unmodelled = true;
     }
-    interpretation_.havoc(context_.state, "a code whose number is computed", word.span());
+    interpretation_.havoc(context_.state, "a code with a computed number", word.span());
   }
   /// Either an alarm, or a macro that the machine's parameters call.
   void unknownCode(const Word &word) {
     interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
     words_.unmodelled = true;
-    interpretation_.havoc(context_.state, "a G code that the table of the control does not have", word.span());
+    interpretation_.havoc(context_.state, "a G code that the control does not have", word.span());
   }
 
   void add(const Word &word, Truth present, Value value) {
     if (word.address() < 'A' || word.address() > 'Z') { // `@` and `^`, polar coordinates of LinuxCNC; `$`
       words_.unmodelled = true;
-      return interpretation_.havoc(context_.state, "a word whose address is no letter", word.span());
+      return interpretation_.havoc(context_.state, "a word whose address is not a letter", word.span());
     }
     std::uint8_t &slot = words_.slots[static_cast<std::size_t>(word.address() - 'A')];
     if (slot == ExecutedWords<R>::kNone) {

@@ -68,7 +68,7 @@ private:
         interpretation_.unmodelled(word.code->meaning, word.span);
       }
       if (action == CodeAction::ExtendedWorkOffset)
-        interpretation_.unmodelled("where an additional work coordinate system lies", word.span);
+        interpretation_.unmodelled("the origin of an additional work coordinate system", word.span);
       enterOtherGeometry(word);
       return;
     }
@@ -339,9 +339,9 @@ private:
     const Truth stillMapped = interpretation_.both(scaledOrTurned, context_.either(isTurned(), isScaled()));
     if (words_.has(CodeAction::MirrorOn) || words_.has(CodeAction::MirrorOff))
       notFollowed(interpretation_.both(stillMapped, context_.either(mirrored, isMirrored())),
-                  "a mirror image that changes under scaling or rotation");
+                  "a change of mirroring during scaling or rotation");
     if (words_.has(CodeAction::ScalingOn) || words_.has(CodeAction::ScalingOff))
-      notFollowed(stillTurned, "scaling that changes under rotation");
+      notFollowed(stillTurned, "a change of scaling during rotation");
     state_.transformed =
         context_.either(context_.either(isTurned(), isScaled()), context_.either(isMirrored(), isOther()));
   }
@@ -350,7 +350,7 @@ private:
       return;
     const std::optional<Plane> now = planeOf(context_);
     if (!now || !before || now->normal != before->normal)
-      notFollowed(isTurned(), "another plane under rotation");
+      notFollowed(isTurned(), "a change of plane during rotation");
   }
   bool namesPlane() const {
     const auto plane = context_.modes.groupOf(ModalKind::Plane);
@@ -394,14 +394,14 @@ private:
   /// counts from the angle in force under G91 is a parameter's too.
   void rotation() {
     if (words_.find('I') || words_.find('J') || words_.find('K'))
-      notFollowed(interpretation_.truth(true), "rotation in space");
+      notFollowed(interpretation_.truth(true), "three-dimensional rotation");
     const std::optional<Plane> plane = planeOf(context_);
     auto &[first, second] = state_.transform.centre;
     first = plane ? centreOfRotation(plane->first) : interpretation_.anyNumber();
     second = plane ? centreOfRotation(plane->second) : interpretation_.anyNumber();
     Value &angle = state_.transform.angle;
     const Value before = angle;
-    angle = plane ? wordOrParameter('R', 0, "rotation by the angle of a parameter") : interpretation_.anyNumber();
+    angle = plane ? wordOrParameter('R', 0, "rotation by an angle from a parameter") : interpretation_.anyNumber();
     const Truth adds = interpretation_.both(
         context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, interpretation_.truth(false)),
         interpretation_.negation(interpretation_.compare(Relation::Equal, before, context_.zero())));
@@ -452,7 +452,7 @@ private:
       written = written || words_.find(own[i]);
     }
     if (!written)
-      interpretation_.unmodelled("scaling by the factor of a parameter", context_.place());
+      interpretation_.unmodelled("scaling by a factor from a parameter", context_.place());
   }
   /// Or that of a parameter.
   Value factorOf(char letter, const Value &otherwise) {

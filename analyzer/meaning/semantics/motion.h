@@ -172,7 +172,7 @@ private:
       return arc;
     const Truth inPlane = context_.either(present(plane->firstCentre), present(plane->secondCentre));
     if (interpretation_.mayBe(interpretation_.both(arc, interpretation_.negation(inPlane))))
-      interpretation_.unmodelled("a distance to the centre beside the plane of the arc", context_.place());
+      interpretation_.unmodelled("a centre word outside the plane of the arc", context_.place());
     return interpretation_.both(arc, context_.either(inPlane, context_.maybeNot()));
   }
   /// A distance to the centre on the axis that is not of the plane: a control may refuse it, or pass over it.
@@ -195,11 +195,11 @@ private:
   void plain(Truth holds) {
     const Truth turning = context_.inForce(ModalKind::Motion, {CodeAction::TurningCycle}, interpretation_.truth(false));
     if (context_.certain(turning))
-      return roundTrip("a turning cycle that is repeated", context_.place());
+      return roundTrip("a repeated turning cycle", context_.place());
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
     if (hasCommaWord("A")) {
-      interpretation_.unmodelled("a coordinate that an angle stands for", context_.place());
+      interpretation_.unmodelled("a coordinate given by an angle", context_.place());
       havocPosition(context_);
     }
     const Truth arc = isArc();
@@ -401,11 +401,11 @@ private:
     if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || interpretation_.mayBe(arc.unknown) ||
         hasOtherWay()) {
       if (!context_.certain(mapping.staysCircle))
-        interpretation_.unmodelled("an arc whose axes are scaled differently", context_.place());
+        interpretation_.unmodelled("an arc whose axes are scaled by different factors", context_.place());
       else if (!clockwise)
-        interpretation_.unmodelled("an arc that may go either way round", context_.place());
+        interpretation_.unmodelled("an arc in an unknown direction", context_.place());
       else if (!turns)
-        interpretation_.unmodelled("an arc with words of a spiral or of turns", context_.place());
+        interpretation_.unmodelled("an arc with words for a spiral or for full turns", context_.place());
       return tell(context_, MoveKind::Unmodelled, start);
     }
     Move<Value> move;
@@ -559,7 +559,7 @@ private:
       return offsetVariable(context_, range->first + static_cast<std::uint32_t>(indexOf(axis)));
     if (isFirst)
       return context_.zero();
-    interpretation_.unmodelled("where the second reference position lies", word.span);
+    interpretation_.unmodelled("the second reference position", word.span);
     return interpretation_.anyNumber();
   }
   const VariableRange *referenceRange(VariableRole role) const { return rangeWithRole(context_.dialect(), role); }

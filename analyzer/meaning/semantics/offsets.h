@@ -70,7 +70,7 @@ private:
     if (interpretation_.mayBe(state_.transformed)) {
       for (auto *numbers : {&state_.shift, &state_.position})
         numbers->fill(interpretation_.anyNumber());
-      interpretation_.unmodelled("the tool's coordinates set under mirror, scaling or rotation", context_.place());
+      interpretation_.unmodelled("a coordinate system set during mirroring, scaling or rotation", context_.place());
       return keep();
     }
     for (const Axis axis : kAllAxes)
@@ -127,7 +127,7 @@ private:
     const std::optional<double> which = kind ? interpretation_.constantOf(kind->value) : std::nullopt;
     const std::optional<std::uint32_t> first = firstOfSystem();
     if (which == 50.0 || which == 52.0)
-      return interpretation_.abandon("parameters of the control that G10 sets", word.span);
+      return interpretation_.abandon("control parameters set by G10", word.span);
     turnSystem(word, which);
     if (first && which == 2.0)
       return setWorkOffset(*first);
@@ -165,7 +165,7 @@ private:
     if (!interpretation_.mayBe(turns))
       return;
     detail::enterOtherGeometry(context_, kLastingGeometry, turns);
-    interpretation_.unmodelled("a coordinate system that is turned by G10", word.span);
+    interpretation_.unmodelled("a work coordinate system rotated by G10", word.span);
   }
   void setWorkOffset(std::uint32_t first) {
     const Truth always = interpretation_.truth(true);

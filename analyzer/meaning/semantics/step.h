@@ -49,7 +49,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
     if (const auto number = context.programs.variableOf(context.file.file, named->name))
       return writeVariable(context, *number, std::move(value), expression.span);
   }
-  interpretation.havoc(context.state, "an assignment whose target is not known", expression.span);
+  interpretation.havoc(context.state, "an assignment to an unknown variable", expression.span);
 }
 
 /// A name on the left of `=` is there, and 0, while the right side is read: `#<new>=[#<new>+1]`.
@@ -126,7 +126,7 @@ void executeWords(StepContext<R> &context, const ExecuteWords &execute, Executed
       context.interpretation.abandon("a macro interrupt is armed, and its program may run between any two blocks",
                                      word.span);
   if (words.unmodelled)
-    context.interpretation.havoc(context.state, "a code that is not known", context.place());
+    context.interpretation.havoc(context.state, "an unknown code", context.place());
 }
 
 template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCount &start) {

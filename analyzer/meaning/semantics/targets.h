@@ -77,8 +77,7 @@ void fromPolar(StepContext<R> &context, const ExecutedWords<R> &words,
     return;
   if (isOpenPolar(context, words)) {
     first = second = interpretation.anyNumber();
-    return interpretation.unmodelled("polar coordinates of which one is not written, or incremental ones",
-                                     context.place());
+    return interpretation.unmodelled("polar coordinates with only one word, or in G91", context.place());
   }
   first = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Cos, angle->value));
   second = interpretation.multiply(radius->value, interpretation.function(FunctionKind::Sin, angle->value));
@@ -121,7 +120,7 @@ typename R::Value openedUp(StepContext<R> &context, Axis axis, const typename R:
   const auto open = isOpenIncrement(context, axis);
   if (!interpretation.mayBe(open))
     return coordinate;
-  interpretation.unmodelled("an incremental movement before an absolute one, behind mirror, scaling or rotation",
+  interpretation.unmodelled("an incremental move after mirroring, scaling or rotation, before any absolute move",
                             context.place());
   return interpretation.select(open, interpretation.either(coordinate, interpretation.anyNumber()), coordinate);
 }

@@ -152,7 +152,7 @@ template <ValueAlgebra R> void changeAdditionalOffset(StepContext<R> &context, S
   if (workOffsetInForce(context))
     return;
   havocOrigins(context);
-  context.interpretation.unmodelled("an additional work offset is changed while one may be in force", place);
+  context.interpretation.unmodelled("a change of an additional work offset while one may be active", place);
 }
 
 template <ValueAlgebra R>
