@@ -4,7 +4,7 @@ import unittest
 from harness import Session
 
 TEXT = "%\nO1\nG90\nM98P2\nG01X5.\nM30\nO2\nG91\nM99\n%\n"
-HINT = (5, "G91 before this block")
+HINT = (5, "G91 active here")
 
 
 class Hints(Session):

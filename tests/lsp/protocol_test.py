@@ -65,9 +65,9 @@ class Errors(Session):
 
     def test_bad_commands(self):
         client = self.client()
-        for command, arguments, complaint in (("feedhold.brew", [], "there is no command `feedhold.brew`"),
-                                              ("feedhold.prove", [], "needs a document"),
-                                              ("feedhold.prove", None, "needs a document"),
+        for command, arguments, complaint in (("feedhold.brew", [], "unknown command `feedhold.brew`"),
+                                              ("feedhold.prove", [], "needs the URI of a document"),
+                                              ("feedhold.prove", None, "needs the URI of a document"),
                                               ("feedhold.prove", [{}], "'uri' not found"),
                                               ("feedhold.runWitness", ["untitled:a"], "untitled:a is not open")):
             answer = client.answer(client.ask("workspace/executeCommand", {"command": command, "arguments": arguments}))

@@ -122,44 +122,44 @@ std::optional<char> letterOf(const Dialect &dialect, std::uint32_t variable) {
 
 std::string kindOf(const Project &programs, std::uint32_t variable) {
   if (variable >= kFirstNamedVariable)
-    return programs.set->isGlobalName(variable) ? "named variable of all programs" : "named variable of this program";
+    return programs.set->isGlobalName(variable) ? "global named variable" : "local named variable";
   const VariableRange *range = findVariable(programs.dialect(), variable);
   if (!range)
-    return fmt::format("{} has no such variable", programs.dialect().title);
+    return fmt::format("does not exist on {}", programs.dialect().title);
   std::string text(range->meaning);
   if (const auto letter = letterOf(programs.dialect(), variable))
     text += fmt::format(", argument {}", *letter);
   if (!range->name.empty())
     text = fmt::format("`{}` {}", range->name, text);
   if (range->access == VariableAccess::ReadOnly)
-    text += ", read only";
+    text += ", read-only";
   if (range->access == VariableAccess::WriteOnly)
-    text += ", write only";
+    text += ", write-only";
   if (range->option == VariableOption::Optional)
-    text += ", an option of the machine";
+    text += ", optional";
   return text;
 }
 
 std::string_view helpOf(ClauseKind kind) {
   switch (kind) {
-  case ClauseKind::Param: return "the argument in a local variable: name, range, unit";
-  case ClauseKind::Global: return "a common variable on entry: name, range, unit";
-  case ClauseKind::Require: return "a condition that holds on entry";
-  case ClauseKind::Modal: return "G and M codes in force on entry";
-  case ClauseKind::Start: return "where the tool is on entry";
-  case ClauseKind::Tool: return "shape and radius of the tool";
-  case ClauseKind::KeepIn: return "on cutting moves the whole tool is in this region";
-  case ClauseKind::KeepOut: return "no move brings the tool into this region";
+  case ClauseKind::Param: return "an argument and its local variable: name, range, unit";
+  case ClauseKind::Global: return "the value of a common variable on entry: name, range, unit";
+  case ClauseKind::Require: return "a condition that must hold on entry";
+  case ClauseKind::Modal: return "the G and M codes active on entry";
+  case ClauseKind::Start: return "the tool position on entry";
+  case ClauseKind::Tool: return "the shape and radius of the tool";
+  case ClauseKind::KeepIn: return "during cutting moves, the whole tool stays inside this region";
+  case ClauseKind::KeepOut: return "the tool never enters this region";
   case ClauseKind::Clearance: return "rapid moves stay at or above this height";
-  case ClauseKind::Travel: return "no programmed point is outside";
-  case ClauseKind::Limit: return "the feed or the speed while cutting";
-  case ClauseKind::Ensure: return "holds whenever the program returns";
-  case ClauseKind::Assigns: return "no other common variable is written";
-  case ClauseKind::Guarded: return "a call outside of the contract raises an alarm before the first motion";
-  case ClauseKind::Alarm: return "the calls for which an alarm comes";
-  case ClauseKind::Invariant: return "holds each time the loop at this block begins anew";
-  case ClauseKind::Variant: return "falls with each pass of the loop";
-  case ClauseKind::Cyclic: return "the program is meant to run for ever";
+  case ClauseKind::Travel: return "no programmed point is outside this range";
+  case ClauseKind::Limit: return "the permitted feedrate or spindle speed while cutting";
+  case ClauseKind::Ensure: return "a condition that holds whenever the program returns";
+  case ClauseKind::Assigns: return "the program writes no common variables but these";
+  case ClauseKind::Guarded: return "a call that violates the contract raises an alarm before the first motion";
+  case ClauseKind::Alarm: return "the calls that raise an alarm";
+  case ClauseKind::Invariant: return "a condition that holds at the start of every iteration of the loop at this block";
+  case ClauseKind::Variant: return "a value that falls at every iteration of the loop at this block";
+  case ClauseKind::Cyclic: return "the program is meant to run forever";
   }
   return "";
 }

@@ -23,7 +23,7 @@ std::uint32_t numberOf(std::string_view name) {
   const char *end = digits.data() + digits.size();
   const auto [at, error] = std::from_chars(digits.data(), end, number);
   if (digits.empty() || error != std::errc() || at != end)
-    throw Refused(fmt::format("`{}` is no sequence number: write `N20` or `20`", name));
+    throw Refused(fmt::format("`{}` is not a sequence number: write `N20` or `20`", name));
   return number;
 }
 
@@ -35,8 +35,9 @@ void checkOneTarget(const Project &programs, const LabelRef &label) {
         continue;
       const auto labels = labelsOf(programs, FileId(i), jump);
       if (labels.size() > 1 && std::find(labels.begin(), labels.end(), label) != labels.end())
-        throw Refused(fmt::format("{} returns to N{} of several programs; the number must stay the same in all",
-                                  nameOf(programs, {FileId(i), jump.program}), label.number));
+        throw Refused(
+            fmt::format("{} returns to N{} in several programs, so the number must stay the same in all of them",
+                        nameOf(programs, {FileId(i), jump.program}), label.number));
     }
 }
 
@@ -67,12 +68,13 @@ void checkOtherJumps(const Project &programs, ProgramRef program) {
   const Program &named = file.model.programs[program.program];
   for (BlockId block = named.first; block < named.last; block = block.next())
     if (findCode(file.tree, block, programs.dialect(), CodeRole::JumpOnInput))
-      throw Refused(fmt::format("line {} jumps on an input to a number that is not followed", lineOf(file, block)));
+      throw Refused(
+          fmt::format("line {} has a jump on an external input, whose target is unknown", lineOf(file, block)));
   for (const Call &call : file.model.callsOf(program.program)) {
     const Word *operation = call.kind == CallKind::MacroA ? findWord(file.tree, call.block, 'H') : nullptr;
     if (operation && operation->integer().value_or(kFirstJumpOfMacroA) >= kFirstJumpOfMacroA)
       throw Refused(
-          fmt::format("G65 H.. in line {} may jump to a number that is not followed", lineOf(file, call.block)));
+          fmt::format("G65 H.. in line {} may jump to a sequence number that is unknown", lineOf(file, call.block)));
   }
 }
 
@@ -82,7 +84,7 @@ void checkJumpsAreKnown(const Project &programs, ProgramRef program) {
   for (std::size_t i = 0; i < programs.files.size(); ++i)
     for (const Jump &jump : programs.files[i]->model.jumps)
       if (!targetNumber(jump) && mayLeadInto(programs, FileId(i), jump, program))
-        throw Refused(fmt::format("the jump in line {}{} computes its target: any sequence number may be meant",
+        throw Refused(fmt::format("the jump in line {}{} computes its target, which may be any sequence number",
                                   lineOf(*programs.files[i], jump.block),
                                   FileId(i) == program.file ? "" : " of " + programs.files[i]->shown));
   checkOtherJumps(programs, program);
@@ -120,7 +122,7 @@ std::string withNumber(const ProjectFile &file, Span span, std::uint32_t number)
 void checkLabelCanChange(const View &view, const LabelRef &label) {
   const Project &programs = *view.programs;
   if (programs.file(label.program.file).model.find(label.program.program, label.number).empty())
-    throw Refused(fmt::format("there is no N{} in {}", label.number, nameOf(programs, label.program)));
+    throw Refused(fmt::format("{} has no N{}", nameOf(programs, label.program), label.number));
   checkJumpsAreKnown(programs, label.program);
   checkOneTarget(programs, label);
 }
@@ -133,13 +135,13 @@ void renameLabel(const View &view, const LabelRef &label, std::string_view newNa
     return;
   if (number > programs.dialect().limits.lastSequenceNumber ||
       (number == 0 && !programs.dialect().grammar.sequenceZero))
-    throw Refused(fmt::format("sequence numbers of {} go from {} to {}", programs.dialect().title,
+    throw Refused(fmt::format("sequence numbers on {} range from {} to {}", programs.dialect().title,
                               programs.dialect().grammar.sequenceZero ? 0 : 1,
                               programs.dialect().limits.lastSequenceNumber));
   for (const Use &use : usesOf(programs, LabelRef{label.program, number})) {
     const ProjectFile &file = programs.file(use.file);
-    throw Refused(fmt::format("N{} is taken: line {} of {} has `{}`", number, file.source.lineOf(use.span.begin),
-                              file.shown, file.source.utf8(use.span)));
+    throw Refused(fmt::format("N{} is already in use: line {} of {} has `{}`", number,
+                              file.source.lineOf(use.span.begin), file.shown, file.source.utf8(use.span)));
   }
   for (const Use &use : usesOf(programs, label))
     edits.replace(use.file, use.span, withNumber(programs.file(use.file), use.span, number));

@@ -76,7 +76,7 @@ void checkNoRangeHolds(const Project &programs, const VariableRef &variable) {
         for (const Assigns::Variables &range : assigns.variables)
           if (!isNamed(variable) && range.first != range.last && range.first <= variable.number &&
               variable.number <= range.last)
-            throw Refused(fmt::format("a contract in {} names it in a range: `{}`", file->shown,
+            throw Refused(fmt::format("a contract in {} names the variable as part of a range: `{}`", file->shown,
                                       file->contracts.clauses[assigns.clause].text));
 }
 
@@ -87,7 +87,7 @@ void checkNothingIsComputed(const Project &programs, const VariableRef &variable
     const ProjectFile &file = programs.file(program.file);
     for (const VariableUse &use : file.model.variablesOf(program.program))
       if (std::holds_alternative<IndirectVariable>(file.tree.expressions[use.expression].node))
-        throw Refused(fmt::format("line {} of {} computes the number of a variable: it may be this one",
+        throw Refused(fmt::format("line {} of {} computes a variable number, which may be the number of this variable",
                                   lineOf(file, use.block), file.shown));
   });
 }
@@ -97,7 +97,7 @@ void checkHasNoOtherName(const Project &programs, const VariableRef &variable) {
     for (const Statement &statement : file->tree.statements) {
       const auto *naming = std::get_if<NameVariables>(&statement.node);
       if (naming && !variable.scope && !isNamed(variable))
-        throw Refused(fmt::format("SETVN in line {} of {} gives variables names by their numbers",
+        throw Refused(fmt::format("SETVN in line {} of {} assigns names to variables by number",
                                   file->source.lineOf(statement.span.begin), file->shown));
     }
 }
@@ -128,12 +128,12 @@ void checkLocalsAreItsOwn(const Project &programs, ProgramRef program) {
   for (const Call &call : file.model.callsOf(program.program))
     if (sharesLocals(programs, call, file))
       throw Refused(
-          fmt::format("the program called in line {} works on the same local variables", lineOf(file, call.block)));
+          fmt::format("the program called in line {} uses the same local variables", lineOf(file, call.block)));
   for (const CallGraph::Caller &caller : programs.set->callGraph().callers(program)) {
     const ProjectFile &from = programs.file(caller.file);
     const Call &call = from.model.calls[caller.call];
     if (sharesLocals(programs, call, from))
-      throw Refused(fmt::format("line {} of {} calls this program without local variables of its own",
+      throw Refused(fmt::format("line {} of {} calls this program, which then uses the local variables of its caller",
                                 lineOf(from, call.block), from.shown));
   }
 }
@@ -168,7 +168,7 @@ void checkNoCallerGivesIt(const Project &programs, const VariableRef &variable) 
   if (isNamed(variable) || !isCalled || isWrittenFirst(file, variable.scope->program, variable.number))
     return;
   const auto letter = letterOf(programs.dialect(), variable.number);
-  throw Refused(fmt::format("`#{}`{} may hold what a caller passes: the calls would have to change, too",
+  throw Refused(fmt::format("`#{}`{} may hold an argument of the call: all calls would have to change as well",
                             variable.number, letter ? fmt::format(" (argument {})", *letter) : ""));
 }
 
@@ -182,12 +182,12 @@ VariableRef newVariable(const Project &programs, const VariableRef &old, std::st
   const char *end = digits.data() + digits.size();
   const auto [at, error] = std::from_chars(digits.data(), end, number);
   if (digits.empty() || error != std::errc() || at != end)
-    throw Refused(fmt::format("`{}` is no variable: write `#105` or `105`", name));
+    throw Refused(fmt::format("`{}` is not a variable: write `#105` or `105`", name));
   const VariableRange *from = findVariable(programs.dialect(), old.number);
   const VariableRange *to = findVariable(programs.dialect(), number);
   if (!to || to->kind != from->kind)
     throw Refused(fmt::format("`#{}` is {}; `#{}` is {}", old.number, kindOf(programs, old.number), number,
-                              to ? kindOf(programs, number) : "no variable of this control"));
+                              to ? kindOf(programs, number) : "not a variable of this control"));
   return {number, old.scope};
 }
 
@@ -201,10 +201,10 @@ std::string newNameOf(const Project &programs, const VariableRef &old, std::stri
     bare.remove_suffix(1);
   const bool isPlain = !bare.empty() && bare.find_first_of("<>()#[] \t") == std::string_view::npos;
   if (!isPlain || bare.starts_with('_') != programs.set->isGlobalName(old.number))
-    throw Refused(
-        fmt::format("`{}`: a name has no blanks and no brackets, and begins with `_` when all programs see it", name));
+    throw Refused(fmt::format(
+        "`{}` is not a valid name: names contain no spaces or brackets, and only global names begin with `_`", name));
   if (programs.set->variableNamed(comparedName(bare)))
-    throw Refused(fmt::format("`#<{}>` is taken", bare));
+    throw Refused(fmt::format("`#<{}>` is already in use", bare));
   return fmt::format("#<{}>", bare);
 }
 
@@ -217,7 +217,8 @@ void checkVariableCanChange(const View &view, const VariableRef &variable) {
       isNamed(variable) || (range && (range->kind == VariableKind::Local || range->kind == VariableKind::Common ||
                                       range->kind == VariableKind::Retentive));
   if (!isOurs)
-    throw Refused(fmt::format("`#{}` belongs to the control: {}", variable.number, kindOf(programs, variable.number)));
+    throw Refused(
+        fmt::format("`#{}` is not a variable of the program: {}", variable.number, kindOf(programs, variable.number)));
   if (!isNamed(variable))
     checkNothingIsComputed(programs, variable);
   checkHasNoOtherName(programs, variable);
@@ -242,7 +243,7 @@ void renameVariable(const View &view, const VariableRef &variable, std::string_v
     const std::vector<Use> taken = usesOf(programs, to);
     if (!taken.empty() || !mentionsInContracts(programs, to).empty())
       throw Refused(fmt::format(
-          "`#{}` is taken{}", to.number,
+          "`#{}` is already in use{}", to.number,
           taken.empty() ? " in a contract"
                         : fmt::format(" in line {} of {}",
                                       programs.file(taken.front().file).source.lineOf(taken.front().span.begin),

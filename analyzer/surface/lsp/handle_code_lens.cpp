@@ -36,7 +36,7 @@ Lens lensOf(const DocumentProof &proved, Json argument) {
     if (count != 0)
       title += fmt::format("{}{} {}", title.empty() ? "" : ", ", count, word);
   if (proved.proof.incomplete)
-    title += ", not all ways followed";
+    title += ", not all paths explored";
   if (!shown)
     return {title, "feedhold.prove", std::move(argument)};
   argument["obligation"] = shown->id;

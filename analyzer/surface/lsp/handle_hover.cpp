@@ -63,7 +63,7 @@ private:
       line("in `{}`", in.path.filename().generic_string());
     const View whole = withFolder(view_); // `ref` is in the document, or the folder is there already
     if (const auto callers = whole.programs->set->callGraph().callers(ref); !callers.empty())
-      line("called in {} {} of the files that are read", callers.size(), callers.size() == 1 ? "place" : "places");
+      line("called from {} {} in the project", callers.size(), callers.size() == 1 ? "place" : "places");
     std::string clauses;
     for (const Clause &clause : in.contracts.clauses)
       if (clause.program == ref.program)
@@ -80,17 +80,19 @@ private:
       return;
     if (const auto callee = programs_.set->callGraph().callee(kDocument, call))
       program(*callee);
+    else if (programs_.set->callGraph().candidates(kDocument, call).size() > 1)
+      line("the project contains several programs {}", toString(call.callee));
     else if (!call.callee.empty())
-      line("{} is in none of the files that are read", toString(call.callee));
+      line("no file of the project contains {}", toString(call.callee));
     else if (call.programWord)
-      line("the program is computed");
+      line("the program number is computed");
   }
   void argument(const Call &call, const Argument &argument) {
     const Word &passed = file_.tree.words[argument.word];
     if (argument.variable == 0)
       return line("**{}** passes nothing", passed.address());
     line("**{}** sets `#{}` of the called program{}", passed.address(), argument.variable,
-         argument.role == ArgumentRole::Overridden ? "; a later word sets it again" : "");
+         argument.role == ArgumentRole::Overridden ? "; a later word overrides it" : "");
     const auto callee = programs_.set->callGraph().callee(kDocument, call);
     if (!callee)
       return;
@@ -109,7 +111,7 @@ private:
       if (use.role == UseRole::Reference)
         lines += fmt::format("{}{}", lines.empty() ? "" : ", ", placeOf(*whole.programs, use));
     line("**N{}** of {}", label.number, nameOf(programs_, label.program));
-    line("{}", lines.empty() ? "no jump names it" : "named in " + lines);
+    line("{}", lines.empty() ? "no jump to this block" : "target of the jump in " + lines);
   }
   static std::string placeOf(const Project &programs, const Use &use) {
     const ProjectFile &in = programs.file(use.file);
@@ -120,7 +122,7 @@ private:
   void jump(const Jump &jump) {
     const auto number = targetNumber(jump);
     if (!number)
-      return line("the target is computed: any sequence number of the program may be meant");
+      return line("the jump target is computed and may be any sequence number of the program");
     std::string lines;
     for (const LabelRef &label : labelsOf(programs_, kDocument, jump))
       for (const Use &use : usesOf(programs_, label))
@@ -128,9 +130,9 @@ private:
           lines += fmt::format("{}{} of {}", lines.empty() ? "" : ", ", placeOf(programs_, use),
                                nameOf(programs_, label.program));
     if (lines.empty())
-      line("there is no N{} to go to", *number);
+      line("N{} does not exist", *number);
     else
-      line("goes to **N{}** in {}", *number, lines);
+      line("jumps to **N{}** in {}", *number, lines);
     if (jump.target && jump.kind != JumpKind::ReturnTo && jump.kind != JumpKind::CallAt)
       line("```\n{}\n```", file_.source.utf8(file_.tree.blocks[*jump.target].span()));
   }
@@ -145,7 +147,7 @@ private:
   void variable(const VariableUse &use) {
     const auto ref = variableOf(programs_, kDocument, use);
     if (!ref)
-      return line("which variable this is, is computed or known to the control alone");
+      return line("the variable number is computed or depends on the control");
     const std::string name = programs_.set->nameOfVariable(ref->number);
     const ProgramRef program{kDocument, file_.model.programOf(use.block)};
     const std::string meaning = meaningOf(programs_, program, ref->number);
@@ -154,7 +156,7 @@ private:
       line("`{}`", clause);
     const bool isLocal = ref->number <= kLocalVariables;
     before([&](const StateFacts &facts) {
-      return textOf(facts.variables, name, facts.othersAreUnknown && !isLocal ? "not known" : "as at start");
+      return textOf(facts.variables, name, facts.othersAreUnknown && !isLocal ? "unknown" : "as at start");
     });
   }
   static std::string textOf(const std::vector<ValueFact> &facts, const std::string &name, std::string otherwise) {
@@ -168,7 +170,7 @@ private:
     if (!known)
       return;
     if (known->contexts.empty())
-      return line("no run comes to this line");
+      return line("this line is unreachable");
     std::vector<std::pair<std::string, std::string>> texts;
     for (const FactsOfContext &context : known->contexts)
       texts.emplace_back(context.caller, tell(context.facts));
@@ -181,14 +183,14 @@ private:
   void code(const Word &word) {
     const std::string name = toUpper(file_.source.utf8(word.span()));
     if (word.form() == WordForm::Expression)
-      return line("**{}**: the code is computed", name);
+      return line("**{}**: the code number is computed", name);
     const Code *row = codeOf(word, programs_.dialect());
     const auto tenths = word.tenths();
     const CodeCall *calls = tenths ? findCodeCall(programs_.dialect(), word.address(), *tenths) : nullptr;
     if (calls)
       return line("**{}** calls O{} on this machine", name, calls->program);
     if (!row && word.address() == 'M')
-      return line("**{}**: what it does is up to the builder of the machine", name);
+      return line("**{}**: its function is defined by the machine builder", name);
     if (!row)
       return line("**{}**: {} has no such code", name, programs_.dialect().title);
     line("**{}** {} ({})", name, row->meaning, programs_.dialect().title);

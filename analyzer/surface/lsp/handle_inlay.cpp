@@ -55,7 +55,7 @@ private:
     if (obligation.verdict.bound().empty() || obligation.place.file != kDocument)
       return;
     const BlockId block = programs_.set->node(obligation.place).block;
-    add(file_.tree.blocks[block].end, fmt::format("at most {} passes", obligation.verdict.bound()), kType);
+    add(file_.tree.blocks[block].end, fmt::format("at most {} iterations", obligation.verdict.bound()), kType);
   }
 
   // ---- G90 and G91 ----
@@ -72,7 +72,7 @@ private:
     for (const auto &[block, codes] : codesIn(*states, *group, first, last)) {
       const bool follows = before && isSameProgram(before->first, block);
       if (follows && before->second != codes && !setsDistance(before->first, *group))
-        add(file_.tree.blocks[block].end, textOf(codes, *group) + " before this block", kType);
+        add(file_.tree.blocks[block].end, textOf(codes, *group) + " active here", kType);
       before = {block, codes};
     }
   }
@@ -118,7 +118,7 @@ private:
       if (codes.contains(i))
         text += fmt::format("{}G{}", text.empty() ? "" : " or ", rows[i]->tenths / 10);
     if (codes.mayBeAtEntry())
-      text += text.empty() ? "that of the start" : " or that of the start";
+      text += text.empty() ? "as at start" : " or as at start";
     return text;
   }
 

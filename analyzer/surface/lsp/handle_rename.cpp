@@ -21,14 +21,14 @@ struct Renamed {
 LabelRef onlyLabel(const Project &programs, const Jump &jump) {
   const auto labels = labelsOf(programs, kDocument, jump);
   if (labels.empty())
-    throw Refused("the target is computed: any sequence number of the program may be meant");
+    throw Refused("the jump target is computed and may be any sequence number of the program");
   if (labels.size() > 1)
-    throw Refused("several programs are returned to; the number must stay the same in all");
+    throw Refused("this block returns to several programs, so the number must stay the same in all of them");
   return labels.front();
 }
 
 Renamed namedAt(const View &view, const Json &params) {
-  constexpr std::string_view kNothing = "only sequence numbers and variables can get another name";
+  constexpr std::string_view kNothing = "only sequence numbers and variables can be renamed";
   const auto at = symbolAt(view, params);
   if (!at)
     throw Refused(std::string(kNothing));
@@ -43,7 +43,7 @@ Renamed namedAt(const View &view, const Json &params) {
     throw Refused(std::string(kNothing));
   const auto ref = variableOf(*view.programs, kDocument, variable->use);
   if (!ref)
-    throw Refused("which variable this is, is computed or known to the control alone");
+    throw Refused("the variable number is computed or depends on the control");
   return {*ref, at->span};
 }
 
@@ -58,7 +58,7 @@ std::uint32_t stepFor(const View &view, std::size_t count, std::uint32_t wanted)
   for (const std::uint32_t step : kSteps)
     if (step < wanted && count * step <= last)
       return step;
-  throw Refused(fmt::format("more sequence numbers than the control has: {}", count));
+  throw Refused(fmt::format("the program has {} sequence numbers, more than the control can number", count));
 }
 
 class Renumbering {
@@ -101,8 +101,9 @@ private:
         for (const LabelRef &label : labelsOf(programs, FileId(i), jump)) {
           const std::uint32_t line = lineOf(*programs.files[i], jump.block);
           if (own == program && label.program == program && !jump.target)
-            throw Refused(
-                fmt::format("the jump in line {} finds no N{}; it could meet a new number", line, label.number));
+            throw Refused(fmt::format(
+                "line {} jumps to N{}, which does not exist; renumbering could give the jump a wrong target", line,
+                label.number));
           if ((own == program) != (label.program == program) && jump.kind != JumpKind::CallAt)
             throw Refused(fmt::format("line {} of {} returns to N{} of {}", line, programs.files[i]->shown,
                                       label.number, nameOf(programs, label.program)));
@@ -144,9 +145,9 @@ Json renumber(const View &document, const Json &params) {
   const View view = withFolder(document);
   const auto step = params.value("step", std::uint32_t{10});
   if (step == 0)
-    throw Refused("the step is 0");
+    throw Refused("the step must not be 0");
   if (!view.programs->dialect().grammar.sequenceJumps)
-    throw Refused(fmt::format("{} does not jump to sequence numbers", view.programs->dialect().title));
+    throw Refused(fmt::format("jumps on {} do not go to sequence numbers", view.programs->dialect().title));
   Edits edits(view);
   Renumbering renumbering(view, edits);
   for (std::size_t i = 0; i < view.file().model.programs.size(); ++i)

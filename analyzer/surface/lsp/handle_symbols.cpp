@@ -76,7 +76,7 @@ private:
     const ProgramName &name = file_.model.programs[id].name;
     if (name.empty() && file_.tree.words.empty() && file_.tree.statements.empty())
       return;
-    symbols_.push_back({name.empty() ? "program without a name" : toString(name), titleOf(file_, id), kFunction,
+    symbols_.push_back({name.empty() ? "unnamed program" : toString(name), titleOf(file_, id), kFunction,
                         spanOf(file_, id), nameSpanOf(file_, id)});
   }
   std::string commentIn(BlockId block) const {

@@ -18,7 +18,7 @@ bool isId(const Json &id) { return id.is_number_integer() || id.is_string(); }
 std::string complaintAboutForm(const std::string &method, const Json::exception &error) {
   const std::string_view what = error.what();
   const std::size_t number = what.find("] ");
-  return fmt::format("what `{}` is asked with has another form: {}", method,
+  return fmt::format("invalid parameters of `{}`: {}", method,
                      number == std::string_view::npos ? what : what.substr(number + 2));
 }
 
@@ -50,7 +50,7 @@ void ClientSession::receive(const Event &event) {
   if (kind == Incoming::Kind::Broken)
     return writer_.write(errorMessage(nullptr, ErrorCode::ParseError, why));
   if (!json.is_object())
-    return writer_.write(errorMessage(nullptr, ErrorCode::InvalidRequest, "a message is an object"));
+    return writer_.write(errorMessage(nullptr, ErrorCode::InvalidRequest, "a message must be a JSON object"));
   const Json id = json.value("id", Json());
   const Json params = json.value("params", Json());
   const auto method = json.find("method");
@@ -58,11 +58,11 @@ void ClientSession::receive(const Event &event) {
     return; // an answer to what was asked: nothing depends on it
   if (method == json.end() || !method->is_string() || (json.contains("id") && !isId(id)))
     return writer_.write(errorMessage(isId(id) ? id : Json(), ErrorCode::InvalidRequest,
-                                      "a message needs a method, and an id that is a number or a string"));
+                                      "a message needs a `method`, and its `id` must be an integer or a string"));
   if (!json.contains("id"))
     return receiveNotification(method->get<std::string>(), params);
   if (event.isCancelled)
-    return writer_.write(errorMessage(id, ErrorCode::RequestCancelled, "taken back by the client"));
+    return writer_.write(errorMessage(id, ErrorCode::RequestCancelled, "cancelled by the client"));
   receiveRequest(id, method->get<std::string>(), params);
 }
 
@@ -83,15 +83,15 @@ void ClientSession::receiveRequest(const Json &id, const std::string &method, co
 
 Json ClientSession::answer(const std::string &method, const Json &params) {
   if (phase_ == Phase::ShutDown)
-    throw RequestError(ErrorCode::InvalidRequest, "the server was told to shut down");
+    throw RequestError(ErrorCode::InvalidRequest, "the server is shutting down");
   if (phase_ == Phase::Fresh && method != "initialize")
-    throw RequestError(ErrorCode::ServerNotInitialized, "`initialize` comes first");
+    throw RequestError(ErrorCode::ServerNotInitialized, "`initialize` must be the first request");
   if (const auto own = requests().find(method); own != requests().end())
     return (this->*own->second)(params);
   const auto feature = std::find_if(features().begin(), features().end(),
                                     [&](const Feature &candidate) { return candidate.method == method; });
   if (feature == features().end())
-    throw RequestError(ErrorCode::MethodNotFound, fmt::format("there is no request `{}`", method));
+    throw RequestError(ErrorCode::MethodNotFound, fmt::format("unknown request `{}`", method));
   return askFeature(*feature, params);
 }
 

@@ -75,7 +75,7 @@ Json ClientSession::codeActions(const Json &params) {
   if (isWanted(context, kFixAll) && (hasSafeFix(document.quick) || hasSafeFix(document.flow)))
     if (const std::optional<Edit> edit = fixAll(document))
       actions.push_back(
-          {{"title", "make all safe repairs"}, {"kind", kFixAll}, {"edit", workspaceEdit(document, {*edit}, places)}});
+          {{"title", "apply all safe fixes"}, {"kind", kFixAll}, {"edit", workspaceEdit(document, {*edit}, places)}});
   return actions;
 }
 
@@ -168,10 +168,10 @@ Json ClientSession::execute(const Json &params) {
   const auto command = params.at("command").get<std::string>();
   const auto arguments = params.find("arguments");
   if (command != "feedhold.prove" && command != "feedhold.runWitness")
-    throw RequestError(ErrorCode::InvalidParams, fmt::format("there is no command `{}`", command));
+    throw RequestError(ErrorCode::InvalidParams, fmt::format("unknown command `{}`", command));
   if (arguments == params.end() || !arguments->is_array() || arguments->empty())
     throw RequestError(ErrorCode::InvalidParams,
-                       fmt::format("`{}` needs a document: its URI, or {{\"uri\": ..}}", command));
+                       fmt::format("`{}` needs the URI of a document, as a string or as {{\"uri\": ..}}", command));
   const Json &argument = arguments->front();
   const Json target = {{"textDocument", {{"uri", argument.is_string() ? argument : argument.at("uri")}}}};
   OpenDocument &document = documentOf(target);
@@ -197,7 +197,7 @@ Json ClientSession::runWitness(const OpenDocument &document, const std::string &
             return {{"call", textOf(witness)}, {"happened", happened}, {"run", witness.run()}};
           }
   throw RequestError(ErrorCode::RequestFailed,
-                     fmt::format("{} has no witness in the text as it is now; prove it first", id));
+                     fmt::format("{} has no witness for the current text; run the proof again", id));
 }
 
 } // namespace feedhold::lsp

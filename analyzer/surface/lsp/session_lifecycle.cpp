@@ -24,7 +24,7 @@ std::filesystem::path folderOf(const Json &uri) {
 
 Json ClientSession::initialize(const Json &params) {
   if (phase_ != Phase::Fresh)
-    throw RequestError(ErrorCode::InvalidRequest, "`initialize` comes once");
+    throw RequestError(ErrorCode::InvalidRequest, "`initialize` may be sent only once");
   const Json client = params.at("capabilities");
   const Json encodings = at(client, "/general/positionEncodings");
   if (std::find(encodings.begin(), encodings.end(), "utf-8") != encodings.end())

@@ -20,7 +20,7 @@ SettingsRead readSettings(const Json &json, Settings before) {
   else if (*proofs == "onType")
     read.settings.proofs = Settings::Proofs::OnType;
   else
-    read.complaint = fmt::format("the setting `proofs` is {}; it may be \"off\", \"onSave\" or \"onType\"",
+    read.complaint = fmt::format("the setting `proofs` is {}; it must be \"off\", \"onSave\" or \"onType\"",
                                  proofs->dump(-1, ' ', false, Json::error_handler_t::replace));
   return read;
 }

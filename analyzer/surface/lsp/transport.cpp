@@ -84,9 +84,9 @@ Incoming MessageReader::next() {
     }
   }
   if (!length)
-    return broken("a message needs the header `Content-Length: ` with a number");
+    return broken("a message needs a `Content-Length` header with a number");
   if (*length > kLongest)
-    return broken(fmt::format("a message of {} bytes is longer than any that is read ({})", *length, kLongest));
+    return broken(fmt::format("a message of {} bytes exceeds the limit of {} bytes", *length, kLongest));
   return readBody(in_, *length);
 }
 

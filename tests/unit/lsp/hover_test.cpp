@@ -50,7 +50,7 @@ TEST_F(LspHover, VacancyAndWhatIsNeverReached) {
   EXPECT_EQ(at(openText("O1\n#100=#0\n#101=#100\nM30\n"), "#100\nM30").find("before this line: vacant") !=
                 std::string::npos,
             true);
-  expectIn(at(openText("O1\nM30\n#101=#100\n"), "#100"), "no run comes to this line");
+  expectIn(at(openText("O1\nM30\n#101=#100\n"), "#100"), "this line is unreachable");
 }
 
 TEST_F(LspHover, ValuesAreThoseThatTheContractAllows) {
@@ -65,7 +65,7 @@ TEST_F(LspHover, ValuesAreThoseThatTheContractAllows) {
 }
 
 TEST_F(LspHover, AHavockedVariableIsNotAsAtTheStart) {
-  expectIn(at(openText("O1\nG65P77\n#1=#500\nM30\n"), "#500"), "before this line: not known");
+  expectIn(at(openText("O1\nG65P77\n#1=#500\nM30\n"), "#500"), "before this line: unknown");
 }
 
 TEST_F(LspHover, TheFlowIsThatOfTheText) {
@@ -87,8 +87,8 @@ TEST_F(LspHover, CallersOfAMacroThatCallsNothingAreSeen) {
   write("feedhold.toml", "[switches]\nsqc = true\n"); // M98 starts at its Q
   write("main.nc", "%\nO7\nG65P1\nG65P1\nM98P1Q30\nM30\n%\n");
   const View view = openText("O1\nN30G00X0\nM99\n");
-  expectIn(at(view, "O1"), "called in 3 places");
-  expectIn(at(view, "N30"), "named in main.nc:5");
+  expectIn(at(view, "O1"), "called from 3 places in the project");
+  expectIn(at(view, "N30"), "target of the jump in main.nc:5");
 }
 
 TEST_F(LspHover, ACallWithoutAnythingBehindIt) {
@@ -98,10 +98,10 @@ TEST_F(LspHover, ACallWithoutAnythingBehindIt) {
 
 TEST_F(LspHover, ASystemVariableIsOfTheControl) {
   const View view = openText("O1\n#3000=1(BAD \xC3\x84)\n#5221=0\nM30\n");
-  expectIn(at(view, "#3000"), "`_ALM` macro alarm, write only");
+  expectIn(at(view, "#3000"), "`_ALM` macro alarm, write-only");
   EXPECT_EQ(at(view, "#3000").find("BAD"), std::string::npos);
   expectIn(at(view, "#5221"), "work offset of G54");
-  expectIn(at(openText("O1\n#4999=1\nM30\n"), "#4999"), "no such variable");
+  expectIn(at(openText("O1\n#4999=1\nM30\n"), "#4999"), "does not exist on");
 }
 
 TEST_F(LspHover, ACodeDependsOnTheControl) {
@@ -109,7 +109,7 @@ TEST_F(LspHover, ACodeDependsOnTheControl) {
   const std::string_view text = "O1\nG12I5.F100\nM30\n";
   expectIn(at(openText(text, "haas-ngc"), "G12"), "**G12** ");
   EXPECT_NE(at(openText(text, "haas-ngc"), "G12"), at(openText(text, "fanuc-30i"), "G12"));
-  expectIn(at(openText("O1\nM77\nM30\n"), "M77"), "up to the builder");
+  expectIn(at(openText("O1\nM77\nM30\n"), "M77"), "defined by the machine builder");
   expectIn(at(openText("O1\nG#1\nM30\n"), "G#1"), "computed");
 }
 
@@ -118,16 +118,21 @@ TEST_F(LspHover, JumpsAndCallsSayWhereTheyLead) {
   const View view = openText("O1\nG65P9100U3.\nG65P#1\nG65P77\nN5GOTO5\nM30\n");
   expectIn(at(view, "P9100"), "**O9100** SLOT\n\nin `O9100.nc`");
   expectIn(at(view, "U3"), "O9100: DEPTH");
-  expectIn(at(view, "P#1"), "the program is computed");
-  expectIn(at(view, "P77"), "O77 is in none of the files");
-  expectIn(at(view, "GOTO5"), "goes to **N5** in line 5 of O1");
-  expectIn(at(view, "N5"), "named in line 5");
+  expectIn(at(view, "P#1"), "the program number is computed");
+  expectIn(at(view, "P77"), "no file of the project contains O77");
+  expectIn(at(view, "GOTO5"), "jumps to **N5** in line 5 of O1");
+  expectIn(at(view, "N5"), "target of the jump in line 5");
   const View slot = open("O9100.nc");
-  expectIn(at(slot, "GOTO99"), "there is no N99");
-  expectIn(at(slot, "GOTO#10"), "the target is computed");
-  expectIn(at(slot, "N30"), "no jump names it");
-  expectIn(at(slot, "@PARAM"), "the argument in a local variable");
+  expectIn(at(slot, "GOTO99"), "N99 does not exist");
+  expectIn(at(slot, "GOTO#10"), "the jump target is computed");
+  expectIn(at(slot, "N30"), "no jump to this block");
+  expectIn(at(slot, "@PARAM"), "an argument and its local variable");
   expectIn(at(slot, "END1"), "loop from line 6 to line 8");
+}
+
+TEST_F(LspHover, ANumberOfSeveralProgramsIsNotMissing) {
+  const View view = openText("O1\nG65P2\nM30\nO2\nM99\nO2\nM99\n");
+  expectIn(at(view, "P2"), "the project contains several programs O2");
 }
 
 TEST_F(LspHover, NothingIsNull) {

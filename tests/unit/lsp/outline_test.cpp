@@ -44,7 +44,7 @@ TEST_F(LspOutline, ProgramsHoldTheirNumbersAndLoops) {
   EXPECT_TRUE(ask(openText("%\n%\n"), "textDocument/documentSymbol", {}).is_array());
   EXPECT_EQ(outline(ask(openText("o<cut> sub\no1 if [#1 GT 0]\no1 endif\no<cut> endsub\nM2\n", "linuxcnc"),
                         "textDocument/documentSymbol", {})),
-            "program without a name\n  o<cut>\n    o1 if [#1 GT 0]\n");
+            "unnamed program\n  o<cut>\n    o1 if [#1 GT 0]\n");
 }
 
 TEST_F(LspOutline, FoldsOfProgramsLoopsBranchesAndComments) {

@@ -95,12 +95,12 @@ TEST_F(LspRename, PrepareNamesThePlace) {
 
 TEST_F(LspRename, ATakenOrUnknownNumberIsRefused) {
   const View view = openText(kJumps);
-  EXPECT_NE(refused(view, "N10#1", "7").find("N7 is taken: line"), std::string::npos);
-  EXPECT_NE(refused(view, "N10#1", "seven").find("is no sequence number"), std::string::npos);
-  EXPECT_NE(refused(view, "N10#1", "100000000").find("go from 1 to"), std::string::npos);
-  EXPECT_NE(refused(view, "N10#1", "0").find("go from 1 to"), std::string::npos);
-  EXPECT_NE(refused(openText("O1\nGOTO5\nN6M30\n"), "N6", "5").find("N5 is taken: line 2"), std::string::npos);
-  EXPECT_NE(refused(openText("O1\nGOTO5\nN6M30\n"), "GOTO5", "8").find("there is no N5"), std::string::npos);
+  EXPECT_NE(refused(view, "N10#1", "7").find("N7 is already in use: line"), std::string::npos);
+  EXPECT_NE(refused(view, "N10#1", "seven").find("is not a sequence number"), std::string::npos);
+  EXPECT_NE(refused(view, "N10#1", "100000000").find("range from 1 to"), std::string::npos);
+  EXPECT_NE(refused(view, "N10#1", "0").find("range from 1 to"), std::string::npos);
+  EXPECT_NE(refused(openText("O1\nGOTO5\nN6M30\n"), "N6", "5").find("N5 is already in use: line 2"), std::string::npos);
+  EXPECT_NE(refused(openText("O1\nGOTO5\nN6M30\n"), "GOTO5", "8").find("O1 has no N5"), std::string::npos);
 }
 
 TEST_F(LspRename, AComputedJumpMayMeanAnyNumber) {
@@ -117,7 +117,7 @@ TEST_F(LspRename, AReturnToANumberFollowsIntoTheCalledFile) {
   EXPECT_EQ(texts.at("part.nc"), "%\nO1\nM98P9100\nM00\nN50M30\n%\n");
   EXPECT_EQ(texts.at("O9100.nc"), "%\nO9100\nM99P50\n%\n");
   write("O2.nc", "%\nO2\nM98P9100\nN40M30\n%\n");
-  EXPECT_NE(refused(open("part.nc"), "N40", "50").find("returns to N40 of several programs"), std::string::npos);
+  EXPECT_NE(refused(open("part.nc"), "N40", "50").find("returns to N40 in several programs"), std::string::npos);
 }
 
 TEST_F(LspRename, AContractBesideNamesTheNumberToo) {
@@ -135,19 +135,22 @@ TEST_F(LspRename, LocalVariablesStayInTheirProgram) {
   EXPECT_EQ(renamed(view, "#30LT", "31"),
             "O1\n#31=1\n(@INVARIANT #31 GE 0)\nWHILE[#31LT5]DO1\n#31=#31+1\nEND1\nM30\nO2\n#30=2\nM30\n");
   EXPECT_NE(refused(view, "#30LT", "#100").find("is common variable"), std::string::npos);
-  EXPECT_NE(refused(openText("O1\n#2=1\n#3=#2\nM30\n"), "#2", "3").find("`#3` is taken in line 3"), std::string::npos);
+  EXPECT_NE(refused(openText("O1\n#2=1\n#3=#2\nM30\n"), "#2", "3").find("`#3` is already in use in line 3"),
+            std::string::npos);
 }
 
 TEST_F(LspRename, WhatACallerPassesIsRefused) {
-  EXPECT_NE(refused(openText("O1\nG00X#1\nM99\n"), "#1", "2").find("(argument A) may hold what a caller passes"),
+  EXPECT_NE(refused(openText("O1\nG00X#1\nM99\n"), "#1", "2").find("(argument A) may hold an argument of the call"),
             std::string::npos);
-  EXPECT_NE(refused(openText("O1\nIF[#2EQ0]GOTO5\n#1=2\nN5G00X#1\nM99\n"), "#1", "3").find("caller passes"),
+  EXPECT_NE(refused(openText("O1\nIF[#2EQ0]GOTO5\n#1=2\nN5G00X#1\nM99\n"), "#1", "3")
+                .find("may hold an argument of the call"),
             std::string::npos)
       << "the jump passes by its assignment";
   EXPECT_EQ(refused(openText("O1\n#1=2\nG00X#1\nM99\n"), "#1", "3"), "");
   EXPECT_NE(refused(openText("O1\n#1=2\nM98P2\nM30\nO2\nG00X#1\nM99\n"), "#1", "3").find("the same local variables"),
             std::string::npos);
-  EXPECT_NE(refused(openText("O1\n#1=2\n#[#1]=3\nM30\n"), "#1", "3").find("computes the number"), std::string::npos);
+  EXPECT_NE(refused(openText("O1\n#1=2\n#[#1]=3\nM30\n"), "#1", "3").find("computes a variable number"),
+            std::string::npos);
 }
 
 TEST_F(LspRename, CommonVariablesChangeInAllFiles) {
@@ -156,8 +159,9 @@ TEST_F(LspRename, CommonVariablesChangeInAllFiles) {
   const auto texts = applied(rename(view, "#510", "520"));
   EXPECT_EQ(texts.at("part.nc"), "%\nO1\n#520=0\nG65P9100\nM30\n%\n");
   EXPECT_EQ(texts.at("O9100.nc"), "%\nO9100\n(@GLOBAL #520 ZOFF -100..0)\n#520=#520-1.\nM99\n%\n");
-  EXPECT_NE(refused(openText("O1\n#3000=1\nM30\n"), "#3000", "100").find("belongs to the control"), std::string::npos);
-  EXPECT_NE(refused(openText("O1\n(@ASSIGNS #500..#520)\n#510=1\nM30\n"), "#510", "515").find("names it in a range"),
+  EXPECT_NE(refused(openText("O1\n#3000=1\nM30\n"), "#3000", "100").find("is not a variable of the program"),
+            std::string::npos);
+  EXPECT_NE(refused(openText("O1\n(@ASSIGNS #500..#520)\n#510=1\nM30\n"), "#510", "515").find("as part of a range"),
             std::string::npos);
 }
 
@@ -166,16 +170,15 @@ TEST_F(LspRename, AMacroThatCallsNothingIsSeenWithItsCallers) {
   const View view = openText("%\nO9100\n#30=3\nG04X#510\nM99\n%\n");
   const auto texts = applied(rename(view, "#510", "520"));
   EXPECT_EQ(texts.at("main.nc"), "%\nO1\n#520=1\n#30=4\nM98P9100\nG00X#30\nM30\n%\n");
-  EXPECT_NE(refused(view, "#30", "31").find("calls this program without local variables of its own"),
-            std::string::npos);
+  EXPECT_NE(refused(view, "#30", "31").find("which then uses the local variables of its caller"), std::string::npos);
 }
 
 TEST_F(LspRename, NamedVariablesOfControlsThatHaveThem) {
   const View view = openText("o<cut> sub\n#<depth>=2\nG0 X#<Depth>\no<cut> endsub\n#<depth>=1\nM2\n", "linuxcnc");
   EXPECT_EQ(renamed(view, "#<depth>=2", "#<low>"), "o<cut> sub\n#<low>=2\nG0 X#<low>\no<cut> endsub\n#<depth>=1\nM2\n");
-  EXPECT_NE(refused(view, "#<depth>=2", "z low").find("a name has no blanks"), std::string::npos);
-  EXPECT_NE(refused(view, "#<depth>=2", "_low").find("begins with `_`"), std::string::npos);
-  EXPECT_NE(refused(view, "#<depth>=2", "Depth").find("is taken"), std::string::npos);
+  EXPECT_NE(refused(view, "#<depth>=2", "z low").find("names contain no spaces"), std::string::npos);
+  EXPECT_NE(refused(view, "#<depth>=2", "_low").find("only global names begin with `_`"), std::string::npos);
+  EXPECT_NE(refused(view, "#<depth>=2", "Depth").find("is already in use"), std::string::npos);
 }
 
 TEST_F(LspRename, NewNumbersKeepAllJumps) {
@@ -218,7 +221,7 @@ TEST_F(LspRename, NewNumbersAreRefusedWhereAJumpWouldBeLost) {
     const View view = openText(text);
     return refusal([&] { ask(view, "feedhold/renumber", {{"step", 10}}); });
   };
-  EXPECT_NE(renumber("O1\nGOTO20\nN1M30\n").find("finds no N20"), std::string::npos);
+  EXPECT_NE(renumber("O1\nGOTO20\nN1M30\n").find("jumps to N20, which does not exist"), std::string::npos);
   EXPECT_NE(renumber("O1\nGOTO#1\nN1M30\n").find("computes"), std::string::npos);
   EXPECT_NE(renumber("O1\nM98P2\nN3M30\nO2\nM99P3\n").find("returns to N3 of O1"), std::string::npos);
   EXPECT_EQ(renumber("O1\nGOTO1\nN1M30\n"), "");

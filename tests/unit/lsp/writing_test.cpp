@@ -61,20 +61,20 @@ TEST_F(LspWriting, ALoopThatIsProvedToEndHasABound) {
   EXPECT_EQ(hints(view), (Strings{}));
   const Strings found = hints(proved(view));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(found[0].starts_with("6:18 at most ") && found[0].ends_with(" passes")) << found[0];
+  EXPECT_TRUE(found[0].starts_with("6:18 at most ") && found[0].ends_with(" iterations")) << found[0];
 }
 
 TEST_F(LspWriting, ADistanceModeThatACallLeavesIsShown) {
   write("O9100.nc", kWritingSlot);
   const View view = openText("%\nO1\nG90\nG65P9100U3.V1.\nG01X5.\nG90\nG01X6.\nM30\n%\n");
-  EXPECT_EQ(hints(view), (Strings{"4:8 DEPTH:", "4:11 STEP:", "5:6 G91 before this block"}));
+  EXPECT_EQ(hints(view), (Strings{"4:8 DEPTH:", "4:11 STEP:", "5:6 G91 active here"}));
   const View lathe = openText("%\nO1\nM98P2\nM30\nO2\nM99\n%\n");
   EXPECT_EQ(hints(lathe), (Strings{}));
 }
 
 TEST_F(LspWriting, ADistanceModeIsNotComparedAcrossPrograms) {
   EXPECT_EQ(hints(openText("O1\nG90\nM98P2\nG01X0\nM30\nO2\nG01X1.\nG91\nM99\nO3\nM99\n")),
-            (Strings{"4:5 G91 before this block"}));
+            (Strings{"4:5 G91 active here"}));
 }
 
 TEST_F(LspWriting, DistanceModesOfALongProgram) {
@@ -84,7 +84,7 @@ TEST_F(LspWriting, DistanceModesOfALongProgram) {
             "\n";
   text += "M98P2\nG01X5.\nM30\nO2\nG91\nM99\n";
   const View view = openText(text);
-  EXPECT_EQ(hints(view), (Strings{"2404:6 G91 before this block"}));
+  EXPECT_EQ(hints(view), (Strings{"2404:6 G91 active here"}));
   const auto between = [](int first, int last) {
     return Json{
         {"range", {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", last}, {"character", 0}}}}}};
