@@ -92,15 +92,15 @@ async function whyNot(command: string): Promise<string | undefined> {
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (code === "ENOENT") return `The program \`${command}\` was not found.`;
-    if (code === "EACCES") return `\`${command}\` is not a program that may be executed.`;
-    return `\`${command} lsp\` does not start: it is older than this extension, or another program.`;
+    if (code === "EACCES") return `\`${command}\` cannot be executed: permission denied.`;
+    return `\`${command} lsp\` does not start. The program is older than this extension, or it is not Feedhold.`;
   }
 }
 
 async function complain(problem: string): Promise<void> {
   const settings = "Open Settings";
   const again = "Try Again";
-  const wayOut = "Install Feedhold, put it on the PATH, or say in `feedhold.path` where it is.";
+  const wayOut = "Install Feedhold, put it on the PATH, or set `feedhold.path`.";
   const answer = await vscode.window.showErrorMessage(`${problem} ${wayOut}`, settings, again);
   if (answer === settings) await vscode.commands.executeCommand("workbench.action.openSettings", SETUP_PAGE);
   if (answer === again) await start();
