@@ -37,7 +37,9 @@ const BrokenPromises::Broken *BrokenPromises::broken(const GivenVariables &given
 
 /// From these inputs alone.
 std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables &given) const {
-  const ProveOptions options{.guards = InferGuards::No, .contractsOf = subject_.options.contractsOf};
+  const ProveOptions options{.guards = InferGuards::No,
+                             .arithmetic = subject_.options.arithmetic,
+                             .contractsOf = subject_.options.contractsOf};
   const ProofSubject subject{subject_.programs, subject_.program, subject_.contracts, options};
   ProofStart start(subject, &given);
   const Exploration found = explore(start.interpretation(), subject.programs, subject.program, start.entry(),

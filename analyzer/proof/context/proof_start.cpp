@@ -68,8 +68,30 @@ Obligation ProofSubject::obligation(ObligationKind kind, Place place, Span span,
           .claim = std::move(claim)};
 }
 
+namespace {
+
+/// What a contract says of the numbers that inputs hold.
+std::map<std::uint32_t, WrittenInput> writtenInputs(const Contract &contract) {
+  std::map<std::uint32_t, WrittenInput> inputs;
+  for (const auto *clauses : {&contract.params, &contract.globals})
+    for (const EntryValue &each : *clauses) {
+      WrittenInput &input = inputs[each.variable];
+      input.isWhole |= each.unit == Unit::Integer;
+      const auto *range = std::get_if<Range>(&each.values);
+      input.hasLow |= range && range->low;
+      input.hasHigh |= range && range->high;
+      input.hasLow |= std::holds_alternative<ValueList>(each.values);
+      input.hasHigh |= std::holds_alternative<ValueList>(each.values);
+    }
+  return inputs;
+}
+
+} // namespace
+
 ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
-    : interpretation_(store_, subject.dialect()) {
+    : interpretation_(store_, subject.dialect(), subject.options.arithmetic) {
+  if (subject.contract())
+    interpretation_.assumeInputs(writtenInputs(*subject.contract()));
   if (given)
     startExactly(interpretation_, *given);
   entry_ = symbolicEntry(interpretation_);
@@ -150,9 +172,11 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   if (!contract)
     return options;
   options.keepWrites = !contract->assigns.empty();
-  options.moves = contract->clearance         ? KeepMoves::WithColumn
-                  : hasSpaceClause(*contract) ? KeepMoves::Yes
-                                              : KeepMoves::No;
+  const bool isExact =
+      interpretation_.arithmetic() == Arithmetic::Exact; // claims about space are proved in exact numbers
+  options.moves = contract->clearance && isExact ? KeepMoves::WithColumn
+                  : hasSpaceClause(*contract)    ? KeepMoves::Yes
+                                                 : KeepMoves::No;
   const auto hintsOf = [&subject](const std::vector<LoopHint> &hints, HintTerm termOf) {
     return [&subject, &hints, termOf = std::move(termOf)](Place head, const SymbolicState &state) {
       std::vector<TermId> terms;

@@ -10,6 +10,7 @@
 #include "proof/smt/purify.h"
 #include "proof/smt/solver.h"
 #include "proof/smt/steps.h"
+#include "proof/smt/unit_resolution.h"
 
 #include <algorithm>
 
@@ -70,6 +71,14 @@ smt::Model modelOf(const smt::TermStore &store, const check::UnsatProblem &claim
   return model;
 }
 
+bool hasRounding(const smt::TermStore &store, std::span<const TermId> formulas) {
+  return std::ranges::any_of(smt::reachable(store, formulas), [&](TermId id) {
+    const smt::Term &term = store[id];
+    return term.kind == smt::TermKind::Apply &&
+           (term.function == smt::Function::Nearest || term.function == smt::Function::Near);
+  });
+}
+
 class Discharge {
 public:
   Discharge(smt::TermStore &store, const Query &query, const Budget &budget)
@@ -82,9 +91,27 @@ public:
     eliminated_ = eliminate(store_, formulas_);
     if (eliminated_.formulas == std::vector{store_.no()})
       return byFolding();
-    smt::Purified purified = smt::purify(store_, eliminated_.formulas);
+    if (hasRounding(store_, eliminated_.formulas))
+      eliminated_.formulas = smt::resolveUnits(store_, std::move(eliminated_.formulas));
+    smt::Purified purified = smt::purify(store_, eliminated_.formulas, smt::Hold::Together);
+    if (purified.unrounded.empty()) {
+      take(std::move(purified));
+      return decide();
+    }
+    if (std::optional<Outcome> outcome = butForRounding(std::move(purified.unrounded)))
+      return std::move(*outcome);
+    take(std::move(purified));
+    std::optional<Outcome> outcome = byCertificate(budget_.search / 2);
+    return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
+  }
+
+private:
+  void take(smt::Purified purified) {
     pure_ = std::move(purified.formulas);
     pure_.insert(pure_.end(), purified.facts.begin(), purified.facts.end());
+  }
+
+  Outcome decide() {
     if (budget_.z3 == 0) {
       std::optional<Outcome> outcome = byCertificate(budget_.search);
       return outcome ? std::move(*outcome) : Outcome{Unknown{reason_}, "linear", effort_};
@@ -100,7 +127,32 @@ public:
     return bySolvers();
   }
 
-private:
+  /// What holds with a margin holds for exact numbers that are almost the same, which is mostly easier to see.
+  std::optional<Outcome> butForRounding(std::vector<TermId> unrounded) {
+    const TermId all = store_.logicalAnd(unrounded);
+    if (all == store_.no())
+      return byFolding();
+    unrounded = store_[all].kind == smt::TermKind::And ? store_[all].arguments : std::vector{all};
+    take(smt::purify(store_, smt::resolveUnits(store_, std::move(unrounded)), smt::Hold::Together));
+    Outcome outcome = decide();
+    const bool isDecided = outcome.proved() || isCounterexample(outcome.counterexample());
+    return isDecided ? std::optional(std::move(outcome)) : std::nullopt;
+  }
+
+  /// Of the rounded numbers, too.  Where functions have no value that is known, a short search takes it for one.
+  bool isCounterexample(const smt::Model *model) const {
+    if (!model)
+      return false;
+    bool isKnown = true;
+    for (const TermId formula : formulas_) {
+      const auto value = smt::evaluate(store_, formula, *model);
+      if (value && !std::get<bool>(*value))
+        return false;
+      isKnown = isKnown && value.has_value();
+    }
+    return isKnown || budget_.z3 == 0;
+  }
+
   std::optional<Outcome> byCertificate(std::uint64_t work) {
     Result<check::UnsatProblem> claim = check::claimOf(store_, pure_);
     if (!claim) {
@@ -202,9 +254,31 @@ CertificateLog::~CertificateLog() { openLog = outer_; }
 
 namespace {
 
-/// With the assumptions alone that speak of nothing but what the goal speaks of.  Absent: these are all of them.
-std::optional<Query> nearPart(const smt::TermStore &store, const Query &query) {
-  const std::vector<TermId> &spoken = store.variablesOf(query.goal);
+/// The terms (variables, products, functions) whose sum a comparison is about.
+std::vector<TermId> termsOf(const smt::TermStore &store, TermId formula) {
+  std::vector<TermId> terms;
+  const smt::Term &term = store[formula];
+  if (term.kind == smt::TermKind::Less || term.kind == smt::TermKind::LessOrEqual)
+    for (const TermId side : term.arguments)
+      for (const auto &[each, factor] : store.linear(side).terms)
+        terms.push_back(each);
+  return terms;
+}
+
+/// What the goal speaks of; and what is compared with a term of it.
+std::vector<TermId> spokenNear(const smt::TermStore &store, const Query &query) {
+  const std::vector<TermId> ofGoal = termsOf(store, query.goal);
+  std::vector<TermId> near{query.goal};
+  for (const TermId assumption : query.assumptions) {
+    const std::vector<TermId> terms = termsOf(store, assumption);
+    if (std::ranges::any_of(terms, [&](TermId each) { return std::ranges::find(ofGoal, each) != ofGoal.end(); }))
+      near.insert(near.end(), terms.begin(), terms.end());
+  }
+  return smt::variablesOf(store, near);
+}
+
+/// With the assumptions alone that speak of nothing but these variables.  Absent: these are all of them.
+std::optional<Query> nearPart(const smt::TermStore &store, const Query &query, const std::vector<TermId> &spoken) {
   Query near{{}, query.goal};
   for (const TermId assumption : query.assumptions) {
     const std::vector<TermId> &variables = store.variablesOf(assumption);
@@ -226,8 +300,17 @@ std::uint64_t mostSteps(const Budget &budget) {
 Outcome tryToDischarge(smt::TermStore &store, const Query &query, const Budget &budget) {
   constexpr std::uint64_t kShareOfNear = 8;
   std::uint64_t spent = 0;
-  if (const auto near = nearPart(store, query)) {
+  std::vector<TermId> tried;
+  std::vector<std::vector<TermId>> attempts{store.variablesOf(query.goal)};
+  if (hasRounding(store, query.assumptions))
+    attempts.push_back(spokenNear(store, query));
+  for (const std::vector<TermId> &spoken : attempts) {
+    const auto near = nearPart(store, query, spoken);
+    if (!near || near->assumptions == tried)
+      continue;
+    tried = near->assumptions;
     Outcome outcome = Discharge(store, *near, {.search = budget.search / kShareOfNear, .z3 = 0, .cvc5 = 0}).run();
+    outcome.effort += spent;
     if (outcome.proved())
       return outcome;
     spent = outcome.effort;
@@ -242,8 +325,9 @@ Outcome tryToDischarge(smt::TermStore &store, const Query &query, const Budget &
 Outcome discharge(smt::TermStore &store, const Query &query, const Budget &budget) {
   throwIfCancelled();
   const std::uint64_t most = mostSteps(budget);
-  if (auto outcome = smt::within(most, [&] { return tryToDischarge(store, query, budget); }))
+  if (auto outcome = smt::within(most, [&] { return tryToDischarge(store, query, budget); })) {
     return std::move(*outcome);
+  }
   const std::uint64_t effort = most / kStepsOfWork;
   if (smt::areStepsUsedUp())
     return {Unknown{std::string(kProgramStepsUsedUp)}, "", effort};

@@ -112,7 +112,7 @@ bool Entailment::operator()(std::span<const TermId> facts, std::span<const TermI
   work_ += kWorkOfTerm * (key.size() + conditions.size());
   if (known != known_.end())
     return known->second;
-  const Outcome outcome = discharge(store_, query, Budget::quick());
+  const Outcome outcome = discharge(store_, query, budget_);
   work_ += outcome.effort;
   known_.emplace(std::move(key), outcome.proved());
   return outcome.proved();

@@ -44,11 +44,13 @@ public:
   /// How much work all questions together may still take; Outcome::effort and what putting a question takes.
   void allow(std::uint64_t work) { allowed_ = work; }
   std::uint64_t work() const { return work_; }
+  void spendAtMost(const Budget &budget) { budget_ = budget; }
 
 private:
   smt::TermStore &store_;
   FactIndex index_;
   std::map<std::vector<smt::TermId>, bool> known_; // by assumptions, the goal last
+  Budget budget_ = Budget::quick();                // of a question
   std::uint64_t work_ = 0;
   std::uint64_t allowed_ = ~std::uint64_t{0};
 };

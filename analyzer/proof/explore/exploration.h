@@ -140,6 +140,7 @@ struct Exploration {
   std::vector<Unmodelled> unmodelled;
   std::vector<UnmodelledCall> unmodelledCalls;
   std::vector<smt::TermId> facts;        // about all variables
+  std::set<Place> inexact;               // results that were taken as exact, and may be too large for that
   std::optional<std::string> incomplete; // why paths are missing; then nothing is proved
   bool isTooLarge = false;               // there were too many paths; merged, they may be few enough
   std::size_t paths = 0;
@@ -153,10 +154,6 @@ struct Exploration {
 /// Whether paths that meet continue as one (merging.h): fewer paths, and less precise ones.
 enum class PathMerging : std::uint8_t { No, Yes };
 
-/// Sums that a loop accumulates are exact; or each may be off by so little as doubles are (a tentative model of what
-/// rounding does: a proof that it breaks has no margin).
-enum class Sums : std::uint8_t { Exact, Rounded };
-
 /// Whether movements are kept, and how deep the tool has cut where it stands.
 enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };
 
@@ -166,7 +163,6 @@ using LoopHints = std::function<std::vector<smt::TermId>(Place head, const Symbo
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyIteration;
-  Sums sums = Sums::Exact;
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;

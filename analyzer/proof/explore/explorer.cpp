@@ -8,15 +8,19 @@
 #include "proof/symbolic/path_memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
 
+using smt::Number;
 using smt::TermId;
 using smt::TermKind;
 
 namespace {
 constexpr std::string_view kTooLarge = "gave up: following the paths of the program takes too many steps";
+/// Of a question where results are rounded: many are not decided, and more does not decide them.
+constexpr Budget kLittle{.search = 10'000, .z3 = 0, .cvc5 = 0};
 constexpr std::uint32_t kLongestPath = 20'000; // instructions
 constexpr std::string_view kValueTooLarge = "a value whose formula is too large, and which is taken as any number";
 
@@ -99,6 +103,8 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
       merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   interpretation_.usePath(this);
   entails_.allow(options.mostWork);
+  if (interpretation.arithmetic() != Arithmetic::Exact)
+    entails_.spendAtMost(kLittle);
 }
 
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
@@ -326,7 +332,19 @@ void Explorer::recordIteration(const Path &path) {
 
 // ---- what a step may have stopped at ----
 
+void Explorer::checkExactResults(const Path &path) {
+  for (const auto &[result, bits] : interpretation_.takeExactResults()) {
+    if (purpose_ != Purpose::Record || result_.inexact.contains(path.at))
+      continue;
+    const TermId most = store_.number(Number::fromDouble(std::ldexp(1.0, bits)));
+    const auto holds = [&](TermId condition) { return entails_(interpretation_.facts(), path.conditions, condition); };
+    if (!holds(store_.lessOrEqual(result, most)) || !holds(store_.lessOrEqual(store_.negate(most), result)))
+      result_.inexact.insert(path.at);
+  }
+}
+
 bool Explorer::takeStops(Path &path) {
+  checkExactResults(path);
   if (const auto reason = interpretation_.abandoned())
     giveUp(*reason);
   if (interpretation_.takeTooLarge())
@@ -369,6 +387,7 @@ void Explorer::exit(const Path &path, ExitKind kind) {
 // ---- instructions ----
 
 std::vector<Path> Explorer::execute(Path path) {
+  const ProgramArithmetic rounded(interpretation_, path.at);
   interpretation_.start();
   const Instruction &instruction = nodeOf(path).instruction;
   return match(
@@ -481,8 +500,10 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
   return {};
 }
 
-Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
-                    const SymbolicState &start, const ExploreOptions &options) {
+namespace {
+
+Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
+                        const SymbolicState &start, const ExploreOptions &options) {
   if (options.loops == LoopTreatment::EachIteration)
     return Explorer(interpretation, programs, options, PathMerging::No).run(entry, start);
   ExploreOptions first = options;
@@ -494,6 +515,25 @@ Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &pr
   if (!found.isTooLarge)
     return found;
   return Explorer(interpretation, programs, options, PathMerging::Yes).run(entry, start);
+}
+
+} // namespace
+
+/// Results are taken as exact where they may be, until it turns out that one may be too large.
+Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
+                    const SymbolicState &start, const ExploreOptions &options) {
+  constexpr int kMostRounds = 4;
+  for (int round = 0;; ++round) {
+    Exploration found = exploreOnce(interpretation, programs, entry, start, options);
+    if (found.inexact.empty() || found.incomplete)
+      return found;
+    for (const Place place : found.inexact)
+      interpretation.roundAlways(place);
+    if (round == kMostRounds) {
+      found.incomplete = "gave up: whole numbers may grow beyond 9007199254740992, where the control rounds them";
+      return found;
+    }
+  }
 }
 
 } // namespace feedhold::prove

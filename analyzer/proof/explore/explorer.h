@@ -69,6 +69,8 @@ private:
 
   /// Records where the step may stop; false if it always stops.
   bool takeStops(Path &path);
+  /// Takes down where a result was taken as exact that may be too large for that.
+  void checkExactResults(const Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
   // ---- writes (explorer_writes.cpp) ----

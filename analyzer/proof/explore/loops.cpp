@@ -6,6 +6,8 @@
 #include "proof/symbolic/path_memory.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace feedhold::prove {
 
@@ -17,7 +19,11 @@ using smt::TermKind;
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr int kErrorOfSums = 1'000'000'000; // its reciprocal: more than doubles are off after a million additions
+/// By how much an iteration may be off, in powers of two: sums of some millimetres, .. of what is typed with 8 digits;
+/// and half the least increment, for words.
+constexpr std::array kErrors = {-44, -24, -10};
+
+Number errorOf(std::size_t bound) { return Number::fromDouble(std::ldexp(1.0, kErrors[bound])); }
 
 /// The terms of the state, then whether an axis has moved.
 std::vector<TermId> termsOf(const SymbolicState &state, TermId moved) {
@@ -62,15 +68,56 @@ smt::Substitution LoopShape::closedParts() const {
   return closed;
 }
 
-bool LoopShape::isKeptBy(smt::TermStore &store, const LoopPart &part, TermId left,
-                         const smt::Substitution &closed) const {
+bool LoopSummarizer::isKeptBy(const LoopPart &part, TermId left, const smt::Substitution &closed,
+                              const std::vector<TermId> &conditions) {
+  smt::TermStore &store = explorer_.store_;
   switch (part.kind) {
   case PartKind::Kept: return left == part.arrival;
-  case PartKind::Free: return store.sort(part.symbol) != Sort::Int || store.sort(left) == Sort::Int;
-  case PartKind::Closed: return store.subtract(left, part.generic) == part.step;
+  case PartKind::Free: return isSymbolOf(part.symbol, left);
+  case PartKind::Closed: {
+    const TermId off = store.subtract(store.subtract(left, part.generic), part.step);
+    if (!part.error)
+      return off == store.number(Number(0));
+    const TermId most = store.number(errorOf(part.error->bound));
+    const auto holds = [&](TermId goal) {
+      return explorer_.entails_(explorer_.interpretation_.facts(), conditions, goal);
+    };
+    return holds(store.lessOrEqual(off, most)) && holds(store.lessOrEqual(store.negate(most), off));
+  }
   case PartKind::Derived: return left == smt::substitute(store, part.step, closed);
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind of part");
+}
+
+/// Whole numbers, and multiples of a power of two, stay such.
+bool LoopSummarizer::isSymbolOf(TermId symbol, TermId left) {
+  const smt::TermStore &store = explorer_.store_;
+  if (store.sort(symbol) == Sort::Bool)
+    return true;
+  if (store.sort(symbol) == Sort::Int)
+    return store.sort(left) == Sort::Int;
+  Grids &grids = explorer_.interpretation_.grids();
+  const auto grid = grids.of(symbol);
+  return !grid || grids.of(left).value_or(*grid - 1) >= *grid;
+}
+
+/// Stands for a part that is this at the arrival, and that some iteration leaves as that.
+TermId LoopSummarizer::part(TermId arrival, TermId left) {
+  const smt::TermStore &store = explorer_.store_;
+  const Sort sort = store.sort(arrival) == Sort::Int ? store.sort(left) : store.sort(arrival);
+  const TermId symbol = explorer_.interpretation_.fresh("part", sort);
+  Grids &grids = explorer_.interpretation_.grids();
+  if (sort == Sort::Real)
+    explorer_.store_.markAsDouble(symbol);
+  if (sort == Sort::Real)
+    if (const auto first = grids.of(arrival), next = grids.of(left); first && next)
+      grids.set(symbol, std::min(*first, *next));
+  return symbol;
+}
+
+TermId LoopSummarizer::errorBehind(const LoopPart &part, TermId left) {
+  smt::TermStore &store = explorer_.store_;
+  return store.add(part.error->now, store.subtract(store.subtract(left, part.generic), part.step));
 }
 
 struct LoopSummarizer::Work {
@@ -88,6 +135,23 @@ struct LoopSummarizer::Work {
   const std::vector<LoopPart> &parts() const { return shape.parts; }
 };
 
+// ---- errors ----
+
+/// Of the amounts that are tried, the first that words and functions in what an iteration leaves do not exceed alone.
+std::size_t LoopSummarizer::leastError(const Work &work, std::size_t part) {
+  const smt::TermStore &store = explorer_.store_;
+  Number least;
+  for (const auto &left : work.left)
+    for (const TermId id : smt::reachable(store, std::span(&left[part], 1)))
+      if (const smt::Term &term = store[id];
+          term.kind == TermKind::Apply && term.function == smt::Function::Near && store.isNumber(term.arguments[1]))
+        least = std::max(least, store[term.arguments[1]].number);
+  std::size_t index = 0;
+  while (index + 1 < kErrors.size() && errorOf(index) <= least)
+    ++index;
+  return index;
+}
+
 // ---- trying ----
 
 /// The state before any iteration, from the parts.
@@ -101,7 +165,8 @@ void LoopSummarizer::build(Work &work) {
     else if (part.kind == PartKind::Free)
       part.generic = part.symbol;
     else if (part.kind == PartKind::Closed)
-      part.generic = store.add(store.add(part.arrival, travelled(work, part.step)), part.error.value_or(zero));
+      part.generic =
+          store.add(store.add(part.arrival, travelled(work, part.step)), part.error ? part.error->now : zero);
   for (LoopPart &part : work.parts()) // from the closed ones
     if (part.kind == PartKind::Derived)
       part.generic = store.ite(isFirst, part.arrival, lastIteration(work, part.step));
@@ -138,23 +203,21 @@ void LoopSummarizer::addTravels(Work &work) {
   }
 }
 
-/// Sums of numbers that doubles do not hold are off by a little.
+/// Sums that are rounded are off by a little more after each iteration.
 void LoopSummarizer::addErrors(Work &work) {
   smt::TermStore &store = explorer_.store_;
-  const TermId most = store.number(Number(1) / Number(kErrorOfSums));
-  for (LoopPart &part : work.parts()) {
-    if (part.kind != PartKind::Closed || isSummedExactly(part))
+  const TermId one = store.number(Number(1));
+  const TermId isFirst = store.less(work.iterations, one);
+  for (const LoopPart &part : work.parts()) {
+    if (part.kind != PartKind::Closed || !part.error)
       continue;
-    if (!part.error)
-      part.error = explorer_.interpretation_.fresh("rounding", Sort::Real);
-    work.facts.push_back(store.lessOrEqual(store.negate(most), *part.error));
-    work.facts.push_back(store.lessOrEqual(*part.error, most));
+    const auto within = [&](TermId error, TermId iterations) {
+      const TermId most = store.scale(errorOf(part.error->bound), iterations);
+      return store.logicalAnd(store.lessOrEqual(store.negate(most), error), store.lessOrEqual(error, most));
+    };
+    work.facts.push_back(within(part.error->now, work.iterations));
+    work.facts.push_back(store.logicalOr(isFirst, within(part.error->before, store.subtract(work.iterations, one))));
   }
-}
-bool LoopSummarizer::isSummedExactly(const LoopPart &part) const {
-  const smt::TermStore &store = explorer_.store_;
-  return explorer_.options_.sums == Sums::Exact ||
-         (store.sort(part.arrival) == Sort::Int && store.sort(part.step) == Sort::Int);
 }
 
 /// From the iterations before now to those before an iteration that comes so much later.
@@ -163,6 +226,9 @@ smt::Substitution LoopSummarizer::atIteration(const Work &work, int later) const
   smt::Substitution other{{work.iterations, store.add(work.iterations, store.number(Number(later)))}};
   for (const Travel &travel : work.shape.travels)
     other.emplace(travel.distance, store.add(travel.distance, store.scale(Number(later), travel.step)));
+  for (const LoopPart &part : work.parts())
+    if (part.kind == PartKind::Closed && part.error && later < 0)
+      other.emplace(part.error->now, part.error->before);
   return other;
 }
 
@@ -220,7 +286,6 @@ bool LoopSummarizer::relayout(Work &work, bool &grew) {
 // ---- which parts change, and how ----
 
 bool LoopSummarizer::findChanged(Work &work) {
-  smt::TermStore &store = explorer_.store_;
   work.parts().clear();
   for (int round = 0; round < kMostRounds; ++round) {
     if (work.parts().empty())
@@ -239,13 +304,10 @@ bool LoopSummarizer::findChanged(Work &work) {
         LoopPart &part = work.parts()[i];
         if (left[i] == part.generic)
           continue;
-        const bool widens =
-            part.kind == PartKind::Free && store.sort(part.symbol) == Sort::Int && store.sort(left[i]) == Sort::Real;
-        if (part.kind == PartKind::Free && !widens)
+        if (part.kind == PartKind::Free && isSymbolOf(part.symbol, left[i]))
           continue;
-        const Sort sort = store.sort(part.arrival) == Sort::Int ? store.sort(left[i]) : store.sort(part.arrival);
         part.kind = PartKind::Free;
-        part.symbol = explorer_.interpretation_.fresh("part", sort);
+        part.symbol = this->part(part.arrival, left[i]);
         changed = true;
       }
     if (!changed)
@@ -275,11 +337,18 @@ void LoopSummarizer::classify(Work &work) {
     LoopPart &part = work.parts()[i];
     if (part.kind != PartKind::Free || store.sort(part.symbol) == Sort::Bool)
       continue;
-    const auto step = sameInAll([&](const auto &left) { return store.subtract(left[i], part.symbol); });
+    // What iterations add, but for the rounding of it.
+    const auto step =
+        sameInAll([&](const auto &left) { return store.subtract(smt::withoutRounding(store, left[i]), part.symbol); });
     if (step && isConstant(work, *step)) {
       part.kind = PartKind::Closed;
       part.step = *step;
       closed.emplace(part.symbol, part.symbol);
+      if (std::ranges::any_of(work.left,
+                              [&](const auto &left) { return smt::withoutRounding(store, left[i]) != left[i]; }))
+        part.error =
+            LoopPart::Error{explorer_.interpretation_.fresh("rounding", Sort::Real),
+                            explorer_.interpretation_.fresh("rounding before", Sort::Real), leastError(work, i)};
     }
   }
   for (std::size_t i = 0; i < work.parts().size(); ++i) {
@@ -300,20 +369,20 @@ void LoopSummarizer::classify(Work &work) {
 
 /// What an iteration leaves is what was thought; other parts become free.
 bool LoopSummarizer::verify(Work &work) {
-  smt::TermStore &store = explorer_.store_;
   const smt::Substitution closed = work.shape.closedParts();
   bool holds = true;
   for (std::size_t iteration = 0; iteration < work.left.size(); ++iteration)
     for (std::size_t i = 0; i < work.parts().size(); ++i) {
       LoopPart &part = work.parts()[i];
       const TermId left = work.left[iteration][i];
-      if (work.shape.isKeptBy(store, part, left, closed))
+      if (isKeptBy(part, left, closed, work.found[iteration].conditions))
         continue;
-      if (part.kind == PartKind::Kept || store.sort(left) == Sort::Real)
-        part.symbol = explorer_.interpretation_.fresh(
-            "part", store.sort(part.arrival) == Sort::Int ? store.sort(left) : store.sort(part.arrival));
-      part.kind = PartKind::Free;
       holds = false;
+      if (part.kind == PartKind::Closed && part.error && ++part.error->bound < kErrors.size())
+        continue;
+      if (part.kind == PartKind::Kept || !isSymbolOf(part.symbol, left))
+        part.symbol = this->part(part.arrival, left);
+      part.kind = PartKind::Free;
     }
   return holds;
 }
@@ -393,7 +462,7 @@ smt::Substitution LoopSummarizer::atArrival(const Work &work) const {
     if (part.kind == PartKind::Free)
       first.emplace(part.symbol, part.arrival);
     else if (part.error)
-      first.emplace(*part.error, zero);
+      first.emplace(part.error->now, zero);
   return first;
 }
 
@@ -409,8 +478,10 @@ bool LoopSummarizer::holdsAfter(const Work &work, const Path &iteration, TermId 
   smt::Substitution next = atIteration(work, 1);
   const auto &left = work.left[static_cast<std::size_t>(&iteration - work.found.data())];
   for (std::size_t i = 0; i < work.parts().size(); ++i)
-    if (work.parts()[i].kind == PartKind::Free)
-      next.emplace(work.parts()[i].symbol, left[i]);
+    if (const LoopPart &part = work.parts()[i]; part.kind == PartKind::Free)
+      next.emplace(part.symbol, left[i]);
+    else if (part.kind == PartKind::Closed && part.error)
+      next.emplace(part.error->now, errorBehind(part, left[i]));
   return explorer_.entails_(explorer_.interpretation_.facts(), iteration.conditions,
                             smt::substitute(store, candidate, next));
 }
@@ -510,10 +581,12 @@ bool LoopSummarizer::record(std::size_t instance, const Path &path) {
   const smt::Substitution closed = shape.closedParts();
   for (std::size_t i = 0; i < left.size(); ++i) {
     const LoopPart &part = shape.parts[i];
-    if (!shape.isKeptBy(store, part, left[i], closed))
+    if (!isKeptBy(part, left[i], closed, path.conditions))
       return false;
     if (part.kind == PartKind::Free)
       transition.next.emplace(part.symbol, left[i]);
+    else if (part.kind == PartKind::Closed && part.error)
+      transition.next.emplace(part.error->now, errorBehind(part, left[i]));
   }
   loop.transitions.push_back(std::move(transition));
   return true;

@@ -5,6 +5,7 @@
 //
 //   kept     what it was at the arrival, because no iteration changes it;
 //   closed   arrival + iterations * step, because every iteration adds the same step, which no iteration changes;
+//            and where the control rounds the sum, an error that grows by at most the same amount in every iteration;
 //   derived  the arrival before the first iteration, and afterwards what each iteration computes from closed parts;
 //   free     a variable, of which some invariants are known.
 //
@@ -27,7 +28,13 @@ struct LoopPart {
   smt::TermId generic; // before any iteration
   smt::TermId
       step; // of Closed: what an iteration adds; of Derived: what an iteration leaves, over the symbols of closed parts
-  std::optional<smt::TermId> error = {}; // of Closed, with Sums::Rounded: by how much the sum is off
+  /// Of Closed, where the control rounds: by how much the sum is off, and an iteration before.
+  struct Error {
+    smt::TermId now;
+    smt::TermId before;
+    std::size_t bound; // which of the amounts that are tried an iteration adds at most
+  };
+  std::optional<Error> error = {};
 };
 
 /// iterations * step under a name of its own, so that a proof need not multiply.  A numeric step needs none.
@@ -44,8 +51,6 @@ struct LoopShape {
 
   /// From the symbols of closed parts to what those are before the iteration.
   smt::Substitution closedParts() const;
-  /// An iteration that leaves this in a part leaves it as the kind of the part says; `closed`: closedParts().
-  bool isKeptBy(smt::TermStore &store, const LoopPart &part, smt::TermId left, const smt::Substitution &closed) const;
 };
 
 class LoopSummarizer {
@@ -74,7 +79,15 @@ private:
   smt::TermId travelled(Work &work, smt::TermId step);
   void addTravels(Work &work);
   void addErrors(Work &work);
-  bool isSummedExactly(const LoopPart &part) const;
+  std::size_t leastError(const Work &work, std::size_t part);
+  smt::TermId part(smt::TermId arrival, smt::TermId left);
+  /// An iteration on these conditions that leaves this in a part leaves it as the kind of the part says; `closed`:
+  /// closedParts().
+  bool isKeptBy(const LoopPart &part, smt::TermId left, const smt::Substitution &closed,
+                const std::vector<smt::TermId> &conditions);
+  /// What the sum is off after an iteration that leaves this.
+  smt::TermId errorBehind(const LoopPart &part, smt::TermId left);
+  bool isSymbolOf(smt::TermId symbol, smt::TermId left);
   smt::Substitution atIteration(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;
   bool relayout(Work &work, bool &grew);

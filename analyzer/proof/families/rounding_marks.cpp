@@ -1,5 +1,5 @@
-// Proofs are over exact numbers; controls add in floating point.  Where a sum that a loop accumulates may be off by a
-// little and the control could then stop, the proof holds in exact arithmetic only.
+// Proofs in exact arithmetic, looked at again in that of the control: where a control alarm is proved not to come, and
+// the sums that a loop accumulates may be off by so much that it could, the proof holds in exact arithmetic only.
 #include "proof/families/families.h"
 
 #include <algorithm>
@@ -24,20 +24,22 @@ bool isStillProved(ProofStart &start, const StopSite &stop, const Budget &budget
 void markRounding(const ProofContext &context, std::vector<Obligation> &rows) {
   if (context.found.loops.empty() || std::none_of(rows.begin(), rows.end(), isSensitive))
     return;
-  const ProofSubject &subject = context.subject;
-  ExploreOptions options = context.start.exploreOptions(subject);
-  options.sums = Sums::Rounded;
-  const Exploration rounded =
-      explore(context.start.interpretation(), subject.programs, subject.program, context.start.entry(), options);
+  ProveOptions options = context.subject.options;
+  options.arithmetic = Arithmetic::Doubles;
+  const ProofSubject subject{context.subject.programs, context.subject.program, context.subject.contracts, options};
+  ProofStart start(subject);
+  ExploreOptions how = start.exploreOptions(subject);
+  how.mostWork = 1'000'000;
+  const Exploration rounded = explore(start.interpretation(), subject.programs, subject.program, start.entry(), how);
   if (rounded.incomplete)
     return;
-  const Budget budget{.search = subject.options.budget.search, .z3 = 0, .cvc5 = 0};
+  const Budget budget{.search = options.budget.search, .z3 = 0, .cvc5 = 0};
   for (Obligation &row : rows)
     if (isSensitive(row))
       row.verdict.proved()->exactOnly =
           std::any_of(rounded.stopSites.begin(), rounded.stopSites.end(), [&](const StopSite &stop) {
             return stop.place == row.place && stop.span == row.span && stop.alarm == row.alarm &&
-                   !isStillProved(context.start, stop, budget);
+                   !isStillProved(start, stop, budget);
           });
 }
 

@@ -25,6 +25,21 @@ std::optional<Witness> denied(const WitnessSearch &witnesses, const Violation &v
 
 } // namespace
 
+void refuteByRounding(const ProofContext &context, const std::vector<Denial> &denials, std::vector<Obligation> &rows) {
+  for (const Denial &denial : denials) {
+    const auto row = std::ranges::find_if(
+        rows, [&](const Obligation &each) { return each.verdict.holds() && isSameClaim(each, denial.row); });
+    if (row == rows.end())
+      continue;
+    const Violation violation = denial.violation(context);
+    for (const WitnessSearch::Sample &run : context.witnesses.samples())
+      if (auto witness = context.witnesses.shownByRounding(run, violation)) {
+        row->verdict = *std::move(witness);
+        break;
+      }
+  }
+}
+
 std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
                                  std::vector<Obligation> &rows) {
   std::vector<Contradiction> found;

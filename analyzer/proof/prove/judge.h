@@ -10,6 +10,9 @@
 
 namespace feedhold::prove {
 
+/// Claims that hold in exact numbers, and that a run of the machine breaks because it rounds: these are refuted.
+void refuteByRounding(const ProofContext &context, const std::vector<Denial> &denials, std::vector<Obligation> &rows);
+
 /// `denials`: of claims that may be among the rows.  Each run is looked at by the predicate that would have made it the
 /// witness of a refutation, and counts where it ends so in exact numbers, too.
 std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,

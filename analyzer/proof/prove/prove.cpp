@@ -35,7 +35,10 @@ public:
     followIterations();
     std::vector<Obligation> &rows = stage_->settled.rows;
     requireSomeCall(rows);
-    markRounding(contextOf(*stage_), rows);
+    if (subject_.options.arithmetic == Arithmetic::Exact) {
+      markRounding(contextOf(*stage_), rows);
+      refuteByRounding(contextOf(*stage_), stage_->settled.denials, rows);
+    }
     if (subject_.options.guards == InferGuards::Yes)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
     putInOrder(rows);
@@ -69,7 +72,8 @@ private:
     for (Obligation &row : settled.rows)
       if (row.kind == ObligationKind::AlarmIff)
         requireEnds(context, row);
-    settleSpace(context, settled);
+    if (subject_.options.arithmetic == Arithmetic::Exact)
+      settleSpace(context, settled);
     if (auto guarded = guardedRow(context))
       settled.rows.push_back(*std::move(guarded));
   }
@@ -164,13 +168,44 @@ void Work::followIterations() {
   stage_ = std::move(each);
 }
 
+bool isAboutSpace(ObligationKind kind) {
+  return kind == ObligationKind::KeepIn || kind == ObligationKind::KeepOut || kind == ObligationKind::Clearance;
+}
+
+/// In the arithmetic of the options, and with all the steps.
+ProgramProof proveIn(const ProofSubject &subject) {
+  const smt::Steps steps(subject.options.steps, smt::Steps::AtEnd::GoOn);
+  return Work(subject).run();
+}
+
+/// What holds but for the rounding of the control says so.  Claims about space are proved in exact numbers.
+void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
+  const bool hasSpace = subject.contract() && hasSpaceClause(*subject.contract());
+  if (!hasSpace && std::none_of(proof.obligations.begin(), proof.obligations.end(), isOpen))
+    return;
+  ProveOptions options = subject.options;
+  options.arithmetic = Arithmetic::Exact;
+  options.guards = InferGuards::No;
+  const ProofSubject exact{subject.programs, subject.program, subject.contracts, options};
+  ProgramProof inExact = proveIn(exact);
+  for (Obligation &row : proof.obligations)
+    for (const Obligation &other : inExact.obligations)
+      if (isOpen(row) && isSameClaim(row, other) && other.verdict.holds())
+        row.verdict = Verdict::unknown("holds in exact arithmetic; rounding on the control may break it");
+  for (Obligation &row : inExact.obligations)
+    if (isAboutSpace(row.kind))
+      proof.obligations.push_back(std::move(row));
+}
+
 } // namespace
 
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
-  const smt::Steps steps(options.steps, smt::Steps::AtEnd::GoOn);
   const ProofSubject subject{programs, program, contracts, options};
-  return Work(subject).run();
+  ProgramProof proof = proveIn(subject);
+  if (options.arithmetic != Arithmetic::Exact)
+    compareWithExact(subject, proof);
+  return proof;
 }
 
 } // namespace feedhold::prove

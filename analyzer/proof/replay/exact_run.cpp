@@ -19,13 +19,18 @@ ExploreOptions exactOptions() {
   return options;
 }
 
+smt::Number inputNumber(const SymbolicInterpretation &interpretation, double value) {
+  return interpretation.arithmetic() == Arithmetic::Exact ? smt::Number::fromTyped(value)
+                                                          : smt::Number::fromDouble(value);
+}
+
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given) {
   smt::TermStore &store = interpretation.store();
   std::map<std::uint32_t, SymbolicValue> values;
   for (const auto &[variable, value] : given.entries())
     values.emplace(variable, value.vacant
                                  ? interpretation.vacant()
-                                 : SymbolicValue{store.no(), store.number(smt::Number::fromTyped(value.number))});
+                                 : SymbolicValue{store.no(), store.number(inputNumber(interpretation, value.number))});
   interpretation.startFrom(std::move(values));
 }
 

@@ -69,7 +69,7 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
-    model[store[value.number].name] = vacant ? smt::Number(0) : smt::Number::fromTyped(held->number);
+    model[store[value.number].name] = vacant ? smt::Number(0) : inputNumber(interpretation_, held->number);
     if (store[value.vacant].kind == smt::TermKind::Variable)
       model[store[value.vacant].name] = vacant;
   }
@@ -221,9 +221,21 @@ std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &
   return Witness{run.given, run.result.end, *happened};
 }
 
-/// What happens only because the machine rounds is no witness: proofs are over exact numbers.
+/// Claims that a run alone does not break are judged in exact numbers.
+std::optional<Witness> WitnessSearch::shownByRounding(const Sample &run, const Violation &violation) const {
+  if (violation.breaksExactly)
+    return std::nullopt;
+  auto happened = violation.happened(run.result, run.given);
+  if (!happened || !allowed(run.given) || agreesExactly(run.given, run.result) != Agreement::Different)
+    return std::nullopt;
+  return Witness{run.given, run.result.end, *happened + ", because the control rounds; in exact numbers it would not"};
+}
+
+/// What happens only because the machine rounds is no witness against a claim over exact numbers.
 bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const {
-  return violation.breaksExactly ? violation.breaksExactly(given) : isExact(given, run);
+  if (violation.breaksExactly)
+    return violation.breaksExactly(given);
+  return interpretation_.arithmetic() != Arithmetic::Exact || isExact(given, run);
 }
 
 bool WitnessSearch::isExact(const GivenVariables &given, const RunResult &run) const {

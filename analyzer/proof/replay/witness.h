@@ -70,6 +70,8 @@ public:
   const std::vector<Sample> &replays() const { return *replays_; }
   /// The run, if it breaks the claim on inputs that are allowed, and not by the rounding of the machine alone.
   std::optional<Witness> shown(const Sample &run, const Violation &violation) const;
+  /// The run, if it breaks the claim on inputs that are allowed, and a run in exact numbers ends otherwise.
+  std::optional<Witness> shownByRounding(const Sample &run, const Violation &violation) const;
   /// The inputs in exact numbers.
   smt::Model modelOf(const GivenVariables &given) const;
   /// They satisfy what the inputs have to.

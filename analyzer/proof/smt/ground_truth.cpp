@@ -1,23 +1,13 @@
 #include "proof/smt/ground_truth.h"
 
 #include "base/support/check.h"
-
-#include <cmath>
+#include "proof/smt/bounds.h"
 
 namespace feedhold::smt {
 namespace {
 
 /// Terms are built from others that were enclosed before: deeper ones are not looked at.
 constexpr int kDeepest = 1'000;
-
-/// The nearest double and its neighbours.
-Interval around(const Number &value) {
-  const double near = value.toDouble();
-  if (std::isfinite(near) && Number::fromDouble(near) == value)
-    return Interval::constant(near);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {std::nextafter(near, -kInfinity), std::nextafter(near, kInfinity)};
-}
 
 bool isWithin(const Interval &value, double low, double high) { return low <= value.lo && value.hi <= high; }
 
@@ -138,6 +128,11 @@ std::optional<Interval> GroundTruth::ofFunction(const Term &term, int depth) {
   case Function::Atan2: {
     const std::optional<Interval> other = enclose(term.arguments[1], depth);
     return other && !(x->contains(0) && other->contains(0)) ? std::optional(atan2Degrees(*x, *other)) : std::nullopt;
+  }
+  case Function::Nearest: return x; // bounds of intervals are those of rounded results, too
+  case Function::Near: {
+    const std::optional<Interval> distance = enclose(term.arguments[1], depth);
+    return distance ? std::optional(add(*x, {-distance->hi, distance->hi})) : std::nullopt;
   }
   case Function::Tan:
   case Function::Power:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -108,7 +109,9 @@ double Number::toDouble() const {
   const double far = std::nextafter(near, sign() < 0 ? -kInfinity : kInfinity);
   if (!std::isfinite(far) || value == near)
     return near;
-  return ::abs(value - mpq_class(near)) <= ::abs(mpq_class(far) - value) ? near : far;
+  const int side = cmp(::abs(value - mpq_class(near)), ::abs(mpq_class(far) - value));
+  const bool isNearEven = (std::bit_cast<std::uint64_t>(near) & 1U) == 0;
+  return side < 0 || (side == 0 && isNearEven) ? near : far;
 }
 
 std::size_t Number::hash() const {

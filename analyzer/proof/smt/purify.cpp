@@ -2,6 +2,9 @@
 
 #include "base/support/check.h"
 #include "proof/smt/exact_angles.h"
+#include "proof/smt/rounding_facts.h"
+
+#include <set>
 
 namespace feedhold::smt {
 namespace {
@@ -10,17 +13,22 @@ class Purifier {
 public:
   explicit Purifier(TermStore &store) : store_(store) {}
 
-  Purified run(std::span<const TermId> formulas) {
+  Purified run(std::span<const TermId> formulas, Hold holds) {
     for (TermId variable : variablesOf(store_, formulas))
       FEEDHOLD_CHECK(!store_[variable].name.starts_with('!'), "names that begin with `!` are for new variables");
     Purified result;
     for (TermId formula : formulas)
       result.formulas.push_back(pure(formula));
+    bounds_.emplace(store_,
+                    holds == Hold::Together ? std::span<const TermId>(result.formulas) : std::span<const TermId>());
+    boundDefinitions(result.formulas, holds);
     // Facts may speak of further functions (an arc sine of its sine); those have facts of their own.
-    for (std::size_t next = 0; next < definitions_.size(); ++next)
-      state(definitions_[next]);
+    stateDefinitions();
     for (const TermId square : std::vector<TermId>(squares_)) // a proof would have to guess which sum to square
       fact(store_.lessOrEqual(number(Number(0)), square));
+    stateOrders(result.formulas);
+    if (!rounded_.empty() && holds == Hold::Together)
+      result.unrounded = withoutRounding(store_, formulas, [this](TermId term) { return bounds_->of(pure(term)); });
     result.facts = std::move(facts_);
     result.definitions = std::move(definitions_);
     return result;
@@ -106,6 +114,98 @@ private:
     case Function::BitAnd:
     case Function::BitOr:
     case Function::BitXor: return;
+    case Function::Nearest: return nearest(value, x);
+    case Function::Near: return facts(nearFacts(store_, value, x, arguments[1]));
+    }
+  }
+
+  void nearest(TermId value, TermId x) {
+    rounded_.emplace(value, x);
+    facts(nearestFacts(store_, *bounds_, value, x));
+    const LinearSum sum = store_.linear(x);
+    if (sum.terms.size() != 2 || !sum.constant.isZero() || abs(sum.terms[0].second) != Number(1) ||
+        sum.terms[0].second != -sum.terms[1].second || !isDouble(sum.terms[0].first) || !isDouble(sum.terms[1].first))
+      return;
+    const bool isInOrder = sum.terms[0].second.sign() > 0;
+    const TermId first = sum.terms[isInOrder ? 0 : 1].first, second = sum.terms[isInOrder ? 1 : 0].first;
+    if (const auto exact = differenceFact(store_, *bounds_, value, first, second))
+      fact(*exact);
+  }
+  bool isDouble(TermId term) const { return rounded_.contains(term) || store_.isMarkedAsDouble(term); }
+  /// A double is rounded to itself.
+  TermId exactOf(TermId value) const {
+    const auto rounded = rounded_.find(value);
+    return rounded == rounded_.end() ? value : rounded->second;
+  }
+  void facts(const std::vector<TermId> &formulas) {
+    for (const TermId formula : formulas)
+      fact(formula);
+  }
+
+  /// Of rounded numbers that are compared with, or taken from, one another.
+  void stateOrders(std::span<const TermId> formulas) {
+    std::vector<TermId> roots(formulas.begin(), formulas.end());
+    for (const auto &[value, exact] : rounded_)
+      roots.push_back(exact);
+    std::set<std::pair<TermId, TermId>> pairs;
+    for (const TermId id : reachable(store_, roots))
+      if (store_[id].kind == TermKind::Add)
+        pairsIn(store_.linear(id), pairs);
+    for (const auto &[first, second] : pairs)
+      stateOrder(first, second);
+  }
+  /// Each is a double, which is rounded to itself.
+  void stateOrder(TermId first, TermId second) {
+    facts(orderFacts(store_, *bounds_, {first, exactOf(first)}, {second, exactOf(second)}));
+    if (!rounded_.contains(first) || !rounded_.contains(second))
+      return;
+    facts(orderFacts(store_, *bounds_, {first, exactOf(first)}, {second, second}));
+    facts(orderFacts(store_, *bounds_, {first, first}, {second, exactOf(second)}));
+  }
+  void pairsIn(const LinearSum &sum, std::set<std::pair<TermId, TermId>> &pairs) const {
+    constexpr std::size_t kMostPairs = 6; // each may split a proof in two
+    for (const auto &[first, factor] : sum.terms)
+      for (const auto &[second, other] : sum.terms)
+        if (first < second && factor == -other && isDouble(first) && isDouble(second) &&
+            (rounded_.contains(first) || rounded_.contains(second)) && pairs.size() < kMostPairs)
+          pairs.emplace(first, second);
+  }
+
+  /// What is known of a number may depend on functions of others, and the other way round.
+  void boundDefinitions(std::span<const TermId> formulas, Hold holds) {
+    constexpr int kTimes = 2;
+    for (int round = 0; round < kTimes; ++round) {
+      for (const Definition &definition : definitions_)
+        bound(definition);
+      if (holds == Hold::Together)
+        bounds_->learn(formulas);
+    }
+  }
+  void bound(Definition definition) {
+    const Term term = store_[definition.application];
+    const Interval x = bounds_->of(term.arguments[0]);
+    const auto within = [&](const Interval &range) { bounds_->restrict(definition.variable, range); };
+    if (term.kind == TermKind::Divide) {
+      const Interval divisor = bounds_->of(term.arguments[1]);
+      if (const auto range = divisor.contains(0.0) ? std::nullopt : divide(x, divisor))
+        within(*range);
+      return;
+    }
+    if (term.function == Function::Floor)
+      within(feedhold::floor(x));
+    else if (term.function == Function::Nearest)
+      within(x);
+    else if (term.function == Function::Near)
+      within(feedhold::add(x, {-bounds_->of(term.arguments[1]).hi, bounds_->of(term.arguments[1]).hi}));
+    else if (term.function == Function::Sin || term.function == Function::Cos)
+      within({-1, 1});
+    else if (term.function == Function::Sqrt && x.lo >= 0)
+      within(sqrt(x).value_or(Interval::all()));
+  }
+  void stateDefinitions() {
+    for (; stated_ < definitions_.size(); ++stated_) {
+      bound(definitions_[stated_]);
+      state(definitions_[stated_]);
     }
   }
 
@@ -193,11 +293,16 @@ private:
   std::map<TermId, TermId> variables_; ///< by application over pure arguments
   std::vector<TermId> squares_;
   std::vector<Definition> definitions_;
+  std::size_t stated_ = 0; ///< so many of them
   std::vector<TermId> facts_;
+  std::optional<Bounds> bounds_;     ///< of what is pure
+  std::map<TermId, TermId> rounded_; ///< variables of nearest(), with what they are rounded from
 };
 
 } // namespace
 
-Purified purify(TermStore &store, std::span<const TermId> formulas) { return Purifier(store).run(formulas); }
+Purified purify(TermStore &store, std::span<const TermId> formulas, Hold holds) {
+  return Purifier(store).run(formulas, holds);
+}
 
 } // namespace feedhold::smt

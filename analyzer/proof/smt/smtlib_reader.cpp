@@ -186,7 +186,7 @@ private:
   }
 
   TermId function(const std::string &head, const std::vector<TermId> &parts) {
-    for (std::size_t index = 0; index <= static_cast<std::size_t>(Function::BitXor); ++index) {
+    for (std::size_t index = 0; index <= static_cast<std::size_t>(kLastFunction); ++index) {
       const Function known = static_cast<Function>(index);
       if (head == "feedhold." + std::string(nameOf(known)) && parts.size() == arity(known))
         return store_.apply(known, parts);

@@ -277,6 +277,10 @@ TermId TermStore::compare(TermKind kind, TermId left, TermId right) {
   for (auto &part : sum.terms)
     part.second /= first;
   const bool isUpper = first.sign() > 0;
+  if (const auto exact = sum.terms.size() == 1 && bound.isZero() ? roundedBy(sum.terms[0].first) : std::nullopt) {
+    const TermId zero = number(Number()); // what is rounded has the sign of what it was
+    return isUpper ? compare(kind, *exact, zero) : compare(kind, zero, *exact);
+  }
   if (isWhole(sum)) { // x < 5/2 is x <= 2 for an integer
     if (kind == TermKind::Equal && !bound.isInteger())
       return no();
@@ -291,6 +295,12 @@ TermId TermStore::compare(TermKind kind, TermId left, TermId right) {
   std::vector<TermId> sides =
       isUpper || kind == TermKind::Equal ? std::vector{side, constant} : std::vector{constant, side};
   return intern({.kind = kind, .sort = Sort::Bool, .arguments = std::move(sides), .number = {}, .name = {}});
+}
+
+std::optional<TermId> TermStore::roundedBy(TermId id) const {
+  const Term &term = terms_[id];
+  return term.kind == TermKind::Apply && term.function == Function::Nearest ? std::optional(term.arguments[0])
+                                                                            : std::nullopt;
 }
 
 TermId TermStore::logicalAnd(std::span<const TermId> terms) { return junction(TermKind::And, terms); }

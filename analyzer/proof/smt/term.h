@@ -6,6 +6,7 @@
 #include "proof/smt/number.h"
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,7 +36,10 @@ enum class Function : std::uint8_t {
   BitAnd,
   BitOr,
   BitXor,
+  Nearest, ///< the double that is nearest to x, of two the even one; without overflow and underflow
+  Near,    ///< (x, h): some number at most h away from x, for equal arguments the same; h is a number and positive
 };
+constexpr Function kLastFunction = Function::Near;
 
 enum class TermKind : std::uint8_t {
   True,
@@ -95,6 +99,9 @@ public:
   TermId number(const Number &value);
   /// One name has one sort in one store.
   TermId variable(std::string_view name, Sort sort);
+  /// The variable stands for a number that the control holds: a double.
+  void markAsDouble(TermId variable) { doubles_.insert(variable); }
+  bool isMarkedAsDouble(TermId term) const { return doubles_.contains(term); }
   /// Of a variable that exists.
   TermId variableNamed(std::string_view name) const;
 
@@ -158,8 +165,10 @@ private:
   TermId intern(Term term);
   TermShape shapeOf(const Term &term) const;
   TermId compare(TermKind kind, TermId left, TermId right);
+  std::optional<TermId> roundedBy(TermId term) const;
   TermId junction(TermKind kind, std::span<const TermId> terms);
   std::optional<TermId> foldedFloor(TermId argument);
+  std::optional<TermId> foldedNearest(TermId argument);
   std::optional<TermId> folded(Function function, std::span<const TermId> arguments);
   bool isWhole(const LinearSum &sum) const;
 
@@ -167,6 +176,7 @@ private:
   std::vector<TermShape> shapes_; // by term
   std::unordered_set<TermId, Hash, Same> known_;
   std::map<std::string, TermId, std::less<>> variables_;
+  std::set<TermId> doubles_;
   mutable std::unordered_map<std::uint32_t, std::vector<TermId>> variablesOf_; // of the terms that were asked for
 };
 
@@ -182,6 +192,9 @@ TermId withArguments(TermStore &store, TermId term, const std::vector<TermId> &a
 using Substitution = std::map<TermId, TermId>;
 /// Each key (any term, mostly a Variable) replaced by its value, all at once; then folded again.
 TermId substitute(TermStore &store, TermId term, const Substitution &substitution);
+
+/// Each rounded number in the term replaced by what it was rounded from.
+TermId withoutRounding(TermStore &store, TermId term);
 
 std::string_view nameOf(Function function);
 std::size_t arity(Function function);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace feedhold::smt {
 namespace {
 
-constexpr std::array<std::string_view, 14> kNames = {"floor", "sqrt", "sin", "cos",   "tan",    "asin",  "acos",
-                                                     "atan2", "ln",   "exp", "power", "bitand", "bitor", "bitxor"};
+constexpr std::array<std::string_view, 16> kNames = {"floor", "sqrt",   "sin",     "cos", "tan",   "asin",
+                                                     "acos",  "atan2",  "ln",      "exp", "power", "bitand",
+                                                     "bitor", "bitxor", "nearest", "near"};
 
 /// Products stay readable up to here; higher powers remain applications.
 constexpr int kHighestPower = 8;
@@ -41,6 +43,11 @@ std::optional<Number> ofConstant(Function function, const Number &value) {
   }
   case Function::Ln: return value == Number(1) ? std::optional(Number(0)) : std::nullopt;
   case Function::Exp: return value.isZero() ? std::optional(Number(1)) : std::nullopt;
+  case Function::Nearest: {
+    const double nearest = value.toDouble();
+    return std::isfinite(nearest) ? std::optional(Number::fromDouble(nearest)) : std::nullopt;
+  }
+  case Function::Near:
   case Function::Atan2:
   case Function::Power:
   case Function::BitAnd:
@@ -75,6 +82,8 @@ std::optional<TermId> TermStore::folded(Function function, std::span<const TermI
     std::optional<Number> value = ofConstant(function, terms_[arguments[0]].number);
     return value ? std::optional(number(*value)) : std::nullopt;
   }
+  if (function == Function::Nearest)
+    return foldedNearest(arguments[0]);
   if (arguments.size() == 1 || !isNumber(arguments[1]))
     return std::nullopt;
   const Number right = terms_[arguments[1]].number;
@@ -104,6 +113,17 @@ std::optional<TermId> TermStore::foldedFloor(TermId argument) {
   return add(left, floor(fromLinear(rest)));
 }
 
+/// What is a double stays; and rounding is the same on both sides of 0.
+std::optional<TermId> TermStore::foldedNearest(TermId argument) {
+  const Term &term = terms_[argument];
+  if (term.kind == TermKind::Apply && term.function == Function::Nearest)
+    return argument;
+  const LinearSum sum = linear(argument);
+  if (sum.terms.empty() || sum.terms.front().second.sign() > 0)
+    return std::nullopt;
+  return negate(apply(Function::Nearest, negate(argument)));
+}
+
 std::string_view nameOf(Function function) { return kNames[static_cast<std::size_t>(function)]; }
 
 std::size_t arity(Function function) {
@@ -112,7 +132,8 @@ std::size_t arity(Function function) {
   case Function::Power:
   case Function::BitAnd:
   case Function::BitOr:
-  case Function::BitXor: return 2;
+  case Function::BitXor:
+  case Function::Near: return 2;
   case Function::Floor:
   case Function::Sqrt:
   case Function::Sin:
@@ -121,7 +142,8 @@ std::size_t arity(Function function) {
   case Function::Asin:
   case Function::Acos:
   case Function::Ln:
-  case Function::Exp: return 1;
+  case Function::Exp:
+  case Function::Nearest: return 1;
   }
   FEEDHOLD_UNREACHABLE("a new function needs its arity");
 }

@@ -81,4 +81,14 @@ TermId substitute(TermStore &store, TermId term, const Substitution &substitutio
   return done.at(term);
 }
 
+TermId withoutRounding(TermStore &store, TermId term) {
+  Substitution exact;
+  for (const TermId part : reachable(store, std::span(&term, 1))) {
+    const Term &each = store[part];
+    if (each.kind == TermKind::Apply && (each.function == Function::Nearest || each.function == Function::Near))
+      exact.emplace(part, substitute(store, each.arguments[0], exact));
+  }
+  return exact.empty() ? term : substitute(store, term, exact);
+}
+
 } // namespace feedhold::smt

@@ -26,6 +26,7 @@ auto inContract(SymbolicInterpretation &interpretation, const ProgramSet &progra
                            .dialect = program.dialect};
   const ModalTable modes(*program.dialect);
   interpretation.useDialect(*program.dialect);
+  const ContractArithmetic arithmetic(interpretation);
   StepContext<SymbolicInterpretation> context{interpretation, state, programs, within, modes, BlockId(0)};
   auto result = evaluate(context);
   interpretation.start(); // what a condition of a contract would stop at is no alarm of the program
@@ -75,6 +76,15 @@ TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &en
   return inContract(interpretation_, programs_, file_, contracts_, state,
                     [&](auto &context) { return evaluateCondition(context, expression); })
       .term;
+}
+
+TermId ContractTerms::promise(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
+  const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
+  const Number increment = Number(1) / Number(1000);
+  const auto before = interpretation_.useTolerance(isExact ? std::nullopt : std::optional(increment));
+  const TermId result = condition(expression, entry, now);
+  interpretation_.useTolerance(before);
+  return result;
 }
 
 TermId ContractTerms::conditionAt(ExpressionId expression, const SymbolicState &entry,

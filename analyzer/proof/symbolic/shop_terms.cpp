@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace feedhold::prove {
 
@@ -29,7 +30,10 @@ Text call(std::string_view function, const Text &argument) {
 }
 
 /// A decimal where there is a short one, else a quotient.
-Text textOf(const Number &number) {
+Text textOf(const Number &exact) {
+  const double near = exact.toDouble(); // 0.1 as it is written, not the double that stands for it
+  const bool isDouble = std::isfinite(near) && Number::fromDouble(near) == exact;
+  const Number number = isDouble ? Number::fromTyped(near) : exact;
   constexpr int kMostDecimals = 6;
   Number scaled = number;
   for (int decimals = 0; decimals <= kMostDecimals; ++decimals, scaled *= Number(10)) {
@@ -190,6 +194,8 @@ private:
     case Function::BitAnd:
     case Function::BitOr:
     case Function::BitXor: return std::nullopt;
+    case Function::Nearest: // what the same words give in a program
+    case Function::Near: return write(term.arguments[0]);
     }
     return std::nullopt;
   }

@@ -1,5 +1,6 @@
 #include "proof/symbolic/symbolic_interpretation.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -62,6 +63,7 @@ SymbolicValue SymbolicInterpretation::named(const std::string &name, MayBeVacant
   if (known != named_.end())
     return known->second;
   Value value{store_.no(), store_.variable(name, Sort::Real)};
+  store_.markAsDouble(value.number);
   if (mayBeVacant == MayBeVacant::Yes) {
     value.vacant = store_.variable(name + " vacant", Sort::Bool);
     facts_.push_back(store_.implies(value.vacant, store_.equal(value.number, store_.number(Number(0)))));
@@ -84,10 +86,27 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
       return vacant();
   }
   const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
-  entryValues_.emplace(variable, value);
+  if (entryValues_.emplace(variable, value).second && arithmetic_ != Arithmetic::Exact && !isNumber)
+    assumeTyped(variable, value);
   entry_.insert(value.number);
   entry_.insert(value.vacant);
   return value;
+}
+
+/// Controls take 8 digits (docs/arithmetic.md).
+void SymbolicInterpretation::assumeTyped(std::uint32_t variable, const Value &value) {
+  const WrittenInput &written = written_[variable];
+  const TermId most = store_.number(Number(99'999'999));
+  if (!written.hasLow)
+    facts_.push_back(store_.lessOrEqual(store_.negate(most), value.number));
+  if (!written.hasHigh)
+    facts_.push_back(store_.lessOrEqual(value.number, most));
+  if (written.isWhole)
+    grids_.set(value.number, 0);
+  const TermId zero = store_.number(Number(0)), least = store_.number(Number(1) / Number(100'000'000));
+  facts_.push_back(store_.logicalOr(store_.lessOrEqual(value.number, zero), store_.lessOrEqual(least, value.number)));
+  facts_.push_back(
+      store_.logicalOr(store_.lessOrEqual(zero, value.number), store_.lessOrEqual(value.number, store_.negate(least))));
 }
 
 // ---- values ----
@@ -104,7 +123,9 @@ SymbolicValue SymbolicInterpretation::of(TermId number) {
   return anyNumber();
 }
 
-SymbolicValue SymbolicInterpretation::literal(Decimal value) { return of(store_.number(numberOf(value))); }
+SymbolicValue SymbolicInterpretation::literal(Decimal value) {
+  return arithmetic_ == Arithmetic::Exact ? of(store_.number(numberOf(value))) : number(value.toDouble());
+}
 SymbolicValue SymbolicInterpretation::number(double value) { return of(store_.number(Number::fromDouble(value))); }
 SymbolicValue SymbolicInterpretation::vacant() { return {store_.yes(), store_.number(Number(0))}; }
 
@@ -158,7 +179,7 @@ bool SymbolicInterpretation::hasFormNeverNegative(TermId id) {
     return isAbsolute || (isNeverNegative(first) && isNeverNegative(second));
   }
   case TermKind::Apply:
-    if (term.function == Function::Floor)
+    if (term.function == Function::Floor || term.function == Function::Nearest)
       return isNeverNegative(term.arguments[0]);
     return term.function == Function::Sqrt || term.function == Function::Exp;
   case TermKind::True:
@@ -184,13 +205,19 @@ SymbolicValue SymbolicInterpretation::fup(const Value &a) {
   const TermId zero = store_.number(Number(0));
   return of(store_.ite(store_.lessOrEqual(zero, a.number), up, store_.floor(a.number)));
 }
+/// Exact in doubles, too (C, fmod).
 SymbolicValue SymbolicInterpretation::remainder(const Value &a, const Value &b) {
-  return subtract(a, multiply(b, fix(divide(a, b))));
+  const bool rounded = roundResults(false);
+  const Value rest = subtract(a, multiply(b, fix(divide(a, b))));
+  roundResults(rounded);
+  return rest;
 }
 
 /// Halves go away from zero.  Finer steps are the increment of the control, which exact reals do not have.
 SymbolicValue SymbolicInterpretation::roundTo(const Value &value, Decimal step) {
-  if (step.scale() != 0 || step.mantissa() != 1 || store_.sort(value.number) == Sort::Int)
+  if (step.scale() != 0 || step.mantissa() != 1)
+    return rounds_ ? roundedWord(value, step) : asNumber(value);
+  if (grids_.of(value.number).value_or(-1) >= 0)
     return asNumber(value);
   const TermId half = store_.number(Number(1) / Number(2));
   const TermId up = store_.floor(store_.add(value.number, half));
@@ -204,18 +231,18 @@ SymbolicValue SymbolicInterpretation::function(FunctionKind kind, const Value &a
   if (kind == FunctionKind::Abs)
     return of(isNeverNegative(argument.number) ? argument.number : store_.absolute(argument.number));
   const auto function = functionOf(kind);
-  return function ? of(store_.apply(*function, argument.number)) : anyNumber();
+  return function ? resultOf(kind, store_.apply(*function, argument.number), argument) : anyNumber();
 }
 SymbolicValue SymbolicInterpretation::atan2(const Value &y, const Value &x) {
   const std::array arguments{y.number, x.number};
-  return of(store_.apply(Function::Atan2, arguments));
+  return resultOf(FunctionKind::Atan, store_.apply(Function::Atan2, arguments), y);
 }
 SymbolicValue SymbolicInterpretation::power(const Value &base, const Value &exponent) {
   const auto constant = constantOf(exponent);
   if (constant == 2.0)
     return multiply(base, base);
   const std::array arguments{base.number, exponent.number};
-  return of(store_.apply(Function::Power, arguments));
+  return resultOf(FunctionKind::Pow, store_.apply(Function::Power, arguments), base);
 }
 SymbolicValue SymbolicInterpretation::bitwise(OperatorKind op, const Value &a, const Value &b) {
   const Function function = op == OperatorKind::And  ? Function::BitAnd
@@ -225,10 +252,20 @@ SymbolicValue SymbolicInterpretation::bitwise(OperatorKind op, const Value &a, c
   return of(store_.apply(function, arguments));
 }
 
+/// Whole numbers are counted, others are measured.
+Condition SymbolicInterpretation::equal(const Value &a, const Value &b) {
+  const auto isWhole = [&](const Value &value) { return grids_.of(value.number).value_or(-1) >= 0; };
+  if (!tolerance_ || (isWhole(a) && isWhole(b)))
+    return {store_.equal(a.number, b.number)};
+  const TermId most = store_.number(*tolerance_);
+  return {store_.logicalAnd(store_.lessOrEqual(store_.subtract(a.number, b.number), most),
+                            store_.lessOrEqual(store_.subtract(b.number, a.number), most))};
+}
+
 Condition SymbolicInterpretation::compare(Relation relation, const Value &a, const Value &b) {
   switch (relation) {
-  case Relation::Equal: return {store_.equal(a.number, b.number)};
-  case Relation::NotEqual: return {store_.notEqual(a.number, b.number)};
+  case Relation::Equal: return equal(a, b);
+  case Relation::NotEqual: return negation(equal(a, b));
   case Relation::Greater: return {store_.greater(a.number, b.number)};
   case Relation::GreaterOrEqual: return {store_.greaterOrEqual(a.number, b.number)};
   case Relation::Less: return {store_.less(a.number, b.number)};
@@ -239,6 +276,68 @@ Condition SymbolicInterpretation::compare(Relation relation, const Value &a, con
 
 bool SymbolicInterpretation::mayBe(Truth a) {
   return a.term != store_.no() && !(path_ && path_->says(store_.logicalNot(a.term)));
+}
+
+// ---- results as doubles ----
+
+/// A multiple of 2^k is a double up to 2^(53 + k); what is copied or negated stays one.
+SymbolicValue SymbolicInterpretation::result(TermId exact, const Value &a, const Value &b) {
+  if (!rounds_)
+    return of(exact);
+  for (const TermId operand : {a.number, b.number})
+    if (exact == operand || exact == store_.negate(operand))
+      return of(exact);
+  const auto grid = store_.isNumber(exact) || (place_ && rounded_.contains(*place_)) ? std::nullopt : grids_.of(exact);
+  if (!grid)
+    return of(store_.apply(Function::Nearest, exact));
+  constexpr int kBitsOfDouble = 53;
+  exact_.push_back({exact, kBitsOfDouble + std::min(*grid, 0)});
+  return of(exact);
+}
+
+SymbolicValue SymbolicInterpretation::multiply(const Value &a, const Value &b) {
+  const TermId exact = store_.multiply(a.number, b.number);
+  return isMultipleByPowerOfTwo(a) || isMultipleByPowerOfTwo(b) ? of(exact) : result(exact, a, b);
+}
+SymbolicValue SymbolicInterpretation::divide(const Value &a, const Value &b) {
+  const TermId exact = store_.divide(a.number, b.number);
+  return isMultipleByPowerOfTwo(b) ? of(exact) : result(exact, a, b);
+}
+/// Only the exponent of the other factor changes.
+bool SymbolicInterpretation::isMultipleByPowerOfTwo(const Value &factor) const {
+  if (!store_.isNumber(factor.number))
+    return false;
+  int exponent = 0;
+  return std::fabs(std::frexp(store_[factor.number].number.toDouble(), &exponent)) == 0.5;
+}
+
+SymbolicValue SymbolicInterpretation::near(TermId exact, TermId distance) {
+  const std::array arguments{exact, distance};
+  return of(store_.apply(Function::Near, arguments));
+}
+
+/// Roots are rounded to the nearest; of the other functions no control says how near they are.
+SymbolicValue SymbolicInterpretation::resultOf(FunctionKind kind, TermId exact, const Value &argument) {
+  if (!rounds_)
+    return of(exact);
+  const TermId error = store_.number(Number(1) / Number(std::int64_t{1} << 36));
+  if (kind == FunctionKind::Sqrt)
+    return of(store_.apply(Function::Nearest, exact));
+  const bool isOfAngle = kind == FunctionKind::Sin || kind == FunctionKind::Cos;
+  const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
+  if (isOfAngle && store_.isNumber(argument.number) && (store_[argument.number].number / Number(90)).isInteger())
+    return of(exact);
+  return near(exact, isOfAngle || isAngle ? error : store_.multiply(error, store_.absolute(exact)));
+}
+
+/// As the machine computes it: half a step, and the rounding of the quotient.
+SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
+  const Number size = numberOf(step);
+  if (const auto constant = constantOf(value)) {
+    const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
+    return number(std::round(*constant * steps) / steps);
+  }
+  return near(value.number, store_.number(size * Number(500'001) / Number(1'000'000)));
 }
 
 // ---- modal codes ----

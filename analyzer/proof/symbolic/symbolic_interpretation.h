@@ -1,13 +1,17 @@
 // SymbolicInterpretation: the semantics over solver terms: a value is a term over the state at the start of the run.
 //
 // A value is a pair: whether it is vacant, and its number, which is 0 wherever it is vacant; so a vacant value counts
-// as 0 in arithmetic without a case of its own.  What is not known is a fresh variable.  Numbers are exact reals: words
-// are taken as they are written, not rounded to the least increment of the control (docs/soundness.md).
+// as 0 in arithmetic without a case of its own.  What is not known is a fresh variable.
+//
+// In the arithmetic of the control, results are rounded: `nearest(t)` is the double that is nearest to the exact result
+// t, and `near(t, h)` a number that is at most h away from it (a word that is rounded to the least increment, a sine).
+// Where t is a double for certain, it stands for itself.  docs/arithmetic.md
 #pragma once
 
 #include "meaning/semantics/parts.h"
 #include "meaning/semantics/step.h"
 #include "proof/smt/term.h"
+#include "proof/symbolic/grids.h"
 
 #include <map>
 #include <set>
@@ -30,6 +34,22 @@ struct Condition {
 struct SymbolicCode {
   smt::TermId index{0};
   friend bool operator==(const SymbolicCode &, const SymbolicCode &) = default;
+};
+
+/// Exact reals, as in mathematics; or doubles, of which each operation gives the nearest to its exact result.
+enum class Arithmetic : std::uint8_t { Exact, Doubles };
+
+/// What a contract says of an input.
+struct WrittenInput {
+  bool isWhole = false;
+  bool hasLow = false; // a least number
+  bool hasHigh = false;
+};
+
+/// A result that is exact if it is at most 2^bits, since it is a multiple of a power of two.
+struct ExactWithin {
+  smt::TermId result;
+  int bits;
 };
 
 class SymbolicInterpretation;
@@ -60,7 +80,8 @@ public:
   using ModalCode = SymbolicCode;
   using State = SymbolicState;
 
-  SymbolicInterpretation(smt::TermStore &store, const Dialect &dialect) : store_(store), dialect_(&dialect) {}
+  SymbolicInterpretation(smt::TermStore &store, const Dialect &dialect, Arithmetic arithmetic = Arithmetic::Exact)
+      : store_(store), dialect_(&dialect), arithmetic_(arithmetic), grids_(store) {}
 
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
@@ -68,8 +89,26 @@ public:
   /// Unmodelled code is assumed to leave the mode of polar coordinates unchanged.
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   smt::TermStore &store() { return store_; }
+  Arithmetic arithmetic() const { return arithmetic_; }
+  /// Whether results are rounded: those of the program are, conditions of a contract are read in exact numbers.
+  /// Returns what it was.
+  bool roundResults(bool rounds) { return std::exchange(rounds_, rounds && arithmetic_ != Arithmetic::Exact); }
+  /// The instruction that is executed, for roundAlways().
+  void executeAt(Place place) { place_ = place; }
+  /// The results of the instruction are not known to be so small that they are exact.
+  void roundAlways(Place place) { rounded_.insert(place); }
+  /// What was taken as exact since the last call.
+  std::vector<ExactWithin> takeExactResults() { return std::exchange(exact_, {}); }
+  void restoreExactResults(std::vector<ExactWithin> results) { exact_ = std::move(results); }
+  Grids &grids() { return grids_; }
+  /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
+  std::optional<smt::Number> useTolerance(std::optional<smt::Number> tolerance) {
+    return std::exchange(tolerance_, std::move(tolerance));
+  }
   /// The variables have these values at the start of the run, and the others that programs own are vacant.
   void startFrom(std::map<std::uint32_t, Value> values) { given_ = std::move(values); }
+  /// What is said of inputs.  Others hold what can be typed: numbers of at most 8 digits.
+  void assumeInputs(std::map<std::uint32_t, WrittenInput> written) { written_ = std::move(written); }
   /// Begins a step.
   void start();
   bool stopped() const { return stopped_; }
@@ -114,10 +153,10 @@ public:
   Value between(const Value &start, const Value &end);
 
   // ---- arithmetic ----
-  Value add(const Value &a, const Value &b) { return of(store_.add(a.number, b.number)); }
-  Value subtract(const Value &a, const Value &b) { return of(store_.subtract(a.number, b.number)); }
-  Value multiply(const Value &a, const Value &b) { return of(store_.multiply(a.number, b.number)); }
-  Value divide(const Value &a, const Value &b) { return of(store_.divide(a.number, b.number)); }
+  Value add(const Value &a, const Value &b) { return result(store_.add(a.number, b.number), a, b); }
+  Value subtract(const Value &a, const Value &b) { return result(store_.subtract(a.number, b.number), a, b); }
+  Value multiply(const Value &a, const Value &b);
+  Value divide(const Value &a, const Value &b);
   Value negate(const Value &a) { return of(store_.negate(a.number)); }
   Value remainder(const Value &a, const Value &b);
   Value fix(const Value &a);
@@ -170,7 +209,14 @@ public:
 
 private:
   Value of(smt::TermId number);
+  Value result(smt::TermId exact, const Value &a, const Value &b);
+  Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);
+  Value near(smt::TermId exact, smt::TermId distance);
+  Value roundedWord(const Value &value, Decimal step);
+  Truth equal(const Value &a, const Value &b);
+  bool isMultipleByPowerOfTwo(const Value &factor) const;
   Value freshValue(MayBeVacant mayBeVacant);
+  void assumeTyped(std::uint32_t variable, const Value &value);
   bool isNeverNegative(smt::TermId term);
   bool hasFormNeverNegative(smt::TermId term);
   smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);
@@ -179,6 +225,13 @@ private:
 
   smt::TermStore &store_;
   const Dialect *dialect_;
+  Arithmetic arithmetic_;
+  bool rounds_ = false;
+  std::optional<smt::Number> tolerance_;
+  Grids grids_;
+  std::optional<Place> place_;
+  std::set<Place> rounded_; // by roundAlways()
+  std::vector<ExactWithin> exact_;
   PathKnowledge *path_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
   std::vector<PossibleStop> possibleStops_;
@@ -191,12 +244,48 @@ private:
   std::map<smt::TermId, bool> neverNegative_;
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
+  std::map<std::uint32_t, WrittenInput> written_;
   std::set<smt::TermId> entry_;
   std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;
   bool tooLarge_ = false;
   bool moved_ = false;
+};
+
+/// An expression of a contract means what it means in a program.  Its whole numbers are exact, however large.
+class ContractArithmetic {
+public:
+  explicit ContractArithmetic(SymbolicInterpretation &interpretation)
+      : interpretation_(interpretation), before_(interpretation.roundResults(true)),
+        exact_(interpretation.takeExactResults()) {}
+  ContractArithmetic(const ContractArithmetic &) = delete;
+  ContractArithmetic &operator=(const ContractArithmetic &) = delete;
+  ~ContractArithmetic() {
+    interpretation_.roundResults(before_);
+    interpretation_.restoreExactResults(std::move(exact_));
+  }
+
+private:
+  SymbolicInterpretation &interpretation_;
+  bool before_;
+  std::vector<ExactWithin> exact_;
+};
+
+/// Results are rounded while it lives: those of the instruction at the place.
+class ProgramArithmetic {
+public:
+  ProgramArithmetic(SymbolicInterpretation &interpretation, Place place)
+      : interpretation_(interpretation), before_(interpretation.roundResults(true)) {
+    interpretation.executeAt(place);
+  }
+  ProgramArithmetic(const ProgramArithmetic &) = delete;
+  ProgramArithmetic &operator=(const ProgramArithmetic &) = delete;
+  ~ProgramArithmetic() { interpretation_.roundResults(before_); }
+
+private:
+  SymbolicInterpretation &interpretation_;
+  bool before_;
 };
 
 /// An arbitrary state at the start: each part is a variable of its own.

@@ -176,6 +176,12 @@ void EventualInvariants::addComparison(TermId condition, std::span<const std::si
   std::vector<TermId> forms{condition, store_.lessOrEqual(sides[0], sides[1])};
   if (kind == TermKind::Equal)
     forms.push_back(store_.lessOrEqual(sides[1], sides[0]));
+  if (interpretation_.arithmetic() !=
+      Arithmetic::Exact) { // a last step comes to the limit, or as near as rounding lets it
+    const TermId nearly = store_.number(Number(1) / Number(1 << 20));
+    forms.push_back(store_.lessOrEqual(sides[1], sides[0]));
+    forms.push_back(store_.lessOrEqual(sides[1], store_.add(sides[0], nearly)));
+  }
   all.insert(forms.begin(), forms.end());
   for (const std::size_t iteration : iterations) {
     smt::Substitution back;

@@ -161,7 +161,8 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation,
     ends.push_back(formulas.size());
   }
   nameConstants(formulas);
-  const smt::Purified pure = smt::purify(store, formulas);
+  const smt::Purified pure =
+      smt::purify(store, formulas, iterations_.size() == 1 ? smt::Hold::Together : smt::Hold::Apart);
   for (const smt::Definition &definition : pure.definitions)
     applications_.emplace_back(definition.variable, definition.application);
   std::size_t begin = 0;

@@ -246,6 +246,12 @@ private:
       return false;
     if (isConstant(decrease))
       return holds(iteration, store_.less(zero(), decrease), evidence);
+    const TermId exact = smt::withoutRounding(store_, decrease);
+    if (exact != decrease && isConstant(exact)) {
+      const TermId half = store_.scale(Number(1) / Number(2), exact); // rounding takes less of it
+      return holds(iteration, store_.less(zero(), exact), evidence) &&
+             holds(iteration, store_.lessOrEqual(half, decrease), evidence);
+    }
     for (const int parts : {1, 10, 1000, 1'000'000}) {
       if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), decrease), evidence))
         return true;

@@ -30,6 +30,7 @@ struct ProveArguments {
   std::vector<std::string> only;
   std::string dialect;
   ConfigArguments config;
+  std::string arithmetic = "exact";
   std::string certificate;
   CacheArguments cache;
   std::string format = "text";
@@ -49,9 +50,14 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   addOnlyKinds(app, arguments.only);
   addDialect(app, arguments.dialect);
   addConfiguration(app, arguments.config);
-  app.add_option("--certificate", arguments.certificate,
-                 "write the evidence of all proofs to this folder, for `feedhold recheck`")
-      ->type_name("FOLDER");
+  CLI::Option *certificate = app.add_option("--certificate", arguments.certificate,
+                                            "write the evidence of all proofs to this folder, for `feedhold recheck`")
+                                 ->type_name("FOLDER");
+  app.add_option("--arithmetic", arguments.arithmetic,
+                 "prove in exact numbers, or in the rounded numbers of the control (slower)")
+      ->check(CLI::IsMember({"exact", "control"}))
+      ->capture_default_str()
+      ->excludes(certificate);
   addFormat(app, arguments.format, {"text", "json", "sarif"});
   addCache(app, arguments.cache);
   addJobs(app, arguments.jobs);
@@ -87,6 +93,8 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   if (!arguments.certificate.empty())
     keepEvidence(options);
   options.prove.only = kindsFrom(arguments.only);
+  if (arguments.arithmetic == "control")
+    options.prove.arithmetic = prove::Arithmetic::Doubles;
   return options;
 }
 
@@ -159,6 +167,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .root = std::filesystem::current_path(),
                            .exitCode = exitCodeOf(result),
                            .readingOptions = readingOptions(arguments),
+                           .arithmetic = arguments.arithmetic,
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
                            .colour = useColour(colourOptionFrom(arguments.color))};
   printProblems(result.errors);

@@ -103,7 +103,11 @@ private:
 } // namespace
 
 std::string writeProveJson(const ProveReport &report) {
-  Json document = {{"version", 3}, {"files", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  Json document = {{"version", 3},
+                   {"arithmetic", report.arithmetic},
+                   {"files", Json::array()},
+                   {"skipped", Json::array()},
+                   {"errors", Json::array()}};
   for (const ProvedFile &file : report.result.files)
     document["files"].push_back(FileJson(report, file).write());
   for (const SkippedFile &skipped : report.result.skipped)

@@ -164,7 +164,8 @@ std::string proveSummary(const ProveReport &report) {
       counts.add(program.proof);
       ++programs;
     }
-  return fmt::format("{} in {} program{}\n", textOf(counts), programs, programs == 1 ? "" : "s");
+  return fmt::format("{} in {} program{}{}\n", textOf(counts), programs, programs == 1 ? "" : "s",
+                     report.arithmetic == "control" ? ", in the arithmetic of the control" : "");
 }
 
 } // namespace feedhold

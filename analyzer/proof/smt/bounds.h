@@ -1,0 +1,39 @@
+// Bounds: between which numbers a term lies wherever some formulas hold, by interval arithmetic.
+#pragma once
+
+#include "inference/domain/interval.h"
+#include "proof/smt/term.h"
+
+#include <map>
+#include <optional>
+#include <span>
+
+namespace feedhold::smt {
+
+/// The double that is nearest to the number, and its neighbours where it is none.
+Interval around(const Number &value);
+
+/// Intervals are rounded outwards: they hold for the exact value and for what it is rounded to (interval.h).
+class Bounds {
+public:
+  /// From the comparisons among the formulas, in a few rounds: x + y <= 3 and y >= 1 give x <= 2.
+  Bounds(const TermStore &store, std::span<const TermId> formulas);
+
+  /// More, or the same again with what restrict() has told since.
+  void learn(std::span<const TermId> formulas);
+  /// Of a number.  Nothing is known of a quotient or a function but what restrict() was told.
+  Interval of(TermId term) const;
+  /// Of a formula that the bounds decide.
+  std::optional<bool> truthOf(TermId formula) const;
+  /// The term lies in the interval, too.
+  void restrict(TermId term, const Interval &bounds);
+
+private:
+  void learn(const Term &comparison);
+  void learnSum(const LinearSum &sum, const Interval &allowed);
+
+  const TermStore &store_;
+  std::map<TermId, Interval> known_;
+};
+
+} // namespace feedhold::smt
