@@ -186,6 +186,10 @@ private:
     offer(store_.logicalNot(condition));
     const auto sides = store_[condition].arguments;
     offer(store_.lessOrEqual(sides[0], sides[1]));
+    if (trial_.arithmetic == Arithmetic::Exact)
+      return;
+    const TermId nearly = store_.number(Number(1) / Number(1 << 20)); // a step to the limit may pass it by rounding
+    offer(store_.lessOrEqual(sides[0], store_.add(sides[1], nearly)));
   }
 
   smt::TermStore &store_;

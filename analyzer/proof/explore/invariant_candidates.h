@@ -13,6 +13,7 @@ struct LoopTrial {
   const std::vector<std::vector<smt::TermId>> &left; // by iteration: what it leaves in each part
   std::vector<smt::TermId> arrival;                  // conditions of the path that met the loop
   std::vector<smt::TermId> conditions;               // of all iterations
+  Arithmetic arithmetic = Arithmetic::Exact;
 };
 
 /// Each once, in ascending order.

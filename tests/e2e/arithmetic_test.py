@@ -1,0 +1,139 @@
+"""`feedhold prove --arithmetic control`: what rounding breaks is not proved, and what is sturdy stays proved."""
+import json
+import unittest
+
+from harness import Scratch
+
+ELEVEN_HOLES = """O5
+#1=0
+#2=0
+N10WHILE[#1LT1]DO1
+#2=#2+1
+#1=#1+.1
+END1
+IF[#2LE10]GOTO20
+#3000=1(ELEVEN HOLES)
+N20M30
+"""
+NEVER_EQUAL = """O1
+#1=0
+N10WHILE[#1NE1]DO1
+#1=#1+.1
+END1
+M30
+"""
+ROOT_OF_A_DIFFERENCE = """O1
+(@PARAM #1 0..10)
+(@PARAM #2 1..3)
+#3=#1/#2
+N10#4=SQRT[#3*#2-#1]
+M99
+"""
+BOLT_CIRCLE = """O1
+(@PARAM #1 2..60 INT)
+#3=360/#1
+#10=0
+#11=0
+N10WHILE[#10LT360]DO1
+#10=#10+#3
+#11=#11+1
+END1
+IF[#11NE#1]THEN#3000=1(HOLES)
+M99
+"""
+WHOLE_COUNTER = """O1
+(@PARAM #1 1..60 INT)
+#11=0
+N10WHILE[#11LT#1]DO1
+#11=#11+1
+END1
+IF[#11NE#1]THEN#3000=1(HOLES)
+M99
+"""
+QUARTERS = """O1
+#1=0
+#2=0
+N10WHILE[#1NE1]DO1
+#2=#2+1
+#1=#1+.25
+END1
+IF[#2NE4]THEN#3000=1(HOLES)
+M30
+"""
+CLAMPED_PECKS = """O1
+(@PARAM #6 DEPTH 0.5..100)
+(@PARAM #22 PECK 0.1..10)
+#10=0
+N10WHILE[#10LT#6]DO1
+#11=#6-#10
+IF[#11GT#22]THEN#11=#22
+#10=#10+#11
+END1
+IF[#10GT[#6+.001]]THEN#3000=1(TOO DEEP)
+M99
+"""
+LEVELS = """O1
+(@PARAM #21 DEPTH 0.5..100)
+(@PARAM #22 LARGEST_STEP 0.1..10)
+#10=FUP[#21/#22]
+#11=0
+N10WHILE[#11LT#10]DO1
+#11=#11+1
+END1
+M99
+"""
+ROOT_OF_SQUARES = """O1
+(@PARAM #2 0..10)
+(@PARAM #1 #2..20)
+N10#4=SQRT[#1*#1-#2*#2]
+M99
+"""
+
+
+class ArithmeticOfTheControl(Scratch):
+    def verdicts(self, text, *arguments, code=None):
+        self.write("O1.nc", text)
+        result = self.feedhold("prove", "--no-cache", "--dialect", "fanuc-30i", "--isolated", "--format", "json",
+                               *arguments, "O1.nc")
+        document = json.loads(result.stdout)
+        self.assertEqual(document["arithmetic"], "control" if arguments else "exact")
+        return {row["kind"]: row for row in document["files"][0]["obligations"]}
+
+    def in_control(self, text):
+        return self.verdicts(text, "--arithmetic", "control")
+
+    def test_eleven_holes_are_drilled(self):
+        row = self.in_control(ELEVEN_HOLES)["alarm-unreachable"]
+        self.assertEqual(row["verdict"], "refuted")
+        # In exact numbers there are ten; a run of the machine says otherwise there, too.
+        row = self.verdicts(ELEVEN_HOLES)["alarm-unreachable"]
+        self.assertEqual(row["verdict"], "refuted")
+        self.assertIn("because the control rounds", row["witness"]["happened"])
+
+    def test_a_loop_that_waits_for_a_sum_never_ends(self):
+        self.assertEqual(self.verdicts(NEVER_EQUAL)["loop-ends"]["verdict"], "proved")
+        self.assertEqual(self.in_control(NEVER_EQUAL)["loop-ends"]["verdict"], "refuted")
+
+    def test_what_only_exact_numbers_promise_is_unknown(self):
+        for text, kind in ((ROOT_OF_A_DIFFERENCE, "no-control-alarm"), (BOLT_CIRCLE, "alarm-unreachable")):
+            with self.subTest(text):
+                row = self.in_control(text)[kind]
+                if row["verdict"] != "refuted":
+                    self.assertEqual(row["verdict"], "unknown")
+                    self.assertIn("rounding on the control may break it", row["reason"])
+
+    def test_sturdy_programs_stay_proved(self):
+        for text in (WHOLE_COUNTER, QUARTERS, CLAMPED_PECKS, LEVELS, ROOT_OF_SQUARES):
+            with self.subTest(text):
+                rows = self.in_control(text)
+                self.assertEqual({kind: row["verdict"] for kind, row in rows.items()
+                                  if row["verdict"] not in ("proved", "unreachable")}, {})
+
+    def test_the_evidence_is_of_exact_proofs(self):
+        self.write("O1.nc", WHOLE_COUNTER)
+        result = self.feedhold("prove", "--arithmetic", "control", "--certificate", "out", "O1.nc")
+        self.assertExit(result, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
