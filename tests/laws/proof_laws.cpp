@@ -255,7 +255,8 @@ RC_GTEST_PROP(ProofLaws, FactsAboutFunctionsAreTrue, ()) {
   const TermId term = isQuotient                  ? store.divide(x, y)
                       : smt::arity(function) == 1 ? store.apply(function, x)
                                                   : store.apply(function, std::vector{x, y});
-  const smt::Purified purified = smt::purify(store, std::vector{store.less(term, store.number(7))}, smt::Hold::Together);
+  const smt::Purified purified =
+      smt::purify(store, std::vector{store.less(term, store.number(7))}, smt::Hold::Together);
   Doubles doubles(store, {{x, pick(-4000, 4000) / 1000.0 * pick(1, 80)}, {y, pick(-4000, 4000) / 1000.0}});
   for (const smt::Definition &definition : purified.definitions) {
     const double value = doubles.of(definition.application);

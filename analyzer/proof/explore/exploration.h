@@ -163,6 +163,8 @@ using LoopHints = std::function<std::vector<smt::TermId>(Place head, const Symbo
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyIteration;
+  /// However large they are; otherwise it is proved that they are small enough where results are rounded.
+  bool wholeNumbersAreExact = false;
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;

@@ -334,7 +334,7 @@ void Explorer::recordIteration(const Path &path) {
 
 void Explorer::checkExactResults(const Path &path) {
   for (const auto &[result, bits] : interpretation_.takeExactResults()) {
-    if (purpose_ != Purpose::Record || result_.inexact.contains(path.at))
+    if (purpose_ != Purpose::Record || options_.wholeNumbersAreExact || result_.inexact.contains(path.at))
       continue;
     const TermId most = store_.number(Number::fromDouble(std::ldexp(1.0, bits)));
     const auto holds = [&](TermId condition) { return entails_(interpretation_.facts(), path.conditions, condition); };

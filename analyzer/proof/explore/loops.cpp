@@ -441,7 +441,8 @@ void LoopSummarizer::addLastIteration(Work &work) {
 }
 
 std::vector<TermId> LoopSummarizer::candidates(const Work &work) const {
-  LoopTrial trial{work.iterations, work.shape, work.left, work.arrival.conditions, {}, explorer_.interpretation_.arithmetic()};
+  LoopTrial trial{work.iterations,         work.shape, work.left,
+                  work.arrival.conditions, {},         explorer_.interpretation_.arithmetic()};
   for (const Path &iteration : work.found)
     trial.conditions.insert(trial.conditions.end(),
                             iteration.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),

@@ -30,13 +30,13 @@ void markRounding(const ProofContext &context, std::vector<Obligation> &rows) {
   ProofStart start(subject);
   ExploreOptions how = start.exploreOptions(subject);
   how.mostWork = 1'000'000;
+  how.wholeNumbersAreExact = true;
   const Exploration rounded = explore(start.interpretation(), subject.programs, subject.program, start.entry(), how);
-  if (rounded.incomplete)
-    return;
   const Budget budget{.search = options.budget.search, .z3 = 0, .cvc5 = 0};
   for (Obligation &row : rows)
     if (isSensitive(row))
       row.verdict.proved()->exactOnly =
+          rounded.incomplete ||
           std::any_of(rounded.stopSites.begin(), rounded.stopSites.end(), [&](const StopSite &stop) {
             return stop.place == row.place && stop.span == row.span && stop.alarm == row.alarm &&
                    !isStillProved(start, stop, budget);

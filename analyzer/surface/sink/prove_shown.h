@@ -43,8 +43,7 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
 std::string textOf(const TypedWitness &witness);
 
 /// Of Verdict::exactOnly.
-inline constexpr std::string_view kExactOnly =
-    "holds in exact arithmetic only: with no margin, rounding on the control may break it";
+inline constexpr std::string_view kExactOnly = "holds in exact arithmetic only: rounding on the control may break it";
 
 /// What is claimed: `this loop ends`
 std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);
