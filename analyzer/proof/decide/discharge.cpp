@@ -72,11 +72,7 @@ smt::Model modelOf(const smt::TermStore &store, const check::UnsatProblem &claim
 }
 
 bool hasRounding(const smt::TermStore &store, std::span<const TermId> formulas) {
-  return std::ranges::any_of(smt::reachable(store, formulas), [&](TermId id) {
-    const smt::Term &term = store[id];
-    return term.kind == smt::TermKind::Apply &&
-           (term.function == smt::Function::Nearest || term.function == smt::Function::Near);
-  });
+  return std::ranges::any_of(smt::reachable(store, formulas), [&](TermId id) { return smt::isRounding(store[id]); });
 }
 
 class Discharge {

@@ -8,6 +8,7 @@ namespace feedhold::smt {
 namespace {
 
 constexpr int kRounds = 3;
+constexpr int kDeepestBound = 200;     // of a term: of what lies deeper only what is told is known
 constexpr std::size_t kMostTerms = 12; // of a comparison that is learnt from
 
 bool isSquare(const Term &product) {
@@ -66,34 +67,50 @@ void Bounds::learnSum(const LinearSum &sum, const Interval &allowed) {
 
 void Bounds::restrict(TermId term, const Interval &bounds) {
   const auto [known, isNew] = known_.try_emplace(term, bounds);
+  const Interval before = known->second;
   if (!isNew)
-    known->second = meet(known->second, bounds).value_or(known->second); // the formulas contradict each other
+    known->second = meet(before, bounds).value_or(before); // the formulas contradict each other
+  if (isNew || !(known->second == before))
+    computed_.clear();
 }
 
-Interval Bounds::of(TermId id) const {
+Interval Bounds::of(TermId term) const { return of(term, 0); }
+
+std::optional<bool> Bounds::truthOf(TermId formula) const { return truthOf(formula, 0); }
+
+Interval Bounds::of(TermId term, int depth) const {
+  if (const auto computed = computed_.find(term); computed != computed_.end())
+    return computed->second;
+  spend(5);
+  return computed_.emplace(term, found(term, depth + 1)).first->second;
+}
+
+Interval Bounds::found(TermId id, int depth) const {
   const Term &term = store_[id];
   const auto known = known_.find(id);
   const Interval told = known == known_.end() ? Interval::all() : known->second;
+  if (depth > kDeepestBound)
+    return told;
   const auto within = [&](const Interval &found) { return meet(told, found).value_or(found); };
   switch (term.kind) {
   case TermKind::Number: return around(term.number);
   case TermKind::Add: {
-    Interval sum = of(term.arguments[0]);
+    Interval sum = of(term.arguments[0], depth);
     for (std::size_t i = 1; i < term.arguments.size(); ++i)
-      sum = add(sum, of(term.arguments[i]));
+      sum = add(sum, of(term.arguments[i], depth));
     return within(sum);
   }
   case TermKind::Multiply: {
-    Interval product = of(term.arguments[0]);
+    Interval product = of(term.arguments[0], depth);
     for (std::size_t i = 1; i < term.arguments.size(); ++i)
-      product = multiply(product, of(term.arguments[i]));
+      product = multiply(product, of(term.arguments[i], depth));
     return within(isSquare(term) ? absolute(product) : product);
   }
   case TermKind::Ite: {
     const std::optional<bool> condition = truthOf(term.arguments[0]);
     if (condition)
-      return within(of(term.arguments[*condition ? 1 : 2]));
-    return within(join(of(term.arguments[1]), of(term.arguments[2])));
+      return within(of(term.arguments[*condition ? 1 : 2], depth));
+    return within(join(of(term.arguments[1], depth), of(term.arguments[2], depth)));
   }
   case TermKind::Variable:
   case TermKind::Divide:
@@ -110,13 +127,13 @@ Interval Bounds::of(TermId id) const {
   return told;
 }
 
-std::optional<bool> Bounds::truthOf(TermId formula) const {
+std::optional<bool> Bounds::truthOf(TermId formula, int depth) const {
   const Term &term = store_[formula];
   if (term.kind == TermKind::And || term.kind == TermKind::Or) {
     const bool deciding = term.kind == TermKind::Or;
     bool isKnown = true;
     for (const TermId part : term.arguments) {
-      const std::optional<bool> known = truthOf(part);
+      const std::optional<bool> known = truthOf(part, depth + 1);
       if (known == deciding)
         return deciding;
       isKnown = isKnown && known.has_value();
@@ -125,7 +142,7 @@ std::optional<bool> Bounds::truthOf(TermId formula) const {
   }
   if (term.kind != TermKind::Less && term.kind != TermKind::LessOrEqual)
     return std::nullopt;
-  const Interval left = of(term.arguments[0]), right = of(term.arguments[1]);
+  const Interval left = of(term.arguments[0], depth), right = of(term.arguments[1], depth);
   if (left.hi < right.lo || (term.kind == TermKind::LessOrEqual && left.hi <= right.lo))
     return true;
   if (right.hi < left.lo || (term.kind == TermKind::Less && right.hi <= left.lo))

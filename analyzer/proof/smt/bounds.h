@@ -29,11 +29,15 @@ public:
   void restrict(TermId term, const Interval &bounds);
 
 private:
+  Interval of(TermId term, int depth) const;
+  Interval found(TermId term, int depth) const;
+  std::optional<bool> truthOf(TermId formula, int depth) const;
   void learn(const Term &comparison);
   void learnSum(const LinearSum &sum, const Interval &allowed);
 
   const TermStore &store_;
   std::map<TermId, Interval> known_;
+  mutable std::map<TermId, Interval> computed_; // from these, until one of them changes
 };
 
 } // namespace feedhold::smt

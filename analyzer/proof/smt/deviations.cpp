@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-bool isRounding(const Term &term) {
-  return term.kind == TermKind::Apply && (term.function == Function::Nearest || term.function == Function::Near);
-}
-
 /// Sums and products of errors are rounded themselves: this is on the safe side of some hundred operations.
 double roundedUp(double error) { return error * (1 + 0x1p-40); }
 

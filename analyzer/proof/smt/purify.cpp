@@ -4,6 +4,7 @@
 #include "proof/smt/exact_angles.h"
 #include "proof/smt/rounding_facts.h"
 
+#include <algorithm>
 #include <set>
 
 namespace feedhold::smt {
@@ -19,9 +20,12 @@ public:
     Purified result;
     for (TermId formula : formulas)
       result.formulas.push_back(pure(formula));
-    bounds_.emplace(store_,
-                    holds == Hold::Together ? std::span<const TermId>(result.formulas) : std::span<const TermId>());
-    boundDefinitions(result.formulas, holds);
+    const bool needsBounds = holds == Hold::Together && std::ranges::any_of(definitions_, [&](const Definition &each) {
+                               return isRounding(store_[each.application]);
+                             });
+    bounds_.emplace(store_, needsBounds ? std::span<const TermId>(result.formulas) : std::span<const TermId>());
+    if (needsBounds)
+      boundDefinitions(result.formulas);
     // Facts may speak of further functions (an arc sine of its sine); those have facts of their own.
     stateDefinitions();
     for (const TermId square : std::vector<TermId>(squares_)) // a proof would have to guess which sum to square
@@ -172,13 +176,12 @@ private:
   }
 
   /// What is known of a number may depend on functions of others, and the other way round.
-  void boundDefinitions(std::span<const TermId> formulas, Hold holds) {
+  void boundDefinitions(std::span<const TermId> formulas) {
     constexpr int kTimes = 2;
     for (int round = 0; round < kTimes; ++round) {
       for (const Definition &definition : definitions_)
         bound(definition);
-      if (holds == Hold::Together)
-        bounds_->learn(formulas);
+      bounds_->learn(formulas);
     }
   }
   void bound(Definition definition) {

@@ -193,6 +193,8 @@ using Substitution = std::map<TermId, TermId>;
 /// Each key (any term, mostly a Variable) replaced by its value, all at once; then folded again.
 TermId substitute(TermStore &store, TermId term, const Substitution &substitution);
 
+/// Nearest or Near.
+bool isRounding(const Term &term);
 /// Each rounded number in the term replaced by what it was rounded from.
 TermId withoutRounding(TermStore &store, TermId term);
 

@@ -81,11 +81,15 @@ TermId substitute(TermStore &store, TermId term, const Substitution &substitutio
   return done.at(term);
 }
 
+bool isRounding(const Term &term) {
+  return term.kind == TermKind::Apply && (term.function == Function::Nearest || term.function == Function::Near);
+}
+
 TermId withoutRounding(TermStore &store, TermId term) {
   Substitution exact;
   for (const TermId part : reachable(store, std::span(&term, 1))) {
     const Term &each = store[part];
-    if (each.kind == TermKind::Apply && (each.function == Function::Nearest || each.function == Function::Near))
+    if (isRounding(each))
       exact.emplace(part, substitute(store, each.arguments[0], exact));
   }
   return exact.empty() ? term : substitute(store, term, exact);
