@@ -370,6 +370,7 @@ bool Explorer::takeStops(Path &path) {
     path.moved = store_.yes();
   if (options_.moves != KeepMoves::No)
     takeMoves(path);
+  interpretation_.takeExactResults(); // of the geometry of the movements: the program has no part in them
   interpretation_.start();
   return true;
 }
@@ -389,6 +390,14 @@ void Explorer::exit(const Path &path, ExitKind kind) {
 std::vector<Path> Explorer::execute(Path path) {
   const ProgramArithmetic rounded(interpretation_, path.at);
   interpretation_.start();
+  const Place at = path.at;
+  std::vector<Path> next = executeInstruction(std::move(path));
+  if (!interpretation_.takeExactResults().empty() && purpose_ == Purpose::Record && !options_.wholeNumbersAreExact)
+    result_.inexact.insert(at); // of no single path: no path was asked whether they are small enough
+  return next;
+}
+
+std::vector<Path> Explorer::executeInstruction(Path path) {
   const Instruction &instruction = nodeOf(path).instruction;
   return match(
       instruction, [&](const BlockSkip &skip) { return follow(std::move(path), skip); },

@@ -42,6 +42,7 @@ private:
 
   // ---- one instruction: the paths that continue ----
   std::vector<Path> execute(Path path);
+  std::vector<Path> executeInstruction(Path path);
   std::vector<Path> straight(Path path);
   std::vector<Path> branch(Path path, Condition condition, NodeId taken);
   std::vector<Path> follow(Path path, const BlockSkip &skip);

@@ -115,9 +115,12 @@ TermId LoopSummarizer::part(TermId arrival, TermId left) {
   return symbol;
 }
 
-TermId LoopSummarizer::errorBehind(const LoopPart &part, TermId left) {
+/// After an iteration that leaves this: what the sum is off, and what it was off before.
+void LoopSummarizer::addErrorsBehind(const LoopPart &part, TermId left, smt::Substitution &next) {
   smt::TermStore &store = explorer_.store_;
-  return store.add(part.error->now, store.subtract(store.subtract(left, part.generic), part.step));
+  const TermId added = store.subtract(store.subtract(left, part.generic), part.step);
+  next.emplace(part.error->now, store.add(part.error->now, added));
+  next.emplace(part.error->before, part.error->now);
 }
 
 struct LoopSummarizer::Work {
@@ -482,7 +485,7 @@ bool LoopSummarizer::holdsAfter(const Work &work, const Path &iteration, TermId 
     if (const LoopPart &part = work.parts()[i]; part.kind == PartKind::Free)
       next.emplace(part.symbol, left[i]);
     else if (part.kind == PartKind::Closed && part.error)
-      next.emplace(part.error->now, errorBehind(part, left[i]));
+      addErrorsBehind(part, left[i], next);
   return explorer_.entails_(explorer_.interpretation_.facts(), iteration.conditions,
                             smt::substitute(store, candidate, next));
 }
@@ -587,7 +590,7 @@ bool LoopSummarizer::record(std::size_t instance, const Path &path) {
     if (part.kind == PartKind::Free)
       transition.next.emplace(part.symbol, left[i]);
     else if (part.kind == PartKind::Closed && part.error)
-      transition.next.emplace(part.error->now, errorBehind(part, left[i]));
+      addErrorsBehind(part, left[i], transition.next);
   }
   loop.transitions.push_back(std::move(transition));
   return true;

@@ -85,8 +85,7 @@ private:
   /// closedParts().
   bool isKeptBy(const LoopPart &part, smt::TermId left, const smt::Substitution &closed,
                 const std::vector<smt::TermId> &conditions);
-  /// What the sum is off after an iteration that leaves this.
-  smt::TermId errorBehind(const LoopPart &part, smt::TermId left);
+  void addErrorsBehind(const LoopPart &part, smt::TermId left, smt::Substitution &next);
   bool isSymbolOf(smt::TermId symbol, smt::TermId left);
   smt::Substitution atIteration(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;

@@ -169,7 +169,8 @@ void Work::followIterations() {
 }
 
 bool isAboutSpace(ObligationKind kind) {
-  return kind == ObligationKind::KeepIn || kind == ObligationKind::KeepOut || kind == ObligationKind::Clearance;
+  return kind == ObligationKind::KeepIn || kind == ObligationKind::KeepOut || kind == ObligationKind::Clearance ||
+         kind == ObligationKind::Travel;
 }
 
 /// In the arithmetic of the options, and with all the steps.
@@ -193,8 +194,12 @@ void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
       if (isOpen(row) && isSameClaim(row, other) && other.verdict.holds())
         row.verdict = Verdict::unknown("holds in exact arithmetic; rounding on the control may break it");
   for (Obligation &row : inExact.obligations)
-    if (isAboutSpace(row.kind))
+    if (isAboutSpace(row.kind)) {
+      if (verdict::Proved *proved = row.verdict.proved())
+        proved->exactOnly = true;
       proof.obligations.push_back(std::move(row));
+    }
+  std::ranges::move(inExact.contradictions, std::back_inserter(proof.contradictions));
 }
 
 } // namespace

@@ -107,7 +107,7 @@ Interval Bounds::found(TermId id, int depth) const {
     return within(isSquare(term) ? absolute(product) : product);
   }
   case TermKind::Ite: {
-    const std::optional<bool> condition = truthOf(term.arguments[0]);
+    const std::optional<bool> condition = truthOf(term.arguments[0], depth);
     if (condition)
       return within(of(term.arguments[*condition ? 1 : 2], depth));
     return within(join(of(term.arguments[1], depth), of(term.arguments[2], depth)));
@@ -129,6 +129,8 @@ Interval Bounds::found(TermId id, int depth) const {
 
 std::optional<bool> Bounds::truthOf(TermId formula, int depth) const {
   const Term &term = store_[formula];
+  if (depth > kDeepestBound)
+    return std::nullopt;
   if (term.kind == TermKind::And || term.kind == TermKind::Or) {
     const bool deciding = term.kind == TermKind::Or;
     bool isKnown = true;

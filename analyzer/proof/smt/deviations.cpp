@@ -119,7 +119,7 @@ Deviation Deviations::ofFunction(TermId id) {
   case Function::Cos: return {store_.apply(term.function, inner.exact), product(0.01746, inner.most)}; // pi / 180
   case Function::Sqrt: {
     // |sqrt(a) - sqrt(a')| = |a - a'| / (sqrt(a) + sqrt(a'))
-    const double least = smallest(rangeOf_(argument));
+    const double least = rangeOf_(argument).lo;
     if (inner.most == 0 || !(least > inner.most))
       return {id, 0};
     return {store_.apply(term.function, inner.exact), roundedUp(inner.most / (std::sqrt(least) * (1 - 0x1p-40)))};
