@@ -88,6 +88,40 @@ ROOT_OF_SQUARES = """O1
 N10#4=SQRT[#1*#1-#2*#2]
 M99
 """
+# A power is not rounded to the nearest: for #1=893.66143 the two differ in the last digit.
+SQUARE_AS_POWER = """O1
+(@PARAM #1 0..1000)
+IF[POW[#1,2]EQ#1*#1]GOTO20
+#3000=1(DIFFERENT)
+N20M99
+"""
+# #1=88198625.0005 is rounded to 88198625.001, which is a little more than half an increment away.
+LARGE_WORD = """O1
+(@PARAM #1 0..90000000)
+G90
+#2=88198620.0005+5
+IF[#1GT#2]GOTO20
+G0X#1
+IF[#5041LT88198625.001]GOTO20
+#3000=1(OTHER PLACE)
+N20M99
+"""
+# #1=4.11522 breaks the contract, and is not stopped.
+GUARD_OF_WHOLE_NUMBERS = """O1
+(@PARAM #1 0..10 INT)
+(@GUARDED)
+IF[#1EQ#0]GOTO90
+IF[#1LT0]GOTO90
+IF[#1GT10]GOTO90
+#2=1234.5678/3
+IF[ABS[#1-#2/100]GT.0001]GOTO15
+IF[ROUND[#1]NE#1]GOTO30
+N15IF[FIX[#1]NE#1]GOTO90
+GOTO31
+N30G0X#1
+N31M99
+N90#3000=1(NOT ALLOWED)
+"""
 
 
 class ArithmeticOfTheControl(Scratch):
@@ -121,6 +155,12 @@ class ArithmeticOfTheControl(Scratch):
                 if row["verdict"] != "refuted":
                     self.assertEqual(row["verdict"], "unknown")
                     self.assertIn("rounding on the control may break it", row["reason"])
+
+    def test_what_a_run_breaks_is_not_proved(self):
+        for text, kind in ((SQUARE_AS_POWER, "alarm-unreachable"), (LARGE_WORD, "alarm-unreachable"),
+                           (GUARD_OF_WHOLE_NUMBERS, "guarded")):
+            with self.subTest(text):
+                self.assertIn(self.in_control(text)[kind]["verdict"], ("unknown", "refuted"))
 
     def test_sturdy_programs_stay_proved(self):
         for text in (WHOLE_COUNTER, QUARTERS, CLAMPED_PECKS, LEVELS, ROOT_OF_SQUARES):

@@ -55,6 +55,19 @@ Question guardedQuestion(const ExploredProgram &outside) {
   return question;
 }
 
+/// While it lives, inputs are not known to be whole numbers: that is a clause of the contract, too.
+class BesideContract {
+public:
+  explicit BesideContract(Grids &grids) : grids_(grids), before_(grids.believeInputs(false)) {}
+  BesideContract(const BesideContract &) = delete;
+  BesideContract &operator=(const BesideContract &) = delete;
+  ~BesideContract() { grids_.believeInputs(before_); }
+
+private:
+  Grids &grids_;
+  bool before_;
+};
+
 /// The start of the calls that are looked at, and what makes one of them a call that the contract allows.
 struct Outside {
   SymbolicState start;
@@ -87,6 +100,7 @@ std::optional<Obligation> guardedRow(const ProofContext &context) {
   if (!subject.contract() || !subject.contract()->guarded || !subject.wants(ObligationKind::Guarded))
     return std::nullopt;
   smt::TermStore &store = start.store();
+  const BesideContract anyNumbers(start.interpretation().grids());
   ExploreOptions options;
   const Outside outsideStart = outsideOf(start, *subject.contract());
   options.assumptions = {store.logicalNot(store.logicalAnd(outsideStart.allowed))};

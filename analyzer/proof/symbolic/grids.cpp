@@ -1,6 +1,7 @@
 #include "proof/symbolic/grids.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace feedhold::prove {
 
@@ -24,6 +25,11 @@ std::optional<Grid> gridOf(const Number &number) {
 }
 
 } // namespace
+
+bool Grids::believeInputs(bool believes) {
+  known_.clear();
+  return std::exchange(believesInputs_, believes);
+}
 
 std::optional<Grid> Grids::of(TermId term) {
   const auto known = known_.find(term);
@@ -51,6 +57,8 @@ std::optional<Grid> Grids::find(TermId id) {
   };
   const auto least = [](Grid a, Grid b) { return std::min(a, b); };
   if (const auto told = ofVariables_.find(id); told != ofVariables_.end())
+    return told->second;
+  if (const auto told = ofInputs_.find(id); believesInputs_ && told != ofInputs_.end())
     return told->second;
   if (term.kind == TermKind::Add)
     return all(term.arguments, kGridOfZero, least);

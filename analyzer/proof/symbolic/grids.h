@@ -16,6 +16,10 @@ class Grids {
 public:
   explicit Grids(const smt::TermStore &store) : store_(store) {}
 
+  /// The variable of an input is such a multiple, if the contract is kept.
+  void setOfInput(smt::TermId variable, Grid grid) { ofInputs_.insert_or_assign(variable, grid); }
+  /// Whether that is believed: not of calls that the contract does not allow.  Returns what it was.
+  bool believeInputs(bool believes);
   /// The variable is always a multiple of 2^grid.
   void set(smt::TermId variable, Grid grid) { ofVariables_.insert_or_assign(variable, grid); }
   /// Absent: not known.  Of 0, which is a multiple of everything: kGridOfZero.
@@ -26,6 +30,8 @@ private:
 
   const smt::TermStore &store_;
   std::map<smt::TermId, Grid> ofVariables_;
+  std::map<smt::TermId, Grid> ofInputs_;
+  bool believesInputs_ = true;
   std::map<smt::TermId, std::optional<Grid>> known_; // of terms without variables of unknown grid
 };
 

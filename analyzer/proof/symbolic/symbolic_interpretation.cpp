@@ -102,7 +102,7 @@ void SymbolicInterpretation::assumeTyped(std::uint32_t variable, const Value &va
   if (!written.hasHigh)
     facts_.push_back(store_.lessOrEqual(value.number, most));
   if (written.isWhole)
-    grids_.set(value.number, 0);
+    grids_.setOfInput(value.number, 0);
   const TermId zero = store_.number(Number(0)), least = store_.number(Number(1) / Number(100'000'000));
   facts_.push_back(store_.logicalOr(store_.lessOrEqual(value.number, zero), store_.lessOrEqual(least, value.number)));
   facts_.push_back(
@@ -238,9 +238,6 @@ SymbolicValue SymbolicInterpretation::atan2(const Value &y, const Value &x) {
   return resultOf(FunctionKind::Atan, store_.apply(Function::Atan2, arguments), y);
 }
 SymbolicValue SymbolicInterpretation::power(const Value &base, const Value &exponent) {
-  const auto constant = constantOf(exponent);
-  if (constant == 2.0)
-    return multiply(base, base);
   const std::array arguments{base.number, exponent.number};
   return resultOf(FunctionKind::Pow, store_.apply(Function::Power, arguments), base);
 }
@@ -287,7 +284,7 @@ SymbolicValue SymbolicInterpretation::result(TermId exact, const Value &a, const
   for (const TermId operand : {a.number, b.number})
     if (exact == operand || exact == store_.negate(operand))
       return of(exact);
-  const auto grid = store_.isNumber(exact) || (place_ && rounded_.contains(*place_)) ? std::nullopt : grids_.of(exact);
+  const auto grid = store_.isNumber(exact) || isRoundedHere() ? std::nullopt : grids_.of(exact);
   if (!grid)
     return of(store_.apply(Function::Nearest, exact));
   constexpr int kBitsOfDouble = 53;
@@ -327,17 +324,26 @@ SymbolicValue SymbolicInterpretation::resultOf(FunctionKind kind, TermId exact, 
   const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
   if (isOfAngle && store_.isNumber(argument.number) && (store_[argument.number].number / Number(90)).isInteger())
     return of(exact);
-  return near(exact, isOfAngle || isAngle ? error : store_.multiply(error, store_.absolute(exact)));
+  const TermId size = isNeverNegative(exact) ? exact : store_.absolute(exact);
+  return near(exact, isOfAngle || isAngle ? error : store_.multiply(error, size));
 }
 
-/// As the machine computes it: half a step, and the rounding of the quotient.
+/// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value
+/// together.  Coordinates are small; where that is not proved, the distance goes by the value.
 SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
-  const Number size = numberOf(step);
   if (const auto constant = constantOf(value)) {
     const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
     return number(std::round(*constant * steps) / steps);
   }
-  return near(value.number, store_.number(size * Number(500'001) / Number(1'000'000)));
+  const Number half = numberOf(step) / Number(2);
+  if (isRoundedHere()) {
+    const TermId size = isNeverNegative(value.number) ? value.number : store_.absolute(value.number);
+    return near(value.number, store_.add(store_.number(half * Number(1'000'001) / Number(1'000'000)),
+                                         store_.scale(Number(1) / Number(std::int64_t{1} << 52), size)));
+  }
+  constexpr int kBitsOfWord = 30;
+  exact_.push_back({value.number, kBitsOfWord});
+  return near(value.number, store_.number(half + Number(1) / Number(4'000'000))); // 2^(30 - 52) and a little more
 }
 
 // ---- modal codes ----

@@ -46,8 +46,9 @@ struct WrittenInput {
   bool hasHigh = false;
 };
 
-/// A result that is exact if it is at most 2^bits, since it is a multiple of a power of two.
-struct ExactWithin {
+/// A number that was taken to be at most 2^bits: a result that is exact there, since it is a multiple of a power of
+/// two; or a word.
+struct TakenAsSmall {
   smt::TermId result;
   int bits;
 };
@@ -95,11 +96,11 @@ public:
   bool roundResults(bool rounds) { return std::exchange(rounds_, rounds && arithmetic_ != Arithmetic::Exact); }
   /// The instruction that is executed, for roundAlways().
   void executeAt(Place place) { place_ = place; }
-  /// The results of the instruction are not known to be so small that they are exact.
+  /// The numbers of the instruction are not known to be so small that results are exact.
   void roundAlways(Place place) { rounded_.insert(place); }
-  /// What was taken as exact since the last call.
-  std::vector<ExactWithin> takeExactResults() { return std::exchange(exact_, {}); }
-  void restoreExactResults(std::vector<ExactWithin> results) { exact_ = std::move(results); }
+  /// What was taken as small since the last call.
+  std::vector<TakenAsSmall> takeExactResults() { return std::exchange(exact_, {}); }
+  void restoreExactResults(std::vector<TakenAsSmall> results) { exact_ = std::move(results); }
   Grids &grids() { return grids_; }
   /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
   std::optional<smt::Number> useTolerance(std::optional<smt::Number> tolerance) {
@@ -214,6 +215,7 @@ private:
   Value near(smt::TermId exact, smt::TermId distance);
   Value roundedWord(const Value &value, Decimal step);
   Truth equal(const Value &a, const Value &b);
+  bool isRoundedHere() const { return place_ && rounded_.contains(*place_); }
   bool isMultipleByPowerOfTwo(const Value &factor) const;
   Value freshValue(MayBeVacant mayBeVacant);
   void assumeTyped(std::uint32_t variable, const Value &value);
@@ -231,7 +233,7 @@ private:
   Grids grids_;
   std::optional<Place> place_;
   std::set<Place> rounded_; // by roundAlways()
-  std::vector<ExactWithin> exact_;
+  std::vector<TakenAsSmall> exact_;
   PathKnowledge *path_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
   std::vector<PossibleStop> possibleStops_;
@@ -269,7 +271,7 @@ public:
 private:
   SymbolicInterpretation &interpretation_;
   bool before_;
-  std::vector<ExactWithin> exact_;
+  std::vector<TakenAsSmall> exact_;
 };
 
 /// Results are rounded while it lives: those of the instruction at the place.
