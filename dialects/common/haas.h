@@ -78,6 +78,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.sequenceZero = true;
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;
+  dialect.numbers = NumberModel::Either;
   dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
   dialect.switches.v15 = Switch::On; // geometry stands before wear
   return dialect;

@@ -74,6 +74,7 @@ Dialect make(MachineKind machine) {
   dialect.behaviour.machineMoveByMode = true;
   dialect.behaviour.machineIncrement = MachineIncrement::Distance;
   dialect.behaviour.absoluteBehindMappings = true;
+  dialect.numbers = NumberModel::Either;
   dialect.switches.centreStays = Switch::On;
   dialect.switches.mca = Switch::On; // the number is shown as it is
   return dialect;

@@ -94,7 +94,7 @@ class Engine:
         return json.loads(done.stdout)
 
     def run(self, arguments: list) -> dict:
-        done = self.call("run", "--isolated", "--format", "json", *arguments)
+        done = self.call("run", "--isolated", "--numbers", "binary64", "--format", "json", *arguments)
         return json.loads(done.stdout)
 
     def try_run(self, arguments: list):

@@ -71,6 +71,31 @@ class Run(Scratch):
             with self.subTest(words=words):
                 self.assertExit(self.run_program("O1.nc", *words), 2)
 
+    # ---- the numbers it computes in ----
+
+    def test_numbers(self):
+        """Ten additions of .1 stay below 1 in doubles, and do not with 32 bits of mantissa."""
+        self.loop("WHILE[#1LT1]DO1\n#2=#2+1\n#1=#1+.1\nEND1\nM30")
+        models = {("fanuc-30i",): "binary64", ("fanuc-30i", "--numbers", "mantissa32"): "mantissa32",
+                  ("fanuc-0i",): "mantissa32", ("fanuc-0i", "--numbers", "binary64"): "binary64",
+                  ("haas-ngc",): "binary64", ("linuxcnc", "--numbers", "binary64"): "binary64"}
+        for arguments, model in models.items():
+            with self.subTest(arguments=arguments):
+                text = self.feedhold("run", "O3.nc", "--dialect", *arguments).stdout
+                self.assertEqual("numbers: " + model in text, "mantissa32" in (*arguments, model) or "fanuc-0i" in arguments)
+                told = json.loads(self.feedhold("run", "O3.nc", "--format", "json", "--dialect", *arguments).stdout)
+                self.assertEqual(told["numbers"], model)
+                if arguments[0] != "linuxcnc":
+                    self.assertEqual(told["variables"]["2"], 11 if model == "binary64" else 10)
+        self.assertExit(self.run_program("O3.nc", "--numbers", "either"), 2)
+
+    def test_numbers_of_a_switch(self):
+        self.loop("#1=.1\nM30")
+        for setting, model in (("true", "mantissa32"), ("false", "binary64"), ('"unknown"', "binary64")):
+            self.write("feedhold.toml", f"[switches]\nf16 = {setting}\n")
+            told = self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i", "--format", "json")
+            self.assertEqual(json.loads(told.stdout)["numbers"], model)
+
     # ---- what it does ----
 
     def test_trace(self):

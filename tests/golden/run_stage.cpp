@@ -27,6 +27,10 @@ bool take(const std::string &word, const Dialect &dialect, Wish &options) {
     options.trace = true;
   else if (word == "block-skip")
     options.options.blockSkip = BlockSkipSwitch::On;
+  else if (word == "numbers=mantissa32")
+    options.options.numbers = NumberModel::Mantissa32;
+  else if (word == "numbers=binary64")
+    options.options.numbers = NumberModel::Binary64;
   else if (word.starts_with("fuel="))
     options.options.fuel = static_cast<std::uint64_t>(value);
   else if (word.starts_with('#'))
@@ -66,7 +70,7 @@ std::string runStageOf(const Input &input, std::string_view wishes) {
   if (!loaded)
     return loaded.error().message + "\n";
   const Project &programs = *loaded.value();
-  Wish options;
+  Wish options{.options = {.numbers = numbersOfRun(programs.dialect())}};
   std::istringstream words{std::string(wishes)};
   for (std::string word; words >> word;)
     if (!take(word, programs.dialect(), options))
@@ -79,7 +83,7 @@ std::string runStageOf(const Input &input, std::string_view wishes) {
   std::vector<std::string> shown;
   for (const auto &file : programs.files)
     shown.push_back(file->shown);
-  return writeRunText({*programs.set, shown, *start, result, trace});
+  return writeRunText({*programs.set, shown, *start, result, options.options.numbers, trace});
 }
 
 } // namespace feedhold::golden

@@ -133,6 +133,7 @@ public:
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why nothing is told of the program.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
+  Value held(Value value, Span) const { return value; }
   void evaluated(ExpressionId expression, const Value &value) {
     if (observer_)
       observer_->evaluated(expression, value);

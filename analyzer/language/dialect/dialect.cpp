@@ -1,6 +1,7 @@
 // Look-ups in the tables of a dialect.
 #include "language/dialect/dialect.h"
 
+#include "base/support/check.h"
 #include "base/support/text.h"
 
 #include <algorithm>
@@ -120,6 +121,24 @@ int precedenceOf(const Dialect &dialect, OperatorKind op) {
 bool raisesAlarm(const Dialect &dialect, std::uint32_t number) {
   const VariableRange *range = findVariable(dialect, number);
   return range != nullptr && range->role == VariableRole::Alarm;
+}
+
+std::string_view nameOf(NumberModel model) {
+  switch (model) {
+  case NumberModel::Binary64: return "binary64";
+  case NumberModel::Mantissa32: return "mantissa32";
+  case NumberModel::Either: return "either";
+  }
+  FEEDHOLD_UNREACHABLE("the switch names every model");
+}
+
+NumberModel numbersOf(const Dialect &dialect) {
+  return dialect.switches.f16 == Switch::On ? NumberModel::Mantissa32 : dialect.numbers;
+}
+
+NumberModel numbersOfRun(const Dialect &dialect) {
+  const NumberModel numbers = numbersOf(dialect);
+  return numbers == NumberModel::Either ? NumberModel::Binary64 : numbers;
 }
 
 std::string_view meaningOf(AlarmKind kind) {

@@ -315,7 +315,7 @@ struct Switches {
   Switch nat = Switch::Unknown; // 6004#0: range of ATAN and ASIN
   Switch sqc = Switch::Off;     // 6005#0: M98 Q starts at a sequence number
   Switch mlg = Switch::Unknown; // 6006#0: AND, OR, XOR join conditions
-  Switch f16 = Switch::Off;     // 6008#0: value range and precision of Series 16
+  Switch f16 = Switch::Off;     // 6008#0: value range and precision of Series 16 (numbersOf())
   Switch mca = Switch::Off;     // 6008#1: the number of `#3000=` is shown as it is, up to 4095
   Switch gmp = Switch::Off;     // 6008#6: code calls work inside programs called by a code
   Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
@@ -362,6 +362,15 @@ enum class ModuloMeaning : std::uint8_t {
   OfIntegers, // both operands are rounded to integers first; the sign is that of the dividend
   NotNegative // of reals; the result is never negative
 };
+/// The numbers that a control computes with (docs/arithmetic.md).
+enum class NumberModel : std::uint8_t {
+  Binary64,   // doubles, IEEE 754
+  Mantissa32, // 32 bits of mantissa, 1e-29 to 1e47; beyond, the control stops
+  Either,     // no source says which of the two
+};
+/// `binary64`, `mantissa32`, `either`.
+std::string_view nameOf(NumberModel model);
+
 enum class IntegerPart : std::uint8_t { TowardZero, Floor }; // FIX; FUP goes the other way
 enum class LogicMeaning : std::uint8_t { Bitwise, Logical }; // AND, OR, XOR of numbers
 /// G53 under G91.
@@ -434,6 +443,7 @@ struct Dialect {
   Grammar grammar;
   Behaviour behaviour;
   Switches switches;
+  NumberModel numbers = NumberModel::Binary64; // unless f16 is on
   bool hasFanucParameters = false; // the numbers beside Switches are those of its manual, so messages name them
   std::span<const LanguageHint> hints;
 };
@@ -442,6 +452,10 @@ constexpr std::uint32_t kVacantVariable = 0;
 constexpr std::uint32_t kAlarmVariable = 3000;
 constexpr std::uint32_t kMessageVariable = 3006;
 
+/// The numbers that the control computes with, as its switches say.
+NumberModel numbersOf(const Dialect &dialect);
+/// Those that a run takes: doubles where no source says what the control has.
+NumberModel numbersOfRun(const Dialect &dialect);
 const AddressFormat &formatOf(const Dialect &dialect, char address);
 const Code *findGCode(const Dialect &dialect, std::uint16_t tenths);
 const Code *findMCode(const Dialect &dialect, std::uint16_t tenths);

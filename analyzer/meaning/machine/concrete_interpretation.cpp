@@ -1,5 +1,6 @@
 #include "meaning/machine/concrete_interpretation.h"
 
+#include "base/support/mantissa32.h"
 #include "meaning/semantics/parts.h"
 
 #include <cmath>
@@ -153,10 +154,13 @@ ConcreteValue ConcreteInterpretation::given(std::uint32_t variable) const {
   return range && range->kind == VariableKind::System ? Value::of(0) : Value{};
 }
 
-GivenVariables ConcreteInterpretation::byCell(const Dialect &dialect, const GivenVariables &given) {
+GivenVariables ConcreteInterpretation::byCell(const Dialect &dialect, const GivenVariables &given,
+                                              NumberModel numbers) {
   GivenVariables cells;
   for (const auto &[variable, value] : given.entries())
-    cells.set(cellOf(dialect, variable), value);
+    cells.set(cellOf(dialect, variable), numbers == NumberModel::Mantissa32
+                                             ? ConcreteValue{value.vacant, mantissa32::nearest(value.number)}
+                                             : value);
   return cells;
 }
 
@@ -175,6 +179,14 @@ ConcreteValue ConcreteInterpretation::toolLength(State &state, const Value &numb
   (void)state;
   (void)number;
   return Value::of(0);
+}
+
+ConcreteValue ConcreteInterpretation::inMantissa32(const Value &value, Span place) {
+  if (value.vacant)
+    return value;
+  const double number = mantissa32::nearest(value.number);
+  alarm(!mantissa32::isInRange(number), {AlarmKind::Overflow, place});
+  return Value::of(number);
 }
 
 void ConcreteInterpretation::alarm(bool truth, AlarmReport report) {

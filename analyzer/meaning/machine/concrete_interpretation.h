@@ -1,4 +1,8 @@
-// ConcreteInterpretation: programs read with the numbers of one run, in doubles.
+// ConcreteInterpretation: programs read with the numbers of one run.
+//
+// Coordinates are doubles.  Expressions are computed in doubles, and each result is rounded to the numbers of the
+// control where these are others.  Comparisons take the sign of a rounded difference (16i operator's manual), which is
+// the sign of the exact one: rounding to the nearest number makes no difference 0.
 #pragma once
 
 #include "meaning/semantics/step.h"
@@ -38,8 +42,8 @@ public:
   using State = MachineState<ConcreteInterpretation>;
 
   ConcreteInterpretation(const Dialect &dialect, const GivenVariables &given,
-                         WordRounding rounding = WordRounding::Increment)
-      : dialect_(&dialect), given_(byCell(dialect, given)), rounding_(rounding) {}
+                         WordRounding rounding = WordRounding::Increment, NumberModel numbers = NumberModel::Binary64)
+      : dialect_(&dialect), given_(byCell(dialect, given, numbers)), rounding_(rounding), numbers_(numbers) {}
 
   // ---- what happened, for the machine ----
   enum class Stop : std::uint8_t { None, ControlAlarm, UserAlarm };
@@ -130,15 +134,20 @@ public:
   void unmodelled(std::string_view reason, Span) { notes_.push_back(reason); }
   void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
+  Value held(const Value &value, Span place) {
+    return numbers_ == NumberModel::Mantissa32 ? inMantissa32(value, place) : value;
+  }
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
   /// Under the one number of each cell.
-  static GivenVariables byCell(const Dialect &dialect, const GivenVariables &given);
+  static GivenVariables byCell(const Dialect &dialect, const GivenVariables &given, NumberModel numbers);
+  Value inMantissa32(const Value &value, Span place);
 
   const Dialect *dialect_;
   GivenVariables given_;
   WordRounding rounding_;
+  NumberModel numbers_;
   Stopped stopped_;
   std::vector<Move<Value>> moves_;
   std::vector<std::string_view> notes_;

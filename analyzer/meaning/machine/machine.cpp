@@ -16,7 +16,7 @@ class Machine {
 public:
   Machine(const ProgramSet &programs, Callee entry, const RunOptions &options)
       : programs_(programs), options_(options),
-        interpretation_(*programs.file(entry.file).dialect, options.variables, options.words),
+        interpretation_(*programs.file(entry.file).dialect, options.variables, options.words, options.numbers),
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(interpretation_, modes_, options.start)), at_{entry.file,
                                                                                                          entry.entry} {

@@ -30,6 +30,7 @@ struct RunOptions {
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   WordRounding words = WordRounding::Increment;
+  NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
   /// Called before each instruction; null: nobody looks on.
   std::function<void(const RunMoment &)> trace = nullptr;
 };

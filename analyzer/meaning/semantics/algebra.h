@@ -138,6 +138,8 @@ concept HearsEffects = requires(R interpretation, const typename R::Value value,
   interpretation.havoc(state, std::string_view(), place);
   /// From here on nothing that the text says need hold, nor did it perhaps before: no claim on the program is made.
   interpretation.abandon(std::string_view(), place);
+  /// What the control keeps of the result of an expression: the number that its arithmetic has for it.
+  { interpretation.held(value, place) } -> std::same_as<typename R::Value>;
   /// An expression has been evaluated.
   interpretation.evaluated(expression, value);
 };

@@ -109,7 +109,7 @@ private:
       interpretation_.alarm(interpretation_.unknownTruth(), {alarm, place});
     interpretation_.havoc(context_.state, "a word in a call that cannot be an argument", place);
   }
-  /// Copied as it is: an argument that is dropped leaves its variable vacant, nothing is rounded.
+  /// Copied as it is: an argument that is dropped leaves its variable vacant, nothing is rounded to an increment.
   Value argumentValue(const Word &word) {
     if (word.form() == WordForm::Expression) {
       const Value value = evaluate(context_, word.expression());
@@ -119,7 +119,8 @@ private:
                  : value;
     }
     if (word.form() == WordForm::Number)
-      return scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
+      return interpretation_.held(scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint)),
+                                  word.span());
     return interpretation_.anything();
   }
   /// G and M codes of the machine's tables; T is handed over in #149.

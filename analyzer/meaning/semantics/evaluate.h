@@ -30,17 +30,7 @@ public:
 
   Value value(ExpressionId id) {
     const Expression &expression = context_.tree().expressions[id];
-    const Value result = match(
-        expression.node, [&](const NumberLiteral &literal) { return interpretation_.literal(literal.value); },
-        [&](const NumberedVariable &variable) { return numbered(variable, expression.span); },
-        [&](const IndirectVariable &variable) { return indirect(variable, expression.span); },
-        [&](const NamedVariable &variable) { return named(variable, expression.span); },
-        [&](const Negation &negation) { return interpretation_.negate(number(negation.operand)); },
-        [&](const Identity &identity) { return value(identity.operand); },
-        [&](const Bracketed &bracketed) { return inBrackets(bracketed); },
-        [&](const BinaryOperation &operation) { return binary(id, operation, expression.span); },
-        [&](const FunctionCall &call) { return function(call, expression.span); },
-        [&](const BrokenExpression &) { return broken(expression.span); });
+    const Value result = interpretation_.held(valueOf(id, expression), expression.span);
     interpretation_.evaluated(id, result);
     return result;
   }
@@ -58,6 +48,21 @@ public:
   }
 
 private:
+  /// Before it is rounded to the numbers of the control.
+  Value valueOf(ExpressionId id, const Expression &expression) {
+    return match(
+        expression.node, [&](const NumberLiteral &literal) { return interpretation_.literal(literal.value); },
+        [&](const NumberedVariable &variable) { return numbered(variable, expression.span); },
+        [&](const IndirectVariable &variable) { return indirect(variable, expression.span); },
+        [&](const NamedVariable &variable) { return named(variable, expression.span); },
+        [&](const Negation &negation) { return interpretation_.negate(number(negation.operand)); },
+        [&](const Identity &identity) { return value(identity.operand); },
+        [&](const Bracketed &bracketed) { return inBrackets(bracketed); },
+        [&](const BinaryOperation &operation) { return binary(id, operation, expression.span); },
+        [&](const FunctionCall &call) { return function(call, expression.span); },
+        [&](const BrokenExpression &) { return broken(expression.span); });
+  }
+
   Value number(ExpressionId id) { return interpretation_.asNumber(value(id)); }
 
   Value numbered(const NumberedVariable &variable, Span place) {

@@ -206,6 +206,7 @@ public:
   /// Why no claim on the program is made.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
+  Value held(Value value, Span) const { return value; }
   void evaluated(ExpressionId, const Value &) const {}
 
 private:

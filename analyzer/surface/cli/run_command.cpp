@@ -58,7 +58,7 @@ Result<int> runProgram(const RunArguments &arguments) {
   std::vector<std::string> shown;
   for (const auto &file : programs.files)
     shown.push_back(file->shown);
-  const RunReport report{*programs.set, shown, ready.start, result, trace.blocks};
+  const RunReport report{*programs.set, shown, ready.start, result, ready.options.numbers, trace.blocks};
   print(arguments.format == "json" ? writeRunJson(report) : writeRunText(report));
   return hasEnded(result.end) ? kExitClean : kExitFindings;
 }

@@ -97,6 +97,12 @@ Result<std::array<double, kAxisCount>> startPosition(const RunInput &input) {
   return start;
 }
 
+NumberModel numbersFor(const RunInput &input, const Dialect &dialect) {
+  if (input.numbers.empty())
+    return numbersOfRun(dialect);
+  return input.numbers == nameOf(NumberModel::Mantissa32) ? NumberModel::Mantissa32 : NumberModel::Binary64;
+}
+
 Result<std::unique_ptr<const Project>> load(const RunInput &input) {
   ProgramOptions options{.path = input.path};
   if (input.path == "-")
@@ -129,6 +135,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   app.add_flag("--block-skip", input.blockSkip, "turn the block skip switch on");
+  app.add_option("--numbers", input.numbers,
+                 "numbers of the control: binary64 (doubles) or mantissa32 (default: those of the dialect)")
+      ->type_name("MODEL")
+      ->check(CLI::IsMember({nameOf(NumberModel::Binary64), nameOf(NumberModel::Mantissa32)}));
   addDialect(app, input.dialect);
   addConfiguration(app, input.config);
 }
@@ -152,7 +162,8 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
   RunOptions options{.variables = variables.take(),
                      .start = position.value(),
                      .fuel = input.fuel,
-                     .blockSkip = input.blockSkip ? BlockSkipSwitch::On : BlockSkipSwitch::Off};
+                     .blockSkip = input.blockSkip ? BlockSkipSwitch::On : BlockSkipSwitch::Off,
+                     .numbers = numbersFor(input, *programs.file(start->file).dialect)};
   options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
   if (!input.start.empty()) // it has the last word on the place
     options.start = position.value();

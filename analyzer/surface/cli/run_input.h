@@ -22,6 +22,7 @@ struct RunInput {
   std::vector<std::string> start;
   std::uint64_t fuel = RunOptions{}.fuel;
   std::string dialect;
+  std::string numbers; // empty: those of the dialect
   ConfigArguments config;
   bool blockSkip = false;
 };

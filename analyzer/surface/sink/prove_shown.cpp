@@ -96,6 +96,8 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
+  if (numbersOfRun(file.project->dialect()) != NumberModel::Binary64) // proofs replay their witnesses in doubles
+    result.options += " --numbers binary64";
   result.options += report.readingOptions;
   if (name.number)
     result.call = fmt::format("G65 P{}{}", *name.number, letters);

@@ -93,6 +93,7 @@ std::string writeRunJson(const RunReport &report) {
   const Json start = {{"file", report.shown[report.start.file.index()]},
                       {"program", programAt(report, report.start.file, report.start.program)}};
   member("start", json::compactText(start));
+  member("numbers", json::compactText(nameOf(report.numbers)));
   member("end", json::compactText(nameOf(result.end)));
   member("place", json::compactText(placeOf(report, result.place)));
   member("alarm", json::compactText(alarmOf(report)));

@@ -35,6 +35,11 @@ std::vector<std::pair<std::string, ConcreteValue>> variablesOf(const RunReport &
   return variables;
 }
 
+bool showsNumbers(const RunReport &report) {
+  const Dialect &dialect = *report.programs.file(report.start.file).dialect;
+  return report.numbers != NumberModel::Binary64 || numbersOfRun(dialect) != NumberModel::Binary64;
+}
+
 std::vector<Axis> axesOf(const RunReport &report) {
   std::vector<Axis> axes;
   for (const Axis axis : kAllAxes) {

@@ -22,6 +22,9 @@ inline std::string programAt(const RunReport &report, FileId file, ProgramId pro
 /// given a value or lost it.  By name: `#1`, `#<depth>`.
 std::vector<std::pair<std::string, ConcreteValue>> variablesOf(const RunReport &report);
 
+/// Whether the numbers of the run are worth a word: others than doubles, or others than those of the control.
+bool showsNumbers(const RunReport &report);
+
 /// The axes whose coordinates are shown: X, Y and Z, and those of the others that ever left zero.
 std::vector<Axis> axesOf(const RunReport &report);
 

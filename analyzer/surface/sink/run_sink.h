@@ -21,6 +21,7 @@ struct RunReport {
   std::span<const std::string> shown; // paths by FileId
   Callee start;
   const RunResult &result;
+  NumberModel numbers;                     // in which it was computed
   std::span<const TracedBlock> trace = {}; // empty: not asked for
 };
 

@@ -33,6 +33,8 @@ public:
     path();
     if (!text_.empty())
       text_ += '\n';
+    if (showsNumbers(report_))
+      text_ += fmt::format("numbers: {}\n\n", nameOf(report_.numbers));
     const std::size_t before = text_.size();
     for (const auto &[name, value] : variablesOf(report_))
       text_ += fmt::format("{} = {}\n", name, value.vacant ? "vacant" : number(value.number, kDecimalsOfValue));

@@ -213,6 +213,17 @@ TEST(Dialect, LimitsDiffer) {
   EXPECT_EQ(dialectNamed("haas-ngc").limits.lastAlarmNumber, 999U);
 }
 
+TEST(Dialect, NumbersDependOnASwitch) {
+  EXPECT_EQ(numbersOf(dialectNamed("linuxcnc")), NumberModel::Binary64);
+  EXPECT_EQ(numbersOf(dialectNamed("fanuc-0i-lathe")), NumberModel::Mantissa32);
+  EXPECT_EQ(numbersOf(dialectNamed("haas-classic")), NumberModel::Either);
+  EXPECT_EQ(numbersOfRun(dialectNamed("haas-classic")), NumberModel::Binary64);
+  Dialect dialect = dialectNamed("fanuc-30i");
+  EXPECT_EQ(numbersOf(dialect), NumberModel::Binary64);
+  dialect.switches.f16 = Switch::On;
+  EXPECT_EQ(numbersOf(dialect), NumberModel::Mantissa32);
+}
+
 TEST(Dialect, CodeCallsComeFromTheSwitches) {
   Dialect dialect = dialectNamed("fanuc-30i");
   EXPECT_EQ(findCodeCall(dialect, 'M', 60), nullptr);
