@@ -48,6 +48,7 @@ class Engine:
     def __init__(self, path: str, timeout: float = 1500):
         self.path = path
         self.timeout = timeout
+        self.arithmetic = "exact"  # or "control": the numbers in which claims are to hold
         self.environment = {**os.environ, "XDG_CACHE_HOME": "/nonexistent"}
 
     def call(self, *arguments: str):
@@ -60,7 +61,7 @@ class Engine:
     def prove(self, folder: Path, dialect: str, only: Optional[str] = None) -> dict:
         """By the folder of each file, what is claimed."""
         kind = ["--only", only] if only else []
-        done = self.call("prove", "--isolated", "--no-cache", "--jobs", "1", *kind, "--format", "json", "--dialect",
+        done = self.call("prove", "--isolated", "--no-cache", "--jobs", "1", "--arithmetic", self.arithmetic, *kind, "--format", "json", "--dialect",
                          dialect, str(folder))
         answer = json.loads(done.stdout)
         proofs: dict[str, Proofs] = {}

@@ -23,8 +23,9 @@ RANGE_RUNS = 6
 class TextAttack:
     """`writer(rng, dialect)` makes a project: a dict of names to texts."""
 
-    def __init__(self, name, engine, tally, writer, dialects):
+    def __init__(self, name, engine, tally, writer, dialects, runs=RUNS, range_runs=RANGE_RUNS):
         self.name, self.engine, self.tally, self.writer, self.dialects = name, engine, tally, writer, dialects
+        self.runs, self.range_runs = runs, range_runs
 
     def dialect(self, seed):
         return self.dialects[seed % len(self.dialects)]
@@ -64,7 +65,7 @@ class TextAttack:
             rng = random.Random(f"start {seed} {number}")
             starts = Starts(files, text, rng)
             guarded = any(c.kind == "guarded" for c in proofs.claims.get(number, []))
-            for index in range(RUNS):
+            for index in range(self.runs):
                 outside = guarded and index % 3 == 0
                 start = starts.outside() if outside else starts.any()
                 run = Run(files, dialect, start, Switches(seed=f"{seed} {index}" if index % 3 == 2 else None)).go(number)
@@ -86,8 +87,8 @@ class TextAttack:
         return found
 
     def ranges(self, files, dialect, text, seed, folder, starts, counts):
-        told = told_of(files, folder, text, dialect, self.engine)
-        for index in range(RANGE_RUNS):
+        told = told_of(files, folder, text, dialect, self.engine) if self.range_runs else None
+        for index in range(self.range_runs):
             start = starts.any()
             why = outside_of_ranges(files, dialect, told, text.number, start,
                                     Switches(seed=f"{seed} {index}" if index % 2 else None), counts)

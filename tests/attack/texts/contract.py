@@ -3,10 +3,8 @@ import re
 from fractions import Fraction as F
 
 from .path import GROUPS, XYZ
-from .reckon import Reckoner, Stop, Unsaid
+from .reckon import Model, Reckoner, Stop, Unsaid
 
-END = r"(-?\d+(?:\.\d+)?|-?\.\d+|#\d+|\[.*?\])?"
-RANGE = re.compile(r"\s" + END + r"\s?\.\.\s?" + END + r"(?=\s|$)")
 CODE = re.compile(r"G\d+(\.\d)?$")
 
 
@@ -18,7 +16,7 @@ def of(text, head):
     return [(line, clause) for line, clause in text.clauses() if clause.split()[0] == head]
 
 
-def reckoner_at(state, ask, entry=None):
+def reckoner_at(state, ask, entry=None, apart=F(0)):
     def read(number):
         if number == 0:
             return None
@@ -34,7 +32,7 @@ def reckoner_at(state, ask, entry=None):
         if name in ("POS", "ENTRY"):
             return (state if name == "POS" else entry).place[XYZ.index(inner)]
         raise Unsaid(name)
-    return Reckoner(read, ask, special)
+    return Reckoner(read, ask, special, apart)
 
 
 def broken_at_entry(text, state, ask) -> list:
@@ -53,12 +51,26 @@ def broken_at_entry(text, state, ask) -> list:
 
 def places(words):
     """Of @START."""
-    return [(word[0], F(word[1:].rstrip(".") if word.endswith(".") else word[1:])) for word in words]
+    return [(word[0], Model.held(F(word[1:].rstrip(".") if word.endswith(".") else word[1:]))) for word in words]
 
 
 def excepted(clause: str) -> list:
     """The words behind EXCEPT."""
     return clause.split("EXCEPT")[1].split() if "EXCEPT" in clause else []
+
+
+def ends_of(clause):
+    """The texts of both ends of a range; an end that is not there is None.  None: no range is told."""
+    words = clause.split()
+    for at, word in enumerate(words):
+        if ".." not in word:
+            continue
+        cut = word.index("..") + (1 if "..." in word else 0)
+        low, high = word[:cut], word[cut + 2:]
+        if word == "..":
+            low, high = words[at - 1], words[at + 1] if at + 1 < len(words) else ""
+        return (low if re.match(r"[-\d.#\[]", low) else None), high or None
+    return None
 
 
 def in_range(clause, reckoner) -> bool:
@@ -69,20 +81,19 @@ def in_range(clause, reckoner) -> bool:
     if "INT" in words and value.denominator != 1:
         return False
     if "IN" in words:
-        return value in [F(each) for each in words[words.index("IN") + 1].split(",")]
-    ends = RANGE.search(clause[clause.index("#"):])
+        return value in [Model.held(F(each)) for each in words[words.index("IN") + 1].split(",")]
+    ends = ends_of(clause)
     if not ends:
         return True
-    low, high = (None if each is None else reckoner.whole(each) for each in ends.groups())
+    low, high = (None if each is None else reckoner.whole(each) for each in ends)
     return (low is None or value >= low) and (high is None or value <= high)
 
 
 def range_ends(clause, reckoner):
     """(low, high, whole, optional, values) for those who draw arguments."""
     words = clause.split()
-    values = [F(each) for each in words[words.index("IN") + 1].split(",")] if "IN" in words else []
-    ends = RANGE.search(clause[clause.index("#"):])
-    low, high = (None if each is None else reckoner.whole(each) for each in ends.groups()) if ends else (None, None)
+    values = [Model.held(F(each)) for each in words[words.index("IN") + 1].split(",")] if "IN" in words else []
+    low, high = (None if each is None else reckoner.whole(each) for each in ends_of(clause) or (None, None))
     return low, high, "INT" in words, "OPTIONAL" in words, values
 
 
@@ -92,6 +103,6 @@ def promise_holds(clause, visit, ask) -> bool:
     if all(CODE.match(word) for word in body.split()):
         return all(visit.exit.modes[GROUPS[code]] == code for code in body.split())
     try:
-        return bool(reckoner_at(visit.exit, ask, visit.entry).whole(body))
+        return bool(reckoner_at(visit.exit, ask, visit.entry, F(1, 1000) if Model.doubles else F(0)).whole(body))
     except (Stop, Unsaid):
         return True

@@ -9,7 +9,7 @@ from fractions import Fraction as F
 from typing import Optional
 
 from .path import Tool
-from .reckon import Reckoner, Stop, Unsaid, away
+from .reckon import Model, Reckoner, Stop, Unsaid, away, to_increment
 
 HEAD = re.compile(r"O(\d+)")
 FRONT = re.compile(r"(/?)(?:N(\d+))?")
@@ -116,7 +116,7 @@ class Ended(Exception):
 class Run:
     def __init__(self, files: dict, dialect: str, start: Start, ask, fuel=1500, watch=None):
         self.texts, self.dialect, self.start, self.ask, self.fuel = texts_of(files), dialect, start, ask, fuel
-        self.cells = dict(start.cells)
+        self.cells = {number: Model.held(value) for number, value in start.cells.items()}
         self.frames: list[Frame] = []
         self.visits: list[Visit] = []
         self.modal: list[Modal] = []
@@ -131,7 +131,7 @@ class Run:
 
     def go(self, number: int) -> "Run":
         try:
-            self.enter(self.texts[number], dict(self.start.locals), "start", 0, {})
+            self.enter(self.texts[number], {n: Model.held(v) for n, v in self.start.locals.items()}, "start", 0, {})
             while True:
                 self.step()
         except Ended as end:
@@ -421,7 +421,7 @@ class Run:
             with self.reckoner.in_word():
                 value = self.value(text)
             if value is not None:
-                values[letter] = value
+                values[letter] = to_increment(value) if Model.doubles and letter in "XYZIJKRQ" else value
         moved = self.tool.block([code for code in head if code != "G67"], values)
         frame.at += 1
         if moved:

@@ -3,7 +3,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction as F
 
-from .reckon import Unsaid
+from .reckon import Model, Unsaid
 
 XYZ = "XYZ"
 GROUPS = {}
@@ -172,7 +172,7 @@ class Tool:
             if axis in words:
                 if relative and index in self.unsure:
                     raise Unsaid("incremental behind a change of the mapping")
-                point[index] = words[axis] + (point[index] if relative else 0)
+                point[index] = Model.held(words[axis] + (point[index] if relative else 0))
                 self.unsure.discard(index)
         return point
 

@@ -15,6 +15,16 @@ TOKEN = re.compile(r"\s*(\d+\.?\d*|\.\d+|" + "|".join(sorted(NAMES + [w for w in
                                                               reverse=True)) + r"|[-+*/#\[\]]|[A-Z])")
 
 
+class Model:
+    """Of numbers: exact, or doubles, where each result is the double nearest to it (docs/arithmetic.md)."""
+
+    doubles = False
+
+    @classmethod
+    def held(cls, value):
+        return F(float(value)) if cls.doubles and value is not None else value
+
+
 class Stop(Exception):
     """The control stops; `why` is a word of these tests."""
 
@@ -35,11 +45,26 @@ def away(value: F, ask) -> int:
     return round(value)
 
 
+def to_increment(value: F) -> F:
+    """As words are rounded, halves away from 0; in doubles."""
+    steps = float(value) * 1000.0
+    return F(math.copysign(math.floor(abs(F(steps)) + F(1, 2)), steps) / 1000.0)
+
+
+def of_angle(name, degrees) -> float:
+    quarters = F(degrees) / 90 + (1 if name == "COS" else 0)
+    if quarters.denominator == 1:
+        return (0.0, 1.0, 0.0, -1.0)[int(quarters) % 4]
+    turn = math.radians(F(degrees) % 360)
+    return math.sin(turn) if name == "SIN" else math.cos(turn)
+
+
 class Reckoner:
     """`read(number)` tells a variable; `special(name, operand)` answers for OLD, POS and ENTRY of contracts."""
 
-    def __init__(self, read, ask, special=None):
-        self.read, self.ask, self.special = read, ask, special
+    def __init__(self, read, ask, special=None, apart=F(0)):
+        """`apart`: numbers that differ by no more are equal."""
+        self.read, self.ask, self.special, self.apart = read, ask, special, apart
         self.step = F(1)  # to which ROUND rounds
         self.rounded = False  # a double would not do
         self.guessed = False  # by a function that has no exact value
@@ -93,7 +118,7 @@ class Reckoner:
                     continue
                 waiting.append(token)
             elif operand_next and token[0] in "0123456789.":
-                values.append(F(token.rstrip(".") or "0") if not token.startswith(".") else F("0" + token))
+                values.append(Model.held(F(token.rstrip(".") or "0") if not token.startswith(".") else F("0" + token)))
                 operand_next = False
             elif operand_next and len(token) == 1 and token.isalpha():
                 values.append(self.special("WORD", token))
@@ -140,6 +165,10 @@ class Reckoner:
     # ---- operators ----
 
     def kept(self, value: F) -> F:
+        if Model.doubles:
+            if value and not 1e-300 < abs(value) < 1e300:
+                raise Unsaid("beyond what is modelled")
+            return F(float(value))
         bits = value.denominator
         if bits & (bits - 1) or abs(value.numerator) >> 53:
             self.rounded = True
@@ -162,13 +191,19 @@ class Reckoner:
         if name == "FUP":
             return F(-math.floor(-x) if x > 0 else math.floor(x))
         if name == "ROUND":
+            if Model.doubles and self.step != 1:
+                return to_increment(x)
             return self.step * away(x / self.step, self.ask)
         if name == "SQRT":
             if x < 0:
                 raise Stop("domain")
+            if Model.doubles:
+                return F(math.sqrt(x))
             exact = F(math.isqrt(x.numerator), math.isqrt(x.denominator))
             return exact if exact * exact == x else self.guess(math.sqrt(x))
         if name in ("SIN", "COS"):
+            if Model.doubles:
+                return self.guess(of_angle(name, x))
             turn = (x + (90 if name == "COS" else 0)) % 360
             known = {0: 0, 30: F(1, 2), 90: 1, 150: F(1, 2), 180: 0, 210: F(-1, 2), 270: -1, 330: F(-1, 2)}
             self.rounded = True
@@ -177,10 +212,29 @@ class Reckoner:
             if x <= 0:
                 raise Stop("domain")
             return F(0) if x == 1 else self.guess(math.log(x))
+        if name in ("ASIN", "ACOS", "TAN", "EXP") and Model.doubles:
+            return self.curved(name, x)
         raise Unsaid(name)
+
+    def curved(self, name, x):
+        if name == "EXP":
+            if x > 700:
+                raise Stop("domain")
+            return self.guess(math.exp(x))
+        if name == "TAN":
+            if abs(of_angle("COS", x)) < 1e-9:
+                raise Unsaid("TAN near 90")
+            return self.guess(math.tan(math.radians(x)))
+        if abs(x) > 1:
+            raise Stop("domain")
+        angle = math.degrees((math.asin if name == "ASIN" else math.acos)(x))
+        return self.guess(angle if angle >= 0 or self.ask("ASIN below 0", ("turned", "as it is")) == "as it is" else
+                          angle + 360)
 
     def guess(self, value: float) -> F:
         self.guessed = self.rounded = True
+        if Model.doubles:
+            return F(value)
         return F(value).limit_denominator(10 ** 12)
 
     def infix(self, name, left, right):
@@ -189,7 +243,7 @@ class Reckoner:
                 raise Unsaid("a condition as a number")
             return {"AND": left and right, "OR": left or right, "XOR": left != right}[name]
         if name in ("EQ", "NE"):
-            same = left == right if None in (left, right) else left - right == 0
+            same = left == right if None in (left, right) else abs(left - right) <= self.apart
             return same if name == "EQ" else not same
         a, b = left or F(0), right or F(0)
         if INFIX[name] == 1:

@@ -1,14 +1,16 @@
 """What runs begin with: on and beside the ends of ranges, numbers of the text, vacant ones."""
 import re
+from decimal import Decimal
 from fractions import Fraction as F
 
 from . import contract
 from .machine import Start, cell_of, is_common
 from .path import GROUPS, XYZ, AT_POWER_ON
-from .reckon import Stop, Unsaid
+from .reckon import Model, Stop, Unsaid
 from .switches import Switches
 
 
+RIM = (F(1, 10 ** 8), F(99999999), F(-99999999), F(-1, 10 ** 8), F(1, 3), F(2, 7), F(1, 10), F(254, 100))
 CODES = ("G91", "G91", "G1", "G99", "G18", "G95")
 
 
@@ -29,6 +31,8 @@ class Starts:
         rng, roll = self.rng, self.rng.random()
         if roll < 0.15:
             return None
+        if Model.doubles and rng.random() < 0.5:
+            return Model.held(rng.choice(RIM) if rng.random() < 0.2 else typed(F(rng.uniform(-20, 20)), rng))
         near = rng.choice(self.numbers)
         if roll < 0.6:
             return near
@@ -73,6 +77,8 @@ class Starts:
             return rng.choice(values)
         low = (high if high is not None else F(0)) - 20 if low is None else low
         high = low + 20 if high is None else high
+        if Model.doubles and not whole and rng.random() < 0.8:
+            return between(low, high, rng)
         grid = 1 if whole else rng.choice((1, 2, 8))
         inside = [F(n, grid) for n in range(int(low * grid) - 1, int(high * grid) + 2) if low <= F(n, grid) <= high] or [low]
         return rng.choice((inside[0], inside[-1], rng.choice(inside), rng.choice(inside)))
@@ -101,6 +107,20 @@ class Starts:
         return start
 
 
+def typed(value, rng) -> F:
+    """As with few or many decimals, at most 8 digits."""
+    most = 8 - len(str(int(abs(value))))
+    return F(round(value * 10 ** (digits := rng.choice((1, 1, 2, 3, 4, most)))), 10 ** digits)
+
+
+def between(low, high, rng) -> F:
+    """A decimal of the range: at its ends, beside them, or anywhere."""
+    last = F(1, 10 ** max(0, 7 - len(str(int(max(abs(low), abs(high)))))))
+    value = typed(low + (high - low) * F(rng.random()) ** rng.choice((1, 1, 3)), rng)
+    value = rng.choice((low, high, low + last, high - last, value, value, value, value))
+    return Model.held(min(max(value, low), high))
+
+
 class StateOf:
     """As much of a state as clauses at entry ask for."""
 
@@ -110,13 +130,18 @@ class StateOf:
         self.place = [F(start.place.get(axis, 0)) for axis in XYZ]
 
 
+def digits(value) -> str:
+    """Of a double, without an exponent."""
+    return format(Decimal(repr(float(value))), "f")
+
+
 def as_words(start: Start) -> list:
     """For `feedhold run`."""
     words = []
     for number, value in sorted({**start.locals, **start.cells}.items()):
-        words += ["--var", f"{number}={float(value):.12g}"]
+        words += ["--var", f"{number}={digits(value)}"]
     if start.place:
-        words += ["--start", *(f"{axis}{float(value):.12g}" for axis, value in start.place.items())]
+        words += ["--start", *(f"{axis}{digits(value)}" for axis, value in start.place.items())]
     return words + (["--block-skip"] if start.skip else [])
 
 

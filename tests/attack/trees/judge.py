@@ -10,7 +10,7 @@ from engine import Claim, Proofs
 
 from .files import line_of
 from .machine import Inputs, Machine, Outcome
-from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled, number_of
+from .values import Arithmetic, ControlAlarm, Evaluator, Model, Unmodelled, number_of
 
 # What the claims of a stop are called by the engine, for each kind of stop.
 ALARM_WORDS = {
@@ -69,6 +69,8 @@ class Judge:
             return
         for child in activation.children:
             if not child.broken:
+                if not is_typed(child):
+                    continue
                 if child.is_standard:
                     self.judge(child)
                 else:
@@ -195,9 +197,10 @@ class Judge:
             return all(state.modes[controls.GROUP_OF[c]] == c for c in clause.codes)
         if not isinstance(clause, contracts.Ensure):
             return True
-        return self.holds_at(clause.condition, activation, state.cells, state.locals, state.tool)
+        return self.holds_at(clause.condition, activation, state.cells, state.locals, state.tool,
+                             Fraction(1, 1000) if Model.doubles else Fraction(0))
 
-    def holds_at(self, condition, activation, cells, locals_, tool) -> bool:
+    def holds_at(self, condition, activation, cells, locals_, tool, tolerance=Fraction(0)) -> bool:
         entry_tool = activation.entry_tool
 
         def position(when, axis):
@@ -205,7 +208,7 @@ class Judge:
             if coordinates is None:
                 raise Unmodelled("another zero point")
             return coordinates[controls.AXES.index(axis)]
-        arithmetic = Arithmetic(Choices(given=self.outcome.choices))
+        arithmetic = Arithmetic(Choices(given=self.outcome.choices), tolerance)
         evaluator = Evaluator(arithmetic, reader(locals_, cells), reader(activation.entry_locals, activation.entry_cells),
                               position)
         try:
@@ -293,6 +296,12 @@ class Judge:
             breach = activation.broken[0].text()
             self.add(f"guarded ({breach.split()[0]})", f"{claims[0].id} is {claims[0].verdict}, the call breaks {breach}, "
                      f"and {'an axis moves' if activation.moves else 'it ends'}", claims[0])
+
+
+def is_typed(activation) -> bool:
+    """In doubles, what a call passes is taken to be a number of 8 digits; nobody checks it."""
+    values = (*activation.entry_locals.values(), *activation.entry_cells.values())
+    return not Model.doubles or all(Fraction(1, 10 ** 8) <= abs(value) <= 99999999 for value in values if value)
 
 
 def reader(locals_, cells):

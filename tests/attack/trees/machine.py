@@ -12,7 +12,7 @@ from . import controls
 from . import syntax
 from .ends import OutOfFuel, ProgramEnd, Repeats, UserAlarm
 from .motion import Tool
-from .values import Arithmetic, ControlAlarm, Evaluator, Unmodelled, nearest, number_of
+from .values import Arithmetic, ControlAlarm, Evaluator, Model, Unmodelled, least_increment, nearest, number_of
 
 
 @dataclass
@@ -102,8 +102,9 @@ class Machine:
         self.before_block = before_block
         self.random = random
         self.arithmetic = Arithmetic(choices)
-        self.cells = dict(inputs.cells)
-        self.tool = Tool(self.control, choices, dict(inputs.modes), dict(inputs.place), self.cells)
+        self.cells = {number: Model.held(value) for number, value in inputs.cells.items()}
+        place = {axis: Model.held(value) for axis, value in inputs.place.items()}
+        self.tool = Tool(self.control, choices, dict(inputs.modes), place, self.cells)
         self.modal_calls: list[ModalCall] = []
         self.fires_below: Optional[int] = None  # inside of a modal macro: the calls outside of it
         self.frames: list[Frame] = []
@@ -118,7 +119,7 @@ class Machine:
         outcome = Outcome("")
         try:
             try:
-                frame = self.enter(program, dict(self.inputs.locals), None, None)
+                frame = self.enter(program, {n: Model.held(v) for n, v in self.inputs.locals.items()}, None, None)
                 outcome.root = frame.activation
                 self.follow(frame)
                 outcome.end = "return"
@@ -427,7 +428,7 @@ class Machine:
         for letter, expression in statement.words:
             value = self.word_value(expression)
             if value is not None:
-                words[letter] = value
+                words[letter] = least_increment(value) if letter in controls.AXES else value
         moved = self.tool.block(statement.codes, words, frame, self.frames)
         if moved and self.modal_calls:
             return self.fire_modal_calls(frame)

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from . import controls
-from .values import Unmodelled
+from .values import Model, Unmodelled
 
 AXES = controls.AXES
 
@@ -93,7 +93,7 @@ class Tool:
     def move_to(self, axes, words, frame, frames) -> bool:
         start = {axis: self.coordinate(axis) for axis in AXES}
         for axis in axes:
-            self.place[axis] = (self.place[axis] if self.modes[3] == "G91" else 0) + words[axis]
+            self.place[axis] = Model.held((self.place[axis] if self.modes[3] == "G91" else 0) + words[axis])
         kind = "rapid" if self.modes[1] == "G0" else "feed"
         if kind == "feed" and self.registers["F"] is not None and self.registers["F"] <= 0:
             raise Unmodelled("F 0")

@@ -12,9 +12,10 @@ from .syntax import (Alarm, Assign, Binary, Block, Call, End, Function, Goto, If
 
 FEATURES = ("calls", "repeats", "modal-calls", "modal-in-callee", "indirect", "system", "skip", "jumps", "jumps-into-loops",
             "computed-goto", "return-to-label", "vacant", "functions", "contracts", "guarded", "alarms", "modes", "files",
-            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences", "ranges")
+            "recursion", "bits", "bare-loops", "promises", "letters-of-codes", "checks", "differences", "ranges", "decimals")
 
 SMALL = [Fraction(n) for n in (0, 0, 1, 1, 2, 3, 4, 5, 7, 10)] + [Fraction(n, 8) for n in (1, 2, 4, 6, 12, 20, -4)]
+DECIMALS = [Fraction(n) for n in ("0.1", "0.1", "0.3", "0.7", "1.1", "2.54", "0.01", "3.3", "0.05")]
 LOCALS = (1, 2, 3, 4, 7, 10, 11, 20)
 COMMONS = (100, 101, 102, 500, 501)
 ALIASES = ((2001, 10001), (2201, 11001), (5221, 2501), (5222, 2601), (5201, 2500), (5241, 2502), (7001, 14001),
@@ -60,7 +61,7 @@ class ProgramMaker:
     # ---- expressions ----
 
     def constant(self) -> Number:
-        return Number(self.any(SMALL))
+        return Number(self.any(DECIMALS if self.has("decimals", 3) else SMALL))
 
     def variable(self) -> Variable:
         if self.has("indirect", 70):

@@ -12,6 +12,16 @@ from .controls import is_common
 HALF = Fraction(1, 2)
 
 
+class Model:
+    """Of numbers: fractions, or doubles as the control computes with (docs/arithmetic.md)."""
+
+    doubles = False
+
+    @classmethod
+    def held(cls, value):
+        return Fraction(float(value)) if cls.doubles and value is not None else value
+
+
 class ControlAlarm(Exception):
     """A stop by the control; kinds are words of these tests, by meaning."""
 
@@ -38,18 +48,33 @@ def nearest(value: Fraction, choices) -> int:
     return -math.floor(-value + HALF)
 
 
+def least_increment(value: Fraction) -> Fraction:
+    """A coordinate, as the machine rounds it: steps of 0.001, halves away from zero."""
+    if not Model.doubles:
+        return value
+    steps = Fraction(float(value) * 1000.0)
+    whole = math.floor(abs(steps) + HALF)
+    return Fraction((whole if steps >= 0 else -whole) / 1000.0)
+
+
 def fits_double(value: Fraction) -> bool:
     denominator = value.denominator
     return denominator & (denominator - 1) == 0 and abs(value.numerator) < 2 ** 53 and denominator < 2 ** 1000
 
 
 class Arithmetic:
-    def __init__(self, choices):
+    def __init__(self, choices, tolerance=Fraction(0)):
+        """`tolerance`: within which EQ holds."""
         self.choices = choices
+        self.tolerance = tolerance
         self.rounds = False
         self.inexact = False
 
     def noted(self, value: Fraction) -> Fraction:
+        if Model.doubles:
+            if value and not Fraction(1, 10 ** 300) < abs(value) < 10 ** 300:
+                raise Unmodelled("a number too large or too small")
+            return Fraction(float(value))
         if not fits_double(value):
             self.rounds = True
         if abs(value) > 10 ** 12 or value.denominator > 10 ** 15:
@@ -105,6 +130,8 @@ class Arithmetic:
                     raise ControlAlarm("out of domain")
                 raise Unmodelled("inverse sine by parameter")
             case "SIN" | "COS":
+                if Model.doubles and a % 90 != 0:
+                    return self.approximate((math.sin if name == "SIN" else math.cos)(math.radians(a % 360)))
                 exact = {("SIN", 0): 0, ("SIN", 90): 1, ("SIN", 180): 0, ("SIN", 270): -1, ("COS", 0): 1,
                          ("COS", 90): 0, ("COS", 180): -1, ("COS", 270): 0, ("SIN", 30): HALF, ("SIN", 150): HALF,
                          ("COS", 60): HALF, ("COS", 300): HALF}.get((name, a % 360))
@@ -115,6 +142,8 @@ class Arithmetic:
         raise ValueError(name)
 
     def root(self, a: Fraction) -> Fraction:
+        if Model.doubles:
+            return Fraction(math.sqrt(a))
         top, bottom = math.isqrt(a.numerator), math.isqrt(a.denominator)
         if top * top == a.numerator and bottom * bottom == a.denominator:
             return Fraction(top, bottom)
@@ -122,12 +151,14 @@ class Arithmetic:
 
     def approximate(self, value: float) -> Fraction:
         self.inexact = self.rounds = True
+        if Model.doubles:
+            return Fraction(value)
         return Fraction(value).limit_denominator(10 ** 12)
 
     def holds(self, operator: str, left, right) -> bool:
         """EQ and NE tell vacant from 0, all other comparisons do not."""
         if operator in ("EQ", "NE"):
-            equal = (left is None) == (right is None) and number_of(left) == number_of(right)
+            equal = (left is None) == (right is None) and abs(number_of(left) - number_of(right)) <= self.tolerance
             return equal == (operator == "EQ")
         a, b = number_of(left), number_of(right)
         return {"GT": a > b, "GE": a >= b, "LT": a < b, "LE": a <= b}[operator]
@@ -153,6 +184,8 @@ class Evaluator:
     def value(self, expression: syntax.Expression):
         match expression:
             case syntax.Number(value):
+                if Model.doubles:
+                    return Model.held(value)
                 if not fits_double(value):
                     self.arithmetic.rounds = True
                 return value

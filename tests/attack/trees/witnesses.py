@@ -57,7 +57,8 @@ def idle_witness(project: syntax.Project, claim: Claim, counts):
                       counts)
         outcome = judge.run(program, inputs, Choices(given=given), random.Random(0), fuel=20000)
         asked.update(outcome.choices)
-        if outcome.end == "unmodelled" or outcome.inexact or any(c.claim is not None for c in judge.found):
+        by_rounding = outcome.rounds and "rounds" in claim.witness["happened"]
+        if outcome.end == "unmodelled" or outcome.inexact or by_rounding or any(c.claim is not None for c in judge.found):
             return None
         if stops_there(project, claim, outcome) or \
                 claim.kind == "call-meets-contract" and called_there(project, claim, outcome.root):
