@@ -320,6 +320,14 @@ std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program) {
   return blocks;
 }
 
+std::optional<std::uint32_t> variableOf(const FlowFacts &facts, ExpressionId id) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const ExpressionId inner = unwrapped(tree, id);
+  if (const auto *named = as<NamedVariable>(tree, inner))
+    return facts.programs.variableOf(facts.file.file, named->name);
+  return variableNumber(tree, inner);
+}
+
 std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node) {
   std::vector<Assignment> found;
   const auto *assign = std::get_if<Assign>(&facts.node(node).instruction);

@@ -74,6 +74,9 @@ bool isTooLarge(const FlowFacts &facts);
 /// The blocks of the program.
 std::vector<BlockId> blocksOf(const ProgramFile &file, ProgramId program);
 
+/// The variable that an expression names, by its number or by a name; absent for computed ones and for other
+/// expressions.
+std::optional<std::uint32_t> variableOf(const FlowFacts &facts, ExpressionId id);
 /// What a node assigns: targets with the values.
 std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node);
 /// The node that evaluates an expression of the block; absent when it is not reached.

@@ -1,51 +1,239 @@
-// inexact-loop-end: a loop that ends when a sum of 0.1 is EQ to its limit.
+// inexact-loop-end: a loop that rounding gives another number of iterations than it has on paper.
+#include "rules/flow/formula.h"
 #include "rules/flow/loop_view.h"
+#include "rules/flow/margin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::rules::inexact_loop_end {
 namespace {
 
-/// 0.1 has no exact value in a binary number; 0.5 and 0.25 have.
-bool isInexact(const Decimal &value) {
-  double scaled = value.toDouble();
-  for (int i = 0; i < 20; ++i)
-    scaled *= 2;
-  return scaled != static_cast<double>(static_cast<std::int64_t>(scaled));
+/// The comparison that ends a loop, with what it compares.
+struct LoopEnd {
+  const BinaryOperation *relation;
+  bool leavesWhenTrue;
+  FormulaId left;
+  FormulaId right;
+  FormulaInputId counter;
+  bool countsOnLeft;
+  bool testsAfterStep;
+  std::vector<FormulaInputId> inputs;
+};
+
+struct Iterations {
+  std::int64_t exact;
+  std::optional<std::int64_t> computed; // absent: it never ends
+  ExpressionId rounded;                 // the side of the comparison that decides otherwise than on paper
+  RoundedNumber atEnd;                  // its value then
+};
+
+/// No iteration comes back to the head without the step.
+bool stepsAlways(const FlowFacts &facts, const LoopFlow &loop, NodeId step) {
+  std::vector<NodeId> open{loop.head};
+  std::vector<NodeId> seen;
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    bool comesBack = false;
+    forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called, [&](NodeId next) {
+      if (next == step || !std::ranges::binary_search(loop.nodes, next))
+        return;
+      comesBack = comesBack || next == loop.head;
+      if (std::ranges::find(seen, next) == seen.end()) {
+        seen.push_back(next);
+        open.push_back(next);
+      }
+    });
+    if (comesBack)
+      return false;
+  }
+  return true;
 }
 
-/// The loop goes on until the comparison says equal: the variable.
-std::optional<std::uint32_t> endsAtEqual(const FlowFacts &facts, const LoopExit &exit) {
-  const SyntaxTree &tree = *facts.file.tree;
-  const auto *relation = asInside<BinaryOperation>(tree, exit.condition);
-  if (!relation || relation->op != (exit.leavesWhenTrue ? OperatorKind::Equal : OperatorKind::NotEqual))
+std::optional<LoopEnd> endOf(Formulas &formulas, const LoopFlow &loop, const LoopExit &exit) {
+  const FlowFacts &facts = formulas.facts();
+  const auto *relation = asInside<BinaryOperation>(*facts.file.tree, exit.condition);
+  if (!relation || !isRelation(relation->op))
     return std::nullopt;
-  return variableNumber(tree, unwrapped(tree, relation->left));
+  const auto left = formulas.of(relation->left, exit.test);
+  const auto right = left ? formulas.of(relation->right, exit.test) : std::nullopt;
+  if (!right)
+    return std::nullopt;
+  std::vector<FormulaInputId> inputs = formulas.inputsOf(*left);
+  const std::size_t onLeft = inputs.size();
+  const auto others = formulas.inputsOf(*right);
+  inputs.insert(inputs.end(), others.begin(), others.end());
+  const auto counts = [&](FormulaInputId id) { return formulas.input(id).counter.has_value(); };
+  const auto counter = std::ranges::find_if(inputs, counts);
+  if (counter == inputs.end() || std::ranges::count_if(inputs, counts) != 1)
+    return std::nullopt;
+  const FormulaInput &counted = formulas.input(*counter);
+  const auto &startNodes = counted.counter->startNodes;
+  const bool isOfLoop =
+      std::ranges::binary_search(loop.nodes, counted.counter->step) &&
+      std::ranges::none_of(startNodes, [&](NodeId node) { return std::ranges::binary_search(loop.nodes, node); });
+  if (!isOfLoop || !stepsAlways(facts, loop, counted.counter->step))
+    return std::nullopt;
+  const auto definitions = definitionsOf(facts, counted.variable, exit.test);
+  return LoopEnd{relation,
+                 exit.leavesWhenTrue,
+                 *left,
+                 *right,
+                 *counter,
+                 static_cast<std::size_t>(counter - inputs.begin()) < onLeft,
+                 definitions && definitions->areOnly(counted.counter->step),
+                 inputs};
+}
+
+bool isEquality(const LoopEnd &end) {
+  return end.relation->op == OperatorKind::Equal || end.relation->op == OperatorKind::NotEqual;
+}
+
+/// How the loop goes with some values of its inputs; absent where rounding changes nothing, or it is too long.
+std::optional<Iterations> countIterations(const Formulas &formulas, const LoopEnd &end, FormulaSetting &setting,
+                                          std::int64_t most) {
+  const FormulaInput::Counter &counter = *formulas.input(end.counter).counter;
+  std::optional<RoundedNumber> &count = setting[end.counter.index()];
+  count = formulas.value(counter.start, setting);
+  std::optional<std::int64_t> exact;
+  std::optional<std::int64_t> computed;
+  std::optional<RoundedNumber> atEnd;
+  ExpressionId rounded = end.relation->left;
+  for (std::int64_t i = end.testsAfterStep ? 1 : 0; count && i <= most && !(exact && computed); ++i) {
+    const auto left = formulas.value(end.left, setting);
+    const auto right = formulas.value(end.right, setting);
+    const auto truth = left && right ? formulas.truth(end.relation->op, *left, *right) : std::nullopt;
+    if (!truth)
+      break;
+    if (!exact && truth->exact == end.leavesWhenTrue)
+      exact = i;
+    if (!computed && truth->computed == end.leavesWhenTrue)
+      computed = i;
+    if (exact == computed && exact)
+      return std::nullopt;
+    if (!atEnd && (exact || computed)) {
+      const bool isLeft = end.countsOnLeft ? left->isInexact() : !right->isInexact();
+      atEnd = isLeft ? left : right;
+      rounded = isLeft ? end.relation->left : end.relation->right;
+    }
+    count = formulas.stepped(counter, *count, setting);
+  }
+  // A limit that FIX cuts to another whole number is what rounded-quotient reports.
+  const bool isCut = atEnd && std::abs(atEnd->computed - atEnd->exact.toDouble()) > 0.5;
+  return exact && atEnd && !isCut && (computed || isEquality(end))
+             ? std::optional(Iterations{*exact, computed, rounded, *atEnd})
+             : std::nullopt;
+}
+
+/// The loop itself makes its counter meet the limit: the step is a literal, or a part of the way.  Where an argument
+/// happens to be a part of another one, a margin would be more than most programs need, unless the loop may never end.
+bool isWorthTrying(const Formulas &formulas, const LoopEnd &end) {
+  const FormulaId size = formulas.input(end.counter).counter->size;
+  const auto ofStep = formulas.inputsOf(size);
+  if (isEquality(end) || ofStep.empty())
+    return true;
+  return !formulas.asInput(size) && std::ranges::all_of(end.inputs, [&](FormulaInputId id) {
+    return id == end.counter || std::ranges::find(ofStep, id) != ofStep.end();
+  });
+}
+
+std::string messageFor(const LoopFlow &loop, const Iterations &iterations, const std::string &given,
+                       const std::string &rounding) {
+  const std::string condition = given.empty() ? "" : given + ", ";
+  if (!iterations.computed)
+    return fmt::format("{}{}: {}", condition, endlessnessOf(loop), rounding);
+  return fmt::format("{}rounding gives this loop {} iteration{}, not {}: {}", condition, *iterations.computed,
+                     *iterations.computed == 1 ? "" : "s", iterations.exact, rounding);
+}
+
+void report(const Formulas &formulas, const LoopFlow &loop, const LoopExit &exit, const LoopEnd &end,
+            const Iterations &iterations, const FormulaSetting &setting, const FileContext &context,
+            const Reporter &reporter) {
+  const FormulaInput &counted = formulas.input(end.counter);
+  const auto assignment = assignmentTo(formulas.facts(), counted.counter->step, counted.variable);
+  const auto step = assignment ? stepOf(formulas.facts(), *assignment, counted.variable) : std::nullopt;
+  const std::string given = describeSetting(formulas, end.inputs, setting);
+  Diagnostic diagnostic{
+      .message = messageFor(
+          loop, iterations, given,
+          describeRounding(context.quoted(context.tree.expressions[iterations.rounded].span), iterations.atEnd)),
+      .span = context.tree.expressions[exit.condition].span,
+      .notes = {"the control computes in binary numbers, of which none is 0.1 or 1/3: a sum of such "
+                "steps is a little above or below the value on paper",
+                "count the iterations in whole numbers, or compare with a margin"}};
+  if (step)
+    diagnostic.labels = {{context.tree.expressions[step->size].span, "the step"}};
+  const auto size = formulas.value(counted.counter->size, setting);
+  if (size && end.countsOnLeft)
+    diagnostic.fixes = marginFixes(context, *end.relation, std::abs(size->computed));
+  const bool isLiteral = formulas.inputsOf(counted.counter->size).empty();
+  const bool isCertain = given.empty() || (isLiteral && !iterations.computed);
+  reporter.report(std::move(diagnostic), isCertain ? Severity::Warning : Severity::Info);
+}
+
+bool checkCounted(const FlowFacts &facts, const LoopFlow &loop, const LoopExit &exit, const FileContext &context,
+                  const Reporter &reporter) {
+  Formulas formulas(facts);
+  const auto end = endOf(formulas, loop, exit);
+  if (!end)
+    return false;
+  const bool isKnown = std::ranges::all_of(end->inputs, [&](FormulaInputId id) { return id == end->counter; });
+  if (!isKnown && !isWorthTrying(formulas, *end))
+    return true;
+  constexpr std::int64_t kMostKnown = 20'000;
+  constexpr std::int64_t kMostTried = 400;
+  std::int64_t budget = 100'000;
+  const auto guards = formulas.guardsOf(loop.head);
+  std::optional<Iterations> iterations;
+  const auto setting = findSetting(formulas, end->inputs, [&](FormulaSetting &tried) {
+    if (budget <= 0 || !formulas.pass(guards, tried))
+      return false;
+    iterations = countIterations(formulas, *end, tried, isKnown ? kMostKnown : kMostTried);
+    budget -= kMostTried / 4;
+    return iterations.has_value();
+  });
+  if (setting)
+    report(formulas, loop, exit, *end, *iterations, *setting, context, reporter);
+  return true;
+}
+
+/// `#10` is compared for equality with what is not followed, and grows by a literal such as .1.
+void checkUnknown(const FlowFacts &facts, const LoopFlow &loop, const LoopExit &exit, const FileContext &context,
+                  const Reporter &reporter) {
+  const auto *relation = asInside<BinaryOperation>(context.tree, exit.condition);
+  if (!relation || relation->op != (exit.leavesWhenTrue ? OperatorKind::Equal : OperatorKind::NotEqual) ||
+      context.dialect.behaviour.equalTolerance > 0)
+    return;
+  const auto variable = variableOf(facts, relation->left);
+  const auto writes = variable ? writesTo(facts, loop, *variable) : std::nullopt;
+  const auto step = writes && writes->size() == 1 ? stepOf(facts, writes->front().assignment, *variable) : std::nullopt;
+  const auto literal = step ? literalValue(context.tree, step->size) : std::nullopt;
+  const auto size = literal ? RoundedNumber::of(*literal) : std::nullopt;
+  if (!size || !size->isInexact())
+    return;
+  reporter.report({.message = fmt::format(
+                       "this loop may never end: it needs {} to match exactly, but the step is not exact in binary",
+                       context.quoted(context.tree.expressions[relation->left].span)),
+                   .span = context.tree.expressions[exit.condition].span,
+                   .labels = {{context.tree.expressions[step->size].span, "each iteration adds a rounding error"}},
+                   .notes = {"the sum may step past the limit without ever being equal to it",
+                             "compare with GT, GE, LT or LE, or count iterations in whole numbers"},
+                   .fixes = marginFixes(context, *relation, std::abs(size->computed))});
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<NodeId> done;
   for (const LoopFlow &loop : loopsOf(facts)) {
-    if (!loop.exitsAreKnown || loop.exits.size() != 1 || context.dialect.behaviour.equalTolerance > 0)
+    if (!loop.exitsAreKnown || loop.exits.size() != 1)
       continue;
     const LoopExit &exit = loop.exits.front();
-    const auto variable = endsAtEqual(facts, exit);
-    const auto writes = variable ? writesTo(facts, loop, *variable) : std::nullopt;
-    const auto step =
-        writes && writes->size() == 1 ? stepOf(facts, writes->front().assignment, *variable) : std::nullopt;
-    const auto size = step ? literalValue(context.tree, step->size) : std::nullopt;
-    if (!size || !isInexact(*size) || std::ranges::find(done, exit.test) != done.end())
+    if (std::ranges::find(done, exit.test) != done.end())
       continue;
     done.push_back(exit.test);
-    reporter.report(
-        {.message = fmt::format(
-             "this loop may never end: it needs `#{}` to match exactly, but the step is not exact in binary",
-             *variable),
-         .span = context.tree.expressions[exit.condition].span,
-         .labels = {{context.tree.expressions[step->size].span, "each iteration adds a rounding error"}},
-         .notes = {"the sum may step past the limit without ever being equal to it",
-                   "compare with GT, GE, LT or LE, or count iterations in whole numbers"}});
+    if (!checkCounted(facts, loop, exit, context, reporter))
+      checkUnknown(facts, loop, exit, context, reporter);
   }
 }
 
@@ -54,7 +242,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule inexactLoopEnd;
 const Rule inexactLoopEnd{
     .info = {"inexact-loop-end", Category::Flow, Severity::Warning,
-             "Reports a loop that ends only when a sum of inexact steps exactly equals its limit."},
+             "Reports a loop that has another number of iterations than on paper, because its counter is rounded."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::inexact_loop_end

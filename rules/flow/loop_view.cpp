@@ -110,14 +110,13 @@ const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts) {
 }
 
 std::optional<std::vector<LoopWrite>> writesTo(const FlowFacts &facts, const LoopFlow &loop, std::uint32_t variable) {
-  const SyntaxTree &tree = *facts.file.tree;
   std::vector<LoopWrite> writes;
   for (const NodeId node : loop.nodes)
     for (const Assignment &assignment : assignmentsOf(facts, node)) {
-      const auto target = variableNumber(tree, unwrapped(tree, assignment.target));
+      const auto target = variableOf(facts, assignment.target);
       if (!target)
         return std::nullopt;
-      const bool toItself = variableNumber(tree, unwrapped(tree, assignment.value)) == target;
+      const bool toItself = variableOf(facts, assignment.value) == target;
       if (*target == variable && !toItself)
         writes.push_back({node, assignment});
     }
@@ -129,7 +128,7 @@ std::optional<LoopStep> stepOf(const FlowFacts &facts, const Assignment &assignm
   const auto *sum = asInside<BinaryOperation>(tree, assignment.value);
   if (!sum || (sum->op != OperatorKind::Add && sum->op != OperatorKind::Subtract))
     return std::nullopt;
-  const auto isVariable = [&](ExpressionId id) { return variableNumber(tree, unwrapped(tree, id)) == variable; };
+  const auto isVariable = [&](ExpressionId id) { return variableOf(facts, id) == variable; };
   if (isVariable(sum->left) && !isVariable(sum->right))
     return LoopStep{sum->right, sum->op == OperatorKind::Subtract};
   if (isVariable(sum->right) && !isVariable(sum->left) && sum->op == OperatorKind::Add)
