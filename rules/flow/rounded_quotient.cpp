@@ -1,32 +1,23 @@
 // rounded-quotient: `FUP[#21/#22]`, where 0.6/0.2 is 2.9999999.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/formula.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::rules::rounded_quotient {
 namespace {
 
-/// The division whose result is cut to a whole number, as it is or as a size.
-const BinaryOperation *quotientIn(const SyntaxTree &tree, ExpressionId argument) {
+/// The division or product whose result is cut to a whole number: as it is, as a size, or with a whole number added.
+const BinaryOperation *cutIn(const SyntaxTree &tree, ExpressionId argument) {
   if (const auto *call = asInside<FunctionCall>(tree, argument); call && call->function == FunctionKind::Abs)
-    return call->arguments().empty() ? nullptr : quotientIn(tree, call->arguments().front());
+    return call->arguments().empty() ? nullptr : cutIn(tree, call->arguments().front());
   const auto *operation = asInside<BinaryOperation>(tree, argument);
-  return operation && operation->op == OperatorKind::Divide ? operation : nullptr;
-}
-
-std::optional<double> constantAt(const FlowFacts &facts, ExpressionId id) {
-  const AbstractValue *value = facts.valueOf(id);
-  return value && value->isNumber() ? value->number().constantValue() : std::nullopt;
-}
-
-/// A quotient of two constants that should be whole and is cut to the whole number beside it.
-std::optional<double> lostWhole(FunctionKind function, double dividend, double divisor) {
-  const double quotient = dividend / divisor;
-  const double whole = std::round(quotient);
-  const double cut = function == FunctionKind::Fix ? std::floor(quotient) : std::ceil(quotient);
-  constexpr double kRounding = 1e-9;
-  return divisor != 0 && std::abs(quotient - whole) < kRounding && cut != whole ? std::optional(whole) : std::nullopt;
+  if (!operation)
+    return nullptr;
+  if (operation->op == OperatorKind::Divide || operation->op == OperatorKind::Multiply)
+    return operation;
+  const auto added = literalValue(tree, operation->right);
+  const bool isSum = operation->op == OperatorKind::Add || operation->op == OperatorKind::Subtract;
+  return isSum && added && added->isInteger() ? cutIn(tree, operation->left) : nullptr;
 }
 
 bool isWhole(const FlowFacts &facts, ExpressionId id) {
@@ -34,32 +25,81 @@ bool isWhole(const FlowFacts &facts, ExpressionId id) {
   return value && value->isNumber() && value->number().isWhole();
 }
 
+struct Cut {
+  ExpressionId id;
+  FunctionKind function;
+  ExpressionId argument;
+  NodeId node;
+};
+
+struct Shown {
+  RoundedNumber argument;
+  RoundedNumber whole;
+  std::string given;
+};
+
+/// Values with which the result differs from the one on paper.
+std::optional<Shown> findShown(Formulas &formulas, const Cut &cut, FormulaId argument) {
+  const Dialect &dialect = *formulas.facts().file.dialect;
+  const auto inputs = formulas.inputsOf(argument);
+  const auto guards = formulas.guardsOf(cut.node);
+  std::optional<Shown> shown;
+  const auto setting = findSetting(formulas, inputs, [&](FormulaSetting &tried) {
+    const auto value = formulas.value(argument, tried);
+    const auto whole = value ? wholePart(*value, cut.function, dialect) : std::nullopt;
+    if (!whole || whole->exact.toDouble() == whole->computed || !formulas.pass(guards, tried))
+      return false;
+    shown = Shown{*value, *whole, {}};
+    return true;
+  });
+  if (setting)
+    shown->given = describeSetting(formulas, inputs, *setting);
+  return setting ? shown : std::nullopt;
+}
+
+std::string messageFor(const Shown &shown, const std::string &cut, const std::string &argument) {
+  return fmt::format("{}{}rounding makes {} {}, not {}: {}", shown.given, shown.given.empty() ? "" : ", ", cut,
+                     shown.whole.computed, exactText(shown.whole.exact), describeRounding(argument, shown.argument));
+}
+
+FixIt allowance(const Cut &cut, const FileContext &context) {
+  const std::string_view text = cut.function == FunctionKind::Fix ? "+.0005" : "-.0005";
+  const std::uint32_t end = context.tree.expressions[cut.argument].span.end;
+  return {.title = fmt::format("insert `{}`", text), .edits = {{{end, end}, std::string(text)}}};
+}
+
+void checkCut(const Cut &cut, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const BinaryOperation &operation = *cutIn(context.tree, cut.argument);
+  Formulas formulas(facts);
+  const auto argument = formulas.of(cut.argument, cut.node);
+  const auto shown = argument ? findShown(formulas, cut, *argument) : std::nullopt;
+  const bool isUnknown =
+      !argument && operation.op == OperatorKind::Divide && !isWhole(facts, operation.right) && facts.valueOf(cut.id);
+  if (!shown && !isUnknown)
+    return;
+  const Span span = context.tree.expressions[cut.id].span;
+  const std::string text = context.quoted(span);
+  const Span inner = context.tree.expressions[cut.argument].span;
+  reporter.report(
+      {.message = shown ? messageFor(*shown, text, context.quoted(inner))
+                        : fmt::format("{} may be off by one when the quotient should be a whole number", text),
+       .span = span,
+       .notes =
+           {"the control computes in binary: 0.6/0.2 may come out just above or below 3, and FIX or FUP is then off "
+            "by one",
+            "add or subtract a small amount inside the brackets, or use ROUND"},
+       .fixes = {allowance(cut, context)}},
+      shown && shown->given.empty() ? Severity::Warning : Severity::Info);
+}
+
 void checkBlock(BlockId block, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (const ExpressionId id : expressionsOf(facts.file, block)) {
     const auto *call = as<FunctionCall>(context.tree, id);
     if (!call || (call->function != FunctionKind::Fix && call->function != FunctionKind::Fup) ||
-        call->arguments().empty())
+        call->arguments().empty() || !cutIn(context.tree, call->arguments().front()))
       continue;
-    const auto *quotient = quotientIn(context.tree, call->arguments().front());
-    if (!quotient || !facts.valueOf(id) || isWhole(facts, quotient->right))
-      continue;
-    const auto dividend = constantAt(facts, quotient->left);
-    const auto divisor = constantAt(facts, quotient->right);
-    const bool isKnown = dividend && divisor;
-    const auto whole = isKnown ? lostWhole(call->function, *dividend, *divisor) : std::nullopt;
-    if (isKnown && !whole)
-      continue;
-    const Span span = context.tree.expressions[id].span;
-    reporter.report({.message = whole
-                                    ? fmt::format("{} is off by one: the quotient should be {}, but rounding misses it",
-                                                  context.quoted(span), *whole)
-                                    : fmt::format("{} may be off by one when the quotient should be a whole number",
-                                                  context.quoted(span)),
-                     .span = span,
-                     .notes = {"the control computes in binary: 0.6/0.2 may come out just above or below 3, and FIX or "
-                               "FUP is then off by one",
-                               "add or subtract a small amount inside the brackets, or use ROUND"}},
-                    whole ? Severity::Warning : Severity::Info);
+    if (const auto node = nodeOf(facts, block, id))
+      checkCut({id, call->function, call->arguments().front(), *node}, facts, context, reporter);
   }
 }
 
@@ -77,7 +117,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule roundedQuotient;
 const Rule roundedQuotient{.info = {"rounded-quotient", Category::Flow, Severity::Info,
-                                    "Reports `FIX` or `FUP` of a quotient that may not be exact."},
+                                    "Reports `FIX` or `FUP` of a quotient or product that may not be exact."},
                            .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::rounded_quotient
