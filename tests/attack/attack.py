@@ -66,7 +66,10 @@ def one_batch(attack, seeds, tally):
 def of_corpus(options, engine, tally) -> int:
     use(engine, "control")
     begin = time.monotonic()
-    CorpusCalls(engine, tally, (options.dialect or ["fanuc-30i"])[0], options.calls).run(options.corpus)
+    try:
+        CorpusCalls(engine, tally, (options.dialect or ["fanuc-30i"])[0], options.calls).run(options.corpus)
+    except KeyboardInterrupt:  # what there is so far is told
+        print("interrupted", file=sys.stderr)
     tally.tell(time.monotonic() - begin)
     return 1 if tally.counts["contradictions"] else 0
 

@@ -44,14 +44,14 @@ def broken_at_entry(text, state, ask) -> list:
         if head in ("@PARAM", "@GLOBAL") and not in_range(clause, reckoner) or \
                 head == "@REQUIRE" and not reckoner.whole(clause[8:]) or \
                 head == "@MODAL" and any(state.modes[GROUPS[code]] != code for code in words) or \
-                head == "@START" and any(state.place[XYZ.index(axis)] != value for axis, value in places(words)):
+                head == "@START" and any(state.place[XYZ.index(axis)] != value for axis, value in places(words, reckoner)):
             found.append(clause)
     return found
 
 
-def places(words):
-    """Of @START."""
-    return [(word[0], Model.held(F(word[1:].rstrip(".") if word.endswith(".") else word[1:]))) for word in words]
+def places(words, reckoner):
+    """Of @START; an axis without a value may be anywhere."""
+    return [(word[0], reckoner.whole(word[1:].removesuffix("."))) for word in words if word[1:]]
 
 
 def excepted(clause: str) -> list:

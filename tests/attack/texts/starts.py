@@ -47,7 +47,7 @@ class Starts:
             start.place = {axis: rng.choice((F(0), rng.choice(self.numbers))) for axis in XYZ}
         if rng.random() < 0.25:
             start.modes = {GROUPS[code]: code for code in rng.sample(CODES, 2)}
-        for _, clause in self.text.clauses():
+        for _, clause in sorted(self.text.clauses(), key=lambda each: each[1].startswith("@START")):
             self.keep(clause, start)
         return start
 
@@ -56,7 +56,7 @@ class Starts:
         if head == "@MODAL":
             start.modes.update({GROUPS[c]: c for c in words[1:] if c in GROUPS})
         elif head == "@START":
-            start.place.update(contract.places(words[1:]))
+            start.place.update(contract.places(words[1:], contract.reckoner_at(StateOf(start), Switches())))
         elif head in ("@PARAM", "@GLOBAL"):
             into, number = (start.locals, int(words[1][1:])) if int(words[1][1:]) < 34 else (start.cells, int(words[1][1:]))
             value = self.inside(clause, start)

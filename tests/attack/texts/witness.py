@@ -6,10 +6,11 @@ from dataclasses import replace
 from fractions import Fraction as F
 
 from .claims import SPACE, judge
-from .contract import broken_at_entry, places
+from .contract import broken_at_entry, places, reckoner_at
 from .machine import ARGUMENTS, Run, Start, cell_of, is_common
 from .path import GROUPS, XYZ
-from .switches import every_way
+from .starts import StateOf
+from .switches import Switches, every_way
 
 
 def start_of(command: str, text):
@@ -19,8 +20,6 @@ def start_of(command: str, text):
     for _, clause in text.clauses():
         if clause.startswith("@MODAL"):
             start.modes.update({GROUPS[c]: c for c in clause.split()[1:] if c in GROUPS})
-        if clause.startswith("@START"):
-            start.place.update(places(clause.split()[1:]))
     for option, word in zip(words, words[1:]):
         if option == "--arg":
             letter, value = word.split("=")
@@ -39,6 +38,9 @@ def start_of(command: str, text):
                 if cell is None or bit is not None:
                     return None
                 start.cells[cell] = value
+    for _, clause in text.clauses():
+        if clause.startswith("@START"):
+            start.place.update(places(clause.split()[1:], reckoner_at(StateOf(start), Switches())))
     if "--start" in words:
         for word in words[words.index("--start") + 1:]:
             if not re.fullmatch(r"[XYZ]-?[0-9.e-]+", word):
