@@ -122,6 +122,12 @@ N30G0X#1
 N31M99
 N90#3000=1(NOT ALLOWED)
 """
+# Both are 1/2, and either may be off in the last digit.
+SINE_AND_COSINE = """O1
+IF[SIN[30]EQCOS[60]]GOTO20
+#3000=1(DIFFERENT)
+N20M99
+"""
 
 
 class ArithmeticOfTheControl(Scratch):
@@ -156,9 +162,9 @@ class ArithmeticOfTheControl(Scratch):
                     self.assertEqual(row["verdict"], "unknown")
                     self.assertIn("rounding on the control may break it", row["reason"])
 
-    def test_what_a_run_breaks_is_not_proved(self):
+    def test_what_a_control_may_break_is_not_proved(self):
         for text, kind in ((SQUARE_AS_POWER, "alarm-unreachable"), (LARGE_WORD, "alarm-unreachable"),
-                           (GUARD_OF_WHOLE_NUMBERS, "guarded")):
+                           (SINE_AND_COSINE, "alarm-unreachable"), (GUARD_OF_WHOLE_NUMBERS, "guarded")):
             with self.subTest(text):
                 self.assertIn(self.in_control(text)[kind]["verdict"], ("unknown", "refuted"))
 

@@ -325,7 +325,21 @@ SymbolicValue SymbolicInterpretation::resultOf(FunctionKind kind, TermId exact, 
   if (isOfAngle && store_.isNumber(argument.number) && (store_[argument.number].number / Number(90)).isInteger())
     return of(exact);
   const TermId size = isNeverNegative(exact) ? exact : store_.absolute(exact);
-  return near(exact, isOfAngle || isAngle ? error : store_.multiply(error, size));
+  const TermId distance = isOfAngle || isAngle ? error : store_.multiply(error, size);
+  return store_.isNumber(exact) ? constantNear(kind, exact, distance, argument) : near(exact, distance);
+}
+
+/// SIN[30] and COS[60] are 1/2, and may be off by different amounts: a number of its own for each.
+SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exact, TermId distance,
+                                                   const Value &argument) {
+  const std::size_t known = named_.size();
+  const Value value =
+      named(fmt::format("function {} of {} near {}", static_cast<int>(kind), argument.number.index(), exact.index()),
+            MayBeVacant::No);
+  if (named_.size() != known)
+    facts_.push_back(store_.logicalAnd(store_.lessOrEqual(store_.subtract(exact, distance), value.number),
+                                       store_.lessOrEqual(value.number, store_.add(exact, distance))));
+  return value;
 }
 
 /// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value

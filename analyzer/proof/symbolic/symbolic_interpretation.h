@@ -214,6 +214,7 @@ private:
   Value result(smt::TermId exact, const Value &a, const Value &b);
   Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);
   Value near(smt::TermId exact, smt::TermId distance);
+  Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
   Value roundedWord(const Value &value, Decimal step);
   Truth equal(const Value &a, const Value &b);
   bool isRoundedHere() const { return place_ && rounded_.contains(*place_); }
