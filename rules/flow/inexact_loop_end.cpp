@@ -1,6 +1,5 @@
 // inexact-loop-end: a loop that rounding gives another number of iterations than it has on paper.
-#include "rules/flow/formula.h"
-#include "rules/flow/loop_view.h"
+#include "rules/flow/loop_count.h"
 #include "rules/flow/margin.h"
 
 #include <algorithm>
@@ -10,121 +9,9 @@
 namespace feedhold::rules::inexact_loop_end {
 namespace {
 
-/// The comparison that ends a loop, with what it compares.
-struct LoopEnd {
-  const BinaryOperation *relation;
-  bool leavesWhenTrue;
-  FormulaId left;
-  FormulaId right;
-  FormulaInputId counter;
-  bool countsOnLeft;
-  bool testsAfterStep;
-  std::vector<FormulaInputId> inputs;
-};
-
-struct Iterations {
-  std::int64_t exact;
-  std::optional<std::int64_t> computed; // absent: it never ends
-  ExpressionId rounded;                 // the side of the comparison that decides otherwise than on paper
-  RoundedNumber atEnd;                  // its value then
-};
-
-/// No iteration comes back to the head without the step.
-bool stepsAlways(const FlowFacts &facts, const LoopFlow &loop, NodeId step) {
-  std::vector<NodeId> open{loop.head};
-  std::vector<NodeId> seen;
-  while (!open.empty()) {
-    const NodeId node = open.back();
-    open.pop_back();
-    bool comesBack = false;
-    forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called, [&](NodeId next) {
-      if (next == step || !std::ranges::binary_search(loop.nodes, next))
-        return;
-      comesBack = comesBack || next == loop.head;
-      if (std::ranges::find(seen, next) == seen.end()) {
-        seen.push_back(next);
-        open.push_back(next);
-      }
-    });
-    if (comesBack)
-      return false;
-  }
-  return true;
-}
-
-std::optional<LoopEnd> endOf(Formulas &formulas, const LoopFlow &loop, const LoopExit &exit) {
-  const FlowFacts &facts = formulas.facts();
-  const auto *relation = asInside<BinaryOperation>(*facts.file.tree, exit.condition);
-  if (!relation || !isRelation(relation->op))
-    return std::nullopt;
-  const auto left = formulas.of(relation->left, exit.test);
-  const auto right = left ? formulas.of(relation->right, exit.test) : std::nullopt;
-  if (!right)
-    return std::nullopt;
-  std::vector<FormulaInputId> inputs = formulas.inputsOf(*left);
-  const std::size_t onLeft = inputs.size();
-  const auto others = formulas.inputsOf(*right);
-  inputs.insert(inputs.end(), others.begin(), others.end());
-  const auto counts = [&](FormulaInputId id) { return formulas.input(id).counter.has_value(); };
-  const auto counter = std::ranges::find_if(inputs, counts);
-  if (counter == inputs.end() || std::ranges::count_if(inputs, counts) != 1)
-    return std::nullopt;
-  const FormulaInput &counted = formulas.input(*counter);
-  const auto &startNodes = counted.counter->startNodes;
-  const bool isOfLoop =
-      std::ranges::binary_search(loop.nodes, counted.counter->step) &&
-      std::ranges::none_of(startNodes, [&](NodeId node) { return std::ranges::binary_search(loop.nodes, node); });
-  if (!isOfLoop || !stepsAlways(facts, loop, counted.counter->step))
-    return std::nullopt;
-  const auto definitions = definitionsOf(facts, counted.variable, exit.test);
-  return LoopEnd{relation,
-                 exit.leavesWhenTrue,
-                 *left,
-                 *right,
-                 *counter,
-                 static_cast<std::size_t>(counter - inputs.begin()) < onLeft,
-                 definitions && definitions->areOnly(counted.counter->step),
-                 inputs};
-}
-
-bool isEquality(const LoopEnd &end) {
-  return end.relation->op == OperatorKind::Equal || end.relation->op == OperatorKind::NotEqual;
-}
-
-/// How the loop goes with some values of its inputs; absent where rounding changes nothing, or it is too long.
-std::optional<Iterations> countIterations(const Formulas &formulas, const LoopEnd &end, FormulaSetting &setting,
-                                          std::int64_t most) {
-  const FormulaInput::Counter &counter = *formulas.input(end.counter).counter;
-  std::optional<RoundedNumber> &count = setting[end.counter.index()];
-  count = formulas.value(counter.start, setting);
-  std::optional<std::int64_t> exact;
-  std::optional<std::int64_t> computed;
-  std::optional<RoundedNumber> atEnd;
-  ExpressionId rounded = end.relation->left;
-  for (std::int64_t i = end.testsAfterStep ? 1 : 0; count && i <= most && !(exact && computed); ++i) {
-    const auto left = formulas.value(end.left, setting);
-    const auto right = formulas.value(end.right, setting);
-    const auto truth = left && right ? formulas.truth(end.relation->op, *left, *right) : std::nullopt;
-    if (!truth)
-      break;
-    if (!exact && truth->exact == end.leavesWhenTrue)
-      exact = i;
-    if (!computed && truth->computed == end.leavesWhenTrue)
-      computed = i;
-    if (exact == computed && exact)
-      return std::nullopt;
-    if (!atEnd && (exact || computed)) {
-      const bool isLeft = end.countsOnLeft ? left->isInexact() : !right->isInexact();
-      atEnd = isLeft ? left : right;
-      rounded = isLeft ? end.relation->left : end.relation->right;
-    }
-    count = formulas.stepped(counter, *count, setting);
-  }
-  // A limit that FIX cuts to another whole number is what rounded-quotient reports.
-  const bool isCut = atEnd && std::abs(atEnd->computed - atEnd->exact.toDouble()) > 0.5;
-  return exact && atEnd && !isCut && (computed || isEquality(end))
-             ? std::optional(Iterations{*exact, computed, rounded, *atEnd})
-             : std::nullopt;
+/// A limit that FIX cuts to another whole number is what rounded-quotient reports.
+bool isCut(const Iterations &iterations) {
+  return std::abs(iterations.atEnd.computed - iterations.atEnd.exact.toDouble()) > 0.5;
 }
 
 /// The loop itself makes its counter meet the limit: the step is a literal, or a part of the way.  Where an argument
@@ -192,7 +79,7 @@ bool checkCounted(const FlowFacts &facts, const LoopFlow &loop, const LoopExit &
       return false;
     iterations = countIterations(formulas, *end, tried, isKnown ? kMostKnown : kMostTried);
     budget -= kMostTried / 4;
-    return iterations.has_value();
+    return iterations && iterations->exact != iterations->computed && !isCut(*iterations);
   });
   if (setting)
     report(formulas, loop, exit, *end, *iterations, *setting, context, reporter);
