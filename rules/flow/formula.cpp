@@ -36,10 +36,10 @@ template <typename Number> bool holds(OperatorKind relation, const Number &left,
 
 } // namespace
 
-std::optional<FormulaId> Formulas::add(Node node) {
+std::optional<FormulaId> Formulas::add(const Node &node) {
   if (nodes_.size() >= kMostNodes)
     return std::nullopt;
-  nodes_.push_back(std::move(node));
+  nodes_.push_back(node);
   return FormulaId(nodes_.size() - 1);
 }
 

@@ -92,7 +92,7 @@ private:
   };
   using Node = std::variant<RoundedNumber, FormulaInputId, Operation, Function, Opposite>;
 
-  std::optional<FormulaId> add(Node node);
+  std::optional<FormulaId> add(const Node &node);
   std::optional<FormulaId> ofVariable(ExpressionId expression, NodeId at);
   std::optional<FormulaId> ofDefinitions(std::uint32_t variable, const Definitions &definitions,
                                          const AbstractValue &bounds);
