@@ -54,9 +54,14 @@ private:
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       value(fmt::format("{} {}", what, kAxisLetters[axis]), concrete[axis], abstract[axis]);
   }
+  /// The set of a rounded number is that of doubles.
+  bool contains(const AbstractNumber &number, double value) const {
+    return number.contains(value) ||
+           (entry_.numbers == NumberModel::Mantissa32 && !number.isExact() && number.interval().contains(value));
+  }
   void value(const std::string &name, const ConcreteValue &concrete, const AbstractValue &abstract) {
     const bool fits = concrete.vacant ? abstract.mayBeVacant()
-                                      : abstract.mayBeNumber() && abstract.number().contains(concrete.number);
+                                      : abstract.mayBeNumber() && contains(abstract.number(), concrete.number);
     if (!fits)
       fail(fmt::format("{} is {}, not {}", name, text(concrete), describe(abstract)));
     if (abstract.origin())

@@ -13,6 +13,7 @@ namespace feedhold::soundness {
 struct EntryValues {
   MachineState<ConcreteInterpretation> state;
   GivenVariables given;
+  NumberModel numbers = NumberModel::Binary64;
 };
 
 /// Absent when it does; else the first thing that does not.

@@ -72,7 +72,8 @@ public:
   OneRun(const LoadedSample &machine, const LoadedSample &analysed, const Foreseen &foreseen, const ToldOfBlocks &told,
          Random &random)
       : machine_(machine), analysed_(analysed), foreseen_(foreseen), told_(told), modes_(machine.dialect()),
-        entry_(randomEntry(machine, random)), skip_(random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off) {}
+        entry_(randomEntryIn(numbersOfMachine(analysed.dialect(), random), machine, random)),
+        skip_(random.oneIn(2) ? BlockSkipSwitch::On : BlockSkipSwitch::Off) {}
 
   std::optional<std::string> run(Tally &tally) {
     RunOptions options;
@@ -80,10 +81,13 @@ public:
     options.state = entry_.state;
     options.fuel = 250;
     options.blockSkip = skip_;
+    options.numbers = entry_.numbers;
     options.trace = [this](const RunMoment &moment) { look(moment); };
     const RunResult result = feedhold::run(machine_.set, machine_.main(), options);
     ++tally.runs;
     tally.steps += steps_;
+    overflown_ = overflown_ || (entry_.numbers == NumberModel::Mantissa32 && result.end == RunEnd::Alarm &&
+                                result.alarm == AlarmKind::Overflow); // of results: docs/soundness-motion.md
     tally.overflown += overflown_ ? 1 : 0;
     if (!why_ && !overflown_ && !overflows(result.state))
       ending(result);

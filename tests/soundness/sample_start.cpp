@@ -1,5 +1,6 @@
 #include "soundness/sample_start.h"
 
+#include "base/support/mantissa32.h"
 #include "dialects/registry.h"
 
 namespace feedhold::soundness {
@@ -17,13 +18,28 @@ Dialect machineOf(const Sample &sample, Random &random) {
   return dialect;
 }
 
+NumberModel numbersOfMachine(const Dialect &control, Random &random) {
+  const NumberModel numbers = numbersOf(control);
+  if (numbers != NumberModel::Either)
+    return numbers;
+  return random.oneIn(2) ? NumberModel::Mantissa32 : NumberModel::Binary64;
+}
+
 EntryValues randomEntry(const LoadedSample &machine, Random &random) {
+  return randomEntryIn(NumberModel::Binary64, machine, random);
+}
+
+EntryValues randomEntryIn(NumberModel numbers, const LoadedSample &machine, Random &random) {
   const ModalTable modes(machine.dialect());
   EntryValues entry;
+  entry.numbers = numbers;
   GivenVariables &given = entry.given;
   const bool vacancy = machine.dialect().behaviour.variablesMayBeVacant;
   const auto value = [&] {
-    return random.oneIn(3) ? (vacancy ? ConcreteValue{} : ConcreteValue::of(0)) : ConcreteValue::of(anyInput(random));
+    if (random.oneIn(3))
+      return vacancy ? ConcreteValue{} : ConcreteValue::of(0);
+    const double number = anyInput(random);
+    return ConcreteValue::of(numbers == NumberModel::Mantissa32 ? mantissa32::nearest(number) : number);
   };
   for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
     if (findVariable(machine.dialect(), local))

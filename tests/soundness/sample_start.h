@@ -48,7 +48,12 @@ public:
 const Dialect &controlOf(const Sample &sample);
 Dialect machineOf(const Sample &sample, Random &random);
 
+/// Those of the control as the analysis knows it; either, where it does not.
+NumberModel numbersOfMachine(const Dialect &control, Random &random);
+
 /// Any values, codes, words and shifts; an assumption of the analyses: polar coordinates and mappings are not in force.
 EntryValues randomEntry(const LoadedSample &machine, Random &random);
+/// On a machine that computes in these numbers.
+EntryValues randomEntryIn(NumberModel numbers, const LoadedSample &machine, Random &random);
 
 } // namespace feedhold::soundness

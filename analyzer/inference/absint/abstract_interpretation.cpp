@@ -1,6 +1,7 @@
 #include "inference/absint/abstract_interpretation.h"
 
 #include "inference/absint/abstract_state.h"
+#include "inference/absint/comparison_error.h"
 
 #include <bit>
 #include <cmath>
@@ -236,8 +237,9 @@ Truth AbstractInterpretation::compare(Relation relation, const Value &a, const V
     case Relation::LessOrEqual: return truthOf(!above);
     }
   }
-  const AbstractNumber &left = numberOf(a);
-  const AbstractNumber &right = numberOf(b);
+  const bool isRounded = mayHaveMantissa32_ && !isSameDecimal(numberOf(a), numberOf(b));
+  const AbstractNumber left = isRounded ? inEveryModel(numberOf(a)) : numberOf(a);
+  const AbstractNumber right = isRounded ? loosenedFor(left, numberOf(b)) : numberOf(b);
   switch (relation) {
   case Relation::Equal: return isEqual(left, right);
   case Relation::NotEqual: return feedhold::negate(isEqual(left, right));

@@ -48,10 +48,15 @@ public:
   using ModalCode = CodeSet;
   using State = AbstractState;
 
-  explicit AbstractInterpretation(const Dialect &dialect) : dialect_(&dialect) {}
+  explicit AbstractInterpretation(const Dialect &dialect) { useDialect(dialect); }
 
   // ---- for the engine ----
-  void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+  void useDialect(const Dialect &dialect) {
+    dialect_ = &dialect;
+    mayHaveMantissa32_ = numbersOf(dialect) != NumberModel::Binary64;
+  }
+  /// Results may be rounded to mantissas of 32 bits.
+  bool mayHaveMantissa32() const { return mayHaveMantissa32_; }
   /// The mode of polar coordinates is taken to be left as it is by what is not followed.
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   void observe(StepObserver *observer) { observer_ = observer; }
@@ -133,7 +138,14 @@ public:
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why nothing is told of the program.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
-  Value held(Value value, Span) const { return value; }
+  void hold(Value &result, const Expression &expression) const {
+    if (mayHaveMantissa32_)
+      holdInMantissa32(result, expression);
+  }
+  void holdSum(Value &sum, OperatorKind op, const Value &left, const Value &right) const {
+    if (mayHaveMantissa32_)
+      holdSumInMantissa32(sum, op, left, right);
+  }
   void evaluated(ExpressionId expression, const Value &value) {
     if (observer_)
       observer_->evaluated(expression, value);
@@ -147,9 +159,12 @@ public:
 private:
   enum class Use : std::uint8_t { Read, Write };
   Value ofOne(NumberOperation operation, const Value &a, AbstractNumber (*compute)(const AbstractNumber &)) const;
+  void holdInMantissa32(Value &result, const Expression &expression) const;
+  void holdSumInMantissa32(Value &sum, OperatorKind op, const Value &left, const Value &right) const;
   void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
 
-  const Dialect *dialect_;
+  const Dialect *dialect_ = nullptr;
+  bool mayHaveMantissa32_ = false;
   StepObserver *observer_ = nullptr;
   std::optional<std::uint8_t> polarGroup_;
   std::uint32_t nextSymbol_ = kFirstFreshSymbol;

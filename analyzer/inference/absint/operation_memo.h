@@ -28,6 +28,9 @@ enum class NumberOperation : std::uint8_t {
   RoundTo,
   Atan2,
   Power,
+  Held, // read or written by a control with mantissas of 32 bits, and its sums and differences
+  HeldSum,
+  HeldDifference,
   FirstFunction, // and one for each FunctionKind
 };
 

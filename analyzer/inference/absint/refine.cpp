@@ -1,6 +1,7 @@
 #include "inference/absint/refine.h"
 
 #include "inference/absint/abstract_state.h"
+#include "inference/absint/comparison_error.h"
 
 #include <cmath>
 
@@ -54,6 +55,18 @@ OperatorKind opposite(OperatorKind op) {
 /// One rounding of a double more on each side: `x + 1 LE b` in doubles lets x be that much above b - 1.
 Interval loosened(const Interval &interval) {
   return {std::nextafter(interval.lo, -INFINITY), std::nextafter(interval.hi, INFINITY)};
+}
+double finiteSize(const Interval &interval) {
+  const double low = std::isfinite(interval.lo) ? std::fabs(interval.lo) : 0;
+  return std::max(low, std::isfinite(interval.hi) ? std::fabs(interval.hi) : 0);
+}
+/// Likewise of a sum with mantissas of 32 bits, one operand of which is known.
+Interval loosenedForSum(const Interval &sum, const Interval &operand) {
+  const double size = finiteSize(operand); // an end that it does not have says nothing of the other one
+  const auto by = [&](double bound) {
+    return std::isfinite(bound) ? kErrorOfComparison * (std::fabs(bound) + 2 * size) : 0.0;
+  };
+  return {sum.lo - by(sum.lo), sum.hi + by(sum.hi)};
 }
 
 /// The numbers that stand in the relation to some number of `bound`.
@@ -138,10 +151,15 @@ private:
     const AbstractNumber bound = context_.interpretation.asNumber(other).number();
     const AbstractNumber zero = AbstractNumber::constant(0.0);
     const bool vacantFits = of.mayBeVacant() && cut(zero, op, bound).has_value();
-    const auto number = of.mayBeNumber() ? cut(of.number(), op, bound) : std::nullopt;
+    const auto number = of.mayBeNumber() ? compared(of.number(), op, bound) : std::nullopt;
     if (!number)
       return vacantFits ? push(id, AbstractValue::vacant()) : false;
     return push(id, vacantFits ? AbstractValue::vacantOr(*number) : AbstractValue::number(*number));
+  }
+  /// Two numbers that are equal have no difference, on any control.
+  std::optional<AbstractNumber> compared(const AbstractNumber &number, OperatorKind op, const AbstractNumber &bound) {
+    const bool isRounded = context_.interpretation.mayHaveMantissa32() && op != OperatorKind::NotEqual;
+    return cut(number, op, isRounded ? loosenedFor(number, bound) : bound);
   }
   bool equality(ExpressionId id, OperatorKind op, const AbstractValue &of, const AbstractValue &other) {
     const bool same = op == OperatorKind::Equal;
@@ -152,7 +170,7 @@ private:
     const bool vacantFits = of.mayBeVacant() && (!same || other.mayBeVacant());
     std::optional<AbstractNumber> number;
     if (of.mayBeNumber())
-      number = !same && other.mayBeVacant() ? std::optional(of.number()) : cut(of.number(), op, other.number());
+      number = !same && other.mayBeVacant() ? std::optional(of.number()) : compared(of.number(), op, other.number());
     if (!number)
       return vacantFits ? push(id, AbstractValue::vacant()) : false;
     return push(id, vacantFits ? AbstractValue::vacantOr(*number) : AbstractValue::number(*number));
@@ -180,12 +198,23 @@ private:
     const auto number = [&](ExpressionId id) {
       return context_.interpretation.asNumber(value(id)).number().interval();
     };
-    if (operation->op == OperatorKind::Add)
-      return within(operation->left, subtract(wanted, number(operation->right))) &&
-             within(operation->right, subtract(wanted, number(operation->left)));
-    if (operation->op == OperatorKind::Subtract)
-      return within(operation->left, add(wanted, number(operation->right))) &&
-             within(operation->right, subtract(number(operation->left), wanted));
+    const auto sum = [&](const Interval &operand) {
+      return context_.interpretation.mayHaveMantissa32() ? loosenedForSum(wanted, operand) : wanted;
+    };
+    if (operation->op == OperatorKind::Add) {
+      const Interval right = number(operation->right);
+      if (!within(operation->left, subtract(sum(right), right)))
+        return false;
+      const Interval left = number(operation->left);
+      return within(operation->right, subtract(sum(left), left));
+    }
+    if (operation->op == OperatorKind::Subtract) {
+      const Interval right = number(operation->right);
+      if (!within(operation->left, add(sum(right), right)))
+        return false;
+      const Interval left = number(operation->left);
+      return within(operation->right, subtract(left, sum(left)));
+    }
     return true;
   }
   bool pushFunction(const FunctionCall &call, const Interval &wanted) {
@@ -269,10 +298,6 @@ private:
         possible = false;
     });
     return possible;
-  }
-  static double finiteSize(const Interval &interval) {
-    const double low = std::isfinite(interval.lo) ? std::fabs(interval.lo) : 0;
-    return std::max(low, std::isfinite(interval.hi) ? std::fabs(interval.hi) : 0);
   }
 
   AbstractContext &context_;

@@ -181,12 +181,11 @@ ConcreteValue ConcreteInterpretation::toolLength(State &state, const Value &numb
   return Value::of(0);
 }
 
-ConcreteValue ConcreteInterpretation::inMantissa32(const Value &value, Span place) {
-  if (value.vacant)
-    return value;
-  const double number = mantissa32::nearest(value.number);
-  alarm(!mantissa32::isInRange(number), {AlarmKind::Overflow, place});
-  return Value::of(number);
+void ConcreteInterpretation::holdInMantissa32(Value &result, Span place) {
+  if (result.vacant)
+    return;
+  result.number = mantissa32::nearest(result.number);
+  alarm(!mantissa32::isInRange(result.number), {AlarmKind::Overflow, place});
 }
 
 void ConcreteInterpretation::alarm(bool truth, AlarmReport report) {

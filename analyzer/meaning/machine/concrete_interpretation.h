@@ -134,15 +134,17 @@ public:
   void unmodelled(std::string_view reason, Span) { notes_.push_back(reason); }
   void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
-  Value held(const Value &value, Span place) {
-    return numbers_ == NumberModel::Mantissa32 ? inMantissa32(value, place) : value;
+  void hold(Value &result, const Expression &expression) {
+    if (numbers_ == NumberModel::Mantissa32)
+      holdInMantissa32(result, expression.span);
   }
+  void holdSum(Value &, OperatorKind, const Value &, const Value &) const {}
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
   /// Under the one number of each cell.
   static GivenVariables byCell(const Dialect &dialect, const GivenVariables &given, NumberModel numbers);
-  Value inMantissa32(const Value &value, Span place);
+  void holdInMantissa32(Value &result, Span place);
 
   const Dialect *dialect_;
   GivenVariables given_;

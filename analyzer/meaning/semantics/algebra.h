@@ -123,8 +123,8 @@ concept HasVariables = requires(R interpretation, const typename R::Value value,
 /// What happens in a step, reported to the interpretation.
 template <typename R>
 concept HearsEffects = requires(R interpretation, const typename R::Value value, const typename R::Truth truth,
-                                MachineState<R> &state, ExpressionId expression, Span place,
-                                const Move<typename R::Value> &move) {
+                                typename R::Value &result, MachineState<R> &state, ExpressionId expression,
+                                const Expression &expressionNode, Span place, const Move<typename R::Value> &move) {
   /// The control stops when `truth` holds; the run goes on in the other cases.
   interpretation.alarm(truth, AlarmReport{});
   /// `#3000=`: stops always.
@@ -139,7 +139,9 @@ concept HearsEffects = requires(R interpretation, const typename R::Value value,
   /// From here on nothing that the text says need hold, nor did it perhaps before: no claim on the program is made.
   interpretation.abandon(std::string_view(), place);
   /// What the control keeps of the result of an expression: the number that its arithmetic has for it.
-  { interpretation.held(value, place) } -> std::same_as<typename R::Value>;
+  interpretation.hold(result, expressionNode);
+  /// Likewise of a sum or difference: how far it is rounded depends on the operands.
+  interpretation.holdSum(result, OperatorKind::Add, value, value);
   /// An expression has been evaluated.
   interpretation.evaluated(expression, value);
 };

@@ -119,9 +119,13 @@ private:
                  : value;
     }
     if (word.form() == WordForm::Number)
-      return interpretation_.held(scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint)),
-                                  word.span());
+      return literalArgument(word);
     return interpretation_.anything();
+  }
+  Value literalArgument(const Word &word) {
+    Value value = scaledLiteral(context_, word.address(), word.number(), word.has(Word::kPoint));
+    interpretation_.hold(value, {word.span(), NumberLiteral{word.number()}});
+    return value;
   }
   /// G and M codes of the machine's tables; T is handed over in #149.
   void passCode(CallRequest<R> &request) {

@@ -30,7 +30,8 @@ public:
 
   Value value(ExpressionId id) {
     const Expression &expression = context_.tree().expressions[id];
-    const Value result = interpretation_.held(valueOf(id, expression), expression.span);
+    Value result = valueOf(id, expression);
+    interpretation_.hold(result, expression);
     interpretation_.evaluated(id, result);
     return result;
   }
@@ -104,8 +105,8 @@ private:
     const Value left = number(operation.left);
     const Value right = number(operation.right);
     switch (operation.op) {
-    case OperatorKind::Add: return interpretation_.add(left, right);
-    case OperatorKind::Subtract: return interpretation_.subtract(left, right);
+    case OperatorKind::Add: return sum(interpretation_.add(left, right), operation.op, left, right);
+    case OperatorKind::Subtract: return sum(interpretation_.subtract(left, right), operation.op, left, right);
     case OperatorKind::Multiply: return interpretation_.multiply(left, right);
     case OperatorKind::Divide: requireNotZero(right, operation.right); return interpretation_.divide(left, right);
     case OperatorKind::Modulo: return modulo(left, right, operation.right);
@@ -123,6 +124,10 @@ private:
     return broken(place);
   }
 
+  Value sum(Value result, OperatorKind op, const Value &left, const Value &right) {
+    interpretation_.holdSum(result, op, left, right);
+    return result;
+  }
   void requireNotZero(const Value &divisor, ExpressionId place) {
     interpretation_.alarm(interpretation_.compare(Relation::Equal, divisor, context_.zero()),
                           {AlarmKind::DivideByZero, spanOf(place)});

@@ -206,7 +206,8 @@ public:
   /// Why no claim on the program is made.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
-  Value held(Value value, Span) const { return value; }
+  void hold(Value &, const Expression &) const {}
+  void holdSum(Value &, OperatorKind, const Value &, const Value &) const {}
   void evaluated(ExpressionId, const Value &) const {}
 
 private:
