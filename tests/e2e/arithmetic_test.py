@@ -128,6 +128,28 @@ IF[SIN[30]EQCOS[60]]GOTO20
 #3000=1(DIFFERENT)
 N20M99
 """
+# Each word is up to half an increment off.
+INCREMENTAL_STEPS = """O1
+(@PARAM #1 0.1..10)
+(@MODAL G21 G90)
+(@START X0 Y0 Z0)
+{}
+#2=0
+G91
+N10WHILE[#2LT10]DO1
+G01X#1F100
+#2=#2+1
+END1
+G90
+M99
+"""
+QUARTER_BEYOND = """O1
+(@PARAM #24 0..100)
+(@MODAL {} G90)
+{}
+G00X[#24+{}]
+M99
+"""
 
 
 class ArithmeticOfTheControl(Scratch):
@@ -136,11 +158,14 @@ class ArithmeticOfTheControl(Scratch):
         result = self.feedhold("prove", "--no-cache", "--dialect", "fanuc-30i", "--isolated", "--format", "json",
                                *arguments, "O1.nc")
         document = json.loads(result.stdout)
-        self.assertEqual(document["arithmetic"], "control" if arguments else "exact")
+        self.assertEqual(document["arithmetic"], arguments[-1] if arguments else "exact")
         return {row["kind"]: row for row in document["files"][0]["obligations"]}
 
     def in_control(self, text):
         return self.verdicts(text, "--arithmetic", "control")
+
+    def in_exact_numbers(self, text):
+        return self.verdicts(text, "--arithmetic", "exact")
 
     def test_eleven_holes_are_drilled(self):
         row = self.in_control(ELEVEN_HOLES)["alarm-unreachable"]
@@ -174,6 +199,45 @@ class ArithmeticOfTheControl(Scratch):
                 rows = self.in_control(text)
                 self.assertEqual({kind: row["verdict"] for kind, row in rows.items()
                                   if row["verdict"] not in ("proved", "unreachable")}, {})
+
+    def test_drift_is_within_the_tolerance_of_the_contract(self):
+        promise = "(@ENSURE POS[X] EQ 10*#1{})"
+        for clauses, expected in ((promise.format(""), ("unknown", "refuted")),
+                                  ("(@TOLERANCE 0.5)\n" + promise.format(""), ("proved",)),
+                                  ("(@TOLERANCE 0.5)\n" + promise.format(" WITHIN 0.002"), ("unknown", "refuted")),
+                                  (promise.format(" WITHIN 0.006"), ("proved",))):
+            with self.subTest(clauses):
+                text = INCREMENTAL_STEPS.format(clauses)
+                self.assertIn(self.in_control(text)["ensures"]["verdict"], expected)
+                self.assertEqual(self.in_exact_numbers(text)["ensures"]["verdict"], "proved")
+
+    def test_a_stated_tolerance_holds_in_either_arithmetic(self):
+        for units, clauses, beyond, exact, control in (
+                ("G21", "(@ENSURE POS[X] EQ #24 WITHIN 0.3)", .25, "proved", "proved"),
+                ("G21", "(@ENSURE POS[X] EQ #24 WITHIN 0.2)", .25, "refuted", "refuted"),
+                ("G21", "(@ENSURE POS[X] NE #24 WITHIN 0.2)", .25, "proved", "proved"),
+                ("G21", "(@TOLERANCE 0.3)\n(@ENSURE POS[X] EQ #24)", .25, "proved", "proved"),
+                ("G21", "(@TOLERANCE 0.3)\n(@ENSURE POS[X] EQ #24 WITHIN .2)", .25, "refuted", "refuted"),
+                # Without one: in exact numbers none, else one least increment of the units.
+                ("G21", "(@ENSURE POS[X] EQ #24)", .0002, "refuted", "proved"),
+                ("G20", "(@ENSURE POS[X] EQ #24)", .0002, "refuted", "refuted")):
+            with self.subTest((units, clauses)):
+                text = QUARTER_BEYOND.format(units, clauses, beyond)
+                self.assertEqual(self.in_exact_numbers(text)["ensures"]["verdict"], exact)
+                self.assertEqual(self.in_control(text)["ensures"]["verdict"], control)
+
+    def test_whole_numbers_are_equal_or_not_whatever_the_tolerance(self):
+        text = "O1\n(@GLOBAL #510 0..100 INT)\n(@TOLERANCE 0.99)\n(@ENSURE #510 EQ OLD[#510]+{})\n#510=#510+1\nM99\n"
+        for rows in (self.in_control, self.in_exact_numbers):
+            self.assertEqual(rows(text.format(1))["ensures"]["verdict"], "proved")
+            self.assertEqual(rows(text.format(2))["ensures"]["verdict"], "refuted")
+
+    def test_a_requirement_within_a_tolerance(self):
+        text = "O1\n(@PARAM #1 0..9)\n(@PARAM #2 0..9)\n(@REQUIRE #1 EQ #2 WITHIN 0.5)\n" \
+               "IF[#1LE[#2+{}]]GOTO10\n#3000=1(FAR)\nN10M99\n"
+        for rows in (self.in_control, self.in_exact_numbers):
+            self.assertEqual(rows(text.format(.6))["alarm-unreachable"]["verdict"], "unreachable")
+            self.assertEqual(rows(text.format(.4))["alarm-unreachable"]["verdict"], "refuted")
 
     def test_the_evidence_is_of_exact_proofs(self):
         self.write("O1.nc", WHOLE_COUNTER)

@@ -79,12 +79,8 @@ private:
   // ---- units ----
 
   LengthSystem systemOfModal() const {
-    for (const ModalCode &code : contract_.modal) {
-      const Code *row = code.address == 'G' ? findGCode(reading_.dialect, code.tenths) : nullptr;
-      if (row && (row->action == CodeAction::Inch || row->action == CodeAction::Metric))
-        return row->action == CodeAction::Inch ? LengthSystem::Inch : LengthSystem::Metric;
-    }
-    return LengthSystem::None;
+    const std::optional<CodeAction> units = unitsOf(contract_, reading_.dialect);
+    return !units ? LengthSystem::None : *units == CodeAction::Inch ? LengthSystem::Inch : LengthSystem::Metric;
   }
 
   void checkUnits() {

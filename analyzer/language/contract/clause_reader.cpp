@@ -337,7 +337,20 @@ ExpressionId ClauseReader::parsed(Span part, FindReserved reserved) {
   return result;
 }
 
+/// `WITHIN`, if it comes at `begin` or after blanks; else empty.
+Span ClauseReader::wordOfWithin(std::uint32_t begin) const {
+  while (begin < end_ && isBlank(source_.text()[begin]))
+    ++begin;
+  const Span word{begin, begin + static_cast<std::uint32_t>(kWithin.size())};
+  return word.end <= source_.text().size() && toUpper(text(word)) == kWithin ? word : Span{begin, begin};
+}
+
 void ClauseReader::refuseSyntax(const SyntaxIssue &issue) {
+  const Span word = wordOfWithin(issue.span.begin);
+  if (!word.empty())
+    return fail(
+        ContractIssueKind::Expression, {word.begin, std::max(word.end, issue.span.end)},
+        "`WITHIN` stands between a comparison by `EQ` or `NE` and a positive number: `POS[X] EQ #24 WITHIN 0.001`");
   const bool open = issue.kind == SyntaxIssueKind::MissingCloseBracket;
   const bool symbol = issue.kind == SyntaxIssueKind::SymbolicComparison;
   const bool deep = issue.kind == SyntaxIssueKind::NestingTooDeep;

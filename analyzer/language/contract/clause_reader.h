@@ -78,6 +78,7 @@ private:
   std::uint32_t operandEnd(std::uint32_t begin) const;
   bool takeDots();
   ExpressionId parsed(Span part, FindReserved reserved);
+  Span wordOfWithin(std::uint32_t begin) const;
   void refuseSyntax(const SyntaxIssue &issue);
   void refuseCondition(ExpressionId id);
   void refuseNumber(ExpressionId id);

@@ -25,7 +25,7 @@ public:
         [&](const Identity &node) -> Value { return value(node.operand); },
         [&](const Bracketed &node) -> Value { return value(node.inner); },
         [&](const BinaryOperation &node) -> Value { return binary(node); },
-        [](const FunctionCall &) -> Value { return std::nullopt; },
+        [&](const FunctionCall &node) -> Value { return function(node); },
         [](const BrokenExpression &) -> Value { return std::nullopt; });
   }
 
@@ -46,6 +46,13 @@ private:
   std::optional<Rational> variable(ExpressionId id) const {
     const std::optional<std::uint32_t> number = variableNumber(tree_, id);
     return number && valueOf_ ? valueOf_(*number) : std::nullopt;
+  }
+
+  std::optional<Rational> function(const FunctionCall &call) const {
+    if (call.function != FunctionKind::Abs || call.arguments().empty())
+      return std::nullopt;
+    const std::optional<Rational> argument = value(call.arguments()[0]);
+    return argument && argument->isNegative() ? negate(*argument) : argument;
   }
 
   std::optional<Rational> binary(const BinaryOperation &operation) const {

@@ -12,7 +12,7 @@ namespace feedhold {
 /// The value of `#n`; absent when it is not known.
 using ValueOfVariable = std::function<std::optional<Rational>(std::uint32_t)>;
 
-/// Absent when a variable is not known, for functions, and where the value does not fit.
+/// Absent when a variable is not known, for functions other than ABS, and where the value does not fit.
 std::optional<Rational> constantValue(const SyntaxTree &tree, ExpressionId expression,
                                       const ValueOfVariable &valueOf = {});
 /// Of a condition, by the same rules.

@@ -36,6 +36,22 @@ const EntryValue *Contract::param(std::uint32_t variable) const {
   return found == params.end() ? nullptr : &*found;
 }
 
+std::optional<CodeAction> unitsOf(const Contract &contract, const Dialect &dialect) {
+  for (const ModalCode &code : contract.modal) {
+    const Code *row = code.address == 'G' ? findGCode(dialect, code.tenths) : nullptr;
+    if (row && (row->action == CodeAction::Inch || row->action == CodeAction::Metric))
+      return row->action;
+  }
+  return std::nullopt;
+}
+
+Decimal toleranceOf(const Contract &contract, const Dialect &dialect) {
+  if (contract.tolerance)
+    return contract.tolerance->most;
+  return unitsOf(contract, dialect) == CodeAction::Inch ? dialect.behaviour.leastIncrementInch
+                                                        : dialect.behaviour.leastIncrementMetric;
+}
+
 const Contract *FileContracts::of(ProgramId program) const {
   const auto found = std::ranges::lower_bound(contracts, program, {}, &Contract::program);
   return found == contracts.end() || found->program != program ? nullptr : &*found;

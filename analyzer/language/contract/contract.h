@@ -177,6 +177,13 @@ struct Ensure {
   std::variant<ExpressionId, ModalPreserved, std::vector<ModalCode>> promise;
 };
 
+/// `@TOLERANCE 0.01`: how near numbers are that `@ENSURE` calls equal.  Below 1, so that whole numbers are equal only
+/// if they are the same.
+struct EqualTolerance {
+  ClauseId clause;
+  Decimal most;
+};
+
 /// `@ASSIGNS`: the only common variables that are written; no ranges: none.
 struct Assigns {
   struct Variables {
@@ -218,6 +225,7 @@ struct Contract {
   std::optional<Travel> travel;
   std::vector<WordLimit> limits;
   std::vector<Ensure> ensures;
+  std::optional<EqualTolerance> tolerance;
   std::vector<Assigns> assigns; // together: the union
   std::optional<Guarded> guarded;
   std::vector<AlarmPromise> alarms;
@@ -228,6 +236,11 @@ struct Contract {
 
   const EntryValue *param(std::uint32_t variable) const;
 };
+
+/// Inch or Metric, where `@MODAL` says which.
+std::optional<CodeAction> unitsOf(const Contract &contract, const Dialect &dialect);
+/// Of `@TOLERANCE`, or one least input increment.
+Decimal toleranceOf(const Contract &contract, const Dialect &dialect);
 
 enum class ContractIssueKind : std::uint8_t {
 #define CONTRACT_ISSUE(kind) kind,

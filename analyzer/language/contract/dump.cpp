@@ -148,6 +148,8 @@ private:
   void promises(const Contract &contract) {
     for (const Ensure &each : contract.ensures)
       line("ensure " + promise(each));
+    if (contract.tolerance)
+      line("tolerance " + contract.tolerance->most.toString());
     for (const Assigns &each : contract.assigns)
       line("assigns" + variables(each));
     if (contract.guarded)

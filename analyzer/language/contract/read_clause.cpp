@@ -52,6 +52,7 @@ private:
     case ClauseKind::Travel: return travel();
     case ClauseKind::Limit: return limit();
     case ClauseKind::Ensure: return ensure();
+    case ClauseKind::Tolerance: return tolerance();
     case ClauseKind::Assigns: return assigns();
     case ClauseKind::Guarded: return guarded();
     case ClauseKind::Alarm: return alarm();
@@ -308,6 +309,17 @@ private:
     const ExpressionId condition = reader_.condition(findPromiseOperand);
     if (isRead())
       contract_.ensures.push_back({id_, condition});
+  }
+
+  void tolerance() {
+    const Span span = reader_.ahead();
+    constexpr std::string_view kExpected = "a positive number below 1, such as `0.01`";
+    const ExpressionId number = reader_.value(kExpected);
+    const auto most = reader_.failed() ? std::nullopt : literalValue(reading_.result.tree, number);
+    if (!most || *most <= Decimal::fromInteger(0) || *most >= Decimal::fromInteger(1))
+      reader_.fail(ContractIssueKind::Malformed, span, std::string(kExpected));
+    if (isRead())
+      setOnce(contract_.tolerance, EqualTolerance{id_, *most}, "the tolerance");
   }
 
   void assigns() {

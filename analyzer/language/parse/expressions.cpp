@@ -12,6 +12,7 @@ ExpressionId parseExpression(SyntaxTree &tree, const SourceFile &source, Span pa
 ExpressionId Parser::runExpression(SyntaxTree &tree, std::uint32_t begin, FindReserved reserved) {
   std::swap(tree, tree_);
   reserved_ = reserved;
+  inContract_ = true;
   symbolicAllowed_ = true;
   moveTo(begin);
   const ExpressionId result = expression();
@@ -40,9 +41,35 @@ ExpressionId Parser::binaryRest(ExpressionId left, int lowestPrecedence) {
     const OperatorKind taken = takeOperator(*op);
     const Span opSpan = since(opBegin);
     const ExpressionId right = binary(precedence + 1);
-    left = addExpression(spanOf(left).begin, BinaryOperation{taken, left, right, opSpan});
+    const BinaryOperation operation{taken, left, right, opSpan};
+    left = atWithin(taken) ? within(operation) : addExpression(spanOf(left).begin, operation);
   }
   return left;
+}
+
+bool Parser::atWithin(OperatorKind relation) const {
+  return inContract_ && (relation == OperatorKind::Equal || relation == OperatorKind::NotEqual) &&
+         toUpper(text_.substr(token_.begin, kWithin.size())) == kWithin;
+}
+
+/// `a EQ b WITHIN t` is `ABS[a-b] LE t`, and `a NE b WITHIN t` is `ABS[a-b] GT t`, so that no interpretation of the
+/// tree has to know of tolerances.
+ExpressionId Parser::within(const BinaryOperation &relation) {
+  const std::uint32_t begin = spanOf(relation.left).begin;
+  const Span compared{begin, spanOf(relation.right).end};
+  const Span word{token_.begin, token_.begin + static_cast<std::uint32_t>(kWithin.size())};
+  moveTo(word.end);
+  const ExpressionId most = at(TokenKind::Number) ? number() : addExpression(word.end, BrokenExpression{});
+  const auto value = literalValue(tree_, most);
+  if (!value || value->isZero())
+    issue(SyntaxIssueKind::BrokenExpression, since(word.begin), {}, Broken::Yes);
+  const ExpressionId difference = tree_.expressions.add(
+      {compared, BinaryOperation{OperatorKind::Subtract, relation.left, relation.right, relation.opSpan}});
+  FunctionCall distance(FunctionKind::Abs);
+  distance.add(difference);
+  const ExpressionId left = tree_.expressions.add({compared, distance});
+  const OperatorKind op = relation.op == OperatorKind::Equal ? OperatorKind::LessOrEqual : OperatorKind::GreaterThan;
+  return addExpression(begin, BinaryOperation{op, left, most, word});
 }
 
 std::optional<OperatorKind> Parser::peekOperator() const {

@@ -17,6 +17,9 @@ struct ReservedOperand {
 /// Looks at the text where an operand is expected that the dialect does not know.
 using FindReserved = std::optional<ReservedOperand> (*)(std::string_view rest);
 
+/// `a EQ b WITHIN t`, `a NE b WITHIN t`: whether two numbers differ by at most t.
+inline constexpr std::string_view kWithin = "WITHIN";
+
 /// Reads a part of a text as one expression and adds it to `tree`, issues included.  A symbol (`<`, `=`) may compare.
 ExpressionId parseExpression(SyntaxTree &tree, const SourceFile &source, Span part, const Dialect &dialect,
                              FindReserved reserved = nullptr);

@@ -85,6 +85,8 @@ private:
   ExpressionId expression();
   ExpressionId binary(int lowestPrecedence);
   ExpressionId binaryRest(ExpressionId left, int lowestPrecedence);
+  bool atWithin(OperatorKind relation) const;
+  ExpressionId within(const BinaryOperation &relation);
   std::optional<OperatorKind> peekOperator() const;
   OperatorKind takeOperator(OperatorKind op);
   OperatorKind takeSymbolicComparison();
@@ -141,6 +143,7 @@ private:
   bool dataBlocks_ = false;        // between G10 L50/L52 and G11
   bool symbolicAllowed_ = false;   // inside brackets or a condition: `=` can only mean a comparison
   FindReserved reserved_ = nullptr;
+  bool inContract_ = false; // expressions beside the program: `EQ .. WITHIN`
   int depth_ = 0;
   int operatorsInBlock_ = 0;
   int itemsInBlock_ = 0;

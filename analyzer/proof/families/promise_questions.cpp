@@ -93,7 +93,7 @@ TermId codesHold(const ExploredProgram &program, const std::vector<ModalCode> &c
 
 TermId promisedAt(const ExploredProgram &program, const Ensure &ensure, const SymbolicState &state) {
   if (const auto *expression = std::get_if<ExpressionId>(&ensure.promise))
-    return program.start.terms().promise(*expression, program.start.entry(), state);
+    return program.start.terms().promise(*program.subject.contract(), *expression, program.start.entry(), state);
   if (const auto *codes = std::get_if<std::vector<ModalCode>>(&ensure.promise))
     return codesHold(program, *codes, state);
   return modalStateKept(program, std::get<ModalPreserved>(ensure.promise), state);

@@ -7,7 +7,6 @@
 
 namespace feedhold::prove {
 
-using smt::Number;
 using smt::TermId;
 
 namespace {
@@ -78,10 +77,12 @@ TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &en
       .term;
 }
 
-TermId ContractTerms::promise(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
-  const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
-  const Number increment = Number(1) / Number(1000);
-  const auto before = interpretation_.useTolerance(isExact ? std::nullopt : std::optional(increment));
+/// In exact numbers a promise is exact, unless the contract says otherwise.
+TermId ContractTerms::promise(const Contract &contract, ExpressionId expression, const SymbolicState &entry,
+                              const SymbolicState &now) {
+  const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact && !contract.tolerance;
+  const TermId tolerance = interpretation_.literal(toleranceOf(contract, *programs_.file(file_).dialect)).number;
+  const auto before = interpretation_.useTolerance(isExact ? std::nullopt : std::optional(tolerance));
   const TermId result = condition(expression, entry, now);
   interpretation_.useTolerance(before);
   return result;

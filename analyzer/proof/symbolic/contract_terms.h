@@ -35,7 +35,8 @@ public:
   std::vector<smt::TermId> assumptions(const Contract &contract, const SymbolicState &started);
   /// A condition of the contract over a state; ENTRY, OLD and POS stand for what they say.
   /// Of what is measured, as near as the tolerance: positions, and results that the control rounds.
-  smt::TermId promise(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
+  smt::TermId promise(const Contract &contract, ExpressionId expression, const SymbolicState &entry,
+                      const SymbolicState &now);
   smt::TermId condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now);
   /// A condition over a point of the space, and the values on entry.
   smt::TermId conditionAt(ExpressionId expression, const SymbolicState &entry, const std::array<smt::TermId, 3> &point);

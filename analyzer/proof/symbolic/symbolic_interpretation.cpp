@@ -254,9 +254,8 @@ Condition SymbolicInterpretation::equal(const Value &a, const Value &b) {
   const auto isWhole = [&](const Value &value) { return grids_.of(value.number).value_or(-1) >= 0; };
   if (!tolerance_ || (isWhole(a) && isWhole(b)))
     return {store_.equal(a.number, b.number)};
-  const TermId most = store_.number(*tolerance_);
-  return {store_.logicalAnd(store_.lessOrEqual(store_.subtract(a.number, b.number), most),
-                            store_.lessOrEqual(store_.subtract(b.number, a.number), most))};
+  return {store_.logicalAnd(store_.lessOrEqual(store_.subtract(a.number, b.number), *tolerance_),
+                            store_.lessOrEqual(store_.subtract(b.number, a.number), *tolerance_))};
 }
 
 Condition SymbolicInterpretation::compare(Relation relation, const Value &a, const Value &b) {

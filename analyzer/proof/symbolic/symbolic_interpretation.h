@@ -103,8 +103,8 @@ public:
   void restoreExactResults(std::vector<TakenAsSmall> results) { exact_ = std::move(results); }
   Grids &grids() { return grids_; }
   /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
-  std::optional<smt::Number> useTolerance(std::optional<smt::Number> tolerance) {
-    return std::exchange(tolerance_, std::move(tolerance));
+  std::optional<smt::TermId> useTolerance(std::optional<smt::TermId> tolerance) {
+    return std::exchange(tolerance_, tolerance);
   }
   /// The variables have these values at the start of the run, and the others that programs own are vacant.
   void startFrom(std::map<std::uint32_t, Value> values) { given_ = std::move(values); }
@@ -232,7 +232,7 @@ private:
   const Dialect *dialect_;
   Arithmetic arithmetic_;
   bool rounds_ = false;
-  std::optional<smt::Number> tolerance_;
+  std::optional<smt::TermId> tolerance_;
   Grids grids_;
   std::optional<Place> place_;
   std::set<Place> rounded_; // by roundAlways()

@@ -154,6 +154,7 @@ std::string_view helpOf(ClauseKind kind) {
   case ClauseKind::Travel: return "no programmed point is outside this range";
   case ClauseKind::Limit: return "the permitted feedrate or spindle speed while cutting";
   case ClauseKind::Ensure: return "a condition that holds whenever the program returns";
+  case ClauseKind::Tolerance: return "how far numbers may differ that a promise calls equal";
   case ClauseKind::Assigns: return "the program writes no common variables but these";
   case ClauseKind::Guarded: return "a call that violates the contract raises an alarm before the first motion";
   case ClauseKind::Alarm: return "the calls that raise an alarm";

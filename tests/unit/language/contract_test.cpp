@@ -67,6 +67,34 @@ TEST(Contract, IsNotSoundWhenAClauseIsLeftOut) {
       Contracts("O1\n#2=#1\n", {{SourceFile::fromText("O1.contract", ""), 1, "permission denied"}}).first().isSound);
 }
 
+TEST(Contract, AToleranceIsTheOneThatIsStated) {
+  const auto toleranceOf = [](const std::string &clauses) {
+    const Contracts contracts("O1\n(@ENSURE POS[X] EQ #1)\n" + clauses + "\nG0X#1\nM99\n");
+    return feedhold::toleranceOf(contracts.first(), fanuc());
+  };
+  EXPECT_EQ(toleranceOf(""), Decimal(1, 3));
+  EXPECT_EQ(toleranceOf("(@MODAL G90 G21)"), Decimal(1, 3));
+  EXPECT_EQ(toleranceOf("(@MODAL G90 G20)"), Decimal(1, 4));
+  EXPECT_EQ(toleranceOf("(@MODAL G90 G20)\n(@TOLERANCE .05)"), Decimal(5, 2));
+}
+
+TEST(Contract, WithinATolerance) {
+  const auto isTrue = [](const std::string &condition) {
+    const Contracts contracts("O1\n(@REQUIRE " + condition + ")\n#2=#1\nM99\n");
+    EXPECT_TRUE(contracts.all().issues.empty()) << contracts.dumped();
+    return constantTruth(contracts.all().tree, contracts.first().requirements.front().condition,
+                         [](std::uint32_t) { return Rational(5); });
+  };
+  EXPECT_EQ(isTrue("#1 EQ 5.5 WITHIN .5"), true);
+  EXPECT_EQ(isTrue("#1 EQ 4.5 WITHIN .5"), true);
+  EXPECT_EQ(isTrue("#1 EQ 5.6 WITHIN .5"), false);
+  EXPECT_EQ(isTrue("#1 EQ 4.4 WITHIN .5"), false);
+  EXPECT_EQ(isTrue("#1 NE 5.5 WITHIN .5"), false);
+  EXPECT_EQ(isTrue("#1 NE 4.4 WITHIN .5"), true);
+  EXPECT_EQ(isTrue("[#1*2 EQ 9 WITHIN 2] AND [#1 GT 4]"), true);
+  EXPECT_EQ(isTrue("[[#1 EQ 9 WITHIN 2] OR [2 NE #1 WITHIN 4]]"), false);
+}
+
 TEST(Contract, AWarningLeavesItSound) {
   const Contracts contracts("O1\n(@PARAM #7 0..5)\n#2=#1\nM99\n");
   ASSERT_EQ(contracts.all().issues.size(), 1u);
