@@ -79,10 +79,11 @@ class BadProofs(Scratch):
     def test_missing_solver(self):
         shutil.copy(NEEDS_TWO_SOLVERS, self.folder / "O9115.nc")
         nowhere = {"PATH": str(self.folder)}
-        row = self.obligations("O9115.nc", environment=nowhere)["O9115.ensures.L2"]
+        row = self.obligations("--arithmetic", "exact", "O9115.nc", environment=nowhere)["O9115.ensures.L2"]
         self.assertEqual((row["verdict"], row["grade"]), ("unknown", None))
         self.assertIn("Z3 found a proof that cvc5 did not confirm: the program `cvc5` is not installed", row["reason"])
-        self.assertIn("`cvc5` is not installed", self.prove("O9115.nc", environment=nowhere).stdout)
+        self.assertIn("`cvc5` is not installed",
+                      self.prove("--arithmetic", "exact", "O9115.nc", environment=nowhere).stdout)
 
     def test_solver_that_lies(self):
         shutil.copy(NEEDS_TWO_SOLVERS, self.folder / "O9115.nc")
@@ -106,7 +107,7 @@ class BadProofs(Scratch):
     def test_model_that_does_not_replay(self):
         """In exact numbers the square of the root of 2 is 2; the machine computes in doubles and gets another number."""
         self.write("O1.nc", "O1\n#1=SQRT[2]\nIF[#1*#1EQ2]GOTO90\nM30\nN90#3000=1(EXACT)\n")
-        row = self.obligations("O1.nc")["O1.alarm-unreachable.N90"]
+        row = self.obligations("--arithmetic", "exact", "O1.nc")["O1.alarm-unreachable.N90"]
         self.assertEqual((row["verdict"], row["witness"]), ("unknown", None))
         self.assertIn("the solver's counterexample did not reproduce on the machine", row["reason"])
 

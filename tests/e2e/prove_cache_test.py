@@ -165,10 +165,11 @@ class Cache(Scratch):
     def test_missing_solver(self):
         shutil.copy(NEEDS_TWO_SOLVERS, self.folder)
         name = NEEDS_TWO_SOLVERS.name
-        without = self.prove(name, environment={"PATH": str(self.folder)})
+        exactly = ("--arithmetic", "exact", name)
+        without = self.prove(*exactly, environment={"PATH": str(self.folder)})
         self.assertIn("1 unknown", without.stdout)
         self.assertEqual(self.entries(), [])
-        self.assertNotIn("unknown", self.prove(name).stdout)
+        self.assertNotIn("unknown", self.prove(*exactly).stdout)
 
     def test_solver_that_had_to_be_stopped(self):
         shutil.copy(NEEDS_TWO_SOLVERS, self.folder)

@@ -22,8 +22,8 @@ N10 #10=#21/#22
 M99
 """
 UNKNOWN = """O3
-#1=SQRT[2]
-IF[#1*#1EQ2]GOTO90
+#1=SIN[#2]
+IF[#1EQ.7]GOTO90
 M30
 N90#3000=1(EXACT)
 """
@@ -144,7 +144,7 @@ class Prove(Scratch):
                 clauses = "".join(f"(@PARAM #{number} {span})\n" for number, span in ((21, "1..9."), (22, "0.1..2."))
                                   if f"#{number}" in loop)
                 self.write("O9.nc", f"O9\n{clauses}{loop}\nM99\n")
-                self.assertEqual(self.one("O9.loop-ends.N20", "O9.nc")["bound"], bound)
+                self.assertEqual(self.one("O9.loop-ends.N20", "--arithmetic", "exact", "O9.nc")["bound"], bound)
 
     def test_why_a_loop_ends(self):
         self.write("O1.nc", COUNTS)
@@ -222,12 +222,12 @@ class Prove(Scratch):
         """The root of a difference that is 0 for a tool as large as the hole: a last digit decides.  The tool rides on the
         cylinders: rounded words lead it into them by as little."""
         shutil.copy(ROOT / "corpus/packages/intersecting-line/O9211.nc", self.folder)
-        rows = self.obligations("O9211.nc")
+        rows = self.obligations("--arithmetic", "exact", "O9211.nc")
         exact = [row for row in rows if row["exactOnly"]]
         self.assertEqual({row["kind"] for row in exact}, {"no-control-alarm", "keep-out"})
         self.assertEqual({row["verdict"] for row in exact}, {"proved"})
-        self.assertIn("            holds in exact arithmetic only: ", self.prove("O9211.nc").stdout)
-        run = json.loads(self.prove("--format", "sarif", "O9211.nc").stdout)["runs"][0]
+        self.assertIn("            holds in exact arithmetic only: ", self.prove("--arithmetic", "exact", "O9211.nc").stdout)
+        run = json.loads(self.prove("--arithmetic", "exact", "--format", "sarif", "O9211.nc").stdout)["runs"][0]
         self.assertEqual({row["level"] for row in run["results"]}, {"note"})
 
     # ---- what would make it hold ----
@@ -255,7 +255,7 @@ class Prove(Scratch):
     def test_both_are_shown(self):
         self.write("O9100.nc", DIVIDES)
         text = self.prove("O9100.nc").stdout
-        self.assertRegex(text, r"= note: with the clause `@REQUIRE #22 [A-Z]+ 0` in the contract, this is proved\n")
+        self.assertRegex(text, r"= note: with the clause `@REQUIRE #22 [A-Z]+ 0` in the contract, this is proved in exact arithmetic\n")
         self.assertRegex(text, r"= fix \(needs review\): raise an alarm .*\n +before line 2:\n +IF\[#22[A-Z]+0\]GOTO")
         run = json.loads(self.prove("--format", "sarif", "O9100.nc").stdout)["runs"][0]
         [result] = [row for row in run["results"] if row["ruleId"] == "no-control-alarm"]
@@ -278,7 +278,7 @@ class Prove(Scratch):
 
     def test_unknown_says_why(self):
         self.write("O3.nc", UNKNOWN)
-        text = self.prove("O3.nc").stdout
+        text = self.prove("--arithmetic", "exact", "O3.nc").stdout
         self.assertIn("unknown: it is not known whether this alarm can be raised [O3.alarm-unreachable.N90]", text)
         self.assertIn("= note: the solver's counterexample did not reproduce on the machine: ", text)
 

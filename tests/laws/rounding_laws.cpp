@@ -1,6 +1,7 @@
 // Laws of rounding: what is known of rounded numbers is true of the numbers that this machine computes.
 #include "proof/smt/model.h"
 #include "proof/smt/purify.h"
+#include "proof/smt/rounding_facts.h"
 #include "proof/smt/unit_resolution.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +45,8 @@ public:
     if (depth == 0 || pick(0, 4) == 0)
       return inputs_[static_cast<std::size_t>(pick(0, 2))];
     const Computed a = computed(depth - 1), b = computed(depth - 1);
-    switch (pick(0, 4)) {
+    switch (pick(0, 5)) {
+    case 5: return fromConstant(a, std::ldexp(1.0, pick(-2, 2)), typed());
     case 0: return rounded(store_.add(a.term, b.term), a.value + b.value);
     case 1:
     case 2: return rounded(store_.subtract(a.term, b.term), a.value - b.value);
@@ -72,6 +74,10 @@ public:
 
 private:
   TermId number(double value) { return store_.number(Number::fromDouble(value)); }
+  Computed fromConstant(const Computed &a, double factor, double constant) {
+    const TermId scaled = store_.scale(Number::fromDouble(factor), a.term);
+    return rounded(store_.subtract(scaled, number(constant)), factor * a.value - constant);
+  }
   Computed rounded(TermId exact, double value) { return {store_.apply(Function::Nearest, exact), value}; }
 
   TermStore &store_;
@@ -117,6 +123,24 @@ RC_GTEST_PROP(RoundingLaws, FactsAboutRoundedNumbersAreTrue, ()) {
     RC_ASSERT(holds(formula));
   for (const TermId weaker : purified.unrounded)
     RC_ASSERT(holds(weaker));
+}
+
+RC_GTEST_PROP(RoundingLaws, FactsAboutRoundedRootsAreTrue, ()) {
+  TermStore store;
+  const double x = typed(), y = typed(), square = x * x;
+  const Number exact = Number::fromDouble(square) - Number::fromDouble(pick(0, 1) == 0 ? y * y : 0.0);
+  RC_PRE(exact.sign() >= 0);
+  const auto named = [&](const char *name) { return store.variable(name, Sort::Real); };
+  const smt::Model model{{"root", Number::fromDouble(std::sqrt(exact.toDouble()))},
+                         {"argument", exact},
+                         {"square", Number::fromDouble(square)},
+                         {"x", Number::fromDouble(x)}};
+  for (const TermId fact : smt::rootFacts(store, named("root"), named("argument"), named("square"), named("x")))
+    RC_ASSERT(smt::isTrue(store, fact, model));
+  const smt::Model whole{{"root", Number::fromDouble(std::sqrt(square))}, {"x", Number::fromDouble(x)}};
+  const TermId product = store.multiply(named("x"), named("x"));
+  for (const TermId fact : smt::rootFacts(store, named("root"), product, product, named("x")))
+    RC_ASSERT(smt::isTrue(store, fact, whole));
 }
 
 } // namespace

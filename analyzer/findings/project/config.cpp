@@ -42,7 +42,8 @@ constexpr std::array kSwitchNames = {
     SwitchName{"centre_stays", &Switches::centreStays},
 };
 
-std::string withSuggestion(std::string message, std::string_view word, std::span<const std::string_view> candidates) {
+std::string withSuggestion(const std::string &message, std::string_view word,
+                           std::span<const std::string_view> candidates) {
   if (const auto nearest = nearestWord(word, candidates))
     return message + fmt::format("; did you mean `{}`?", *nearest);
   return message + fmt::format("; one of: {}", fmt::join(candidates, ", "));

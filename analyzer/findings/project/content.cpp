@@ -7,7 +7,7 @@ namespace feedhold {
 
 namespace {
 
-constexpr std::size_t kSample = 64 * 1024;
+constexpr std::size_t kSample = std::size_t{64} * 1024;
 
 /// Control bytes that punched-tape files and serial links leave in real programs: NUL leaders, DC1 to DC4, EOF, DEL.
 bool isTapeByte(unsigned char c) { return c == 0x00 || (c >= 0x11 && c <= 0x14) || c == 0x1a || c == 0x7f; }

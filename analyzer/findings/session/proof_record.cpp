@@ -159,12 +159,13 @@ FixIt readFix(Reader &reader, Place place) {
 }
 
 void write(Writer &writer, const prove::Guard &guard) {
-  const auto &[conditions, clause, fix] = guard;
+  const auto &[conditions, clause, fix, exactOnly] = guard;
   writer.number(conditions.size());
   for (const std::string &condition : conditions)
     writer.text(condition);
   writer.text(clause);
   writer.optional(fix, [&](const FixIt &value) { write(writer, value); });
+  writer.number(exactOnly ? 1 : 0);
 }
 
 prove::Guard readGuard(Reader &reader, Place place) {
@@ -174,6 +175,7 @@ prove::Guard readGuard(Reader &reader, Place place) {
   guard.clause = reader.text();
   if (reader.isPresent())
     guard.fix = readFix(reader, place);
+  guard.exactOnly = reader.number() != 0;
   return guard;
 }
 

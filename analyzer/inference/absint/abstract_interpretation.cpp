@@ -302,8 +302,9 @@ std::optional<std::pair<std::uint8_t, CodeSet>> AbstractInterpretation::codeFrom
     return std::pair{static_cast<std::uint8_t>(origin->symbol - kModalSymbols), CodeSet::atEntry()};
   std::optional<std::pair<std::uint8_t, CodeSet>> found;
   for (const double number : numberOf(value).set().values()) {
-    const Code *code =
-        number < 0 || number > 6000 ? nullptr : findGCode(*dialect_, static_cast<std::uint16_t>(number * 10 + 0.5));
+    const Code *code = number < 0 || number > 6000
+                           ? nullptr
+                           : findGCode(*dialect_, static_cast<std::uint16_t>(std::lround(number * 10)));
     const auto index = code ? modes.indexOf(*code) : std::nullopt;
     if (!index || (found && found->first != code->group))
       return std::nullopt;

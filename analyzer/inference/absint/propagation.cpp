@@ -142,7 +142,7 @@ void Propagation::go(NodeId node, AbstractState &&state) {
   if (isCut(node))
     deliver(node, std::move(state));
   else
-    work_.emplace_back(node, std::move(state));
+    work_.push_back({node, std::move(state)});
 }
 
 bool Propagation::execute(NodeId node, AbstractState &state) {

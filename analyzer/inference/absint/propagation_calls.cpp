@@ -57,7 +57,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
   nestingAlarms(node, request, state);
   const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
   if (!tooDeep && !engine_.isOpen(*request.callee))
-    return repeated(node, request, std::move(state));
+    return repeated(node, request, state);
   engine_.unmodelledEntries_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()},
                                      *request.callee);
   return enterUnmodelled(node, request, std::move(state));

@@ -2,6 +2,7 @@
 #include "inference/domain/number_parts.h"
 
 #include "inference/domain/number.h"
+#include "inference/domain/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,8 @@
 #include <limits>
 
 namespace feedhold {
+
+using rounding::kInfinity;
 
 namespace {
 

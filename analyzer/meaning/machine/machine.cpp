@@ -130,7 +130,7 @@ private:
     const Place own = frames_.size() > 1 ? frames_[1].call : here;
     const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
     for (Move<ConcreteValue> &move : moves)
-      result_.moves.push_back({std::move(move), unitInForce(), here, own, zero, isOfTool});
+      result_.moves.push_back({move, unitInForce(), here, own, zero, isOfTool});
   }
   LengthUnit unitInForce() {
     const auto ctx = context();

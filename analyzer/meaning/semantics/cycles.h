@@ -277,7 +277,8 @@ private:
       return unknownPecks();
     const bool metric = context_.certain(isMetric(context_));
     const double clearance = context_.behaviour().peckClearance / (metric ? 1 : 25.4);
-    for (double level = *top - depth; level > *bottom; level -= depth) {
+    for (int peck = 1; *top - peck * depth > *bottom; ++peck) {
+      const double level = *top - peck * depth;
       go(MoveKind::Feed, interpretation_.number(level));
       if (backTo)
         go(MoveKind::Rapid, *backTo);

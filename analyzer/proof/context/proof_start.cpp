@@ -4,6 +4,7 @@
 #include "proof/replay/exact_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -71,7 +72,11 @@ Obligation ProofSubject::obligation(ObligationKind kind, Place place, Span span,
 namespace {
 
 /// What a contract says of the numbers that inputs hold.
-std::map<std::uint32_t, WrittenInput> writtenInputs(const Contract &contract) {
+std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract) {
+  const auto isWhole = [&](ExpressionId id) {
+    const auto *literal = std::get_if<NumberLiteral>(&file.tree.expressions[id].node);
+    return literal && std::floor(literal->value.toDouble()) == literal->value.toDouble();
+  };
   std::map<std::uint32_t, WrittenInput> inputs;
   for (const auto *clauses : {&contract.params, &contract.globals})
     for (const EntryValue &each : *clauses) {
@@ -80,8 +85,10 @@ std::map<std::uint32_t, WrittenInput> writtenInputs(const Contract &contract) {
       const auto *range = std::get_if<Range>(&each.values);
       input.hasLow |= range && range->low;
       input.hasHigh |= range && range->high;
-      input.hasLow |= std::holds_alternative<ValueList>(each.values);
-      input.hasHigh |= std::holds_alternative<ValueList>(each.values);
+      const auto *list = std::get_if<ValueList>(&each.values);
+      input.hasLow |= list != nullptr;
+      input.hasHigh |= list != nullptr;
+      input.isWhole |= list && std::ranges::all_of(list->values, isWhole);
     }
   return inputs;
 }
@@ -91,7 +98,7 @@ std::map<std::uint32_t, WrittenInput> writtenInputs(const Contract &contract) {
 ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
     : interpretation_(store_, subject.dialect(), subject.options.arithmetic) {
   if (subject.contract())
-    interpretation_.assumeInputs(writtenInputs(*subject.contract()));
+    interpretation_.assumeInputs(writtenInputs(*subject.contracts, *subject.contract()));
   if (given)
     startExactly(interpretation_, *given);
   entry_ = symbolicEntry(interpretation_);

@@ -109,6 +109,10 @@ Obligation settle(const ProofContext &context, const Question &question) {
     row.verdict = verdict::Unreachable{};
   else
     row.verdict = Answer(context, violation, row.effort).of(question.goals);
+  const bool isRounded = context.subject.options.arithmetic != Arithmetic::Exact;
+  if (row.verdict == Verdict::Unknown && isRounded && question.isJudgedExactly)
+    if (auto witness = context.witnesses.amongDecimals(violation))
+      row.verdict = *std::move(witness);
   if (const Witness *witness = row.verdict.witness(); witness && question.isJudgedExactly)
     if (std::string how = context.promises.howBroken(witness->variables, row); !how.empty()) {
       Witness shown = *witness;

@@ -50,7 +50,8 @@ Number plain(const Number &value, const Number &grain) { return smt::floor(value
 } // namespace
 
 std::vector<Candidate> Products::violated(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses,
-                                          const ProductLimits &limits) {
+                                          const ProductLimits &limits, std::uint64_t mostWork) {
+  mostWork_ = work_ + mostWork;
   found_.clear();
   nearly_.assign(monomials_.size(), std::nullopt);
   equalities(rows, hypotheses, limits);
@@ -171,7 +172,7 @@ void Products::pairs(const Rows &rows, const std::vector<ActiveHypothesis> &hypo
   const std::vector<ActiveHypothesis> factors = inequalities(hypotheses);
   const std::size_t first = limits.factors == 1 ? std::min(strategy_.newest, factors.size()) : factors.size();
   for (std::size_t i = 0; i < first; ++i) {
-    for (std::size_t j = i; j < factors.size(); ++j) {
+    for (std::size_t j = i; j < factors.size() && !isSpent(); ++j) {
       const Constraint &left = *factors[i].constraint, &right = *factors[j].constraint;
       if (check::degree(left.polynomial) + check::degree(right.polynomial) > limits.degree)
         continue;
@@ -186,7 +187,7 @@ void Products::triples(const Rows &rows, const std::vector<ActiveHypothesis> &hy
   if (factors.size() > kMostForTriples)
     return;
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    for (std::size_t j = i; j < factors.size(); ++j) {
+    for (std::size_t j = i; j < factors.size() && !isSpent(); ++j) {
       const Polynomial &pair = product(factors[i], factors[j]).polynomial;
       for (std::size_t k = j; k < factors.size(); ++k) {
         const Polynomial &third = factors[k].constraint->polynomial;
@@ -210,6 +211,8 @@ void Products::equalities(const Rows &rows, const std::vector<ActiveHypothesis> 
   for (const ActiveHypothesis &equality : only(hypotheses, true)) {
     const Polynomial &polynomial = equality.constraint->polynomial;
     for (const Monomial &factor : factors) {
+      if (isSpent())
+        return;
       if (factor.empty() || check::degree(polynomial) + factor.size() > std::max<std::size_t>(limits.degree, 3))
         continue;
       const Known &product = timesMonomial(equality, factor);
@@ -232,6 +235,8 @@ void Products::squares(const Rows &rows, const std::vector<ActiveHypothesis> &hy
     factors.clear();
   for (const Monomial &x : bases) {
     for (const Monomial &y : bases) {
+      if (isSpent())
+        return;
       if (x == y || x.empty())
         continue;
       if (mayBreakSquare(rows, x, y))

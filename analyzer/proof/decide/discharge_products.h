@@ -29,9 +29,10 @@ class Products {
 public:
   explicit Products(const Strategy &strategy) : strategy_(strategy) {}
 
-  /// The rows that the point of `rows` breaks, a few, the most useful first: those without new monomials.
+  /// The rows that the point of `rows` breaks, a few, the most useful first: those without new monomials.  Of those
+  /// that so much work finds.
   std::vector<Candidate> violated(const Rows &rows, const std::vector<ActiveHypothesis> &hypotheses,
-                                  const ProductLimits &limits);
+                                  const ProductLimits &limits, std::uint64_t mostWork);
   std::uint64_t work() const { return work_; }
 
 private:
@@ -63,6 +64,7 @@ private:
   /// The square of x - f*y, times a hypothesis; for the f that the point breaks most.
   void square(const Rows &rows, const Monomial &x, const Monomial &y, const ActiveHypothesis *by);
   bool mayBreakSquare(const Rows &rows, const Monomial &x, const Monomial &y);
+  bool isSpent() const { return work_ >= mostWork_; }
   std::vector<ActiveHypothesis> inequalities(const std::vector<ActiveHypothesis> &hypotheses) const;
 
   const Strategy strategy_;
@@ -73,6 +75,7 @@ private:
   std::vector<std::optional<Near>> nearly_; ///< where they stand at the point in hand, rounded
   std::vector<std::pair<std::size_t, Candidate>> found_;
   std::uint64_t work_ = 0;
+  std::uint64_t mostWork_ = 0;
 };
 
 } // namespace feedhold::prove

@@ -201,7 +201,7 @@ private:
   bool addProducts(std::size_t firstLevel, std::size_t endLevel, std::span<std::size_t> roundsOfSquares) {
     for (std::size_t level = firstLevel; level < endLevel; ++level) {
       const ProductLimits &limits = kProductLevels[level];
-      std::vector<Candidate> rows = products_.violated(rows_, active_, limits);
+      std::vector<Candidate> rows = products_.violated(rows_, active_, limits, remaining());
       const bool onlySquares =
           std::all_of(rows.begin(), rows.end(), [](const Candidate &row) { return !row.source.squares.empty(); });
       if (rows.empty() || (onlySquares && ++roundsOfSquares[level] > kMostRoundsOfSquares))

@@ -176,9 +176,10 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
   const auto repeats = repeatsOf(interpretation_, request);
   if (repeats && callsNothing(*repeats))
     return {to(std::move(path), next)};
-  if (!repeats || *repeats > kMostRepeats)
-    return unknownCall(std::move(path), request, modal, "a call with an unknown number of repetitions",
-                       fmt::format("how often {} is repeated is unknown", nameOfCallee(path, modal)));
+  if (!repeats || *repeats > kMostRepeats) {
+    std::string why = fmt::format("how often {} is repeated is unknown", nameOfCallee(path, modal));
+    return unknownCall(std::move(path), request, modal, "a call with an unknown number of repetitions", std::move(why));
+  }
   const Limits &limits = fileOf(path).dialect->limits;
   if (const auto alarm = nestingAlarm(limits, depthOf(path.frames), request.freshLocals)) {
     stopsWhen(path, interpretation_.truth(true), *alarm);

@@ -84,9 +84,9 @@ std::vector<double> GougePath::extremes() const {
   std::vector<double> shares = {0, 1};
   if (!arc_ || arc_->sweep == 0)
     return shares;
-  constexpr double quarter = std::numbers::pi / 2;
-  const double turn = std::abs(arc_->sweep) / quarter;
-  const double begin = (arc_->sweep > 0 ? arc_->startAngle : -arc_->startAngle) / quarter;
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double turn = std::abs(arc_->sweep) / kQuarter;
+  const double begin = (arc_->sweep > 0 ? arc_->startAngle : -arc_->startAngle) / kQuarter;
   for (double next = std::floor(begin) + 1; next < begin + std::min(turn, 4.0); ++next)
     shares.push_back((next - begin) / turn);
   for (double last = std::ceil(begin + turn) - 1; turn > 4 && last > begin + turn - 4; --last)

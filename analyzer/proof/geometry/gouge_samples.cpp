@@ -41,10 +41,10 @@ std::vector<Ring> ringsOf(const Tool<double> &tool) {
   const auto onCorner = [&](double angle) {
     return Ring{flat + tool.corner * std::sin(angle), tool.corner * (1 - std::cos(angle))};
   };
-  constexpr double right = std::numbers::pi / 2;
-  std::vector<Ring> rings = {onCorner(right)};
+  constexpr double kRight = std::numbers::pi / 2;
+  std::vector<Ring> rings = {onCorner(kRight)};
   if (tool.corner > 0)
-    rings.insert(rings.end(), {onCorner(right * 2 / 3), onCorner(right / 3), onCorner(0)});
+    rings.insert(rings.end(), {onCorner(kRight * 2 / 3), onCorner(kRight / 3), onCorner(0)});
   if (flat > 0)
     rings.push_back({flat / 2, 0});
   return rings;

@@ -3,7 +3,6 @@
 namespace feedhold::geometry {
 
 using smt::Number;
-using smt::Sort;
 
 namespace {
 
@@ -11,7 +10,7 @@ std::size_t in(Axis axis) { return indexOf(axis); }
 
 } // namespace
 
-ToolPath::ToolPath(TermStore &store, TermMove move) : store_(store), move_(std::move(move)) {
+ToolPath::ToolPath(TermStore &store, TermMove move) : store_(store), move_(move) {
   if (isArc() && move_.radius && findCentre())
     move_.radius.reset();
 }

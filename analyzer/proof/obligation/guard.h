@@ -13,6 +13,7 @@ struct Guard {
   std::vector<std::string> conditions; // `#22 GT 0`; all of them together
   std::string clause;                  // of a contract: `@REQUIRE #22 GT 0`
   std::optional<FixIt> fix;            // the program raises an alarm where they do not hold; absent: it has no alarms
+  bool exactOnly = false;              // with it, the claim is proved in exact arithmetic
 };
 
 } // namespace feedhold::prove

@@ -32,6 +32,9 @@ struct Witness {
   std::optional<GougeAt> gouge = {}; // of a claim about space
 };
 
+/// How `happened` ends where the claim holds in exact numbers.
+inline constexpr std::string_view kByRounding = ", because the control rounds; in exact numbers it would not";
+
 /// The parts of a proof, one after another.
 struct Proof {
   Grade grade = Grade::Certified; // of the weakest part

@@ -28,6 +28,8 @@ public:
     witnesses_.emplace(sampledRuns(subject, start_, start_.demands()));
     if (subject.contract())
       sampleContract();
+    else
+      witnesses_->sampleDecimals({});
   }
 
   ProgramProof run() {
@@ -39,7 +41,7 @@ public:
       markRounding(contextOf(*stage_), rows);
       refuteByRounding(contextOf(*stage_), stage_->settled.denials, rows);
     }
-    if (subject_.options.guards == InferGuards::Yes)
+    if (subject_.options.guards == InferGuards::Yes && subject_.options.arithmetic == Arithmetic::Exact)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
     putInOrder(rows);
     std::vector<Contradiction> contradictions = judge(contextOf(*stage_), stage_->settled.denials, rows);
@@ -58,7 +60,9 @@ private:
     anyCall_ = discharge(start_.store(), start_.onPath(start_.demands(), start_.store().no()), subject_.options.budget);
     if (const smt::Model *model = anyCall_->counterexample())
       witnesses_->sampleAround(*model);
-    witnesses_->sampleEnds(start_.terms().inputEnds(*subject_.contract(), start_.entry()));
+    const std::vector<InputEnds> ends = start_.terms().inputEnds(*subject_.contract(), start_.entry());
+    witnesses_->sampleEnds(ends);
+    witnesses_->sampleDecimals(ends);
   }
 
   void settleStage(Stage &stage) {
@@ -168,6 +172,27 @@ void Work::followIterations() {
   stage_ = std::move(each);
 }
 
+bool isByRounding(const Obligation &exact) {
+  const Witness *witness = exact.verdict.witness();
+  return exact.verdict.holds() || (witness && witness->happened.ends_with(kByRounding));
+}
+
+/// Holds in exact arithmetic, or would with a guard that was found there.
+void takeFromExact(Obligation &row, const Obligation &exact) {
+  if (const Witness *found = row.verdict.witness(); found && isByRounding(exact)) {
+    Witness witness = *found;
+    witness.happened += kByRounding;
+    row.verdict = std::move(witness);
+  }
+  if (isOpen(row) && exact.verdict.holds())
+    row.verdict = Verdict::unknown("holds in exact arithmetic; rounding on the control may break it");
+  if (const auto *guard = exact.verdict.guard(); guard && !row.verdict.holds()) {
+    Guard known = *guard;
+    known.exactOnly = true;
+    row.verdict.setGuard(std::move(known));
+  }
+}
+
 bool isAboutSpace(ObligationKind kind) {
   return kind == ObligationKind::KeepIn || kind == ObligationKind::KeepOut || kind == ObligationKind::Clearance ||
          kind == ObligationKind::Travel;
@@ -179,20 +204,23 @@ ProgramProof proveIn(const ProofSubject &subject) {
   return Work(subject).run();
 }
 
-/// What holds but for the rounding of the control says so.  Claims about space are proved in exact numbers.
+/// What holds but for the rounding of the control says so.  Claims about space are proved in exact numbers, and guards
+/// are searched for there.
 void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
   const bool hasSpace = subject.contract() && hasSpaceClause(*subject.contract());
-  if (!hasSpace && std::none_of(proof.obligations.begin(), proof.obligations.end(), isOpen))
+  const bool needsGuards = subject.options.guards == InferGuards::Yes;
+  if (!hasSpace && std::none_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &row) {
+        return isOpen(row) || (needsGuards && !row.verdict.holds());
+      }))
     return;
   ProveOptions options = subject.options;
   options.arithmetic = Arithmetic::Exact;
-  options.guards = InferGuards::No;
   const ProofSubject exact{subject.programs, subject.program, subject.contracts, options};
   ProgramProof inExact = proveIn(exact);
   for (Obligation &row : proof.obligations)
     for (const Obligation &other : inExact.obligations)
-      if (isOpen(row) && isSameClaim(row, other) && other.verdict.holds())
-        row.verdict = Verdict::unknown("holds in exact arithmetic; rounding on the control may break it");
+      if (isSameClaim(row, other))
+        takeFromExact(row, other);
   for (Obligation &row : inExact.obligations)
     if (isAboutSpace(row.kind)) {
       if (verdict::Proved *proved = row.verdict.proved())

@@ -15,6 +15,7 @@ namespace {
 constexpr int kSamples = 150;
 constexpr std::size_t kFewSamples = 30;
 constexpr int kSamplesOfEnds = 50;
+constexpr int kSamplesOfDecimals = 60;
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfInput = 20; // of a model
@@ -46,7 +47,8 @@ std::string howItEnded(const RunResult &run) {
   FEEDHOLD_UNREACHABLE("the switch names every end");
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step + 0.0; } // no -0
+/// To a multiple of 1 / scale.
+double rounded(double value, double scale) { return std::round(value * scale) / scale + 0.0; } // no -0
 
 } // namespace
 
@@ -100,6 +102,8 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt:
 RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   RunOptions options = start_;
   options.variables = given;
+  if (interpretation_.arithmetic() != Arithmetic::Exact)
+    options.numbers = numbersOfRun(*programs_.file(entry_.file).dialect);
   const smt::Model model = place_.empty() ? smt::Model() : modelOf(given);
   for (const auto &[axis, place] : place_)
     if (const auto value = smt::evaluate(interpretation_.store(), place, model))
@@ -162,18 +166,11 @@ void WitnessSearch::sampleAround(const smt::Model &allowed) {
 }
 
 void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
-  const smt::TermStore &store = interpretation_.store();
   std::mt19937 random(1);
   for (int i = 0; i < kSamplesOfEnds; ++i) {
     GivenVariables given = inputsOf(others_);
     for (const auto &[variable, low, high] : ends) {
-      const smt::Model model = modelOf(given); // an end may depend on the inputs before
-      const auto valueOf = [&](const std::optional<smt::TermId> &end) {
-        const auto exact = end ? smt::evaluate(store, *end, model) : std::nullopt;
-        const double value = exact ? std::get<smt::Number>(*exact).toDouble() : std::nan("");
-        return std::isfinite(value) ? std::optional(value) : std::nullopt;
-      };
-      const auto least = valueOf(low), most = valueOf(high);
+      const auto least = endIn(given, low), most = endIn(given, high); // an end may depend on the inputs before
       const auto choice = i < 2 ? static_cast<unsigned>(i) : random() % 5;
       if (choice <= 1) {
         if (const auto end = choice == 0 ? least : most)
@@ -181,6 +178,35 @@ void WitnessSearch::sampleEnds(const std::vector<InputEnds> &ends) {
       } else if (choice == 2 && least && most) {
         given.set(variable, ConcreteValue::of(rounded((*least + *most) / 2, 1)));
       }
+    }
+    keepSample(std::move(given));
+  }
+}
+
+std::optional<double> WitnessSearch::endIn(const GivenVariables &given, const std::optional<smt::TermId> &end) const {
+  const auto exact = end ? smt::evaluate(interpretation_.store(), *end, modelOf(given)) : std::nullopt;
+  const double value = exact ? std::get<smt::Number>(*exact).toDouble() : std::nan("");
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void WitnessSearch::sampleDecimals(const std::vector<InputEnds> &ends) {
+  firstDecimal_ = samples_.size();
+  std::mt19937 random(1);
+  const auto share = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
+  const auto decimal = [&](double least, double most) {
+    const double scale = std::pow(10.0, static_cast<double>(random() % 6));
+    const double part = share();
+    const double value = std::round((least + (most - least) * part * part * part) * scale) / scale; // mostly small ones
+    return std::clamp(value, least, most);
+  };
+  for (int i = 0; i < kSamplesOfDecimals; ++i) {
+    GivenVariables given = inputsOf(others_);
+    for (const std::uint32_t variable : inputs()) {
+      const auto known = std::ranges::find(ends, variable, &InputEnds::variable);
+      const auto least = known == ends.end() ? std::nullopt : endIn(given, known->low);
+      const auto most = known == ends.end() ? std::nullopt : endIn(given, known->high);
+      if (ends.empty() || (least && most && *least <= *most))
+        given.set(variable, ConcreteValue::of(decimal(least.value_or(0), most.value_or(30))));
     }
     keepSample(std::move(given));
   }
@@ -214,6 +240,23 @@ std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) c
   return std::nullopt;
 }
 
+std::optional<Witness> WitnessSearch::amongDecimals(const Violation &violation) const {
+  constexpr std::size_t kMostFollowed = 12;
+  std::vector<const Sample *> longest; // errors add up
+  for (std::size_t i = firstDecimal_; i < samples_.size(); ++i)
+    if (samples_[i].result.end != RunEnd::Fuel)
+      longest.push_back(&samples_[i]);
+  std::ranges::stable_sort(longest, std::greater(), [](const Sample *sample) { return sample->result.steps; });
+  longest.resize(std::min(longest.size(), kMostFollowed));
+  for (const Sample *sample : longest) {
+    if (smt::areStepsUsedUp())
+      break;
+    if (auto witness = shown(*sample, violation))
+      return plainest(*std::move(witness), violation, kSampleFuel);
+  }
+  return std::nullopt;
+}
+
 std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &violation) const {
   const auto happened = violation.happened(run.result, run.given);
   if (!happened || !allowed(run.given) || !isExact(run.given, run.result, violation))
@@ -228,7 +271,7 @@ std::optional<Witness> WitnessSearch::shownByRounding(const Sample &run, const V
   auto happened = violation.happened(run.result, run.given);
   if (!happened || !allowed(run.given) || agreesExactly(run.given, run.result) != Agreement::Different)
     return std::nullopt;
-  return Witness{run.given, run.result.end, *happened + ", because the control rounds; in exact numbers it would not"};
+  return Witness{run.given, run.result.end, *happened + std::string(kByRounding)};
 }
 
 /// What happens only because the machine rounds is no witness against a claim over exact numbers.
@@ -315,8 +358,8 @@ Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std
     GivenVariables without = witness.variables;
     without.erase(variable);
     std::vector<GivenVariables> plainer{without};
-    for (const double plain : {0.0, 1.0, rounded(value, 10), rounded(value, 1), rounded(value, 0.1),
-                               rounded(value, 0.01), rounded(value, 0.001)}) {
+    for (const double plain : {0.0, 1.0, rounded(value, 0.1), rounded(value, 1), rounded(value, 10),
+                               rounded(value, 100), rounded(value, 1000)}) {
       if (plain == value)
         break;
       plainer.push_back(without);

@@ -53,8 +53,12 @@ public:
   void sampleAround(const smt::Model &allowed);
   /// At the ends of what the inputs may be, and midway: where claims break first.
   void sampleEnds(const std::vector<InputEnds> &ends);
+  /// On numbers with a few digits behind the point, which the control rounds; between the ends where these are known.
+  void sampleDecimals(const std::vector<InputEnds> &ends);
   /// Among the sampled runs.
   std::optional<Witness> amongSamples(const Violation &violation) const;
+  /// Among those of sampleDecimals(), of which more are followed exactly than amongSamples() does.
+  std::optional<Witness> amongDecimals(const Violation &violation) const;
   /// The inputs that a model of the solver names, then made as plain as they can be.
   std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation,
                                    std::uint64_t fuel = kFuel) const;
@@ -91,6 +95,8 @@ private:
   std::vector<double> plainNumbers() const;
   GivenVariables inputsOf(const smt::Model &model) const;
   void keepSample(GivenVariables given);
+  /// Absent: there is none, or none that is a number.
+  std::optional<double> endIn(const GivenVariables &given, const std::optional<smt::TermId> &end) const;
   bool isExact(const GivenVariables &given, const RunResult &run) const;
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
@@ -104,6 +110,7 @@ private:
   RunOptions start_;
   std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
+  std::size_t firstDecimal_ = 0;         // of samples_
   std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
   smt::Model others_; // inputs that satisfy what they have to

@@ -159,7 +159,7 @@ public:
     case TermKind::Less:
     case TermKind::LessOrEqual: return comparison(formula, term);
     case TermKind::Equal: return store_.sort(term.arguments[0]) == Sort::Bool ? formula : equality(formula, term);
-    case TermKind::Not: return denial(formula, store_[term.arguments[0]]);
+    case TermKind::Not: return denial(formula, term.arguments[0]);
     case TermKind::True:
     case TermKind::False:
     case TermKind::Number:
@@ -207,7 +207,8 @@ private:
                              atMost(store_.negate(apart.exact), apart.most, TermKind::LessOrEqual));
   }
   /// Numbers that differ may be equal but for rounding.
-  TermId denial(TermId formula, const Term inner) {
+  TermId denial(TermId formula, TermId denied) {
+    const Term inner = store_[denied]; // a copy: terms are made
     if (inner.kind != TermKind::Equal || store_.sort(inner.arguments[0]) == Sort::Bool)
       return formula;
     const Deviation apart = sides(inner);

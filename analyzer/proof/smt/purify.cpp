@@ -5,6 +5,7 @@
 #include "proof/smt/rounding_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace feedhold::smt {
@@ -126,14 +127,49 @@ private:
   void nearest(TermId value, TermId x) {
     rounded_.emplace(value, x);
     facts(nearestFacts(store_, *bounds_, value, x));
+    if (const auto root = roots_.find(x); root != roots_.end())
+      roundedRoot(value, root->second);
+    if (const auto sides = differenceOfDoubles(x))
+      if (const auto exact = differenceFact(store_, *bounds_, value, sides->first, sides->second))
+        fact(*exact);
+  }
+  /// The sides of a difference of doubles.  A double times a power of two is one.
+  std::optional<std::pair<TermId, TermId>> differenceOfDoubles(TermId x) {
     const LinearSum sum = store_.linear(x);
-    if (sum.terms.size() != 2 || !sum.constant.isZero() || abs(sum.terms[0].second) != Number(1) ||
-        sum.terms[0].second != -sum.terms[1].second || !isDouble(sum.terms[0].first) || !isDouble(sum.terms[1].first))
-      return;
-    const bool isInOrder = sum.terms[0].second.sign() > 0;
-    const TermId first = sum.terms[isInOrder ? 0 : 1].first, second = sum.terms[isInOrder ? 1 : 0].first;
-    if (const auto exact = differenceFact(store_, *bounds_, value, first, second))
-      fact(*exact);
+    std::vector<TermId> added, taken;
+    for (const auto &[term, factor] : sum.terms) {
+      if (!isDouble(term) || !isPowerOfTwo(abs(factor)))
+        return std::nullopt;
+      (factor.sign() > 0 ? added : taken).push_back(store_.scale(abs(factor), term));
+    }
+    if (!sum.constant.isZero()) {
+      if (Number::fromDouble(sum.constant.toDouble()) != sum.constant)
+        return std::nullopt;
+      (sum.constant.sign() > 0 ? added : taken).push_back(number(abs(sum.constant)));
+    }
+    if (added.size() != 1 || taken.size() != 1)
+      return std::nullopt;
+    return std::pair(added.front(), taken.front());
+  }
+  static bool isPowerOfTwo(const Number &factor) {
+    int exponent = 0;
+    return std::frexp(factor.toDouble(), &exponent) == 0.5 && Number::fromDouble(factor.toDouble()) == factor;
+  }
+  /// Of a number that has the rounded square of a double in it.
+  void roundedRoot(TermId value, TermId argument) {
+    const TermId exact = exactOf(argument);
+    for (const auto &[square, factor] : store_.linear(exact).terms) {
+      const TermId product = exactOf(square);
+      if (factor == Number(1) && isDouble(square) && isSquare(product))
+        facts(rootFacts(store_, value, exact, square, store_[product].arguments[0]));
+    }
+    if (isSquare(exact))
+      facts(rootFacts(store_, value, exact, exact, store_[exact].arguments[0]));
+  }
+  bool isSquare(TermId id) const {
+    const Term &term = store_[id];
+    return term.kind == TermKind::Multiply && term.arguments.size() == 2 && term.arguments[0] == term.arguments[1] &&
+           isDouble(term.arguments[0]);
   }
   bool isDouble(TermId term) const { return rounded_.contains(term) || store_.isMarkedAsDouble(term); }
   /// A double is rounded to itself.
@@ -217,6 +253,7 @@ private:
   }
 
   void squareRoot(TermId value, TermId x) {
+    roots_.emplace(value, x);
     factWhere(atMost(number(0), x), store_.logicalAnd(atMost(number(0), value), equal(times(value, value), x)));
   }
 
@@ -300,6 +337,7 @@ private:
   std::vector<TermId> facts_;
   std::optional<Bounds> bounds_;     ///< of what is pure
   std::map<TermId, TermId> rounded_; ///< variables of nearest(), with what they are rounded from
+  std::map<TermId, TermId> roots_;   ///< variables of square roots, with the arguments
 };
 
 } // namespace

@@ -49,11 +49,22 @@ std::vector<TermId> nearestFacts(TermStore &store, const Bounds &bounds, TermId 
 std::optional<TermId> differenceFact(TermStore &store, const Bounds &bounds, TermId rounded, TermId first,
                                      TermId second) {
   const Interval a = bounds.of(first), b = bounds.of(second);
-  if (a.lo < 0 || b.lo < 0 || a.hi < b.lo / 2 || b.hi < a.lo / 2)
+  const bool mayBeNegative = a.lo < 0 || b.lo < 0;
+  if ((mayBeNegative && !store.isNumber(first) && !store.isNumber(second)) || a.hi < b.lo / 2 || b.hi < a.lo / 2)
     return std::nullopt;
+  if (!mayBeNegative && a.hi <= 2 * b.lo && b.hi <= 2 * a.lo)
+    return store.equal(rounded, store.subtract(first, second));
   const TermId isNear = store.logicalAnd(store.lessOrEqual(first, store.scale(Number(2), second)),
                                          store.lessOrEqual(second, store.scale(Number(2), first)));
   return store.implies(isNear, store.equal(rounded, store.subtract(first, second)));
+}
+
+std::vector<TermId> rootFacts(TermStore &store, TermId root, TermId argument, TermId square, TermId base) {
+  const TermId magnitude = store.absolute(base);
+  if (argument == square)
+    return {store.equal(root, magnitude)};
+  return {store.implies(store.lessOrEqual(argument, square), store.lessOrEqual(root, magnitude)),
+          store.implies(store.lessOrEqual(square, argument), store.lessOrEqual(magnitude, root))};
 }
 
 std::vector<TermId> nearFacts(TermStore &store, TermId value, TermId exact, TermId distance) {

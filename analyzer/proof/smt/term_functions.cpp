@@ -116,6 +116,12 @@ std::optional<TermId> TermStore::foldedFloor(TermId argument) {
 /// What is a double stays; and rounding is the same on both sides of 0.
 std::optional<TermId> TermStore::foldedNearest(TermId argument) {
   const Term &term = terms_[argument];
+  if (term.kind == TermKind::Apply && term.function == Function::Sqrt && isNumber(term.arguments[0])) {
+    const Number square = terms_[term.arguments[0]].number;
+    const double value = square.toDouble();
+    if (value >= 0 && std::isfinite(value) && Number::fromDouble(value) == square)
+      return number(Number::fromDouble(std::sqrt(value))); // IEEE 754: rounded to the nearest
+  }
   if (term.kind == TermKind::Apply && term.function == Function::Nearest)
     return argument;
   const LinearSum sum = linear(argument);

@@ -18,13 +18,6 @@ constexpr std::size_t kMostArguments = 64;
 // Behind these, no certificate can speak of the value (check/problem.cpp), and each further operation makes it larger.
 constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64}; // 4096 bits
 
-Number numberOf(Decimal value) {
-  Number number(static_cast<std::int64_t>(value.mantissa()));
-  for (int i = 0; i < value.scale(); ++i)
-    number /= Number(10);
-  return number;
-}
-
 std::optional<Function> functionOf(FunctionKind kind) {
   if (kind == FunctionKind::Sin)
     return Function::Sin;
@@ -123,9 +116,6 @@ SymbolicValue SymbolicInterpretation::of(TermId number) {
   return anyNumber();
 }
 
-SymbolicValue SymbolicInterpretation::literal(Decimal value) {
-  return arithmetic_ == Arithmetic::Exact ? of(store_.number(numberOf(value))) : number(value.toDouble());
-}
 SymbolicValue SymbolicInterpretation::number(double value) { return of(store_.number(Number::fromDouble(value))); }
 SymbolicValue SymbolicInterpretation::vacant() { return {store_.yes(), store_.number(Number(0))}; }
 
@@ -207,7 +197,7 @@ SymbolicValue SymbolicInterpretation::fup(const Value &a) {
 }
 /// Exact in doubles, too (C, fmod).
 SymbolicValue SymbolicInterpretation::remainder(const Value &a, const Value &b) {
-  const bool rounded = roundResults(false);
+  const Rounds rounded = roundResults(Rounds::No);
   const Value rest = subtract(a, multiply(b, fix(divide(a, b))));
   roundResults(rounded);
   return rest;
@@ -216,7 +206,7 @@ SymbolicValue SymbolicInterpretation::remainder(const Value &a, const Value &b) 
 /// Halves go away from zero.  Finer steps are the increment of the control, which exact reals do not have.
 SymbolicValue SymbolicInterpretation::roundTo(const Value &value, Decimal step) {
   if (step.scale() != 0 || step.mantissa() != 1)
-    return rounds_ ? roundedWord(value, step) : asNumber(value);
+    return rounds_ != Rounds::No ? roundedWord(value, step) : asNumber(value);
   if (grids_.of(value.number).value_or(-1) >= 0)
     return asNumber(value);
   const TermId half = store_.number(Number(1) / Number(2));
@@ -272,91 +262,6 @@ Condition SymbolicInterpretation::compare(Relation relation, const Value &a, con
 
 bool SymbolicInterpretation::mayBe(Truth a) {
   return a.term != store_.no() && !(path_ && path_->says(store_.logicalNot(a.term)));
-}
-
-// ---- results as doubles ----
-
-/// A multiple of 2^k is a double up to 2^(53 + k); what is copied or negated stays one.
-SymbolicValue SymbolicInterpretation::result(TermId exact, const Value &a, const Value &b) {
-  if (!rounds_)
-    return of(exact);
-  for (const TermId operand : {a.number, b.number})
-    if (exact == operand || exact == store_.negate(operand))
-      return of(exact);
-  const auto grid = store_.isNumber(exact) || isRoundedHere() ? std::nullopt : grids_.of(exact);
-  if (!grid)
-    return of(store_.apply(Function::Nearest, exact));
-  constexpr int kBitsOfDouble = 53;
-  exact_.push_back({exact, kBitsOfDouble + std::min(*grid, 0)});
-  return of(exact);
-}
-
-SymbolicValue SymbolicInterpretation::multiply(const Value &a, const Value &b) {
-  const TermId exact = store_.multiply(a.number, b.number);
-  return isMultipleByPowerOfTwo(a) || isMultipleByPowerOfTwo(b) ? of(exact) : result(exact, a, b);
-}
-SymbolicValue SymbolicInterpretation::divide(const Value &a, const Value &b) {
-  const TermId exact = store_.divide(a.number, b.number);
-  return isMultipleByPowerOfTwo(b) ? of(exact) : result(exact, a, b);
-}
-/// Only the exponent of the other factor changes.
-bool SymbolicInterpretation::isMultipleByPowerOfTwo(const Value &factor) const {
-  if (!store_.isNumber(factor.number))
-    return false;
-  int exponent = 0;
-  return std::fabs(std::frexp(store_[factor.number].number.toDouble(), &exponent)) == 0.5;
-}
-
-SymbolicValue SymbolicInterpretation::near(TermId exact, TermId distance) {
-  const std::array arguments{exact, distance};
-  return of(store_.apply(Function::Near, arguments));
-}
-
-/// Roots are rounded to the nearest; of the other functions no control says how near they are.
-SymbolicValue SymbolicInterpretation::resultOf(FunctionKind kind, TermId exact, const Value &argument) {
-  if (!rounds_)
-    return of(exact);
-  const TermId error = store_.number(Number(1) / Number(std::int64_t{1} << 36));
-  if (kind == FunctionKind::Sqrt)
-    return of(store_.apply(Function::Nearest, exact));
-  const bool isOfAngle = kind == FunctionKind::Sin || kind == FunctionKind::Cos;
-  const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
-  if (isOfAngle && store_.isNumber(argument.number) && (store_[argument.number].number / Number(90)).isInteger())
-    return of(exact);
-  const TermId size = isNeverNegative(exact) ? exact : store_.absolute(exact);
-  const TermId distance = isOfAngle || isAngle ? error : store_.multiply(error, size);
-  return store_.isNumber(exact) ? constantNear(kind, exact, distance, argument) : near(exact, distance);
-}
-
-/// SIN[30] and COS[60] are 1/2, and may be off by different amounts: a number of its own for each.
-SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exact, TermId distance,
-                                                   const Value &argument) {
-  const std::size_t known = named_.size();
-  const Value value =
-      named(fmt::format("function {} of {} near {}", static_cast<int>(kind), argument.number.index(), exact.index()),
-            MayBeVacant::No);
-  if (named_.size() != known)
-    facts_.push_back(store_.logicalAnd(store_.lessOrEqual(store_.subtract(exact, distance), value.number),
-                                       store_.lessOrEqual(value.number, store_.add(exact, distance))));
-  return value;
-}
-
-/// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value
-/// together.  Coordinates are small; where that is not proved, the distance goes by the value.
-SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
-  if (const auto constant = constantOf(value)) {
-    const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
-    return number(std::round(*constant * steps) / steps);
-  }
-  const Number half = numberOf(step) / Number(2);
-  if (isRoundedHere()) {
-    const TermId size = isNeverNegative(value.number) ? value.number : store_.absolute(value.number);
-    return near(value.number, store_.add(store_.number(half * Number(1'000'001) / Number(1'000'000)),
-                                         store_.scale(Number(1) / Number(std::int64_t{1} << 52), size)));
-  }
-  constexpr int kBitsOfWord = 30;
-  exact_.push_back({value.number, kBitsOfWord});
-  return near(value.number, store_.number(half + Number(1) / Number(4'000'000))); // 2^(30 - 52) and a little more
 }
 
 // ---- modal codes ----

@@ -91,9 +91,12 @@ public:
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
   smt::TermStore &store() { return store_; }
   Arithmetic arithmetic() const { return arithmetic_; }
-  /// Whether results are rounded: those of the program are, conditions of a contract are read in exact numbers.
-  /// Returns what it was.
-  bool roundResults(bool rounds) { return std::exchange(rounds_, rounds && arithmetic_ != Arithmetic::Exact); }
+  /// How results are rounded: not at all, as doubles, or in the number model of the dialect.
+  enum class Rounds : std::uint8_t { No, AsDoubles, AsDialect };
+  /// Exact arithmetic rounds nothing.  Returns what it was.
+  Rounds roundResults(Rounds rounds) {
+    return std::exchange(rounds_, arithmetic_ == Arithmetic::Exact ? Rounds::No : rounds);
+  }
   /// The instruction that is executed, for roundAlways().
   void executeAt(Place place) { place_ = place; }
   /// The numbers of the instruction are not known to be so small that results are exact.
@@ -154,8 +157,10 @@ public:
   Value between(const Value &start, const Value &end);
 
   // ---- arithmetic ----
-  Value add(const Value &a, const Value &b) { return result(store_.add(a.number, b.number), a, b); }
-  Value subtract(const Value &a, const Value &b) { return result(store_.subtract(a.number, b.number), a, b); }
+  Value add(const Value &a, const Value &b) { return result(Operation::Sum, store_.add(a.number, b.number), a, b); }
+  Value subtract(const Value &a, const Value &b) {
+    return result(Operation::Sum, store_.subtract(a.number, b.number), a, b);
+  }
   Value multiply(const Value &a, const Value &b);
   Value divide(const Value &a, const Value &b);
   Value negate(const Value &a) { return of(store_.negate(a.number)); }
@@ -212,7 +217,12 @@ public:
 
 private:
   Value of(smt::TermId number);
-  Value result(smt::TermId exact, const Value &a, const Value &b);
+  enum class Operation : std::uint8_t { Sum, Product, Quotient };
+  Value result(Operation operation, smt::TermId exact, const Value &a, const Value &b);
+  Value inShortMantissa(Operation operation, smt::TermId exact, const Value &a, const Value &b);
+  Value functionInShortMantissa(FunctionKind kind, smt::TermId exact, const Value &argument);
+  bool hasShortMantissas() const;
+  smt::TermId sizeOf(smt::TermId number);
   Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);
   Value near(smt::TermId exact, smt::TermId distance);
   Value constantNear(FunctionKind kind, smt::TermId exact, smt::TermId distance, const Value &argument);
@@ -231,7 +241,7 @@ private:
   smt::TermStore &store_;
   const Dialect *dialect_;
   Arithmetic arithmetic_;
-  bool rounds_ = false;
+  Rounds rounds_ = Rounds::No;
   std::optional<smt::TermId> tolerance_;
   Grids grids_;
   std::optional<Place> place_;
@@ -258,11 +268,12 @@ private:
   bool moved_ = false;
 };
 
-/// An expression of a contract means what it means in a program.  Its whole numbers are exact, however large.
+/// An expression of a contract is evaluated in doubles.  Its whole numbers are exact, however large.
 class ContractArithmetic {
 public:
   explicit ContractArithmetic(SymbolicInterpretation &interpretation)
-      : interpretation_(interpretation), before_(interpretation.roundResults(true)),
+      : interpretation_(interpretation),
+        before_(interpretation.roundResults(SymbolicInterpretation::Rounds::AsDoubles)),
         exact_(interpretation.takeExactResults()) {}
   ContractArithmetic(const ContractArithmetic &) = delete;
   ContractArithmetic &operator=(const ContractArithmetic &) = delete;
@@ -273,7 +284,7 @@ public:
 
 private:
   SymbolicInterpretation &interpretation_;
-  bool before_;
+  SymbolicInterpretation::Rounds before_;
   std::vector<TakenAsSmall> exact_;
 };
 
@@ -281,7 +292,8 @@ private:
 class ProgramArithmetic {
 public:
   ProgramArithmetic(SymbolicInterpretation &interpretation, Place place)
-      : interpretation_(interpretation), before_(interpretation.roundResults(true)) {
+      : interpretation_(interpretation),
+        before_(interpretation.roundResults(SymbolicInterpretation::Rounds::AsDialect)) {
     interpretation.executeAt(place);
   }
   ProgramArithmetic(const ProgramArithmetic &) = delete;
@@ -290,7 +302,7 @@ public:
 
 private:
   SymbolicInterpretation &interpretation_;
-  bool before_;
+  SymbolicInterpretation::Rounds before_;
 };
 
 /// An arbitrary state at the start: each part is a variable of its own.

@@ -37,11 +37,13 @@ EventualInvariants::Found EventualInvariants::fromArrival(std::uint64_t mostWork
 }
 
 EventualInvariants::Found EventualInvariants::behind(std::size_t iteration, std::span<const std::size_t> iterations,
-                                                     std::span<const TermId> known, std::uint64_t mostWork) const {
+                                                     std::span<const TermId> known, std::uint64_t mostWork,
+                                                     Tried tried) const {
   Start start{loop_.transitions[iteration].conditions, loop_.transitions[iteration].next};
   start.conditions.insert(start.conditions.end(), known.begin(), known.end());
-  std::set<TermId> all = candidates(iterations);
-  addIntervals(start, iterations, all);
+  std::set<TermId> all = tried == Tried::All ? candidates(iterations) : ofConditions(iterations);
+  if (tried == Tried::All)
+    addIntervals(start, iterations, all);
   for (const TermId fact : known)
     all.erase(fact);
   return found(start, iterations, known, std::move(all), mostWork);
@@ -134,8 +136,17 @@ std::vector<TermId> EventualInvariants::forms() const {
   return forms;
 }
 
-std::set<TermId> EventualInvariants::candidates(std::span<const std::size_t> iterations) const {
+std::set<TermId> EventualInvariants::ofConditions(std::span<const std::size_t> iterations) const {
   std::set<TermId> all;
+  for (const std::size_t iteration : iterations)
+    for (const TermId part : smt::reachable(store_, loop_.transitions[iteration].conditions))
+      addComparison(part, iterations, all);
+  std::erase_if(all, [&](TermId candidate) { return !isOfTheLoop(candidate); });
+  return all;
+}
+
+std::set<TermId> EventualInvariants::candidates(std::span<const std::size_t> iterations) const {
+  std::set<TermId> all = ofConditions(iterations);
   for (const TermId number : numbers()) {
     for (const int bound : {0, 1}) {
       all.insert(store_.lessOrEqual(store_.number(Number(bound)), number));
@@ -145,8 +156,6 @@ std::set<TermId> EventualInvariants::candidates(std::span<const std::size_t> ite
     all.insert({store_.equal(number, store_.floor(number)), store_.equal(half, store_.floor(half))});
   }
   for (const std::size_t iteration : iterations) {
-    for (const TermId part : smt::reachable(store_, loop_.transitions[iteration].conditions))
-      addComparison(part, iterations, all);
     for (const TermId number : numbers()) {
       const TermId next = loop_.transitions[iteration].next.at(number);
       if (!loop_.isConstant(interpretation_, store_, next))

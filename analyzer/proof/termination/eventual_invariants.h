@@ -23,11 +23,14 @@ public:
     std::vector<Outcome> evidence;
     std::uint64_t work = 0;
   };
+  /// Which facts are tried: those that the conditions of the iterations speak of alone, or bounds and differences of
+  /// variables, too.
+  enum class Tried : std::uint8_t { Conditions, All };
   Found fromArrival(std::uint64_t mostWork) const;
   /// Behind one of the iterations, while no other iterations are made than these; `known`: holds before and behind all
   /// of them.
   Found behind(std::size_t iteration, std::span<const std::size_t> iterations, std::span<const smt::TermId> known,
-               std::uint64_t mostWork) const;
+               std::uint64_t mostWork, Tried tried) const;
 
 private:
   struct Start {
@@ -43,6 +46,7 @@ private:
   std::vector<smt::TermId> numbers() const;
   std::vector<smt::TermId> forms() const;
   std::set<smt::TermId> candidates(std::span<const std::size_t> iterations) const;
+  std::set<smt::TermId> ofConditions(std::span<const std::size_t> iterations) const;
   void addComparison(smt::TermId condition, std::span<const std::size_t> iterations, std::set<smt::TermId> &all) const;
   void addIntervals(const Start &start, std::span<const std::size_t> iterations, std::set<smt::TermId> &all) const;
   bool isOfTheLoop(smt::TermId term) const;

@@ -64,14 +64,20 @@ private:
       std::erase_if(iterations, [&](std::size_t iteration) { return holds(iteration, store_.no(), result_.evidence); });
     if (iterations.empty())
       return true;
-    if (withLittle([&] { return lower(iterations, candidates_); }) || lowerByProgram(iterations) ||
-        withLittle([&] { return lower(iterations, choices()); }))
+    if (withLittle([&] { return lower(iterations, candidates_); }) || lowerByProgram(iterations))
+      return rank(iterations);
+    // A last step that comes to its limit as near as rounding lets it.
+    if (interpretation_.arithmetic() != Arithmetic::Exact &&
+        afterIteration(iterations, EventualInvariants::Tried::Conditions))
+      return true;
+    if (withLittle([&] { return lower(iterations, choices()); }))
       return rank(iterations);
     if (iterations.size() > 12 || work_ > kMostWork)
       return false;
     const auto cycles = cyclesOf(iterations);
     if (cycles.size() == 1 && cycles.front().size() == iterations.size())
-      return inPhases(iterations) || (lower(iterations, likely()) && rank(iterations)) || afterIteration(iterations) ||
+      return inPhases(iterations) || (lower(iterations, likely()) && rank(iterations)) ||
+             afterIteration(iterations, EventualInvariants::Tried::All) ||
              (lower(iterations, candidates_) && rank(iterations)) || afterPhase(iterations);
     return std::all_of(cycles.begin(), cycles.end(), [&](const auto &cycle) { return rank(cycle); });
   }
@@ -98,14 +104,14 @@ private:
 
   /// An iteration that is made again and again is made once: what it leaves, and every iteration keeps, holds from then
   /// on.  So all iterations are ranked where that holds, and the others without this one.
-  bool afterIteration(const std::vector<std::size_t> &iterations) {
+  bool afterIteration(const std::vector<std::size_t> &iterations, EventualInvariants::Tried tried) {
     if (phases_.size() >= kMostPhases)
       return false;
     const EventualInvariants lasting(interpretation_, store_, loop_);
     for (const std::size_t iteration : iterations) {
       if (work_ > kMostWork)
         return false;
-      const EventualInvariants::Found found = lasting.behind(iteration, iterations, phases_, kMostWork / 8);
+      const EventualInvariants::Found found = lasting.behind(iteration, iterations, phases_, kMostWork / 8, tried);
       work_ += found.work;
       if (found.facts.empty())
         continue;

@@ -36,6 +36,7 @@ std::optional<Error> writeAll(const fs::path &folder, const Bundle &bundle) {
 void keepEvidence(ProofOptions &options) {
   options.steps = KeepSteps::Yes;
   options.prove.guards = prove::InferGuards::No;
+  options.prove.arithmetic = prove::Arithmetic::Exact;
 }
 
 std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view mark) {

@@ -30,7 +30,7 @@ struct ProveArguments {
   std::vector<std::string> only;
   std::string dialect;
   ConfigArguments config;
-  std::string arithmetic = "exact";
+  std::string arithmetic = "control";
   std::string certificate;
   CacheArguments cache;
   std::string format = "text";
@@ -54,8 +54,8 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
                                             "write the evidence of all proofs to this folder, for `feedhold recheck`")
                                  ->type_name("FOLDER");
   app.add_option("--arithmetic", arguments.arithmetic,
-                 "prove in exact numbers, or in the rounded numbers of the control (slower)")
-      ->check(CLI::IsMember({"exact", "control"}))
+                 "prove in the rounded numbers of the control, or in exact numbers as on paper (faster)")
+      ->check(CLI::IsMember({"control", "exact"}))
       ->capture_default_str()
       ->excludes(certificate);
   addFormat(app, arguments.format, {"text", "json", "sarif"});
@@ -90,11 +90,11 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   options.files.config = configFrom(arguments.config);
   options.files.jobs = arguments.jobs;
   options.cache = cacheFor(arguments);
+  options.prove.only = kindsFrom(arguments.only);
+  if (arguments.arithmetic == "exact")
+    options.prove.arithmetic = prove::Arithmetic::Exact;
   if (!arguments.certificate.empty())
     keepEvidence(options);
-  options.prove.only = kindsFrom(arguments.only);
-  if (arguments.arithmetic == "control")
-    options.prove.arithmetic = prove::Arithmetic::Doubles;
   return options;
 }
 
@@ -167,7 +167,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .root = std::filesystem::current_path(),
                            .exitCode = exitCodeOf(result),
                            .readingOptions = readingOptions(arguments),
-                           .arithmetic = arguments.arithmetic,
+                           .arithmetic = arguments.certificate.empty() ? arguments.arithmetic : "exact",
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
                            .colour = useColour(colourOptionFrom(arguments.color))};
   printProblems(result.errors);

@@ -133,8 +133,10 @@ private:
           "intended, declare it with <code>@ALARM</code>. If not, rule the call out with <code>@REQUIRE</code>.</p>\n");
     if (counts["unknown"] != 0)
       add("<p>Unknown: Feedhold found neither a proof nor a counterexample.</p>\n");
-    add("<p>Proved: the claim holds for all inputs, under the <a href=\"#assumptions\">assumptions</a> in this "
-        "report. See also what was <a href=\"#not-checked\">not checked</a>.</p>\n</div>\n</section>\n");
+    add("<p>Proved: the claim holds for all inputs, in exact arithmetic and under the "
+        "<a href=\"#assumptions\">assumptions</a> in this report. The control rounds: <code>feedhold prove</code> "
+        "says which claims hold for its rounded numbers, too. See also what was <a href=\"#not-checked\">not "
+        "checked</a>.</p>\n</div>\n</section>\n");
   }
   /// `Refuted: O9313, O9314 and 3 more`
   void named(std::string_view status) {

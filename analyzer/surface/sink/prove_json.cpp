@@ -70,9 +70,12 @@ private:
             {"effort", obligation.effort}};
   }
   Json guardToJson(const Obligation &obligation) const {
-    const auto &[conditions, clause, fix] = *obligation.verdict.guard();
+    const auto &[conditions, clause, fix, exactOnly] = *obligation.verdict.guard();
     const SourceFile &source = file_.project->file(obligation.place.file).source;
-    return {{"conditions", conditions}, {"clause", clause}, {"fix", fix ? json::fixToJson(*fix, source) : Json()}};
+    return {{"conditions", conditions},
+            {"clause", clause},
+            {"exactOnly", exactOnly},
+            {"fix", fix ? json::fixToJson(*fix, source) : Json()}};
   }
   Json witnessToJson(const Obligation &obligation, const ProvedProgram &program) const {
     const prove::Witness &witness = *obligation.verdict.witness();

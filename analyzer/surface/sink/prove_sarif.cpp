@@ -81,7 +81,7 @@ Json resultFor(const Obligation &obligation, const ProvedFile &file, const Prove
               {"message", {{"text", textFor(obligation, file, program, report)}}},
               {"locations", Json::array({std::move(location)})},
               {"partialFingerprints", {{"primaryLocationLineHash", obligation.id + ":1"}}},
-              {"properties", Json{{"verdict", nameOf(obligation.verdict)}}}};
+              {"properties", Json{{"verdict", nameOf(obligation.verdict)}, {"arithmetic", report.arithmetic}}}};
   if (obligation.verdict.guard() && obligation.verdict.guard()->fix)
     row["fixes"] =
         Json::array({sarif::fixToJson(*obligation.verdict.guard()->fix, there.shown, there.source, report.root)});

@@ -96,7 +96,7 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
-  if (numbersOfRun(file.project->dialect()) != NumberModel::Binary64) // proofs replay their witnesses in doubles
+  if (report.arithmetic == "exact" && numbersOfRun(file.project->dialect()) != NumberModel::Binary64) // its runs
     result.options += " --numbers binary64";
   result.options += report.readingOptions;
   if (name.number)
@@ -122,7 +122,8 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
 }
 
 std::string remedyOf(const prove::Guard &guard) {
-  return fmt::format("with the clause `{}` in the contract, this is proved", guard.clause);
+  return fmt::format("with the clause `{}` in the contract, this is proved{}", guard.clause,
+                     guard.exactOnly ? " in exact arithmetic" : "");
 }
 
 std::string messageOf(const Obligation &obligation, const Dialect &dialect) {

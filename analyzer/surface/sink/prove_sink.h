@@ -18,8 +18,8 @@ struct ProveReport {
   std::string_view version = {};   // of the program
   std::filesystem::path root = {}; // absolute folder that paths in SARIF are relative to
   int exitCode = 0;
-  std::string readingOptions = {};       // options of the command line that a replay of a witness needs, too
-  std::string_view arithmetic = "exact"; // or `control`: in which claims were proved
+  std::string readingOptions = {};    // options of the command line that a replay of a witness needs, too
+  std::string arithmetic = "control"; // or `exact`: in which claims were proved
   ShowMethods showMethods = ShowMethods::No;
   bool colour = false;
 };

@@ -165,7 +165,8 @@ std::string proveSummary(const ProveReport &report) {
       ++programs;
     }
   return fmt::format("{} in {} program{}{}\n", textOf(counts), programs, programs == 1 ? "" : "s",
-                     report.arithmetic == "control" ? ", in the arithmetic of the control" : "");
+                     report.arithmetic == "exact" ? ", in exact arithmetic: the control rounds, and may break them"
+                                                  : "");
 }
 
 } // namespace feedhold

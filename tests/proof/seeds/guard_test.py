@@ -54,7 +54,8 @@ class Guards(unittest.TestCase):
 
     def obligations(self, text):
         self.file.write_bytes(text.encode())
-        result = self.feedhold("prove", "--no-cache", "--isolated", "--dialect", "fanuc-30i", "--format", "json", "O1.nc")
+        result = self.feedhold("prove", "--no-cache", "--isolated", "--dialect", "fanuc-30i", "--arithmetic", "exact",
+                               "--format", "json", "O1.nc")
         report = json.loads(result.stdout)
         self.assertEqual(report["errors"], [])
         return {row["id"]: row for row in report["files"][0]["obligations"]}

@@ -25,10 +25,26 @@ def programs():
 
 
 def expected():
-    """path -> the verdicts by id, and the most passes by id."""
+    """path -> the verdicts by id in exact arithmetic, and the most passes by id."""
     return {program["path"]: ({identity: verdict for verdict in VERDICTS for identity in program.get(verdict, [])},
                               program.get("passes", {}))
             for program in programs()}
+
+
+def rounded():
+    """path -> the verdicts by id in the arithmetic of the control; "": no such row."""
+    return {program["path"]: {identity: verdict for identity, verdict in
+                              {**expected()[program["path"]][0], **program.get("rounding", {})}.items() if verdict}
+            for program in programs()}
+
+
+def proofs(*options):
+    """path -> obligations"""
+    start = time.monotonic()
+    result = feedhold("prove", "--no-cache", "--format", "json", "--isolated", "--dialect", "fanuc-30i", *options,
+                      "packages")
+    print(f"all proofs: {time.monotonic() - start:.2f} s")
+    return {file["path"]: file["obligations"] for file in json.loads(result.stdout)["files"]}
 
 
 class Seeds(unittest.TestCase):
@@ -36,10 +52,8 @@ class Seeds(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        start = time.monotonic()
-        result = feedhold("prove", "--no-cache", "--format", "json", "--isolated", "--dialect", "fanuc-30i", "packages")
-        print(f"all proofs: {time.monotonic() - start:.2f} s")
-        cls.files = {file["path"]: file["obligations"] for file in json.loads(result.stdout)["files"]}
+        cls.files = proofs("--arithmetic", "exact")
+        cls.rounded = proofs()
 
     def test_verdict_of_every_obligation(self):
         found = {path: ({row["id"]: row["verdict"] for row in rows},
@@ -47,14 +61,22 @@ class Seeds(unittest.TestCase):
                  for path, rows in self.files.items()}
         self.assertEqual(found, expected())
 
+    def test_verdicts_in_the_arithmetic_of_the_control(self):
+        found = {path: {row["id"]: row["verdict"] for row in rows} for path, rows in self.rounded.items()}
+        all_rounded = rounded()
+        for path, verdicts in found.items():
+            with self.subTest(path=path):
+                self.assertEqual(verdicts, all_rounded[path])
+
     def test_every_refutation_has_a_run_that_shows_it(self):
-        for path, rows in self.files.items():
+        for path, rows in [*self.files.items(), *self.rounded.items()]:
             for row in rows:
                 if row["verdict"] != "refuted":
                     continue
                 with self.subTest(obligation=row["id"], path=path):
                     shown = feedhold(*shlex.split(row["witness"]["run"])[1:])
-                    self.assertIn(shown.returncode, (1,) if row["kind"] in STOPS else (0, 1), shown.stdout + shown.stderr)
+                    self.assertIn(shown.returncode, (1,) if row["kind"] in STOPS else (0, 1),
+                                  shown.stdout + shown.stderr)
                     if row["kind"] in SPACE:
                         self.assertIsNotNone(row["witness"]["gouge"])
 

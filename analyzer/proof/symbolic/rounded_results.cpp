@@ -1,0 +1,166 @@
+// Results as the control rounds them: to the nearest double, or within the errors of shorter mantissas; words to the
+// least increment (docs/arithmetic.md).
+#include "base/support/mantissa32.h"
+#include "proof/symbolic/symbolic_interpretation.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace feedhold::prove {
+
+using smt::Function;
+using smt::Number;
+using smt::TermId;
+
+namespace {
+
+Number numberOf(Decimal value) {
+  Number number(static_cast<std::int64_t>(value.mantissa()));
+  for (int i = 0; i < value.scale(); ++i)
+    number /= Number(10);
+  return number;
+}
+
+/// In a mantissa of 31 bits.
+bool isShort(double value) {
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(value, &exponent), 31);
+  return std::floor(mantissa) == mantissa;
+}
+
+} // namespace
+
+SymbolicValue SymbolicInterpretation::literal(Decimal value) {
+  if (hasShortMantissas() && !isShort(value.toDouble())) {
+    const TermId exact = store_.number(numberOf(value));
+    return near(exact, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(exact)));
+  }
+  return arithmetic_ == Arithmetic::Exact ? of(store_.number(numberOf(value))) : number(value.toDouble());
+}
+
+// ---- results as doubles ----
+
+/// A multiple of 2^k is a double up to 2^(53 + k); what is copied or negated stays one.
+SymbolicValue SymbolicInterpretation::result(Operation operation, TermId exact, const Value &a, const Value &b) {
+  if (rounds_ == Rounds::No)
+    return of(exact);
+  for (const TermId operand : {a.number, b.number})
+    if (exact == operand || exact == store_.negate(operand))
+      return of(exact);
+  const auto grid = store_.isNumber(exact) || isRoundedHere() ? std::nullopt : grids_.of(exact);
+  if (!grid)
+    return hasShortMantissas() ? inShortMantissa(operation, exact, a, b) : of(store_.apply(Function::Nearest, exact));
+  constexpr int kBitsOfDouble = 53, kBitsOfShort = 31;
+  exact_.push_back({exact, (hasShortMantissas() ? kBitsOfShort : kBitsOfDouble) + std::min(*grid, 0)});
+  return of(exact);
+}
+
+SymbolicValue SymbolicInterpretation::multiply(const Value &a, const Value &b) {
+  const TermId exact = store_.multiply(a.number, b.number);
+  return isMultipleByPowerOfTwo(a) || isMultipleByPowerOfTwo(b) ? of(exact) : result(Operation::Product, exact, a, b);
+}
+SymbolicValue SymbolicInterpretation::divide(const Value &a, const Value &b) {
+  const TermId exact = store_.divide(a.number, b.number);
+  return isMultipleByPowerOfTwo(b) ? of(exact) : result(Operation::Quotient, exact, a, b);
+}
+/// Only the exponent of the other factor changes.
+bool SymbolicInterpretation::isMultipleByPowerOfTwo(const Value &factor) const {
+  if (!store_.isNumber(factor.number))
+    return false;
+  int exponent = 0;
+  return std::fabs(std::frexp(store_[factor.number].number.toDouble(), &exponent)) == 0.5;
+}
+
+SymbolicValue SymbolicInterpretation::near(TermId exact, TermId distance) {
+  const std::array arguments{exact, distance};
+  return of(store_.apply(Function::Near, arguments));
+}
+
+TermId SymbolicInterpretation::sizeOf(TermId number) {
+  return isNeverNegative(number) ? number : store_.absolute(number);
+}
+
+// ---- results in mantissas of 32 bits ----
+
+/// A control that may compute in doubles as well errs less.
+bool SymbolicInterpretation::hasShortMantissas() const {
+  return rounds_ == Rounds::AsDialect && numbersOf(*dialect_) != NumberModel::Binary64;
+}
+
+/// Within the errors of the manual, which are those of doubles, too.
+SymbolicValue SymbolicInterpretation::inShortMantissa(Operation operation, TermId exact, const Value &a,
+                                                      const Value &b) {
+  const auto partOf = [&](double part, TermId size) { return store_.scale(Number::fromTyped(part), size); };
+  switch (operation) {
+  case Operation::Sum:
+    return near(exact, partOf(mantissa32::kErrorOfSum, store_.add(sizeOf(a.number), sizeOf(b.number))));
+  case Operation::Product: return near(exact, partOf(mantissa32::kErrorOfProduct.relative, sizeOf(exact)));
+  case Operation::Quotient: return near(exact, partOf(mantissa32::kErrorOfQuotient.relative, sizeOf(exact)));
+  }
+  return anyNumber();
+}
+
+/// TAN is a quotient of which no error is known: the cosine may be as small as its own.
+SymbolicValue SymbolicInterpretation::functionInShortMantissa(FunctionKind kind, TermId exact, const Value &argument) {
+  if (kind == FunctionKind::Tan)
+    return anyNumber();
+  const bool isOfAngle = kind == FunctionKind::Sin || kind == FunctionKind::Cos;
+  const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
+  const mantissa32::Error error = kind == FunctionKind::Sqrt ? mantissa32::kErrorOfRoot
+                                  : isOfAngle                ? mantissa32::kErrorOfSine
+                                  : isAngle                  ? mantissa32::kErrorOfAngle
+                                                             : mantissa32::kErrorOfOthers;
+  const TermId distance = store_.add(store_.number(Number::fromTyped(error.absolute)),
+                                     store_.scale(Number::fromTyped(error.relative), sizeOf(exact)));
+  return store_.isNumber(exact) ? constantNear(kind, exact, distance, argument) : near(exact, distance);
+}
+
+/// Roots are rounded to the nearest; of the other functions no control says how near they are.
+SymbolicValue SymbolicInterpretation::resultOf(FunctionKind kind, TermId exact, const Value &argument) {
+  if (rounds_ == Rounds::No)
+    return of(exact);
+  if (hasShortMantissas())
+    return functionInShortMantissa(kind, exact, argument);
+  const TermId error = store_.number(Number(1) / Number(std::int64_t{1} << 36));
+  if (kind == FunctionKind::Sqrt)
+    return of(store_.apply(Function::Nearest, exact));
+  const bool isOfAngle = kind == FunctionKind::Sin || kind == FunctionKind::Cos;
+  const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
+  if (isOfAngle && store_.isNumber(argument.number) && (store_[argument.number].number / Number(90)).isInteger())
+    return of(exact);
+  const TermId distance = isOfAngle || isAngle ? error : store_.multiply(error, sizeOf(exact));
+  return store_.isNumber(exact) ? constantNear(kind, exact, distance, argument) : near(exact, distance);
+}
+
+/// SIN[30] and COS[60] are 1/2, and may be off by different amounts: a number of its own for each.
+SymbolicValue SymbolicInterpretation::constantNear(FunctionKind kind, TermId exact, TermId distance,
+                                                   const Value &argument) {
+  const std::size_t known = named_.size();
+  const Value value =
+      named(fmt::format("function {} of {} near {}", static_cast<int>(kind), argument.number.index(), exact.index()),
+            MayBeVacant::No);
+  if (named_.size() != known)
+    facts_.push_back(store_.logicalAnd(store_.lessOrEqual(store_.subtract(exact, distance), value.number),
+                                       store_.lessOrEqual(value.number, store_.add(exact, distance))));
+  return value;
+}
+
+/// As the machine computes it: half a step; and the rounding of the product and of the quotient, 2^-52 of the value
+/// together.  Coordinates are small; where that is not proved, the distance goes by the value.
+SymbolicValue SymbolicInterpretation::roundedWord(const Value &value, Decimal step) {
+  if (const auto constant = constantOf(value)) {
+    const double steps = std::pow(10.0, step.scale()) / static_cast<double>(step.mantissa());
+    return number(std::round(*constant * steps) / steps);
+  }
+  const Number half = numberOf(step) / Number(2);
+  if (isRoundedHere()) {
+    return near(value.number,
+                store_.add(store_.number(half * Number(1'000'001) / Number(1'000'000)),
+                           store_.scale(Number(1) / Number(std::int64_t{1} << 52), sizeOf(value.number))));
+  }
+  constexpr int kBitsOfWord = 30;
+  exact_.push_back({value.number, kBitsOfWord});
+  return near(value.number, store_.number(half + Number(1) / Number(4'000'000))); // 2^(30 - 52) and a little more
+}
+
+} // namespace feedhold::prove
