@@ -258,14 +258,14 @@ class ArithmeticOfTheControl(Scratch):
 
     def test_whole_numbers_are_equal_or_not_whatever_the_tolerance(self):
         text = "O1\n(@GLOBAL #510 0..100 INT)\n(@TOLERANCE 0.99)\n(@ENSURE #510 EQ OLD[#510]+{})\n#510=#510+1\nM99\n"
-        for rows in (self.in_control, self.in_exact_numbers):
+        for rows in (self.in_control, self.in_exact):
             self.assertEqual(rows(text.format(1))["ensures"]["verdict"], "proved")
             self.assertEqual(rows(text.format(2))["ensures"]["verdict"], "refuted")
 
     def test_a_requirement_within_a_tolerance(self):
         text = "O1\n(@PARAM #1 0..9)\n(@PARAM #2 0..9)\n(@REQUIRE #1 EQ #2 WITHIN 0.5)\n" \
                "IF[#1LE[#2+{}]]GOTO10\n#3000=1(FAR)\nN10M99\n"
-        for rows in (self.in_control, self.in_exact_numbers):
+        for rows in (self.in_control, self.in_exact):
             self.assertEqual(rows(text.format(.6))["alarm-unreachable"]["verdict"], "unreachable")
             self.assertEqual(rows(text.format(.4))["alarm-unreachable"]["verdict"], "refuted")
 
