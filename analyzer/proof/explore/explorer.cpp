@@ -539,7 +539,7 @@ Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &pr
     for (const Place place : found.inexact)
       interpretation.roundAlways(place);
     if (round == kMostRounds) {
-      found.incomplete = "gave up: whole numbers may grow beyond 9007199254740992, where the control rounds them";
+      found.incomplete = "gave up: whole numbers may grow so large that the control rounds them";
       return found;
     }
   }

@@ -1,6 +1,7 @@
 #include "proof/prove/judge.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace feedhold::prove {
 
@@ -40,20 +41,38 @@ void refuteByRounding(const ProofContext &context, const std::vector<Denial> &de
   }
 }
 
-std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
-                                 std::vector<Obligation> &rows) {
+namespace {
+
+using FindRun = std::function<std::optional<Witness>(const Violation &)>;
+
+std::vector<Contradiction> contradictions(const ProofContext &context, const std::vector<Denial> &denials,
+                                          std::vector<Obligation> &rows, const FindRun &denyingRun) {
   std::vector<Contradiction> found;
   for (const Denial &denial : denials) {
     const auto row = std::ranges::find_if(
         rows, [&](const Obligation &each) { return each.verdict.holds() && isSameClaim(each, denial.row); });
     if (row == rows.end())
       continue;
-    if (auto witness = denied(context.witnesses, denial.violation(context))) {
+    if (auto witness = denyingRun(denial.violation(context))) {
       found.push_back({row->id, std::string(nameOf(row->verdict)), *std::move(witness)});
       row->verdict = Verdict::unknown("a run contradicts the proof: this is a bug in Feedhold");
     }
   }
   return found;
+}
+
+} // namespace
+
+std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
+                                 std::vector<Obligation> &rows) {
+  return contradictions(context, denials, rows,
+                        [&](const Violation &violation) { return denied(context.witnesses, violation); });
+}
+
+std::vector<Contradiction> judgeRun(const ProofContext &context, const std::vector<Denial> &denials,
+                                    const WitnessSearch::Sample &run, std::vector<Obligation> &rows) {
+  return contradictions(context, denials, rows,
+                        [&](const Violation &violation) { return context.witnesses.shown(run, violation); });
 }
 
 } // namespace feedhold::prove

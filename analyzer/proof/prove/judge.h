@@ -18,4 +18,8 @@ void refuteByRounding(const ProofContext &context, const std::vector<Denial> &de
 std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
                                  std::vector<Obligation> &rows);
 
+/// The same for one more run.
+std::vector<Contradiction> judgeRun(const ProofContext &context, const std::vector<Denial> &denials,
+                                    const WitnessSearch::Sample &run, std::vector<Obligation> &rows);
+
 } // namespace feedhold::prove

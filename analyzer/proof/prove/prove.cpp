@@ -50,6 +50,13 @@ public:
     return {std::move(rows), std::move(stage_->found.unmodelled), stage_->found.incomplete, std::move(contradictions)};
   }
 
+  /// One more run is held against the verdicts.
+  void hold(const GivenVariables &given, ProgramProof &proof) {
+    const WitnessSearch::Sample run{given, witnesses_->runOf(given)};
+    std::ranges::move(judgeRun(contextOf(*stage_), stage_->settled.denials, run, proof.obligations),
+                      std::back_inserter(proof.contradictions));
+  }
+
 private:
   ProofContext contextOf(Stage &stage) {
     return {{subject_, start_, stage.found}, *witnesses_, promises_, stage.ends, anyCall_ ? &*anyCall_ : nullptr,
@@ -198,15 +205,24 @@ bool isAboutSpace(ObligationKind kind) {
          kind == ObligationKind::Travel;
 }
 
+/// A proof, and what it was made of.
+struct WholeProof {
+  std::unique_ptr<Work> work;
+  ProgramProof proof;
+};
+
 /// In the arithmetic of the options, and with all the steps.
-ProgramProof proveIn(const ProofSubject &subject) {
+WholeProof proveIn(const ProofSubject &subject) {
   const smt::Steps steps(subject.options.steps, smt::Steps::AtEnd::GoOn);
-  return Work(subject).run();
+  auto work = std::make_unique<Work>(subject);
+  ProgramProof proof = work->run();
+  return {std::move(work), std::move(proof)};
 }
 
 /// What holds but for the rounding of the control says so.  Claims about space are proved in exact numbers, and guards
 /// are searched for there.
-void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
+void compareWithExact(const ProofSubject &subject, WholeProof &rounded) {
+  ProgramProof &proof = rounded.proof;
   const bool hasSpace = subject.contract() && hasSpaceClause(*subject.contract());
   const bool needsGuards = subject.options.guards == InferGuards::Yes;
   if (!hasSpace && std::none_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &row) {
@@ -216,7 +232,10 @@ void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
   ProveOptions options = subject.options;
   options.arithmetic = Arithmetic::Exact;
   const ProofSubject exact{subject.programs, subject.program, subject.contracts, options};
-  ProgramProof inExact = proveIn(exact);
+  ProgramProof inExact = std::move(proveIn(exact).proof);
+  for (const Obligation &row : inExact.obligations)
+    if (const Witness *witness = row.verdict.witness())
+      rounded.work->hold(witness->variables, proof);
   for (Obligation &row : proof.obligations)
     for (const Obligation &other : inExact.obligations)
       if (isSameClaim(row, other))
@@ -235,10 +254,10 @@ void compareWithExact(const ProofSubject &subject, ProgramProof &proof) {
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
   const ProofSubject subject{programs, program, contracts, options};
-  ProgramProof proof = proveIn(subject);
+  WholeProof whole = proveIn(subject);
   if (options.arithmetic != Arithmetic::Exact)
-    compareWithExact(subject, proof);
-  return proof;
+    compareWithExact(subject, whole);
+  return std::move(whole.proof);
 }
 
 } // namespace feedhold::prove

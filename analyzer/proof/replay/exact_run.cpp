@@ -1,5 +1,6 @@
 #include "proof/replay/exact_run.h"
 
+#include "base/support/mantissa32.h"
 #include "proof/explore/exploration.h"
 
 #include <algorithm>
@@ -20,8 +21,10 @@ ExploreOptions exactOptions() {
 }
 
 smt::Number inputNumber(const SymbolicInterpretation &interpretation, double value) {
-  return interpretation.arithmetic() == Arithmetic::Exact ? smt::Number::fromTyped(value)
-                                                          : smt::Number::fromDouble(value);
+  if (interpretation.arithmetic() == Arithmetic::Exact)
+    return smt::Number::fromTyped(value);
+  const bool isShort = numbersOfRun(interpretation.dialect()) == NumberModel::Mantissa32;
+  return smt::Number::fromDouble(isShort ? mantissa32::nearest(value) : value);
 }
 
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given) {

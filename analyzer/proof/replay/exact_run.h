@@ -19,7 +19,7 @@ enum class Agreement : std::uint8_t {
 
 /// To follow single runs.
 ExploreOptions exactOptions();
-/// The number that an input of the machine is: what was typed, or the double that stands for it.
+/// The number that an input of the machine is: what was typed, or the number of the control that stands for it.
 smt::Number inputNumber(const SymbolicInterpretation &interpretation, double value);
 /// The interpretation starts from these inputs.
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given);

@@ -102,8 +102,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt:
 RunOptions WitnessSearch::runOptions(const GivenVariables &given) const {
   RunOptions options = start_;
   options.variables = given;
-  if (interpretation_.arithmetic() != Arithmetic::Exact)
-    options.numbers = numbersOfRun(*programs_.file(entry_.file).dialect);
+  options.numbers = numbersOfRun(*programs_.file(entry_.file).dialect);
   const smt::Model model = place_.empty() ? smt::Model() : modelOf(given);
   for (const auto &[axis, place] : place_)
     if (const auto value = smt::evaluate(interpretation_.store(), place, model))

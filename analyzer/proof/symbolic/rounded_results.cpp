@@ -22,20 +22,25 @@ Number numberOf(Decimal value) {
 }
 
 /// In a mantissa of 31 bits.
-bool isShort(double value) {
+bool isShort(const Number &number) {
   int exponent = 0;
+  const double value = number.toDouble();
   const double mantissa = std::ldexp(std::frexp(value, &exponent), 31);
-  return std::floor(mantissa) == mantissa;
+  return std::floor(mantissa) == mantissa && Number::fromDouble(value) == number;
 }
 
 } // namespace
 
 SymbolicValue SymbolicInterpretation::literal(Decimal value) {
-  if (hasShortMantissas() && !isShort(value.toDouble())) {
-    const TermId exact = store_.number(numberOf(value));
-    return near(exact, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(exact)));
-  }
   return arithmetic_ == Arithmetic::Exact ? of(store_.number(numberOf(value))) : number(value.toDouble());
+}
+
+/// What a control with shorter mantissas keeps of a literal in an expression.  Coordinates stay as they are written.
+void SymbolicInterpretation::hold(Value &value, const Expression &expression) {
+  const auto *literal = std::get_if<NumberLiteral>(&expression.node);
+  if (!literal || !hasShortMantissas() || !store_.isNumber(value.number) || isShort(store_[value.number].number))
+    return;
+  value = near(value.number, store_.scale(Number(1) / Number(std::int64_t{1} << 32), sizeOf(value.number)));
 }
 
 // ---- results as doubles ----
@@ -87,9 +92,11 @@ bool SymbolicInterpretation::hasShortMantissas() const {
   return rounds_ == Rounds::AsDialect && numbersOf(*dialect_) != NumberModel::Binary64;
 }
 
-/// Within the errors of the manual, which are those of doubles, too.
+/// Within the errors of the manual, which are those of doubles, too.  What fits is exact.
 SymbolicValue SymbolicInterpretation::inShortMantissa(Operation operation, TermId exact, const Value &a,
                                                       const Value &b) {
+  if (store_.isNumber(exact) && isShort(store_[exact].number))
+    return of(exact);
   const auto partOf = [&](double part, TermId size) { return store_.scale(Number::fromTyped(part), size); };
   switch (operation) {
   case Operation::Sum:

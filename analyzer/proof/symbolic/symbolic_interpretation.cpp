@@ -195,8 +195,11 @@ SymbolicValue SymbolicInterpretation::fup(const Value &a) {
   const TermId zero = store_.number(Number(0));
   return of(store_.ite(store_.lessOrEqual(zero, a.number), up, store_.floor(a.number)));
 }
-/// Exact in doubles, too (C, fmod).
+/// Exact in doubles, too (C, fmod).  With shorter mantissas, a quotient that is off may have another whole part.
 SymbolicValue SymbolicInterpretation::remainder(const Value &a, const Value &b) {
+  const auto isWhole = [&](const Value &value) { return grids_.of(value.number).value_or(-1) >= 0; };
+  if (hasShortMantissas() && !(isWhole(a) && isWhole(b)))
+    return anyNumber();
   const Rounds rounded = roundResults(Rounds::No);
   const Value rest = subtract(a, multiply(b, fix(divide(a, b))));
   roundResults(rounded);

@@ -86,6 +86,7 @@ public:
 
   // ---- for the explorer ----
   void useDialect(const Dialect &dialect) { dialect_ = &dialect; }
+  const Dialect &dialect() const { return *dialect_; }
   void usePath(PathKnowledge *path) { path_ = path; }
   /// Unmodelled code is assumed to leave the mode of polar coordinates unchanged.
   void keepPolar(std::optional<std::uint8_t> group) { polarGroup_ = group; }
@@ -211,7 +212,7 @@ public:
   /// Why no claim on the program is made.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
-  void hold(Value &, const Expression &) const {}
+  void hold(Value &value, const Expression &expression);
   void holdSum(Value &, OperatorKind, const Value &, const Value &) const {}
   void evaluated(ExpressionId, const Value &) const {}
 

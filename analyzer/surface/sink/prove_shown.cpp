@@ -96,8 +96,6 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
-  if (report.arithmetic == "exact" && numbersOfRun(file.project->dialect()) != NumberModel::Binary64) // its runs
-    result.options += " --numbers binary64";
   result.options += report.readingOptions;
   if (name.number)
     result.call = fmt::format("G65 P{}{}", *name.number, letters);

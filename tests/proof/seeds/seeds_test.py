@@ -64,6 +64,7 @@ class Seeds(unittest.TestCase):
     def test_verdicts_in_the_arithmetic_of_the_control(self):
         found = {path: {row["id"]: row["verdict"] for row in rows} for path, rows in self.rounded.items()}
         all_rounded = rounded()
+        self.assertEqual(sorted(found), sorted(all_rounded))
         for path, verdicts in found.items():
             with self.subTest(path=path):
                 self.assertEqual(verdicts, all_rounded[path])
