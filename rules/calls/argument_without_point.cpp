@@ -40,14 +40,15 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   const std::string_view setting = context.dialect.hasFanucParameters
                                        ? "parameter 3401#0 (DPI)"
                                        : "a setting of the machine (`dpi` in feedhold.toml)";
+  const LeastIncrements increments = leastIncrementsOf(context.dialect);
+  const std::string example =
+      fmt::format("such as {} mm or {} inch", increments.metric.toString(), increments.inch.toString());
   Diagnostic diagnostic{
       .message = fmt::format("argument {} has no decimal point", context.quoted(wordOf(context, first->word).span())),
       .span = wordOf(context, first->word).span(),
-      .notes = {
-          dpi == Switch::Off
-              ? std::string("the control reads it in least increments, such as 0.001 mm or 0.0001 inch")
-              : fmt::format("{} decides: whole units, or least increments such as 0.001 mm or 0.0001 inch", setting),
-          "with a decimal point the value is the same on every machine"}};
+      .notes = {dpi == Switch::Off ? fmt::format("the control reads it in least increments, {}", example)
+                                   : fmt::format("{} decides: whole units, or least increments {}", setting, example),
+                "with a decimal point the value is the same on every machine"}};
   for (auto other = std::next(first); other != call.arguments.end(); ++other)
     if (lacksPoint(*other, context))
       diagnostic.labels.push_back({wordOf(context, other->word).span(), "this one too"});

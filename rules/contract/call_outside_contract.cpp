@@ -33,8 +33,8 @@ std::vector<Rational> valuesOf(const Word &word, const FileContext &context) {
   if (word.has(Word::kPoint) || value->isZero() || !isScaled || context.dialect.switches.dpi == Switch::On)
     return {*value};
   std::vector<Rational> values{*value};
-  for (const Decimal &increment :
-       {context.dialect.behaviour.leastIncrementMetric, context.dialect.behaviour.leastIncrementInch})
+  const LeastIncrements increments = leastIncrementsOf(context.dialect);
+  for (const Decimal &increment : {increments.metric, increments.inch})
     if (const auto step = Rational::fromDecimal(increment))
       if (const auto scaled = multiply(*value, *step))
         values.push_back(*scaled);

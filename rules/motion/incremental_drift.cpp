@@ -113,9 +113,9 @@ private:
     });
   }
   Decimal incrementOf(const Word &word, bool isInch) const {
-    const Behaviour &behaviour = view_.context().dialect.behaviour;
+    const LeastIncrements increments = leastIncrementsOf(view_.context().dialect);
     const bool isAngle = word.address() == 'A' || word.address() == 'B' || word.address() == 'C';
-    return isInch && !isAngle ? behaviour.leastIncrementInch : behaviour.leastIncrementMetric;
+    return isInch && !isAngle ? increments.inch : increments.metric;
   }
 
   static std::optional<Drift> findDrift(Formulas &formulas, const RepeatedWord &repeated) {

@@ -48,11 +48,13 @@ void reportWord(const Word &word, const FileContext &context, const Reporter &re
   const std::string_view unless = context.dialect.hasFanucParameters
                                       ? "with parameter 3401#0 (DPI) off "
                                       : "unless a setting of the machine makes it whole units, ";
+  const auto two = [](const Decimal &increment) { return Decimal(2, increment.scale()).toString(); };
+  const LeastIncrements increments = leastIncrementsOf(context.dialect);
   reporter.report(
       {.message = fmt::format("{} has no decimal point, but the lengths around it do", context.quoted(word.span())),
        .span = word.span(),
-       .notes = {fmt::format("{}the control reads it in least increments: `2` is 0.002 mm or 0.0002 inch",
-                             sure ? "" : unless)},
+       .notes = {fmt::format("{}the control reads it in least increments: `2` is {} mm or {} inch", sure ? "" : unless,
+                             two(increments.metric), two(increments.inch))},
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 

@@ -101,7 +101,7 @@ int main(int count, char **arguments) {
   fmt::print("| program | claims | proof, s | runs in that time | arguments in steps of 1 | share of them |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   for (int i = 1; i < count; ++i) {
-    auto loaded = loadProject({.path = arguments[i], .dialect = "fanuc-30i"}, {allDialects(), allRules()});
+    auto loaded = loadProject({.path = arguments[i], .control = {.dialect = "fanuc-30i"}}, {allDialects(), allRules()});
     if (!loaded) {
       fmt::print(stderr, "{}\n", loaded.error().message);
       return 2;

@@ -167,16 +167,16 @@ M99
 
 
 class ArithmeticOfTheControl(Scratch):
-    def verdicts(self, text, arithmetic, dialect="fanuc-30i"):
+    def verdicts(self, text, arithmetic, dialect="fanuc-30i", *options):
         self.write("O1.nc", text)
         result = self.feedhold("prove", "--no-cache", "--dialect", dialect, "--isolated", "--format", "json",
-                               *({"exact": ["--arithmetic", "exact"], "control": []}[arithmetic]), "O1.nc")
+                               *({"exact": ["--arithmetic", "exact"], "control": []}[arithmetic]), *options, "O1.nc")
         document = json.loads(result.stdout)
         self.assertEqual(document["arithmetic"], arithmetic)
         return {row["kind"]: row for row in document["files"][0]["obligations"]}
 
-    def in_control(self, text, dialect="fanuc-30i"):
-        return self.verdicts(text, "control", dialect)
+    def in_control(self, text, dialect="fanuc-30i", *options):
+        return self.verdicts(text, "control", dialect, *options)
 
     def in_exact(self, text):
         return self.verdicts(text, "exact")
@@ -240,6 +240,20 @@ class ArithmeticOfTheControl(Scratch):
                 text = INCREMENTAL_STEPS.format(clauses)
                 self.assertIn(self.in_control(text)["ensures"]["verdict"], expected)
                 self.assertEqual(self.in_exact(text)["ensures"]["verdict"], "proved")
+
+    def test_drift_depends_on_the_increment_system(self):
+        text = INCREMENTAL_STEPS.format("(@ENSURE POS[X] EQ 10*#1 WITHIN 0.002)")
+        for system, expected in (("IS-A", ("unknown", "refuted")), ("IS-B", ("unknown", "refuted")),
+                                 ("IS-C", ("proved",))):
+            with self.subTest(system):
+                row = self.in_control(text, "fanuc-30i", "--increment-system", system)["ensures"]
+                self.assertIn(row["verdict"], expected)
+        text = QUARTER_BEYOND.format("G21", "(@ENSURE POS[X] EQ #24)", .0002)
+        for system, expected in (("IS-B", "proved"), ("IS-C", "refuted")):
+            with self.subTest(system):
+                row = self.in_control(text, "fanuc-30i", "--increment-system", system)["ensures"]
+                self.assertEqual(row["verdict"], expected)
+        self.assertIn(" --increment-system IS-C", row["witness"]["run"])
 
     def test_a_stated_tolerance_holds_in_either_arithmetic(self):
         for units, clauses, beyond, exact, control in (

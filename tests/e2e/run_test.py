@@ -96,6 +96,28 @@ class Run(Scratch):
             told = self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i", "--format", "json")
             self.assertEqual(json.loads(told.stdout)["numbers"], model)
 
+    # ---- the increment system ----
+
+    def test_increment_system(self):
+        self.loop("G20\nG90G0X[1/3]\n#1=#5041\nG21\nX[10/3]\n#2=#5041\nM30")
+        for options, expected in (([], (.3333, 3.333)), (["IS-A"], (.333, 3.33)), (["IS-B"], (.3333, 3.333)),
+                                  (["IS-C"], (.33333, 3.3333))):
+            asked = ["--increment-system", *options] if options else []
+            told = json.loads(self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i", "--format", "json", *asked).stdout)
+            self.assertEqual((told["variables"]["1"], told["variables"]["2"]), expected)
+
+    def test_the_option_overrides_the_configuration(self):
+        self.loop("G21G90G0X[10/3]\n#1=#5041\nM30")
+        self.write("feedhold.toml", 'increment-system = "IS-C"\n')
+        for options, expected in (([], 3.3333), (["--increment-system", "IS-A"], 3.33)):
+            told = self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i", "--format", "json", *options)
+            self.assertEqual(json.loads(told.stdout)["variables"]["1"], expected)
+
+    def test_an_unknown_increment_system_is_an_error(self):
+        result = self.run_program("O1.nc", "--increment-system", "IS-D")
+        self.assertExit(result, 2)
+        self.assertIn("--increment-system: IS-D not in {IS-A,IS-B,IS-C}", result.stderr)
+
     # ---- what it does ----
 
     def test_trace(self):

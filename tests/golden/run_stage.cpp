@@ -64,7 +64,7 @@ std::vector<TracedBlock> traceOf(const ProgramSet &programs, Callee entry, RunOp
 } // namespace
 
 std::string runStageOf(const Input &input, std::string_view wishes) {
-  ProgramOptions asked{.path = input.files.front().name, .dialect = std::string(input.dialect->id)};
+  ProgramOptions asked{.path = input.files.front().name, .control = {.dialect = std::string(input.dialect->id)}};
   asked.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
   const auto loaded = loadProject(asked, {allDialects(), allRules()});
   if (!loaded)

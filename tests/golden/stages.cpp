@@ -107,7 +107,7 @@ CheckOptions optionsFor(const Input &input) {
     if (!isSidecar(file))
       options.paths.push_back(file.name);
   if (!input.guess)
-    options.dialect = std::string(input.dialect->id);
+    options.control.dialect = std::string(input.dialect->id);
   options.select = input.rules;
   options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
   options.jobs = 1;
@@ -160,7 +160,7 @@ std::string invariants(const Input &input) {
   const Folder folder(input);
   ProgramOptions options{.path = input.files.front().name};
   if (!input.guess)
-    options.dialect = std::string(input.dialect->id);
+    options.control.dialect = std::string(input.dialect->id);
   options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
   const auto programs = loadProject(options, knownNames());
   if (!programs)

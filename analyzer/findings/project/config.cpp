@@ -71,12 +71,15 @@ public:
 
 private:
   void readRoot(const toml::table &root) {
-    static constexpr std::array<std::string_view, 10> kKeys = {
-        "dialect", "select", "ignore", "error-on", "include", "exclude", "files", "switches", "code-calls", "severity"};
+    static constexpr std::array<std::string_view, 11> kKeys = {"dialect",  "increment-system", "select",  "ignore",
+                                                               "error-on", "include",          "exclude", "files",
+                                                               "switches", "code-calls",       "severity"};
     Config &config = result_.config;
     for (const auto &[key, node] : root) {
       if (key == "dialect")
         config.dialect = dialect(node);
+      else if (key == "increment-system")
+        config.incrementSystem = incrementSystem(node);
       else if (key == "select")
         config.select = ruleNames(node);
       else if (key == "ignore")
@@ -101,13 +104,16 @@ private:
   }
 
   FilePattern filePattern(const toml::table &table) {
-    static constexpr std::array<std::string_view, 5> kKeys = {"path", "dialect", "select", "ignore", "switches"};
+    static constexpr std::array<std::string_view, 6> kKeys = {"path",   "dialect", "increment-system",
+                                                              "select", "ignore",  "switches"};
     FilePattern pattern;
     for (const auto &[key, node] : table) {
       if (key == "path")
         pattern.path = string(node);
       else if (key == "dialect")
         pattern.dialect = dialect(node);
+      else if (key == "increment-system")
+        pattern.incrementSystem = incrementSystem(node);
       else if (key == "select")
         pattern.select = ruleNames(node);
       else if (key == "ignore")
@@ -214,6 +220,15 @@ private:
     return found;
   }
 
+  std::optional<IncrementSystem> incrementSystem(const toml::node &node) {
+    const std::string name = string(node);
+    const auto found = incrementSystemNamed(name);
+    if (!found && !name.empty())
+      addError(node.source(), fmt::format("`{}` is not an increment system; one of: {}", name,
+                                          fmt::join(incrementSystemNames(), ", ")));
+    return found;
+  }
+
   std::optional<std::string> dialect(const toml::node &node) {
     const std::string id = string(node);
     if (id.empty())
@@ -314,6 +329,7 @@ std::string textOf(const Switches &switches) {
     text += fmt::format("{}={} ", entry.name, static_cast<int>(switches.*entry.which));
   for (const CodeCall &call : switches.codeCalls)
     text += fmt::format("{}{}={}{} ", call.address, call.tenths, call.isMacro ? "macro " : "", call.program);
+  text += fmt::format("increment-system={} ", nameOf(switches.incrementSystem));
   return text;
 }
 

@@ -24,6 +24,7 @@ struct FilePattern {
   std::vector<std::string> select = {}; // replaces the rules chosen so far
   std::vector<std::string> ignore = {};
   std::vector<SwitchSetting> switches = {};
+  std::optional<IncrementSystem> incrementSystem = std::nullopt;
 };
 
 struct SeveritySetting {
@@ -41,6 +42,7 @@ struct Config {
   std::vector<std::string> exclude = {};
   std::vector<FilePattern> files = {};
   std::vector<SwitchSetting> switches = {};
+  std::optional<IncrementSystem> incrementSystem = std::nullopt;
   std::vector<CodeCall> codeCalls = {};
   std::vector<SeveritySetting> severities = {};
 };

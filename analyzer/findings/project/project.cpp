@@ -128,7 +128,7 @@ Result<std::unique_ptr<const Project>> loadProject(const ProgramOptions &options
     return Error{options.path + ": is a folder; name the program to start"};
   CheckOptions files;
   files.piped = options.piped;
-  files.dialect = options.dialect;
+  files.control = options.control;
   files.config = options.config;
   files.open = options.open;
   files.jobs = 1;

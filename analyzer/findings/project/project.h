@@ -44,7 +44,7 @@ Project loadProject(std::span<const WorkItem> items, const LoadOptions &options)
 struct ProgramOptions {
   std::string path;
   std::optional<PipedText> piped = std::nullopt; // instead of `path`; such a program sees no folder
-  std::optional<std::string> dialect = std::nullopt;
+  ControlOptions control = {};
   ConfigOptions config = {};
   std::shared_ptr<const OpenTexts> open = {}; // of editors
   /// Whether its folder is read too when it calls nothing: to see who calls it.
@@ -55,7 +55,7 @@ struct ProgramOptions {
 /// The first file is the one that was named; then come those of its folder, by name.  The error names the file or the
 /// configuration that refuses.  Files of the folder that are no programs are left out.
 Result<std::unique_ptr<const Project>> loadProject(const ProgramOptions &options, const KnownNames &known);
-/// The same for a file that has been found; `path`, `piped`, `dialect` and `config` of the options are not asked again.
+/// The same for a file that has been found; `path`, `piped`, `control` and `config` of the options are not asked again.
 std::unique_ptr<const Project> loadProject(const WorkItem &item, const ProgramOptions &options,
                                            const KnownNames &known);
 

@@ -80,8 +80,8 @@ public:
     for (const FilePattern *pattern : settings.patterns)
       if (pattern->dialect)
         choose(*pattern->dialect, DialectChoice::FilePattern);
-    if (options_.dialect)
-      choose(*options_.dialect, DialectChoice::Option);
+    if (options_.control.dialect)
+      choose(*options_.control.dialect, DialectChoice::Option);
     return settings;
   }
 
@@ -101,14 +101,16 @@ private:
     using Kind = SelectionStep::Kind;
     std::vector<SelectionStep> steps = {{Kind::Select, config.select}, {Kind::Ignore, config.ignore}};
     Profile profile{.dialect = *settings.dialect, .rules = {}, .severities = config.severities};
-    apply(config.switches, profile.dialect.switches);
+    Switches &switches = profile.dialect.switches;
+    apply(config.switches, config.incrementSystem, switches);
     for (const FilePattern *pattern : settings.patterns) {
       steps.push_back({Kind::Select, pattern->select});
       steps.push_back({Kind::Ignore, pattern->ignore});
-      apply(pattern->switches, profile.dialect.switches);
+      apply(pattern->switches, pattern->incrementSystem, switches);
     }
+    apply({}, options_.control.incrementSystem, switches);
     if (!config.codeCalls.empty())
-      profile.dialect.switches.codeCalls = config.codeCalls;
+      switches.codeCalls = config.codeCalls;
     steps.push_back({Kind::Select, options_.select});
     steps.push_back({Kind::Ignore, options_.ignore});
     profile.rules = selectRules(known_.rules, steps);
@@ -118,9 +120,11 @@ private:
     return profile;
   }
 
-  static void apply(const std::vector<SwitchSetting> &settings, Switches &switches) {
+  static void apply(const std::vector<SwitchSetting> &settings, std::optional<IncrementSystem> increments,
+                    Switches &switches) {
     for (const SwitchSetting &setting : settings)
       switches.*setting.which = setting.value;
+    switches.incrementSystem = increments.value_or(switches.incrementSystem);
   }
 
   const CheckOptions &options_;

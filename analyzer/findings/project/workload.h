@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings/project/config_finder.h"
+#include "findings/project/control_options.h"
 #include "findings/project/open_texts.h"
 #include "findings/project/outcome.h"
 
@@ -24,8 +25,8 @@ struct PipedText {
 struct CheckOptions {
   std::vector<std::string> paths;
   std::optional<PipedText> piped = std::nullopt;
-  std::optional<std::string> dialect = std::nullopt; // an id that exists
-  std::vector<std::string> select = {};              // names that exist
+  ControlOptions control = {};
+  std::vector<std::string> select = {}; // names that exist
   std::vector<std::string> ignore = {};
   std::optional<Severity> errorOn = std::nullopt;
   ConfigOptions config = {};

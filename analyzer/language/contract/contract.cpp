@@ -48,8 +48,8 @@ std::optional<CodeAction> unitsOf(const Contract &contract, const Dialect &diale
 Decimal toleranceOf(const Contract &contract, const Dialect &dialect) {
   if (contract.tolerance)
     return contract.tolerance->most;
-  return unitsOf(contract, dialect) == CodeAction::Inch ? dialect.behaviour.leastIncrementInch
-                                                        : dialect.behaviour.leastIncrementMetric;
+  const LeastIncrements increments = leastIncrementsOf(dialect);
+  return unitsOf(contract, dialect) == CodeAction::Inch ? increments.inch : increments.metric;
 }
 
 const Contract *FileContracts::of(ProgramId program) const {

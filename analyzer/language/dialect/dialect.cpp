@@ -132,6 +132,28 @@ std::string_view nameOf(NumberModel model) {
   FEEDHOLD_UNREACHABLE("the switch names every model");
 }
 
+std::span<const std::string_view> incrementSystemNames() {
+  static constexpr std::array<std::string_view, 3> kNames = {"IS-A", "IS-B", "IS-C"};
+  return kNames;
+}
+
+std::string_view nameOf(IncrementSystem system) { return incrementSystemNames()[static_cast<std::size_t>(system)]; }
+
+std::optional<IncrementSystem> incrementSystemNamed(std::string_view name) {
+  const auto names = incrementSystemNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::nullopt : std::optional(static_cast<IncrementSystem>(found - names.begin()));
+}
+
+LeastIncrements leastIncrementsOf(const Dialect &dialect) {
+  switch (dialect.switches.incrementSystem) {
+  case IncrementSystem::A: return {Decimal(1, 2), Decimal(1, 3)};
+  case IncrementSystem::B: return {Decimal(1, 3), Decimal(1, 4)};
+  case IncrementSystem::C: return {Decimal(1, 4), Decimal(1, 5)};
+  }
+  FEEDHOLD_UNREACHABLE("the switch has a row for every increment system");
+}
+
 NumberModel numbersOf(const Dialect &dialect) {
   return dialect.switches.f16 == Switch::On ? NumberModel::Mantissa32 : dialect.numbers;
 }

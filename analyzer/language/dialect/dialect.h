@@ -305,6 +305,13 @@ struct CodeCall {
   bool isMacro;          // true: arguments are passed (as G65); false: subprogram (as M98)
 };
 
+/// How fine the control counts lengths and angles: parameter 1013 (ISA, ISC); one setting for all axes.
+enum class IncrementSystem : std::uint8_t { A, B, C };
+/// `IS-A`, `IS-B`, `IS-C`.
+std::string_view nameOf(IncrementSystem system);
+std::span<const std::string_view> incrementSystemNames();
+std::optional<IncrementSystem> incrementSystemNamed(std::string_view name);
+
 /// The machine parameters that change the language.  Names are those of the parameter manual.
 struct Switches {
   Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
@@ -329,7 +336,8 @@ struct Switches {
   Switch motionEndsCycle = Switch::Unknown; // G00 to G03 behind the code of a canned cycle in its block end the cycle
   Switch setEndsLocal = Switch::Unknown;    // G92 takes the offset of G52 away from the axes that it names
   Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
-  std::vector<CodeCall> codeCalls = {};     // 6050-6059, 6080-6089, 6071-6079, ...
+  IncrementSystem incrementSystem = IncrementSystem::B;
+  std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
 };
 
 /// What a control accepts beyond, or short of, the common grammar.
@@ -406,8 +414,6 @@ struct Behaviour {
   double equalTolerance = 0;           // EQ and NE take values this near as equal
   double arcTolerance = 0.05;          // mm: largest difference of the radii at start and end
   double peckClearance = 0.254;        // mm: how far above the last depth a peck begins (a parameter of most controls)
-  Decimal leastIncrementMetric{1, 3};  // mm and degrees
-  Decimal leastIncrementInch{1, 4};
 };
 
 /// One text feature that speaks for a dialect, or against it.
@@ -451,6 +457,13 @@ struct Dialect {
 constexpr std::uint32_t kVacantVariable = 0;
 constexpr std::uint32_t kAlarmVariable = 3000;
 constexpr std::uint32_t kMessageVariable = 3006;
+
+/// The least input increments.
+struct LeastIncrements {
+  Decimal metric; // mm and degrees
+  Decimal inch;
+};
+LeastIncrements leastIncrementsOf(const Dialect &dialect);
 
 /// The numbers that the control computes with, as its switches say.
 NumberModel numbersOf(const Dialect &dialect);

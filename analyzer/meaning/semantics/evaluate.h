@@ -2,13 +2,14 @@
 #pragma once
 
 #include "base/support/match.h"
+#include "meaning/semantics/increments.h"
 #include "meaning/semantics/variables.h"
 
 namespace feedhold {
 
 /// Where an expression stands: ROUND rounds to the increment of the address inside a word (FANUC, operator's manual).
 struct RoundingUnit {
-  Decimal step{1, 0};
+  AddressKind address = AddressKind::None; // of the word; None: to whole numbers
 };
 
 /// The value, which may be vacant only when the expression is a lone variable.
@@ -226,7 +227,7 @@ private:
     if (call.arguments().empty())
       return broken(place);
     switch (call.function) {
-    case FunctionKind::Round: return interpretation_.roundTo(number(call.arguments()[0]), unit_.step);
+    case FunctionKind::Round: return rounded(number(call.arguments()[0]));
     case FunctionKind::Fix: return integerPart(number(call.arguments()[0]), IntegerSide::Fix);
     case FunctionKind::Fup: return integerPart(number(call.arguments()[0]), IntegerSide::Fup);
     case FunctionKind::Atan: return arcTangent(call);
@@ -259,6 +260,11 @@ private:
     const auto *name = std::get_if<NamedVariable>(&context_.tree().expressions[unwrapped(context_.tree(), id)].node);
     const auto number = name ? context_.programs.variableOf(context_.file.file, name->name) : std::nullopt;
     return number ? storedValue(context_, *number) : interpretation_.anything();
+  }
+
+  Value rounded(const Value &value) {
+    const auto to = [&](Decimal step) { return interpretation_.roundTo(value, step); };
+    return unit_.address == AddressKind::None ? to(Decimal(1, 0)) : byIncrement(context_, unit_.address, to);
   }
 
   enum class IntegerSide { Fix, Fup };

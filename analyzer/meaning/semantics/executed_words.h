@@ -78,25 +78,6 @@ inline bool takesIncrement(const AddressFormat &format, char address) {
          (format.kind == AddressKind::Flexible && address != 'P');
 }
 
-template <ValueAlgebra R> typename R::Truth isMetric(StepContext<R> &context) {
-  return context.inForce(ModalKind::Units, {CodeAction::Metric}, context.interpretation.truth(true));
-}
-
-/// What depends on the units in force; angles have the metric increment.
-template <ValueAlgebra R, typename Make>
-typename R::Value byUnits(StepContext<R> &context, const AddressFormat &format, Make &&make) {
-  const Behaviour &behaviour = context.behaviour();
-  if (format.kind == AddressKind::Angle)
-    return make(behaviour.leastIncrementMetric);
-  const auto metric = isMetric(context);
-  if (context.certain(metric))
-    return make(behaviour.leastIncrementMetric);
-  if (!context.interpretation.mayBe(metric))
-    return make(behaviour.leastIncrementInch);
-  return context.interpretation.select(metric, make(behaviour.leastIncrementMetric),
-                                       make(behaviour.leastIncrementInch));
-}
-
 /// A word whose value is a lone vacant variable is dropped; for `X-#1` no manual says so, nor the contrary.
 /// `value`: of the expression.
 template <ValueAlgebra R>
@@ -147,15 +128,10 @@ private:
   }
 
   void readExpression(const Word &word, const AddressFormat &format) {
-    const auto value = evaluate(context_, word.expression(), roundingOf(word.address(), format));
+    const bool takesIncrement = context_.behaviour().roundsWords && detail::takesIncrement(format, word.address());
+    const auto value = evaluate(context_, word.expression(), {takesIncrement ? format.kind : AddressKind::None});
     add(word, isWordPresent(context_, word.expression(), value),
         roundedToIncrement(context_, format, interpretation_.asNumber(value)));
-  }
-  RoundingUnit roundingOf(char address, const AddressFormat &format) const {
-    if (!context_.behaviour().roundsWords || !takesIncrement(format, address))
-      return {};
-    const bool metric = context_.certain(isMetric(context_)) || format.kind == AddressKind::Angle;
-    return {metric ? context_.behaviour().leastIncrementMetric : context_.behaviour().leastIncrementInch};
   }
 
   void readCode(const Word &word) {
@@ -253,7 +229,7 @@ typename R::Value roundedToIncrement(StepContext<R> &context, const AddressForma
   switch (format.kind) {
   case AddressKind::Length:
   case AddressKind::Angle:
-    return detail::byUnits(context, format, [&](Decimal step) { return context.interpretation.roundTo(value, step); });
+    return byIncrement(context, format.kind, [&](Decimal step) { return context.interpretation.roundTo(value, step); });
   case AddressKind::Integer: return context.interpretation.roundTo(value, Decimal(1, 0));
   case AddressKind::None:
   case AddressKind::Rate:
@@ -268,7 +244,7 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
   if (point || literal.isZero() || !detail::takesIncrement(format, address) ||
       context.dialect().switches.dpi == Switch::On)
     return context.interpretation.literal(literal);
-  const auto inIncrements = detail::byUnits(context, format, [&](Decimal step) {
+  const auto inIncrements = byIncrement(context, format.kind, [&](Decimal step) {
     return context.interpretation.literal(
         Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + step.scale())));
   });

@@ -24,7 +24,7 @@ struct CertifyArguments {
   std::vector<std::string> paths;
   std::vector<std::string> only;
   std::string output;
-  std::string dialect;
+  ControlArguments control;
   ConfigArguments config;
   std::string date;
   unsigned jobs = 0;
@@ -37,7 +37,7 @@ void addOptions(CLI::App &app, CertifyArguments &arguments) {
       ->type_name("FOLDER")
       ->required();
   addOnlyKinds(app, arguments.only);
-  addDialect(app, arguments.dialect);
+  addControl(app, arguments.control);
   addConfiguration(app, arguments.config);
   app.add_option("--date", arguments.date, "date printed on the report (default: from SOURCE_DATE_EPOCH, else none)")
       ->type_name("TEXT");
@@ -75,11 +75,9 @@ Result<ReportOptions> optionsOf(const CertifyArguments &arguments) {
   }
   if (options.paths.empty())
     options.paths = {plainPath(".")};
-  if (!arguments.dialect.empty()) {
-    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
-      return Error{*complaint};
-    options.reading.dialect = arguments.dialect;
-  }
+  if (const auto complaint = complaintAbout(arguments.control))
+    return Error{*complaint};
+  options.reading.control = controlFrom(arguments.control);
   options.reading.isolated = arguments.config.isolated;
   if (!arguments.config.file.empty())
     options.reading.config = arguments.config.file;

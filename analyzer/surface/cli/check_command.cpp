@@ -28,7 +28,7 @@ namespace {
 /// The options as they are written.
 struct CheckArguments {
   std::vector<std::string> paths;
-  std::string dialect;
+  ControlArguments control;
   std::string format = "text";
   std::string output;
   std::vector<std::string> select;
@@ -53,7 +53,7 @@ struct CheckArguments {
 void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: current folder)")
       ->type_name("PATH");
-  addDialect(app, arguments.dialect);
+  addControl(app, arguments.control);
   addFormat(app, arguments.format, {"text", "concise", "json", "sarif", "junit", "github"});
   app.add_option("--output", arguments.output, "write the findings to this file")->type_name("FILE");
   app.add_option("--select", arguments.select, "check only these rules or categories (comma-separated, or repeated)")
@@ -94,9 +94,8 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
     for (const std::string &name : *names)
       if (auto complaint = complaintAboutRuleName(name, allRules()))
         return complaint;
-  if (!arguments.dialect.empty())
-    if (auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
-      return complaint;
+  if (auto complaint = complaintAbout(arguments.control))
+    return complaint;
   const bool isPiped = std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end();
   if (isPiped && arguments.fix && !arguments.diff)
     return "--fix cannot change standard input; use --diff to see the fixes";
@@ -116,8 +115,7 @@ CheckOptions toOptions(const CheckArguments &arguments) {
     options.piped = PipedText{arguments.stdinFilename, readStandardInput()};
   else if (options.paths.empty())
     options.paths = {"."};
-  if (!arguments.dialect.empty())
-    options.dialect = arguments.dialect;
+  options.control = controlFrom(arguments.control);
   options.select = arguments.select;
   options.ignore = arguments.ignore;
   options.errorOn = severityFromName(arguments.errorOn);

@@ -28,7 +28,7 @@ namespace {
 struct ProveArguments {
   std::vector<std::string> paths;
   std::vector<std::string> only;
-  std::string dialect;
+  ControlArguments control;
   ConfigArguments config;
   std::string arithmetic = "control";
   std::string certificate;
@@ -48,7 +48,7 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders; - is standard input (default: current folder)")
       ->type_name("PATH");
   addOnlyKinds(app, arguments.only);
-  addDialect(app, arguments.dialect);
+  addControl(app, arguments.control);
   addConfiguration(app, arguments.config);
   CLI::Option *certificate = app.add_option("--certificate", arguments.certificate,
                                             "write the evidence of all proofs to this folder, for `feedhold recheck`")
@@ -85,8 +85,7 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
     options.files.piped = PipedText{arguments.stdinFilename, readStandardInput()};
   else if (options.files.paths.empty())
     options.files.paths = {"."};
-  if (!arguments.dialect.empty())
-    options.files.dialect = arguments.dialect;
+  options.files.control = controlFrom(arguments.control);
   options.files.config = configFrom(arguments.config);
   options.files.jobs = arguments.jobs;
   options.cache = cacheFor(arguments);
@@ -98,24 +97,12 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   return options;
 }
 
-BundleReading bundleReading(const ProofOptions &options) {
-  BundleReading reading{.dialect = options.files.dialect, .only = options.prove.only};
-  reading.isolated = options.files.config.source == ConfigSource::None;
-  if (options.files.config.source == ConfigSource::Named)
-    reading.config = options.files.config.file;
+BundleReading bundleReading(const ProveArguments &arguments) {
+  BundleReading reading{.control = controlFrom(arguments.control), .only = kindsFrom(arguments.only)};
+  reading.isolated = arguments.config.isolated;
+  if (!arguments.config.file.empty())
+    reading.config = arguments.config.file;
   return reading;
-}
-
-/// What a replay of a witness has to be told, too.
-std::string readingOptions(const ProveArguments &arguments) {
-  std::string text;
-  if (!arguments.dialect.empty())
-    text += " --dialect " + arguments.dialect;
-  if (arguments.config.isolated)
-    text += " --isolated";
-  else if (!arguments.config.file.empty())
-    text += " --config " + arguments.config.file;
-  return text;
 }
 
 bool hasContradiction(const ProofsResult &result) {
@@ -148,9 +135,8 @@ void complainIfNothingWasProved(ProofsResult &result) {
 }
 
 std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
-  if (!arguments.dialect.empty())
-    if (auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
-      return complaint;
+  if (auto complaint = complaintAbout(arguments.control))
+    return complaint;
   if (arguments.certificate.empty())
     return std::nullopt;
   if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
@@ -166,7 +152,7 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
                            .version = FEEDHOLD_VERSION,
                            .root = std::filesystem::current_path(),
                            .exitCode = exitCodeOf(result),
-                           .readingOptions = readingOptions(arguments),
+                           .readingOptions = readingOptions(bundleReading(arguments)),
                            .arithmetic = arguments.certificate.empty() ? arguments.arithmetic : "exact",
                            .showMethods = arguments.verbose ? ShowMethods::Yes : ShowMethods::No,
                            .colour = useColour(colourOptionFrom(arguments.color))};
@@ -217,8 +203,8 @@ int runProve(const ProveArguments &arguments) {
   addErrors(result, narrowed.value());
   complainIfNothingWasProved(result);
   if (!arguments.certificate.empty())
-    if (const auto error = writeBundle(
-            arguments.certificate, makeBundle(result, bundleReading(options), FEEDHOLD_VERSION, arguments.certificate)))
+    if (const auto error = writeBundle(arguments.certificate, makeBundle(result, bundleReading(arguments),
+                                                                         FEEDHOLD_VERSION, arguments.certificate)))
       result.errors.push_back({arguments.certificate, error->message});
   const BaselineScope scope{.folder = arguments.baseline.isAsked() ? folderOf(arguments.baseline) : fs::path(),
                             .kinds = options.prove.only};

@@ -22,7 +22,7 @@ struct RangesArguments {
   std::string path;
   std::string program;
   bool calls = false;
-  std::string dialect;
+  ControlArguments control;
   ConfigArguments config;
   std::string format = "text";
 };
@@ -34,7 +34,7 @@ void addOptions(CLI::App &app, RangesArguments &arguments) {
   app.add_option("--program", arguments.program, "program of the file to start (default: all that no other calls)")
       ->type_name("PROGRAM");
   app.add_flag("--calls", arguments.calls, "also print the blocks of called programs in other files");
-  addDialect(app, arguments.dialect);
+  addControl(app, arguments.control);
   addConfiguration(app, arguments.config);
   addFormat(app, arguments.format, {"text", "json"});
 }
@@ -62,11 +62,9 @@ Result<std::string> ranges(const RangesArguments &arguments) {
   ProgramOptions options{.path = asked.path};
   if (asked.path == "-")
     options.piped = PipedText{"<stdin>", readStandardInput()};
-  if (!arguments.dialect.empty()) {
-    if (const auto complaint = complaintAboutDialect(arguments.dialect, allDialects()))
-      return Error{*complaint};
-    options.dialect = arguments.dialect;
-  }
+  if (const auto complaint = complaintAbout(arguments.control))
+    return Error{*complaint};
+  options.control = controlFrom(arguments.control);
   options.config = configFrom(arguments.config);
   const auto loaded = loadProject(options, {allDialects(), allRules()});
   if (!loaded)

@@ -33,7 +33,7 @@ ProofOptions optionsFrom(const BundleOrigin &origin, const RecheckArguments &arg
   ProofOptions options;
   for (const std::filesystem::path &path : origin.paths)
     options.files.paths.push_back(path.generic_string());
-  options.files.dialect = origin.reading.dialect;
+  options.files.control = origin.reading.control;
   if (origin.reading.isolated)
     options.files.config.source = ConfigSource::None;
   else if (origin.reading.config)
@@ -47,7 +47,8 @@ ProofOptions optionsFrom(const BundleOrigin &origin, const RecheckArguments &arg
 std::optional<std::string> complaintAbout(const BundleOrigin &origin) {
   if (origin.paths.empty())
     return "it contains no proofs";
-  return origin.reading.dialect ? complaintAboutDialect(*origin.reading.dialect, allDialects()) : std::nullopt;
+  return origin.reading.control.dialect ? complaintAboutDialect(*origin.reading.control.dialect, allDialects())
+                                        : std::nullopt;
 }
 
 std::string counted(std::size_t count, std::string_view thing) {
@@ -158,7 +159,7 @@ Result<int> recheckReport(const Bundle &stored, const RecheckArguments &argument
   const Result<ReportOrigin> origin = reportOrigin(stored, arguments.folder);
   if (!origin)
     return origin.error();
-  if (const auto &dialect = origin.value().options.reading.dialect)
+  if (const auto &dialect = origin.value().options.reading.control.dialect)
     if (const auto complaint = complaintAboutDialect(*dialect, allDialects()))
       return Error{*complaint};
   Findings findings = evidenceFindings(evidenceOf(stored), kEvidenceFolder, arguments);

@@ -23,7 +23,7 @@ CheckOptions filesOf(const ReportOptions &options, unsigned jobs) {
   CheckOptions files;
   for (const fs::path &path : options.paths)
     files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
-  files.dialect = options.reading.dialect;
+  files.control = options.reading.control;
   if (options.reading.isolated)
     files.config.source = ConfigSource::None;
   else if (options.reading.config)

@@ -107,11 +107,9 @@ Result<std::unique_ptr<const Project>> load(const RunInput &input) {
   ProgramOptions options{.path = input.path};
   if (input.path == "-")
     options.piped = PipedText{"<stdin>", readStandardInput()};
-  if (!input.dialect.empty()) {
-    if (const auto complaint = complaintAboutDialect(input.dialect, allDialects()))
-      return Error{*complaint};
-    options.dialect = input.dialect;
-  }
+  if (const auto complaint = complaintAbout(input.control))
+    return Error{*complaint};
+  options.control = controlFrom(input.control);
   options.config = configFrom(input.config);
   return loadProject(options, {allDialects(), allRules()});
 }
@@ -139,7 +137,7 @@ void addRunInput(CLI::App &app, RunInput &input) {
                  "numbers of the control: binary64 (doubles) or mantissa32 (default: those of the dialect)")
       ->type_name("MODEL")
       ->check(CLI::IsMember({nameOf(NumberModel::Binary64), nameOf(NumberModel::Mantissa32)}));
-  addDialect(app, input.dialect);
+  addControl(app, input.control);
   addConfiguration(app, input.config);
 }
 

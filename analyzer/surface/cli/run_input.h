@@ -21,7 +21,7 @@ struct RunInput {
   std::vector<std::string> variables;
   std::vector<std::string> start;
   std::uint64_t fuel = RunOptions{}.fuel;
-  std::string dialect;
+  ControlArguments control;
   std::string numbers; // empty: those of the dialect
   ConfigArguments config;
   bool blockSkip = false;

@@ -1,11 +1,29 @@
 #include "surface/cli/shared_options.h"
 
+#include "dialects/registry.h"
+
 namespace feedhold {
 
-void addDialect(CLI::App &app, std::string &dialect) {
-  app.add_option("--dialect", dialect,
+void addControl(CLI::App &app, ControlArguments &arguments) {
+  app.add_option("--dialect", arguments.dialect,
                  "control to assume (default: feedhold.toml, else detected); see `feedhold dialects`")
       ->type_name("DIALECT");
+  const auto systems = incrementSystemNames();
+  app.add_option("--increment-system", arguments.incrementSystem,
+                 "least increment: IS-A 0.01 mm, IS-B 0.001 mm, IS-C 0.0001 mm (default: feedhold.toml, else IS-B)")
+      ->type_name("SYSTEM")
+      ->check(CLI::IsMember(std::vector<std::string>(systems.begin(), systems.end())));
+}
+
+std::optional<std::string> complaintAbout(const ControlArguments &arguments) {
+  return arguments.dialect.empty() ? std::nullopt : complaintAboutDialect(arguments.dialect, allDialects());
+}
+
+ControlOptions controlFrom(const ControlArguments &arguments) {
+  ControlOptions options{.incrementSystem = incrementSystemNamed(arguments.incrementSystem)};
+  if (!arguments.dialect.empty())
+    options.dialect = arguments.dialect;
+  return options;
 }
 
 void addConfiguration(CLI::App &app, ConfigArguments &arguments) {

@@ -2,16 +2,25 @@
 #pragma once
 
 #include "findings/project/config_finder.h"
+#include "findings/project/control_options.h"
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace feedhold {
 
-/// `--dialect`: empty when it is not given.
-void addDialect(CLI::App &app, std::string &dialect);
+/// `--dialect` and `--increment-system`: empty when they are not given.
+struct ControlArguments {
+  std::string dialect;
+  std::string incrementSystem;
+};
+void addControl(CLI::App &app, ControlArguments &arguments);
+/// Why there is no such control; absent when there is.
+std::optional<std::string> complaintAbout(const ControlArguments &arguments);
+ControlOptions controlFrom(const ControlArguments &arguments);
 
 /// `--config` and `--isolated`.
 struct ConfigArguments {

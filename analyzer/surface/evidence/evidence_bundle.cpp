@@ -1,9 +1,9 @@
 #include "surface/evidence/evidence_bundle.h"
-#include "surface/sink/json_parts.h"
 
 #include "base/support/match.h"
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
+#include "surface/evidence/reading_json.h"
 #include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>
@@ -44,21 +44,13 @@ public:
     Json rows = Json::array();
     for (const auto &[path, file] : files)
       rows.push_back(fileToJson(path, *file));
-    const Json index = {{"version", 2}, {"feedhold", version_}, {"options", readingToJson()}, {"files", rows}};
+    const Json index = {
+        {"version", 2}, {"feedhold", version_}, {"options", readingToJson(reading_, folder_)}, {"files", rows}};
     bundle_.emplace(kBundleIndex, json::documentText(index));
     return std::move(bundle_);
   }
 
 private:
-  Json readingToJson() const {
-    Json only = Json::array();
-    for (const prove::ObligationKind kind : reading_.only)
-      only.push_back(prove::nameOf(kind));
-    return {{"dialect", reading_.dialect ? Json(*reading_.dialect) : Json()},
-            {"isolated", reading_.isolated},
-            {"config", reading_.config ? Json(pathFrom(folder_, *reading_.config)) : Json()},
-            {"only", std::move(only)}};
-  }
   /// The steps of a program come before its obligations, which rest on them.
   Json programToJson(const ProvedFile &file, const ProvedProgram &program) {
     const std::string name = toString(file.file().model.programs[program.program].name);
@@ -175,16 +167,7 @@ Result<BundleOrigin> originOf(const Bundle &bundle, const fs::path &folder) {
       return Error{"the bundle has another format version"};
     for (const Json &file : index.at("files"))
       origin.paths.push_back((folder / std::string(file.at("path"))).lexically_normal());
-    const Json &reading = index.at("options");
-    if (!reading.at("dialect").is_null())
-      origin.reading.dialect = std::string(reading.at("dialect"));
-    origin.reading.isolated = reading.at("isolated");
-    if (!reading.at("config").is_null())
-      origin.reading.config = (folder / std::string(reading.at("config"))).lexically_normal();
-    for (const prove::ObligationKind kind : prove::kObligationKinds)
-      for (const Json &name : reading.at("only"))
-        if (name == prove::nameOf(kind))
-          origin.reading.only.push_back(kind);
+    origin.reading = readingFrom(index.at("options"), folder);
     return origin;
   } catch (const Json::exception &) {
     return Error{fmt::format("{} cannot be read", kBundleIndex)};

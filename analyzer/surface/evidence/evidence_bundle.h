@@ -12,11 +12,14 @@ inline constexpr std::string_view kBundleIndex = "index.json";
 
 /// How programs were read and what of them was proved: all that a proof of the same must be told.
 struct BundleReading {
-  std::optional<std::string> dialect = std::nullopt;
+  ControlOptions control = {};
   bool isolated = false;
   std::optional<std::filesystem::path> config = std::nullopt; // that was named
   std::vector<prove::ObligationKind> only = {};
 };
+
+/// Options of the command line that make another command read programs in the same way, each behind a blank.
+std::string readingOptions(const BundleReading &reading);
 
 /// File names, `/` as separator, and their texts.
 using Bundle = std::map<std::string, std::string>;

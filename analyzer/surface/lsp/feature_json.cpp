@@ -14,7 +14,7 @@ View withFolder(const View &view) {
   if (view.file().path.empty() || !view.file().model.calls.empty()) // then it is loaded with them
     return whole;
   const ProgramOptions options{.path = view.file().path.generic_string(),
-                               .dialect = std::string(view.programs->dialect().id),
+                               .control = {.dialect = std::string(view.programs->dialect().id)},
                                .open = view.open,
                                .folder = ProgramOptions::Folder::Always,
                                .store = view.store};

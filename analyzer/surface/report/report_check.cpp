@@ -1,6 +1,7 @@
 // Checks a stored release report: whether it is consistent, and whether the same programs give the same report now.
 #include "base/support/sha256.h"
 #include "proof/obligation/obligation_kinds.h"
+#include "surface/evidence/reading_json.h"
 #include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
@@ -89,15 +90,7 @@ Result<ReportOrigin> reportOrigin(const Bundle &report, const fs::path &folder) 
     const Json &reading = document.value().at("options");
     for (const Json &path : reading.at("paths"))
       origin.options.paths.push_back(pathOf(path));
-    if (!reading.at("dialect").is_null())
-      origin.options.reading.dialect = reading.at("dialect").get<std::string>();
-    origin.options.reading.isolated = reading.at("isolated");
-    if (!reading.at("config").is_null())
-      origin.options.reading.config = pathOf(reading.at("config"));
-    for (const prove::ObligationKind kind : prove::kObligationKinds)
-      for (const Json &name : reading.at("only"))
-        if (name == prove::nameOf(kind))
-          origin.options.reading.only.push_back(kind);
+    origin.options.reading = readingFrom(reading, fs::absolute(folder));
     if (!document.value().at("date").is_null())
       origin.options.date = document.value().at("date").get<std::string>();
     return origin;

@@ -1,6 +1,7 @@
 // certificate.json: what was proved of which bytes, under which settings.
 #include "base/support/sha256.h"
 #include "base/support/text.h"
+#include "surface/evidence/reading_json.h"
 #include "surface/report/report_parts.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ public:
             {"feedhold", input_.version},
             {"solvers", std::move(solvers)},
             {"date", input_.options.date ? Json(*input_.options.date) : Json()},
-            {"options", readingToJson()},
+            {"options", optionsToJson()},
             {"counts", countsToJson(counts_)},
             {"status", nameOf(releaseStatusOf(input_.proofs))},
             {"assumptions", assumptions()},
@@ -74,19 +75,12 @@ public:
 private:
   std::string relative(const fs::path &path) const { return pathFrom(input_.folder, path); }
 
-  Json readingToJson() const {
-    const BundleReading &reading = input_.options.reading;
-    Json only = Json::array();
-    for (const prove::ObligationKind kind : reading.only)
-      only.push_back(prove::nameOf(kind));
-    Json paths = Json::array();
+  Json optionsToJson() const {
+    Json options = readingToJson(input_.options.reading, input_.folder);
+    options["paths"] = Json::array();
     for (const fs::path &path : input_.options.paths)
-      paths.push_back(relative(path));
-    return {{"paths", std::move(paths)},
-            {"dialect", reading.dialect ? Json(*reading.dialect) : Json()},
-            {"isolated", reading.isolated},
-            {"config", reading.config ? Json(relative(*reading.config)) : Json()},
-            {"only", std::move(only)}};
+      options["paths"].push_back(relative(path));
+    return options;
   }
   Json skippedToJson() const {
     Json rows = Json::array();
@@ -176,9 +170,13 @@ private:
       const std::size_t equals = word.find('=');
       const std::string value = word.substr(equals + 1);
       const std::string shown = value == "0" ? "off" : value == "1" ? "on" : value == "2" ? "unknown" : value;
-      rows.push_back({{"name", word.substr(0, equals)},
+      const std::string name = word.substr(0, equals);
+      const bool isAsked = name == "increment-system" && input_.options.reading.control.incrementSystem;
+      rows.push_back({{"name", name},
                       {"value", shown},
-                      {"chosenBy", plainWords.contains(word) ? "dialect" : "config"}});
+                      {"chosenBy", isAsked                     ? "option"
+                                   : plainWords.contains(word) ? "dialect"
+                                                               : "config"}});
     }
     return rows;
   }
@@ -274,7 +272,7 @@ private:
     for (const ShownRun &run : runs)
       rows.push_back({{"witnessOf", run.witnessOf.empty() ? Json() : Json(run.witnessOf)},
                       {"call", run.call},
-                      {"plot", fmt::format("feedhold plot {}{}", quotedWord(path), run.options + readingOptions())},
+                      {"plot", fmt::format("feedhold plot {}{}", quotedWord(path), run.options + replayOptions())},
                       {"notes", run.notes},
                       {"picture", {{"file", pictureName(++pictures_)}, {"sha256", sha256(run.svg)}}}});
     return rows;
@@ -285,16 +283,11 @@ public:
 
 private:
   /// What a replay has to be told, from the folder of the report.
-  std::string readingOptions() const {
-    const BundleReading &reading = input_.options.reading;
-    std::string text;
-    if (reading.dialect)
-      text += " --dialect " + *reading.dialect;
-    if (reading.isolated)
-      text += " --isolated";
-    else if (reading.config)
-      text += " --config " + quotedWord(relative(*reading.config));
-    return text;
+  std::string replayOptions() const {
+    BundleReading reading = input_.options.reading;
+    if (reading.config)
+      reading.config = relative(*reading.config);
+    return readingOptions(reading);
   }
   static Json alarmToJson(const std::optional<RaisedAlarm> &alarm) {
     if (!alarm)
@@ -336,7 +329,7 @@ private:
     if (!obligation.verdict.witness())
       return row;
     const TypedWitness call = typed(*obligation.verdict.witness(), file, program, {.result = input_.proofs});
-    const std::string options = quotedWord(path) + optionsBehindFile(call, file) + readingOptions();
+    const std::string options = quotedWord(path) + optionsBehindFile(call, file) + replayOptions();
     Json &witness = row["witness"];
     witness["call"] = feedhold::textOf(call);
     witness["happened"] = happenedIn(*obligation.verdict.witness(), obligation, dialect);

@@ -224,6 +224,19 @@ TEST(Dialect, NumbersDependOnASwitch) {
   EXPECT_EQ(numbersOf(dialect), NumberModel::Mantissa32);
 }
 
+TEST(Dialect, TheLeastIncrementsAreThoseOfTheIncrementSystem) {
+  Dialect dialect = dialectNamed("fanuc-30i");
+  EXPECT_EQ(leastIncrementsOf(dialect).metric, Decimal(1, 3));
+  EXPECT_EQ(leastIncrementsOf(dialect).inch, Decimal(1, 4));
+  dialect.switches.incrementSystem = incrementSystemNamed("IS-A").value();
+  EXPECT_EQ(leastIncrementsOf(dialect).metric, Decimal(1, 2));
+  EXPECT_EQ(leastIncrementsOf(dialect).inch, Decimal(1, 3));
+  dialect.switches.incrementSystem = incrementSystemNamed("IS-C").value();
+  EXPECT_EQ(leastIncrementsOf(dialect).metric, Decimal(1, 4));
+  EXPECT_EQ(leastIncrementsOf(dialect).inch, Decimal(1, 5));
+  EXPECT_FALSE(incrementSystemNamed("IS-Z"));
+}
+
 TEST(Dialect, CodeCallsComeFromTheSwitches) {
   Dialect dialect = dialectNamed("fanuc-30i");
   EXPECT_EQ(findCodeCall(dialect, 'M', 60), nullptr);

@@ -32,7 +32,7 @@ protected:
   View open(const std::string &name, const std::string &dialect = "fanuc-30i") const {
     ProgramOptions options;
     options.path = (folder_ / name).string();
-    options.dialect = dialect;
+    options.control.dialect = dialect;
     auto programs = loadProject(options, kKnown);
     if (!programs)
       throw std::runtime_error(programs.error().message);

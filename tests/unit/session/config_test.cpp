@@ -76,6 +76,15 @@ TEST(Config, UnknownNamesHaveASuggestion) {
   EXPECT_EQ(errorOf("error-on = \"errors\"\n"), "1:12 `errors` is not a severity; did you mean `error`?");
 }
 
+TEST(Config, IncrementSystem) {
+  const ConfigText text = read("increment-system = \"IS-C\"\n[[files]]\npath = \"x\"\nincrement-system = \"IS-A\"\n");
+  EXPECT_TRUE(text.errors.empty());
+  EXPECT_EQ(text.config.incrementSystem, IncrementSystem::C);
+  EXPECT_EQ(text.config.files[0].incrementSystem, IncrementSystem::A);
+  EXPECT_EQ(errorOf("increment-system = \"IS-D\"\n"),
+            "1:20 `IS-D` is not an increment system; one of: IS-A, IS-B, IS-C");
+}
+
 TEST(Config, AFormerNameOfARuleIsUnderstood) {
   EXPECT_EQ(errorOf("select = [\"loop-counter-clobbered\"]\n[severity]\nloop-counter-clobbered = \"info\"\n"),
             "0 errors");
