@@ -150,6 +150,14 @@ QUARTER_BEYOND = """O1
 G00X[#24+{}]
 M99
 """
+PASSES_A_PRODUCT = """O1
+(@PARAM #1 0..5)
+G65P2A[#1*{}]B0.5C#2
+M30
+O2
+N10#4=SQRT[ABS[#1]+#2+ABS[#3]]
+M99
+"""
 # Words are rounded to the least increment, and the errors add up.
 DRIFT = """O1
 (@START Z0)
@@ -222,6 +230,17 @@ class ArithmeticOfTheControl(Scratch):
         row = self.in_control(DRIFT)["ensures"]
         self.assertEqual(row["verdict"], "refuted")
         self.assertEqual(self.in_exact(DRIFT)["ensures"]["verdict"], "proved")
+
+    def test_a_call_passes_numbers_that_can_be_typed(self):
+        claim = "this call passes numbers of at most 8 digits to O2"
+        row = self.in_control(PASSES_A_PRODUCT.format("1000000000."))["call-meets-contract"]
+        self.assertEqual((row["claim"], row["verdict"]), (claim, "refuted"))
+        self.assertIn("#1 is 1000000000 at the call, which nobody can type", row["witness"]["happened"])
+        row = self.in_control(PASSES_A_PRODUCT.format("1000."))["call-meets-contract"]
+        self.assertEqual((row["claim"], row["verdict"]), (claim, "proved"))
+        # Literals need no proof, and exact arithmetic assumes nothing.
+        self.assertNotIn("call-meets-contract", self.in_control("O1\nG65P2A1.5B2.\nM30\nO2\n#4=#1+#2\nM99\n"))
+        self.assertNotIn("call-meets-contract", self.in_exact(PASSES_A_PRODUCT.format("1000000000.")))
 
     def test_sturdy_programs_stay_proved(self):
         for text in (WHOLE_COUNTER, QUARTERS, CLAMPED_PECKS, LEVELS, ROOT_OF_SQUARES):

@@ -4,7 +4,6 @@
 #include "proof/replay/exact_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -68,32 +67,6 @@ Obligation ProofSubject::obligation(ObligationKind kind, Place place, Span span,
           .span = span,
           .claim = std::move(claim)};
 }
-
-namespace {
-
-/// What a contract says of the numbers that inputs hold.
-std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract) {
-  const auto isWhole = [&](ExpressionId id) {
-    const auto *literal = std::get_if<NumberLiteral>(&file.tree.expressions[id].node);
-    return literal && std::floor(literal->value.toDouble()) == literal->value.toDouble();
-  };
-  std::map<std::uint32_t, WrittenInput> inputs;
-  for (const auto *clauses : {&contract.params, &contract.globals})
-    for (const EntryValue &each : *clauses) {
-      WrittenInput &input = inputs[each.variable];
-      input.isWhole |= each.unit == Unit::Integer;
-      const auto *range = std::get_if<Range>(&each.values);
-      input.hasLow |= range && range->low;
-      input.hasHigh |= range && range->high;
-      const auto *list = std::get_if<ValueList>(&each.values);
-      input.hasLow |= list != nullptr;
-      input.hasHigh |= list != nullptr;
-      input.isWhole |= list && std::ranges::all_of(list->values, isWhole);
-    }
-  return inputs;
-}
-
-} // namespace
 
 ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
     : interpretation_(store_, subject.dialect(), subject.options.arithmetic) {
@@ -174,13 +147,13 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
 /// Hints are tried, never believed: an invariant has to hold before each iteration, a ranking function has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
-  options.demands = [&subject](const Callee &callee) { return subject.contractsOf(callee) != nullptr; };
+  const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
+  options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };
   const Contract *contract = subject.contract();
   if (!contract)
     return options;
   options.keepWrites = !contract->assigns.empty();
-  const bool isExact =
-      interpretation_.arithmetic() == Arithmetic::Exact; // claims about space are proved in exact numbers
+  // Claims about space are proved in exact numbers.
   options.moves = contract->clearance && isExact ? KeepMoves::WithColumn
                   : hasSpaceClause(*contract)    ? KeepMoves::Yes
                                                  : KeepMoves::No;

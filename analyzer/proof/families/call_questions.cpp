@@ -1,8 +1,9 @@
 // Calls meet the contracts of the programs that they call, whose proofs rest on that.
-#include "proof/families/families.h"
+#include "proof/families/call_inputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace feedhold::prove {
 
@@ -124,6 +125,7 @@ Questions callQuestions(const ExploredProgram &program) {
   noModalCallIsActive(program, questions);
   entriesAreAtHeads(program, questions);
   callsNotMet(program, questions);
+  std::ranges::move(inputQuestions(program), std::back_inserter(questions));
   return questions;
 }
 

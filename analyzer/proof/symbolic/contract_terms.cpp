@@ -3,6 +3,8 @@
 #include "base/support/match.h"
 #include "proof/smt/steps.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace feedhold::prove {
@@ -32,7 +34,59 @@ auto inContract(SymbolicInterpretation &interpretation, const ProgramSet &progra
   return result;
 }
 
+/// The variables of whose values on entry some clause speaks: `OLD[#510]`.
+std::set<std::uint32_t> oldVariablesIn(const FileContracts &contracts) {
+  std::set<std::uint32_t> found;
+  for (const Expression &expression : contracts.tree.expressions) {
+    const auto *variable = std::get_if<NumberedVariable>(&expression.node);
+    const auto number = variable ? variable->number.asInteger() : std::nullopt;
+    if (!number || *number >= 0)
+      continue;
+    const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
+    if (const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr)
+      found.insert(of->variable);
+  }
+  return found;
+}
+
 } // namespace
+
+ContractTerms::ContractTerms(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
+                             const FileContracts &contracts)
+    : interpretation_(interpretation), programs_(programs), file_(file), contracts_(contracts),
+      oldVariables_(oldVariablesIn(contracts)) {
+  std::erase_if(oldVariables_, [](std::uint32_t variable) { return variable <= kLocalVariables; });
+}
+
+std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract) {
+  const auto isWhole = [&](ExpressionId id) {
+    const auto *literal = std::get_if<NumberLiteral>(&file.tree.expressions[id].node);
+    return literal && std::floor(literal->value.toDouble()) == literal->value.toDouble();
+  };
+  std::map<std::uint32_t, WrittenInput> inputs;
+  for (const auto *clauses : {&contract.params, &contract.globals})
+    for (const EntryValue &each : *clauses) {
+      WrittenInput &input = inputs[each.variable];
+      input.isWhole |= each.unit == Unit::Integer;
+      const auto *range = std::get_if<Range>(&each.values);
+      input.hasLow |= range && range->low;
+      input.hasHigh |= range && range->high;
+      const auto *list = std::get_if<ValueList>(&each.values);
+      input.hasLow |= list != nullptr;
+      input.hasHigh |= list != nullptr;
+      input.isWhole |= list && std::ranges::all_of(list->values, isWhole);
+    }
+  return inputs;
+}
+
+SymbolicValue heldBy(SymbolicInterpretation &interpretation, const Dialect &dialect, std::uint32_t variable,
+                     const SymbolicState &state) {
+  if (variable <= kLocalVariables)
+    return state.locals[variable];
+  const std::uint32_t cell = cellOf(dialect, variable);
+  const SymbolicValue *written = state.variables.find(cell);
+  return written ? *written : interpretation.unwritten(state, cell);
+}
 
 SymbolicValue ContractTerms::value(ExpressionId expression, const SymbolicState &state) {
   SymbolicState copy = state;
@@ -55,19 +109,13 @@ SymbolicState ContractTerms::withReserved(const SymbolicState &entry, const Symb
   return state;
 }
 
-std::vector<std::uint32_t> ContractTerms::oldOf(const FileContracts &contracts) {
-  std::set<std::uint32_t> found;
-  for (const Expression &expression : contracts.tree.expressions) {
-    const auto *variable = std::get_if<NumberedVariable>(&expression.node);
-    const auto number = variable ? variable->number.asInteger() : std::nullopt;
-    if (!number || *number >= 0)
-      continue;
-    const auto old = reservedVariable(static_cast<std::uint32_t>(-*number));
-    const auto *of = old ? std::get_if<OldValueOf>(&*old) : nullptr;
-    if (of && of->variable > kLocalVariables)
-      found.insert(of->variable);
-  }
-  return {found.begin(), found.end()};
+std::set<std::uint32_t> variablesIn(const FileContracts &contracts) {
+  std::set<std::uint32_t> found = oldVariablesIn(contracts);
+  for (const Expression &expression : contracts.tree.expressions)
+    if (const auto *variable = std::get_if<NumberedVariable>(&expression.node))
+      if (const auto number = variable->number.asInteger(); number && *number >= 0)
+        found.insert(static_cast<std::uint32_t>(*number));
+  return found;
 }
 
 TermId ContractTerms::condition(ExpressionId expression, const SymbolicState &entry, const SymbolicState &now) {
@@ -103,11 +151,7 @@ TermId ContractTerms::number(ExpressionId expression, const SymbolicState &entry
 }
 
 SymbolicValue ContractTerms::valueOf(std::uint32_t variable, const SymbolicState &state) const {
-  if (variable <= kLocalVariables)
-    return state.locals[variable];
-  const std::uint32_t cell = cellOf(*programs_.file(file_).dialect, variable);
-  const SymbolicValue *written = state.variables.find(cell);
-  return written ? *written : interpretation_.unwritten(state, cell);
+  return heldBy(interpretation_, *programs_.file(file_).dialect, variable, state);
 }
 
 TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &entry) {

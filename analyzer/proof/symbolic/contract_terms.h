@@ -4,7 +4,9 @@
 #include "language/contract/contract.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
+#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace feedhold::prove {
@@ -15,12 +17,18 @@ struct InputEnds {
   std::optional<smt::TermId> low, high;
 };
 
+/// What a contract says of the numbers that inputs hold, by variable.
+std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract);
+/// The variables of programs that clauses of the file name.
+std::set<std::uint32_t> variablesIn(const FileContracts &contracts);
+/// What a variable of programs holds in the state.
+SymbolicValue heldBy(SymbolicInterpretation &interpretation, const Dialect &dialect, std::uint32_t variable,
+                     const SymbolicState &state);
+
 class ContractTerms {
 public:
   ContractTerms(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
-                const FileContracts &contracts)
-      : interpretation_(interpretation), programs_(programs), file_(file), contracts_(contracts),
-        oldVariables_(oldOf(contracts)) {}
+                const FileContracts &contracts);
 
   /// The modal codes and the start position of the contract are put into the state.
   void prepare(const Contract &contract, SymbolicState &entry);
@@ -51,13 +59,12 @@ private:
   smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
   SymbolicValue value(ExpressionId expression, const SymbolicState &state);
   SymbolicState withReserved(const SymbolicState &entry, const SymbolicState &now) const;
-  static std::vector<std::uint32_t> oldOf(const FileContracts &contracts);
 
   SymbolicInterpretation &interpretation_;
   const ProgramSet &programs_;
   FileId file_;
   const FileContracts &contracts_;
-  std::vector<std::uint32_t> oldVariables_; // whose values on entry some clause asks for; no locals
+  std::set<std::uint32_t> oldVariables_; // whose values on entry some clause asks for; no locals
 };
 
 } // namespace feedhold::prove

@@ -40,6 +40,11 @@ std::optional<Function> functionOf(FunctionKind kind) {
 
 } // namespace
 
+bool isSystemVariable(const Dialect &dialect, std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(dialect, variable);
+  return range && range->kind == VariableKind::System;
+}
+
 void SymbolicInterpretation::start() {
   possibleStops_.clear();
   moves_.clear();
@@ -70,8 +75,7 @@ SymbolicValue SymbolicInterpretation::freshValue(MayBeVacant mayBeVacant) {
 }
 
 SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
-  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
-  const bool isNumber = range && range->kind == VariableKind::System;
+  const bool isNumber = isSystemVariable(*dialect_, variable);
   if (given_) {
     if (const auto value = given_->find(variable); value != given_->end())
       return value->second;
@@ -79,27 +83,33 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
       return vacant();
   }
   const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
-  if (entryValues_.emplace(variable, value).second && arithmetic_ != Arithmetic::Exact && !isNumber)
-    assumeTyped(variable, value);
+  if (entryValues_.emplace(variable, value).second) {
+    const WrittenInput &written = written_[variable];
+    const std::vector<TermId> typed = typedInput(variable, written, value.number);
+    facts_.insert(facts_.end(), typed.begin(), typed.end());
+    if (written.isWhole && !typed.empty())
+      grids_.setOfInput(value.number, 0);
+  }
   entry_.insert(value.number);
   entry_.insert(value.vacant);
   return value;
 }
 
-/// Controls take 8 digits (docs/arithmetic.md).
-void SymbolicInterpretation::assumeTyped(std::uint32_t variable, const Value &value) {
-  const WrittenInput &written = written_[variable];
+/// Controls take 8 digits (docs/arithmetic.md).  Ends that the contract states replace the larger ones.
+std::vector<TermId> SymbolicInterpretation::typedInput(std::uint32_t variable, const WrittenInput &written,
+                                                       TermId number) {
+  if (arithmetic_ == Arithmetic::Exact || isSystemVariable(*dialect_, variable))
+    return {};
+  std::vector<TermId> typed;
   const TermId most = store_.number(Number(99'999'999));
   if (!written.hasLow)
-    facts_.push_back(store_.lessOrEqual(store_.negate(most), value.number));
+    typed.push_back(store_.lessOrEqual(store_.negate(most), number));
   if (!written.hasHigh)
-    facts_.push_back(store_.lessOrEqual(value.number, most));
-  if (written.isWhole)
-    grids_.setOfInput(value.number, 0);
+    typed.push_back(store_.lessOrEqual(number, most));
   const TermId zero = store_.number(Number(0)), least = store_.number(Number(1) / Number(100'000'000));
-  facts_.push_back(store_.logicalOr(store_.lessOrEqual(value.number, zero), store_.lessOrEqual(least, value.number)));
-  facts_.push_back(
-      store_.logicalOr(store_.lessOrEqual(zero, value.number), store_.lessOrEqual(value.number, store_.negate(least))));
+  typed.push_back(store_.logicalOr(store_.lessOrEqual(number, zero), store_.lessOrEqual(least, number)));
+  typed.push_back(store_.logicalOr(store_.lessOrEqual(zero, number), store_.lessOrEqual(number, store_.negate(least))));
+  return typed;
 }
 
 // ---- values ----

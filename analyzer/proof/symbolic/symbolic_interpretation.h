@@ -39,7 +39,7 @@ struct SymbolicCode {
 /// Exact reals, as in mathematics; or doubles, of which each operation gives the nearest to its exact result.
 enum class Arithmetic : std::uint8_t { Exact, Doubles };
 
-/// What a contract says of an input.
+/// What a contract says of an input; nothing without a clause.
 struct WrittenInput {
   bool isWhole = false;
   bool hasLow = false; // a least number
@@ -55,6 +55,9 @@ struct TakenAsSmall {
 
 class SymbolicInterpretation;
 using SymbolicState = MachineState<SymbolicInterpretation>;
+
+/// No system variable is vacant, and nothing is typed into one.
+bool isSystemVariable(const Dialect &dialect, std::uint32_t variable);
 
 /// Something that stops the run where the condition holds.
 struct PossibleStop {
@@ -112,8 +115,11 @@ public:
   }
   /// The variables have these values at the start of the run, and the others that programs own are vacant.
   void startFrom(std::map<std::uint32_t, Value> values) { given_ = std::move(values); }
-  /// What is said of inputs.  Others hold what can be typed: numbers of at most 8 digits.
+  /// What is said of inputs.
   void assumeInputs(std::map<std::uint32_t, WrittenInput> written) { written_ = std::move(written); }
+  /// What a proof assumes of the number that a variable of the programs holds at the start: that it can be typed.
+  /// Whoever calls the program has to show it.  In exact arithmetic nothing is assumed.
+  std::vector<smt::TermId> typedInput(std::uint32_t variable, const WrittenInput &written, smt::TermId number);
   /// Begins a step.
   void start();
   bool stopped() const { return stopped_; }
@@ -232,7 +238,6 @@ private:
   bool isRoundedHere() const { return place_ && rounded_.contains(*place_); }
   bool isMultipleByPowerOfTwo(const Value &factor) const;
   Value freshValue(MayBeVacant mayBeVacant);
-  void assumeTyped(std::uint32_t variable, const Value &value);
   bool isNeverNegative(smt::TermId term);
   bool hasFormNeverNegative(smt::TermId term);
   smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);

@@ -63,8 +63,7 @@ bool alignAll(SymbolicInterpretation &interpretation, SymbolicState &a, Symbolic
 SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_t variable) {
   if (!isHavocked(state, variable))
     return atEntry(variable);
-  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*dialect_, variable);
-  return range && range->kind == VariableKind::System ? anyNumber() : anything();
+  return isSystemVariable(*dialect_, variable) ? anyNumber() : anything();
 }
 
 SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {

@@ -5,7 +5,7 @@ import shlex
 from dataclasses import replace
 from fractions import Fraction as F
 
-from .claims import SPACE, judge
+from .claims import SPACE, is_about_typed, is_typed, judge
 from .contract import broken_at_entry, places, reckoner_at
 from .machine import ARGUMENTS, Run, Start, cell_of, is_common
 from .path import GROUPS, XYZ
@@ -67,7 +67,9 @@ def called_there(run, claim) -> bool:
     def is_within(visit):
         return visit.outer is not None and (
             visit.outer.text.number == claim.program and visit.from_line == claim.line or is_within(visit.outer))
-    return any(is_within(visit) and broken_at_entry(visit.text, visit.entry, run.ask) for visit in run.visits)
+    is_bad = (lambda visit: not is_typed(visit.entry)) if is_about_typed(claim) else \
+        lambda visit: broken_at_entry(visit.text, visit.entry, run.ask)
+    return any(is_within(visit) and is_bad(visit) for visit in run.visits)
 
 
 def idle(files, dialect, text, claim, counts):

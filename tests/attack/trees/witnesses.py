@@ -10,7 +10,7 @@ from engine import Claim, Proofs
 
 from .files import line_of, witness_inputs
 from .inputs import is_allowed
-from .judge import Contradiction, Judge
+from .judge import Contradiction, Judge, is_about_typed, is_typed
 
 SWITCHES = {
     "negative-half": ("away", "up"),
@@ -79,7 +79,8 @@ def stops_there(project, claim, outcome) -> bool:
 
 def called_there(project, claim, activation) -> bool:
     """A call against a contract, somewhere within the call that the row is about."""
-    return any(called_there(project, claim, child) or child.broken and is_within(project, claim, child)
+    is_bad = (lambda child: not is_typed(child)) if is_about_typed(claim) else lambda child: child.broken
+    return any(called_there(project, claim, child) or is_bad(child) and is_within(project, claim, child)
                for child in activation.children)
 
 
