@@ -3,6 +3,8 @@
 #include "proof/obligation/obligation_kinds.h"
 #include "surface/sink/prove_shown.h"
 
+#include <fmt/format.h>
+
 namespace feedhold {
 
 using json::Json;
