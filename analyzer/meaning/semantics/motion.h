@@ -269,8 +269,7 @@ private:
     const auto [first, second] = centreOf(*plane, start);
     const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
     alarmsOfRadius(*plane, start, mapping, interpretation_.both(follows, byRadius));
-    const Value difference = radiusDifference(*plane, start, first, second);
-    const Truth differs = interpretation_.compare(Relation::Greater, difference, tolerance());
+    const Truth differs = radiiDiffer(*plane, start, first, second);
     const Truth isCircle = interpretation_.both(interpretation_.both(mapping.staysCircle, byCentre),
                                                 interpretation_.truth(turnsOf().has_value()));
     const Truth mayDiffer =
@@ -384,10 +383,20 @@ private:
     return interpretation_.function(
         FunctionKind::Sqrt, interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b)));
   }
-  Value radiusDifference(const Plane &plane, const Point &start, const Value &first, const Value &second) {
-    return interpretation_.function(FunctionKind::Abs,
-                                    interpretation_.subtract(distance(plane, start, first, second),
+  /// By no more than the distances along the axes do (triangle inequality), of which proofs need no roots.
+  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
+    const auto sizeOf = [&](const Value &value) { return interpretation_.function(FunctionKind::Abs, value); };
+    const auto along = [&](Axis axis, const Value &centre) {
+      const auto length = [&](const Point &point) {
+        return sizeOf(asRadius(axis, interpretation_.subtract(point[indexOf(axis)], centre)));
+      };
+      return sizeOf(interpretation_.subtract(length(start), length(state_.position)));
+    };
+    const Value atMost = interpretation_.add(along(plane.first, first), along(plane.second, second));
+    const Value difference = sizeOf(interpretation_.subtract(distance(plane, start, first, second),
                                                              distance(plane, state_.position, first, second)));
+    return interpretation_.both(interpretation_.compare(Relation::Greater, atMost, tolerance()),
+                                interpretation_.compare(Relation::Greater, difference, tolerance()));
   }
   Value tolerance() {
     const Value metric = interpretation_.number(context_.behaviour().arcTolerance);

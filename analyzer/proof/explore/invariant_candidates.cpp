@@ -32,6 +32,7 @@ public:
     for (const std::size_t number : numbers_)
       bounds(parts()[number]);
     keptSums();
+    restoredSums();
     growingSums();
     for (const std::size_t number : numbers_)
       secondOrder(number);
@@ -64,23 +65,43 @@ private:
 
   /// Sums of parts that no iteration changes (Karr, "Affine relationships among variables of a program", 1976).
   void keptSums() {
-    std::map<std::pair<std::size_t, TermId>, std::vector<Number>>
-        rows; // by iteration and term: its factor in each change
+    SumRows rows;
     const TermId one = store_.number(Number(1));
-    const auto add = [&](std::size_t iteration, TermId term, std::size_t column, const Number &factor) {
-      auto &row = rows[{iteration, term}];
-      row.resize(related() + 1);
-      row[column] += factor;
-    };
     for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration) {
-      for (std::size_t column = 0; column < related(); ++column) {
-        const LinearSum sum = store_.linear(change(iteration, numbers_[column]));
-        for (const auto &[term, factor] : sum.terms)
-          add(iteration, term, column, factor);
-        add(iteration, one, column, sum.constant);
-      }
-      add(iteration, one, related(), Number(1));
+      for (std::size_t column = 0; column < related(); ++column)
+        addSum(rows, iteration, column, change(iteration, numbers_[column]));
+      rowOf(rows, iteration, one)[related()] += Number(1);
     }
+    offerSums(std::move(rows));
+  }
+  /// Sums of parts that every iteration leaves as they were at the arrival: a coordinate of G90 and what it is
+  /// computed from.
+  void restoredSums() {
+    SumRows rows;
+    for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration)
+      for (std::size_t column = 0; column < related(); ++column) {
+        const std::size_t part = numbers_[column];
+        addSum(rows, iteration, column, store_.subtract(trial_.left[iteration][part], parts()[part].arrival));
+      }
+    rowOf(rows, 0, zero_)[related()] = Number(1); // the number of iterations has no share
+    offerSums(std::move(rows));
+  }
+
+  /// By iteration and term: the factor of the term in the equation of each part, and of the number of iterations.
+  using SumRows = std::map<std::pair<std::size_t, TermId>, std::vector<Number>>;
+
+  std::vector<Number> &rowOf(SumRows &rows, std::size_t iteration, TermId term) {
+    auto &row = rows[{iteration, term}];
+    row.resize(related() + 1);
+    return row;
+  }
+  void addSum(SumRows &rows, std::size_t iteration, std::size_t column, TermId term) {
+    const LinearSum sum = store_.linear(term);
+    for (const auto &[summand, factor] : sum.terms)
+      rowOf(rows, iteration, summand)[column] += factor;
+    rowOf(rows, iteration, store_.number(Number(1)))[column] += sum.constant;
+  }
+  void offerSums(SumRows rows) {
     std::vector<std::vector<Number>> matrix;
     for (auto &[key, row] : rows)
       matrix.push_back(std::move(row));
