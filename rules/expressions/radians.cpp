@@ -37,7 +37,45 @@ bool makesRadians(const SyntaxTree &tree, ExpressionId id) {
          (multiplies(operation->left) || isFactor(tree, operation->right, kDegreesInRadian));
 }
 
+bool givesAngle(const SyntaxTree &tree, ExpressionId id) {
+  const auto *call = as<FunctionCall>(tree, id);
+  return call && (call->function == FunctionKind::Atan || call->function == FunctionKind::Asin ||
+                  call->function == FunctionKind::Acos);
+}
+
+/// The first inverse function among the factors of a product.
+std::optional<ExpressionId> angleIn(const SyntaxTree &tree, ExpressionId id) {
+  const ExpressionId inner = unwrapped(tree, id);
+  if (givesAngle(tree, inner))
+    return inner;
+  const auto *operation = as<BinaryOperation>(tree, inner);
+  if (!operation || (operation->op != OperatorKind::Multiply && operation->op != OperatorKind::Divide))
+    return std::nullopt;
+  const auto left = angleIn(tree, operation->left);
+  return left || operation->op == OperatorKind::Divide ? left : angleIn(tree, operation->right);
+}
+
+/// `ATAN[..]*180/3.14`, `ATAN[..]*57.3`: from radians to degrees, which it is already.
+void checkResult(ExpressionId id, const FileContext &context, const Reporter &reporter) {
+  const auto *operation = as<BinaryOperation>(context.tree, id);
+  const bool byPi = operation && operation->op == OperatorKind::Divide && isFactor(context.tree, operation->right, kPi);
+  const bool byFactor = operation && operation->op == OperatorKind::Multiply &&
+                        (isFactor(context.tree, operation->right, kDegreesInRadian) ||
+                         isFactor(context.tree, operation->left, kDegreesInRadian));
+  const auto angle = byPi || byFactor ? angleIn(context.tree, id) : std::nullopt;
+  if (!angle)
+    return;
+  const auto function = as<FunctionCall>(context.tree, *angle)->function;
+  reporter.report(
+      {.message = fmt::format("`{}` gives degrees, but its result is converted to degrees", spellingOf(function)),
+       .span = context.tree.expressions[id].span,
+       .labels = {{context.tree.expressions[*angle].span, "degrees"}},
+       .notes = {"the control raises no alarm: it computes with an angle about 57 times too large",
+                 "delete the factor"}});
+}
+
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
+  checkResult(id, context, reporter);
   const auto *call = as<FunctionCall>(context.tree, id);
   const bool takesAngle = call && !call->arguments().empty() &&
                           (call->function == FunctionKind::Sin || call->function == FunctionKind::Cos ||
@@ -60,8 +98,8 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
 
 extern const Rule radians;
 const Rule radians{.info = {"radians", Category::Expression, Severity::Warning,
-                            "Reports an angle that is converted to radians before `SIN`, `COS` or `TAN`: the control "
-                            "computes in degrees."},
-                   .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall>()}};
+                            "Reports an angle that is converted to radians before `SIN`, `COS` or `TAN`, or from "
+                            "radians behind `ATAN`: the control computes in degrees."},
+                   .hooks = {.expression = check, .expressionNodes = nodeSet<FunctionCall, BinaryOperation>()}};
 
 } // namespace feedhold::rules::radians

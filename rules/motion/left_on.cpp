@@ -24,10 +24,19 @@ std::vector<NodeId> switchingNodes(const LeftOn &mode, const MotionView &view, c
   return nodes;
 }
 
+/// A call, which may be of a program that is not among the files, or a code that the dialect does not have.
+bool mayPutRightUnseen(const MotionView &view, NodeId node) {
+  if (std::holds_alternative<CallProgram>(view.node(node).instruction))
+    return true;
+  return std::ranges::any_of(
+      view.wordsOf(node), [&](const Word *word) { return word->isCode() && !codeOf(*word, view.context().dialect); });
+}
+
 std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
                                    const FlowFacts &facts) {
   const auto sets = [&](NodeId node) {
-    return view.sets(node, mode.kind) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion));
+    return view.sets(node, mode.kind) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
+           (isHavocked(exit.state) && mayPutRightUnseen(view, node));
   };
   auto path = findPath(facts, from, exit.node, sets);
   if (!path)
@@ -47,7 +56,7 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   const bool isRestored = exit.end == PathEnd::Ends && view.context().dialect.behaviour.endRestoresModes;
   if (exit.end == PathEnd::Alarm || isRestored || (exit.end == PathEnd::Ends && !mode.atProgramEnd))
     return false;
-  return view.wasSet(exit.state, mode.kind, mode.actions);
+  return isHavocked(exit.state) || view.wasSet(exit.state, mode.kind, mode.actions);
 }
 
 /// Behind the call the program moves and comes to its end without putting the mode right.

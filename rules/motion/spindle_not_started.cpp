@@ -76,7 +76,15 @@ private:
   }
   bool cuts(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Motion,
-                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
+           drills(state);
+  }
+  /// Tapping cycles start the spindle on some controls, and rigid tapping does on all.
+  bool drills(const AbstractState &state) const {
+    return view_.surely(state, ModalKind::Cycle,
+                        {CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck,
+                         CodeAction::CycleChipBreak, CodeAction::CycleBore, CodeAction::CycleBoreStop,
+                         CodeAction::CycleBoreDwell, CodeAction::CycleFineBore});
   }
   /// Down to a level above the zero of the part: an approach at feed.
   bool isAbovePart(NodeId node, const AbstractState &state) const {

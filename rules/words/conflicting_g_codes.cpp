@@ -29,10 +29,28 @@ bool maySupersede(const Code &code, const Dialect &dialect) {
   return code.action == CodeAction::CycleOff && rapid && rapid->group == code.group;
 }
 
+/// G53 and G31: both say what the axis words of their block mean.
+void reportTwoMeanings(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Word *machine = findCode(context.tree, block, context.dialect, CodeRole::MachinePosition);
+  const Word *skip = machine ? findCode(context.tree, block, context.dialect, CodeRole::Skip) : nullptr;
+  if (!skip || machine->has(Word::kAfterSkip) || skip->has(Word::kAfterSkip))
+    return;
+  reporter.report({.message = fmt::format("{} and {} exclude each other: both move by the axis words of the block",
+                                          context.quoted(machine->span()), context.quoted(skip->span())),
+                   .span = skip->span(),
+                   .labels = {{machine->span(), "machine coordinates"}},
+                   .notes = {"the control uses one of them: the probe moves to a work coordinate, or without looking "
+                             "for the signal",
+                             "compute the distance, and move by `G91` and the skip code"}},
+                  // Some machine builders make a pair of it that works.
+                  Severity::Info);
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto words = context.tree.wordsOf(block);
   if (words.size() < 2 || std::count_if(words.begin(), words.end(), isCode) < 2)
     return;
+  reportTwoMeanings(block, context, reporter);
   std::array<const Word *, 256> ofGroup{};
   for (const Word &word : words) {
     const Code *code = isCode(word) ? codeOf(word, context.dialect) : nullptr;

@@ -25,6 +25,13 @@ bool isCycle(const Word &word, const FileContext &context) {
   return code && (code->role == CodeRole::Contour || code->role == CodeRole::CannedCycle);
 }
 
+/// A word beside M98 is meant as an argument, and arguments-of-subprogram says so.
+bool isBesideCall(const Word &word, const FileContext &context, BlockId block) {
+  return word.address() != 'P' && word.address() != 'L' &&
+         std::ranges::any_of(context.model.callsIn(block, block.next()),
+                             [](const Call &call) { return call.kind == CallKind::Subprogram; });
+}
+
 /// Another word of the block makes arguments of its words, or `G66.1` those of every block.
 bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) {
   for (const Word &other : context.tree.wordsOf(block))
@@ -37,7 +44,7 @@ bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
-      format.literalMayHavePoint || mayBeArgument(word, context, block))
+      format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block))
     return;
   const bool knownToStop = alarmNumber(context.dialect, AlarmKind::MisplacedPoint).has_value();
   reporter.report(

@@ -1,0 +1,167 @@
+// length-offset-of-other-tool: `T2 M06`, then `G43 H1`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace feedhold::rules::length_offset_of_other_tool {
+namespace {
+
+struct Offset {
+  std::uint32_t number;
+  const Word *word;
+};
+/// What is programmed between two tool changes.
+struct Section {
+  std::uint32_t tool;
+  const Word *toolWord;
+  std::vector<Offset> lengths;
+  bool radiusAgrees = false; // D has the number of the tool
+};
+
+bool isLiteral(const Word &word, char address) {
+  return word.address() == address && word.integer() && !word.has(Word::kArgument) && !word.has(Word::kComma);
+}
+
+bool hasAction(const FileContext &context, BlockId block, std::initializer_list<CodeAction> actions) {
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    const Code *code = codeOf(word, context.dialect);
+    return code && std::ranges::find(actions, code->action) != actions.end();
+  });
+}
+
+/// Which tool is in the spindle behind the block is not told by its text: a call, an M code of the machine builder, or
+/// another way that leads here.
+bool hidesTool(const FileContext &context, BlockId block, const std::set<BlockId> &targets) {
+  const Block &its = context.tree.blocks[block];
+  if (its.has(Block::kSkip) || its.has(Block::kSkipInside) || its.has(Block::kBroken) || targets.contains(block) ||
+      !context.model.callsIn(block, block.next()).empty())
+    return true;
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    return word.isCode() && (word.has(Word::kAfterThen) || !codeOf(word, context.dialect));
+  });
+}
+
+/// Follows T, M06, G43 H and D through the text of one program.
+class Reader {
+public:
+  Reader(ProgramId program, const FileContext &context) : context_(context) {
+    for (const Jump &jump : context.model.jumpsOf(program))
+      if (jump.target)
+        targets_.insert(*jump.target);
+  }
+
+  void read(BlockId block) {
+    if (hidesTool(context_, block, targets_)) {
+      isKnown_ = false;
+      selected_ = nullptr;
+    }
+    const Word *length = nullptr;
+    for (const Word &word : context_.tree.wordsOf(block)) {
+      if (word.address() == 'T')
+        selected_ = isLiteral(word, 'T') ? &word : nullptr;
+      else if (isLiteral(word, 'H'))
+        length = &word;
+    }
+    if (hasAction(context_, block, {CodeAction::ToolChange}))
+      change(block);
+    if (!isKnown_ || sections_.empty())
+      return;
+    if (length && hasAction(context_, block, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
+      sections_.back().lengths.push_back({*length->integer(), length});
+    for (const Word &word : context_.tree.wordsOf(block))
+      if (isLiteral(word, 'D') && *word.integer() == sections_.back().tool)
+        sections_.back().radiusAgrees = true;
+  }
+
+  const std::vector<Section> &sections() const { return sections_; }
+
+private:
+  void change(BlockId block) {
+    isKnown_ = selected_ != nullptr && !hidesTool(context_, block, targets_);
+    if (isKnown_)
+      sections_.push_back({.tool = *selected_->integer(), .toolWord = selected_, .lengths = {}});
+    selected_ = nullptr;
+  }
+
+  const FileContext &context_;
+  std::set<BlockId> targets_;
+  const Word *selected_ = nullptr; // the last T before M06
+  bool isKnown_ = false;           // the tool of the last section is in the spindle
+  std::vector<Section> sections_;
+};
+
+bool agrees(const Section &section) {
+  return std::ranges::find(section.lengths, section.tool, &Offset::number) != section.lengths.end();
+}
+/// Only H of other tools, and not H0.
+bool differs(const Section &section) {
+  return !section.lengths.empty() && !agrees(section) && section.lengths.front().number != 0;
+}
+
+/// A second offset of the same tool by a scheme of the shop: H12 or H52 of T2.
+bool isSecondOffset(const Section &section, std::uint32_t length, const std::set<std::uint32_t> &tools,
+                    const std::set<std::uint32_t> &paired) {
+  if (tools.contains(length))
+    return false;
+  return paired.contains(section.tool) || (length > section.tool && (length - section.tool) % 10 == 0);
+}
+
+void tell(const Section &section, const FileContext &context, const Reporter &reporter) {
+  const Offset &offset = section.lengths.front();
+  reporter.report(
+      {.message = fmt::format("{} is the length offset of another tool than {}", context.quoted(offset.word->span()),
+                              context.quoted(section.toolWord->span())),
+       .span = offset.word->span(),
+       .labels = {{section.toolWord->span(), "the tool in the spindle"}},
+       .notes = {fmt::format("tool {} moves with the length that is stored for tool {}: it cuts too deep, or air",
+                             section.tool, offset.number),
+                 fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}});
+}
+
+/// A lathe, whatever the dialect: the offsets of turrets have numbers of their own.
+bool turns(ProgramId program, const FileContext &context) {
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next())
+    if (hasAction(context, block, {CodeAction::PlaneZX}))
+      return true;
+  return context.dialect.machine == MachineKind::Turning;
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (turns(program, context))
+    return;
+  Reader reader(program, context);
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next())
+    reader.read(block);
+  std::set<std::uint32_t> tools;
+  std::set<std::uint32_t> paired;
+  std::set<std::uint32_t> odd;
+  for (const Section &section : reader.sections()) {
+    tools.insert(section.tool);
+    if (agrees(section))
+      paired.insert(section.tool);
+    else if (differs(section))
+      odd.insert(section.tool);
+  }
+  for (const Section &section : reader.sections()) {
+    const bool isHabit = section.radiusAgrees || (!paired.empty() && odd.size() <= paired.size());
+    if (differs(section) && isHabit && !isSecondOffset(section, section.lengths.front().number, tools, paired))
+      tell(section, context, reporter);
+  }
+}
+
+} // namespace
+
+extern const Rule lengthOffsetOfOtherTool;
+const Rule lengthOffsetOfOtherTool{
+    .info = {"length-offset-of-other-tool", Category::Motion, Severity::Warning,
+             "Reports a `G43 H` with the number of another tool in a program that otherwise gives tool and length "
+             "offset one number."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules::length_offset_of_other_tool
