@@ -50,7 +50,9 @@ consteval std::array<Code, 1000> manualGuideCodes() {
 inline constexpr std::array kManualGuideCodes = manualGuideCodes();
 
 inline constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
-                                                                   LanguageHint{TextSignal::FanucComment, 20},
+                                                                   LanguageHint{TextSignal::FanucComment, 8},
+                                                                   LanguageHint{TextSignal::FanucName, 4},
+                                                                   LanguageHint{TextSignal::FanucEncryption, 8},
                                                                    LanguageHint{TextSignal::FanucParameterRead, 8},
                                                                    LanguageHint{TextSignal::FanucNamedVariable, 8},
                                                                    LanguageHint{TextSignal::FanucProgramName, 4},

@@ -15,12 +15,18 @@ constexpr std::array kKlartext = {
 constexpr std::array kSinumerik = {
     LanguageHint{TextSignal::SinumerikDefinition, 12}, LanguageHint{TextSignal::SinumerikControl, 12},
     LanguageHint{TextSignal::SinumerikVariable, 6},    LanguageHint{TextSignal::SinumerikWord, 6},
-    LanguageHint{TextSignal::SinumerikFile, 10},
+    LanguageHint{TextSignal::SinumerikFile, 14},
+};
+constexpr std::array kHeidenhainIso = {
+    LanguageHint{TextSignal::HeidenhainIsoBlock, 4},
+};
+constexpr std::array kErosion = {
+    LanguageHint{TextSignal::ErosionCondition, 8},
+    LanguageHint{TextSignal::ErosionSwitch, 12},
 };
 constexpr std::array kOkuma = {
-    LanguageHint{TextSignal::OkumaVariable, 12},
-    LanguageHint{TextSignal::OkumaControl, 12},
-    LanguageHint{TextSignal::OkumaLabel, 4},
+    LanguageHint{TextSignal::OkumaVariable, 12},   LanguageHint{TextSignal::OkumaControl, 12},
+    LanguageHint{TextSignal::OkumaWorkOffset, 12}, LanguageHint{TextSignal::OkumaLabel, 4},
     LanguageHint{TextSignal::OkumaFile, 30},
 };
 /// O-words alone are LinuxCNC's, which is read.
@@ -59,6 +65,10 @@ constexpr std::array kSender = {
 
 constexpr std::array kLanguages = {
     ForeignLanguage{"Heidenhain Klartext", "Klartext has a grammar of its own; exclude these files", kKlartext},
+    ForeignLanguage{"Heidenhain DIN/ISO", "its codes differ from those of Macro B controls; exclude these files",
+                    kHeidenhainIso},
+    ForeignLanguage{"wire erosion (Sodick, Mitsubishi)",
+                    "erosion machines have codes of their own; exclude these files", kErosion},
     ForeignLanguage{"Sinumerik",
                     "only programs in ISO dialect mode (`G291`) can be read; name the control with `--dialect`",
                     kSinumerik},

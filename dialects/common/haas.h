@@ -42,14 +42,15 @@ consteval std::array<Code, 16> haasLatheWorkCoordinates() {
   return codes;
 }
 
-inline constexpr auto kHaasHints = joined(
-    kMacroBHints, std::array{
-                      LanguageHint{TextSignal::HaasComment, 20}, LanguageHint{TextSignal::HaasLocalCall, 6},
-                      LanguageHint{TextSignal::HaasCode, 6}, LanguageHint{TextSignal::HaasSetting, 8},
-                      LanguageHint{TextSignal::HaasTimer, 3}, LanguageHint{TextSignal::HaasConditionalReturn, 12},
-                      LanguageHint{TextSignal::HaasProgramNumber, 6},
-                      LanguageHint{TextSignal::MitsubishiOffsetGroup, 2}, // work offsets are group 12 here too
-                  });
+inline constexpr auto kHaasHints =
+    joined(kMacroBHints,
+           std::array{
+               LanguageHint{TextSignal::HaasComment, 8}, LanguageHint{TextSignal::HaasName, 4},
+               LanguageHint{TextSignal::HaasLocalCall, 6}, LanguageHint{TextSignal::HaasCode, 6},
+               LanguageHint{TextSignal::HaasSetting, 8}, LanguageHint{TextSignal::HaasTimer, 6},
+               LanguageHint{TextSignal::HaasConditionalReturn, 12}, LanguageHint{TextSignal::HaasProgramNumber, 6},
+               LanguageHint{TextSignal::MitsubishiOffsetGroup, 2}, // work offsets are group 12 here too
+           });
 
 /// What both generations have in common; the tables of codes and variables are the caller's.
 inline Dialect makeHaas(MachineKind machine) {

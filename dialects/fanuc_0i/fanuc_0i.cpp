@@ -23,7 +23,8 @@ constexpr auto kFunctions = joined(kBasicFunctions, std::array{
                                                     });
 
 // Series 30i stands first and takes what names no series.
-constexpr auto kMillingHints = joined(kFanucHints, std::array{LanguageHint{TextSignal::FanucSeries0Comment, 10}});
+constexpr auto kMillingHints = joined(
+    kFanucHints, std::array{LanguageHint{TextSignal::FanucSeries0Comment, 10}, LanguageHint{TextSignal::MacroA, 12}});
 constexpr auto kTurningHints0i = joined(kMillingHints, kTurningHints);
 
 Limits limitsOf0i() {

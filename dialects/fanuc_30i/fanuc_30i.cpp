@@ -34,6 +34,7 @@ constexpr auto kFunctions = joined(kBasicFunctions, std::array{
 
 constexpr auto kMillingHints = joined(kFanucHints, std::array{
                                                        LanguageHint{TextSignal::FanucSeries30Comment, 10},
+                                                       LanguageHint{TextSignal::FanucFolderLine, 8},
                                                        LanguageHint{TextSignal::FanucLargeVariable, 3},
                                                    });
 constexpr auto kTurningHints30i = joined(kMillingHints, kTurningHints);

@@ -35,12 +35,16 @@ constexpr std::array kAlarms = {
 constexpr auto kFunctions = joined(kBasicFunctions, std::array{Function{FunctionKind::Pow, FunctionForm::TwoByComma}});
 
 constexpr auto kMillingHints = joined(kMacroBHints, std::array{
-                                                        LanguageHint{TextSignal::MitsubishiComment, 20},
+                                                        LanguageHint{TextSignal::MitsubishiComment, 8},
+                                                        LanguageHint{TextSignal::MitsubishiName, 4},
                                                         LanguageHint{TextSignal::MitsubishiVariable, 6},
-                                                        LanguageHint{TextSignal::MitsubishiOffsetGroup, 4},
+                                                        LanguageHint{TextSignal::MitsubishiOffsetGroup, 12},
+                                                        LanguageHint{TextSignal::MitsubishiParameterRead, 12},
                                                         LanguageHint{TextSignal::BlockIf, 4},
                                                         LanguageHint{TextSignal::EiaFile, 12},
                                                     });
+/// On lathes of other makers `#16001` is an offset, too.
+constexpr auto kMachiningHints = joined(kMillingHints, std::array{LanguageHint{TextSignal::MitsubishiToolOffset, 12}});
 constexpr auto kLatheHints = joined(kMillingHints, kTurningHints);
 
 Dialect make(MachineKind machine) {
@@ -88,7 +92,7 @@ const Dialect &mitsubishiM700() {
     dialect.id = "mitsubishi-m700";
     dialect.title = "Mitsubishi M700 and its family, milling";
     dialect.gCodes = kMillingGCodes;
-    dialect.hints = kMillingHints;
+    dialect.hints = kMachiningHints;
     return dialect;
   }();
   return kDialect;

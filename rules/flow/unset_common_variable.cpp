@@ -24,7 +24,8 @@ bool setsUnseen(const FlowFacts &facts, const FileContext &context) {
   return std::ranges::any_of(calls,
                              [&](const Call &call) {
                                return call.kind != CallKind::ModalCancel &&
-                                      !context.callGraph.callee(context.file, call);
+                                      (!context.callGraph.callee(context.file, call) ||
+                                       context.callGraph.reachesEncrypted(context.file, call));
                              }) ||
          std::ranges::any_of(context.model.variablesOf(facts.program),
                              [](const VariableUse &use) { return use.write && !use.number; });

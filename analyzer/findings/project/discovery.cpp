@@ -3,6 +3,7 @@
 
 #include "base/support/text.h"
 #include "findings/project/sidecars.h"
+#include "language/dialect/text_signals.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 11> kProgramExtensions = {"nc",  "cnc", "tap", "ngc", "eia", "min",
                                                                  "mpf", "spf", "prg", "ncd", "mac"};
-constexpr std::array<std::string_view, 5> kSharedExtensions = {"h", "txt", "sub", "src", "plus"};
 
 template <std::size_t Count> bool isOneOf(std::string_view word, const std::array<std::string_view, Count> &words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -67,13 +67,22 @@ public:
       result_.problems.push_back({shownPath(path), reasonFor(error)});
   }
 
+  void addFolderAlone(const fs::path &folder) {
+    depth_ = Depth::FolderAlone;
+    walk(folder);
+  }
+
   Discovery finish() {
     std::stable_sort(result_.files.begin(), result_.files.end(),
                      [](const FoundFile &a, const FoundFile &b) { return a.shown < b.shown; });
+    std::stable_sort(result_.others.begin(), result_.others.end(),
+                     [](const SkippedFile &a, const SkippedFile &b) { return a.path < b.path; });
     return std::move(result_);
   }
 
 private:
+  enum class Depth : std::uint8_t { FolderAlone, AllBelow };
+
   static fs::path folderOf(const fs::path &file) {
     const fs::path parent = file.parent_path();
     return parent.empty() ? fs::path(".") : parent;
@@ -117,13 +126,17 @@ private:
     if (name.starts_with('.') || (config != nullptr && matchesAny(config->exclude, *config, path)))
       return;
     if (entry.is_directory(ignored)) {
-      if (!entry.is_symlink(ignored))
+      if (!entry.is_symlink(ignored) && depth_ == Depth::AllBelow)
         walk(path);
       return;
     }
-    const std::optional<FoundBy> kind = kindOf(path, name, config);
-    if (kind && entry.is_regular_file(ignored))
+    if (!entry.is_regular_file(ignored) || name == kConfigFileName || isSidecarName(path))
+      return;
+    if (const std::optional<FoundBy> kind = kindOf(path, name, config))
       take(path, *kind, config);
+    else
+      result_.others.push_back(
+          {shownPath(path), fmt::format("a `{}` file", path.extension().generic_string()), SkipKind::NoProgram});
   }
 
   static std::optional<FoundBy> kindOf(const fs::path &path, std::string_view name, const Config *config) {
@@ -143,6 +156,7 @@ private:
 
   ConfigFinder &configs_;
   Discovery result_;
+  Depth depth_ = Depth::AllBelow;
   std::set<fs::path> seen_;
   std::size_t passedOver_ = 0; // programs that were there and are not in the list
 };
@@ -154,9 +168,13 @@ std::optional<FoundBy> kindOfFileName(std::string_view name) {
   const std::string extension = point == std::string_view::npos ? "" : toLower(name.substr(point + 1));
   if (isOneOf(extension, kProgramExtensions) || (extension.empty() && isProgramNumberName(name)))
     return FoundBy::Extension;
-  if (extension.empty() || isOneOf(extension, kSharedExtensions))
-    return FoundBy::Content;
-  return std::nullopt;
+  return namesOtherFormat(name) ? std::nullopt : std::optional(FoundBy::Content);
+}
+
+std::vector<FoundFile> discoverFolder(const fs::path &folder, ConfigFinder &configs) {
+  Walker walker(configs);
+  walker.addFolderAlone(folder);
+  return walker.finish().files;
 }
 
 Discovery discover(const std::vector<std::string> &paths, ConfigFinder &configs) {

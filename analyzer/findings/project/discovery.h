@@ -14,7 +14,7 @@ namespace feedhold {
 enum class FoundBy {
   Name,      // named by the person: always taken
   Extension, // in a folder, with an extension that only NC programs have
-  Content,   // in a folder, with an extension that other files have too: taken when it looks like a program
+  Content,   // in a folder, with any other extension or none: taken when it looks like a program
 };
 
 struct FoundFile {
@@ -25,7 +25,8 @@ struct FoundFile {
 };
 
 struct Discovery {
-  std::vector<FoundFile> files; // by shown path, each file once
+  std::vector<FoundFile> files;    // by shown path, each file once
+  std::vector<SkippedFile> others; // in folders, of another format by their extension; by shown path
   std::vector<PathProblem> problems;
 };
 
@@ -33,7 +34,10 @@ struct Discovery {
 /// is left out: the errors are with the finder.
 Discovery discover(const std::vector<std::string> &paths, ConfigFinder &configs);
 
-/// Whether a file of this name in a folder is looked at; absent: no.
+/// The files of one folder without those below it, with absolute paths.
+std::vector<FoundFile> discoverFolder(const std::filesystem::path &folder, ConfigFinder &configs);
+
+/// How a file of this name in a folder is looked at; absent: its extension is one of another format.
 std::optional<FoundBy> kindOfFileName(std::string_view name);
 
 } // namespace feedhold

@@ -2,6 +2,7 @@
 // business, and problems.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,13 +14,19 @@ enum class DialectChoice {
   FilePattern, // [[files]] of the configuration
   Config,      // `dialect` of the configuration
   Guess,       // from the text
+  FolderVote,  // from the other files of its folder
   Fallback,    // nothing speaks for any: the first of the list
 };
 std::string_view nameOf(DialectChoice choice);
 
+/// Refused: by its name or its contents it should be a program, and cannot be read.  NoProgram: a document, data, ..
+enum class SkipKind : std::uint8_t { Refused, NoProgram };
+std::string_view nameOf(SkipKind kind);
+
 struct SkippedFile {
   std::string path;
   std::string reason;
+  SkipKind kind = SkipKind::Refused;
 };
 
 /// A path or a configuration that could not be used.

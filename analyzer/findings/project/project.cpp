@@ -32,7 +32,9 @@ Folder programsIn(const fs::path &folder, const std::shared_ptr<const OpenTexts>
     Result<SourceFile> source = openSource(name, open);
     if (!source || whyNotText(source.value().text()))
       continue;
-    if (guessLanguage(source.value().text(), name.generic_string(), known.dialects).looksLikeProgram)
+    const LanguageGuess guess = guessLanguage(source.value().text(), name.generic_string(), known.dialects);
+    const bool isKnownName = kindOfFileName(name.filename().generic_string()) == FoundBy::Extension;
+    if (guess.looksLikeProgram && (isKnownName || guess.hasCodes))
       programs.emplace_back(name, source.take());
   }
   return programs;

@@ -5,11 +5,13 @@
 #include "findings/project/content.h"
 #include "findings/project/discovery.h"
 #include "findings/project/selection.h"
+#include "language/dialect/folder_vote.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace feedhold {
@@ -61,6 +63,15 @@ std::vector<const FilePattern *> matchingPatterns(const FoundFile &file) {
   return matching;
 }
 
+DialectChoice choiceOf(GuessBasis basis) {
+  switch (basis) {
+  case GuessBasis::Text: return DialectChoice::Guess;
+  case GuessBasis::Neighbours: return DialectChoice::FolderVote;
+  case GuessBasis::Nothing: return DialectChoice::Fallback;
+  }
+  FEEDHOLD_UNREACHABLE("what a guess rests on");
+}
+
 class Settler {
 public:
   Settler(const CheckOptions &options, const KnownNames &known) : options_(options), known_(known) {}
@@ -74,7 +85,7 @@ public:
     };
     settings.dialect = known_.dialects.dialects.front();
     if (candidate.guess.dialect != nullptr)
-      choose(candidate.guess.dialect->id, DialectChoice::Guess);
+      choose(candidate.guess.dialect->id, choiceOf(candidate.guess.basis));
     if (candidate.found.config->dialect)
       choose(*candidate.found.config->dialect, DialectChoice::Config);
     for (const FilePattern *pattern : settings.patterns)
@@ -139,6 +150,7 @@ bool isInsistedOn(const Candidate &candidate, DialectChoice choice) {
   case DialectChoice::FilePattern: return true;
   case DialectChoice::Config:
   case DialectChoice::Guess:
+  case DialectChoice::FolderVote:
   case DialectChoice::Fallback: return false;
   }
   FEEDHOLD_UNREACHABLE("a way to choose a dialect");
@@ -146,7 +158,8 @@ bool isInsistedOn(const Candidate &candidate, DialectChoice choice) {
 
 /// Why the file is no business of ours, when it is not.
 std::optional<std::string> whySkipped(const Candidate &candidate, DialectChoice choice) {
-  if (candidate.guess.looksLikeProgram || isInsistedOn(candidate, choice))
+  const bool hasSign = candidate.found.foundBy != FoundBy::Content || candidate.guess.hasCodes;
+  if ((candidate.guess.looksLikeProgram && hasSign) || isInsistedOn(candidate, choice))
     return std::nullopt;
   const bool dialectIsSet = choice == DialectChoice::Option || choice == DialectChoice::Config;
   if (dialectIsSet && candidate.found.foundBy != FoundBy::Content)
@@ -168,7 +181,9 @@ public:
     if (!candidate.skipReason)
       candidate.skipReason = whySkipped(candidate, settings.choice);
     if (candidate.skipReason) {
-      result_.skipped.push_back({candidate.found.shown, *candidate.skipReason});
+      const bool isOther = candidate.found.foundBy == FoundBy::Content;
+      result_.skipped.push_back(
+          {candidate.found.shown, *candidate.skipReason, isOther ? SkipKind::NoProgram : SkipKind::Refused});
       return;
     }
     addItem(candidate, settings);
@@ -186,7 +201,7 @@ private:
       return;
     }
     std::vector<std::string_view> reasons;
-    if (settings.choice == DialectChoice::Guess || foreign != nullptr)
+    if (settings.choice == DialectChoice::Guess || settings.choice == DialectChoice::FolderVote || foreign != nullptr)
       reasons = candidate.guess.reasons;
     result_.items.push_back({candidate.found.shown, candidate.found.path, *candidate.source, std::move(profile),
                              settings.choice, std::move(reasons), foreign});
@@ -200,6 +215,45 @@ private:
   Settler settler_;
   Workload result_;
 };
+
+std::filesystem::path folderOf(const std::filesystem::path &file) {
+  return std::filesystem::absolute(file).lexically_normal().parent_path();
+}
+
+/// The other programs of the folders of which only single files were named: they vote, whatever is checked.
+std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, const CheckOptions &options,
+                                    const KnownNames &known) {
+  std::set<std::filesystem::path> here, folders;
+  for (const Candidate &candidate : candidates) {
+    here.insert(std::filesystem::absolute(candidate.found.path).lexically_normal());
+    if (candidate.found.foundBy == FoundBy::Name)
+      folders.insert(folderOf(candidate.found.path));
+  }
+  ConfigFinder configs(options.config, known);
+  std::vector<Candidate> voters;
+  for (const std::filesystem::path &folder : folders)
+    for (FoundFile &file : discoverFolder(folder, configs))
+      if (!here.contains(file.path))
+        voters.push_back({std::move(file)});
+  parallelFor(voters.size(), options.jobs, [&](std::size_t i) { open(voters[i], options, known); });
+  return voters;
+}
+
+/// The files of a folder decide together for which control they were written.
+void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const KnownNames &known) {
+  if (options.control.dialect)
+    return;
+  std::map<std::filesystem::path, FolderVote> votes;
+  const auto add = [&](const Candidate &candidate) {
+    votes.try_emplace(folderOf(candidate.found.path), known.dialects).first->second.add(candidate.guess);
+  };
+  for (const Candidate &candidate : candidates)
+    add(candidate);
+  for (const Candidate &candidate : silentVoters(candidates, options, known))
+    add(candidate);
+  for (Candidate &candidate : candidates)
+    candidate.guess = votes.at(folderOf(candidate.found.path)).decide(candidate.guess);
+}
 
 Candidate pipedCandidate(const PipedText &piped, ConfigFinder &configs, const KnownNames &known) {
   const std::filesystem::path folder = std::filesystem::path(piped.name).parent_path();
@@ -219,6 +273,7 @@ Workload loadWorkload(const CheckOptions &options, const KnownNames &known) {
   for (FoundFile &file : discovery.files)
     candidates.push_back({std::move(file)});
   parallelFor(candidates.size(), options.jobs, [&](std::size_t i) { open(candidates[i], options, known); });
+  vote(candidates, options, known);
   if (options.piped)
     candidates.push_back(pipedCandidate(*options.piped, configs, known));
 
@@ -227,6 +282,9 @@ Workload loadWorkload(const CheckOptions &options, const KnownNames &known) {
     if (candidate.found.config != nullptr)
       sorter.sort(candidate);
   Workload workload = sorter.finish();
+  workload.skipped.insert(workload.skipped.end(), discovery.others.begin(), discovery.others.end());
+  std::stable_sort(workload.skipped.begin(), workload.skipped.end(),
+                   [](const SkippedFile &a, const SkippedFile &b) { return a.path < b.path; });
   workload.errors.insert(workload.errors.begin(), discovery.problems.begin(), discovery.problems.end());
   workload.errors.insert(workload.errors.begin(), configs.problems().begin(), configs.problems().end());
   return workload;

@@ -207,6 +207,7 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   for (std::size_t i = 0; i < items.size(); ++i) {
     files.push_back(headOf(items[i]));
     files.back().findings = std::move(analysed[i].findings);
+    files.back().foreign = items[i].foreign == nullptr ? std::string_view() : items[i].foreign->name;
     files.back().isOnlyCalled = isOnlyCalled(items[i], options);
     for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)
       files.back().sidecars.push_back(contracts[i]->sources[k].path());

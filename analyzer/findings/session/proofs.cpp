@@ -104,7 +104,11 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
   for (std::unique_ptr<const Project> &project : projects) {
     ProvedFile &file = result.files.emplace_back(ProvedFile{std::move(project), {}});
     for (std::size_t program = 0; program < file.file().model.programs.size(); ++program)
-      if (options.which == ProofOptions::Which::WithContract && file.file().contracts.of(ProgramId(program)) == nullptr)
+      if (const Program &each = file.file().model.programs[ProgramId(program)]; each.isEncrypted)
+        result.skipped.push_back(
+            {file.file().shown, fmt::format("`{}` is encrypted: nothing is claimed of it", toString(each.name))});
+      else if (options.which == ProofOptions::Which::WithContract &&
+               file.file().contracts.of(ProgramId(program)) == nullptr)
         continue;
       else if (auto mistake = contractMistake(file.file(), ProgramId(program)))
         result.errors.push_back(std::move(*mistake));

@@ -39,7 +39,7 @@ struct ProvedFile {
 
 struct ProofsResult {
   std::vector<ProvedFile> files;    // by path
-  std::vector<SkippedFile> skipped; // no NC programs; by path
+  std::vector<SkippedFile> skipped; // by path
   std::vector<PathProblem> errors;  // files that could not be read, contracts with mistakes
 };
 

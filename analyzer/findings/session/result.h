@@ -30,12 +30,13 @@ struct CheckedFile {
   Severity errorOn;                       // findings from here on fail the run
   std::vector<Finding> findings;          // by place, then by rule
   bool isOnlyCalled = false;              // no rules ran over it: it is there for the others
+  std::string_view foreign = {};          // the language, of a file that is refused for it
   std::vector<std::string> sidecars = {}; // paths of the files beside it that were read with it
 };
 
 struct CheckResult {
   std::vector<CheckedFile> files;   // by path
-  std::vector<SkippedFile> skipped; // no NC programs; by path
+  std::vector<SkippedFile> skipped; // by path
   std::vector<PathProblem> errors;
 };
 

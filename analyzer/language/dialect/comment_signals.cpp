@@ -26,7 +26,21 @@ bool isFagorStatement(std::string_view text) {
   return isAssignment || beginsUpper(text, "IF (") || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
 }
 
-/// Makers' names at the beginning of words.
+/// `3" MITSUBISHI FACE MILL`, `HAAS VISE`: makers of controls also sell tools and vices.
+bool namesEquipment(std::string_view text) {
+  static constexpr std::string_view kEquipment[] = {"MILL",   "DRILL", "TAP",     "INSERT", "REAM", "BORING",
+                                                    "CUTTER", "TOOL",  "CARBIDE", "GRADE",  "VISE", "VICE",
+                                                    "CHUCK",  "JAW",   "HOLDER",  "PALLET", "PROBE"};
+  bool isStart = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (isStart && beginsWithAny(text.substr(i), kEquipment))
+      return true;
+    isStart = !isLetter(text[i]);
+  }
+  return false;
+}
+
+/// Makers' names at the beginning of words; each once for the whole text, since a comment is no code.
 void countNames(std::string_view text, TextScan &scan) {
   static constexpr struct {
     std::string_view begin;
@@ -47,7 +61,7 @@ void countNames(std::string_view text, TextScan &scan) {
     const char c = toUpper(text[i]);
     if (isStart && (c == 'F' || c == 'H' || c == 'M' || (c >= '0' && c <= '3'))) {
       for (const auto &name : kNames)
-        if (beginsUpper(text.substr(i), name.begin))
+        if (beginsUpper(text.substr(i), name.begin) && scan.count(name.signal) == 0 && !namesEquipment(text))
           count(name.signal, scan);
     }
     isStart = !isLetter(c) && !isDigit(c);

@@ -29,7 +29,20 @@ void LineScanner::scanHead() {
     }
     return;
   case '<': scanAngle(); return;
+  case '&':
+    if (beginsUpper(rest(), "&F=")) {
+      count(TextSignal::FanucFolderLine);
+      hasWord_ = true;
+      stop();
+    }
+    return;
   case '[':
+    if (peek(1) == '*') { // a line of an encrypted program
+      count(TextSignal::FanucEncryption);
+      hasWord_ = true;
+      stop();
+      return;
+    }
     if (const std::size_t end = rest().rfind(']'); end != std::string_view::npos) {
       const std::string_view after = trimmed(rest().substr(end + 1));
       if (beginsUpper(after, "M99") || beginsUpper(after, "M97"))
@@ -55,6 +68,9 @@ void LineScanner::scanPercent() {
     count(TextSignal::SyntecMarker);
   } else if (isLetter(next) && (equalsUpper(rest(), "WAIT") || rest().find('=') != std::string_view::npos)) {
     count(TextSignal::SenderStatement);
+  } else if (isLetter(next) && rest().find(",MX") != std::string_view::npos) {
+    count(TextSignal::FagorStatement);
+    count(TextSignal::FagorStatement);
   } else if (toUpper(next) == 'O' || next == ':' || isBlank(next) || next == '(') {
     skipBlanks();
     return;

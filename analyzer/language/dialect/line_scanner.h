@@ -103,16 +103,19 @@ private:
   void scanAngle();
   void scanString();
   void scanMark(char c);
+  bool scanErosion(char letter, const Number &number);
   void countCombinations();
   void sortLine();
 
   bool hasLetter(char letter) const { return (letters_ >> (letter - 'A') & 1U) != 0; }
+  bool hasNumber(char letter) const { return (numbered_ >> (letter - 'A') & 1U) != 0; }
 
   std::string_view line_;
   TextScan &scan_;
   std::size_t at_ = 0;
-  std::uint32_t letters_ = 0; // addresses seen
-  bool hasWord_ = false;      // something that NC programs are made of
+  std::uint32_t letters_ = 0;  // addresses seen
+  std::uint32_t numbered_ = 0; // those with a number, not a variable
+  bool hasWord_ = false;       // something that NC programs are made of
   bool hasComment_ = false;
   bool hasUnknown_ = false;
   bool hasSignal_ = false;
@@ -126,6 +129,15 @@ private:
   bool hasTurningCycle_ = false;
   bool hasG50_ = false;
   bool hasG96_ = false;
+  bool hasCode_ = false; // a G or M code
+  bool hasG15_ = false;
+  bool hasG90_ = false;
+  bool hasG91_ = false;
+  std::uint32_t codes_ = 0;   // G codes
+  bool hasHome_ = false;      // G28, G30, G53, G92: no cut
+  bool hasVariableP_ = false; // `P#100`
+  bool hasM82_ = false;
+  bool hasM84_ = false;
 };
 
 } // namespace feedhold

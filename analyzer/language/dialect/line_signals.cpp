@@ -23,11 +23,15 @@ void LineScanner::scanToken() {
   case '[':
   case ']':
   case '+':
-  case '*':
   case '-':
   case ',':
   case '/':
   case '%': ++at_; return;
+  case '*':
+    ++at_;
+    if (hasCode_ && trimmed(rest()).empty())
+      count(TextSignal::HeidenhainIsoBlock);
+    return;
   case '#': scanHash(); return;
   case '(': scanComment(); return;
   case ';':
@@ -205,9 +209,11 @@ void LineScanner::scanWord(char letter) {
   letters_ |= 1U << (letter - 'A');
   if (isDigit(next) || next == '.') {
     hasWord_ = true;
+    numbered_ |= 1U << (letter - 'A');
     scanNumberedWord(letter, takeNumber());
   } else if (next == '#' || next == '[') {
     hasWord_ = true;
+    hasVariableP_ = hasVariableP_ || (letter == 'P' && next == '#');
   } else if (next == '=') {
     scanEquals(letter);
   } else {
@@ -230,13 +236,24 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
   if (peek() == '=' && peek(1) != '=') {
     if (letter == 'R')
       count(TextSignal::SinumerikVariable);
+    else if (letter == 'V')
+      count(TextSignal::OkumaVariable);
+    else if (scanErosion(letter, number))
+      return;
     else if (letter == 'Q')
       count(TextSignal::KlartextParameter);
   }
   at_ = after;
   switch (letter) {
-  case 'G': scanGCode(number); return;
-  case 'M': scanMCode(number); return;
+  case 'G':
+    hasCode_ = true;
+    ++codes_;
+    scanGCode(number);
+    return;
+  case 'M':
+    hasCode_ = true;
+    scanMCode(number);
+    return;
   case 'O':
     count(TextSignal::ProgramNumber);
     if (number.digits == 5 && number.whole < 10000)
@@ -250,10 +267,28 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
   }
 }
 
+/// Tables of wire erosion: `C001 = 0003 0015 ..` and `H001 = +000.150`; other controls assign to no address.
+bool LineScanner::scanErosion(char letter, const Number &number) {
+  if ((letter != 'C' && letter != 'H') || number.digits != 3)
+    return false;
+  ++at_;
+  skipBlanks();
+  if (!isDigit(peek()) && peek() != '+' && peek() != '-')
+    return false;
+  count(TextSignal::ErosionCondition);
+  stop();
+  return true;
+}
+
 void LineScanner::scanGCode(const Number &number) {
   if (number.hasFraction)
     return;
   switch (number.whole) {
+  case 15: hasG15_ = true; return;
+  case 28:
+  case 30:
+  case 53:
+  case 92: hasHome_ = true; return;
   case 43: count(TextSignal::LengthOffset); return;
   case 50: hasG50_ = true; return;
   case 65: hasG65_ = true; return;
@@ -262,6 +297,8 @@ void LineScanner::scanGCode(const Number &number) {
   case 72:
   case 73:
   case 76: hasTurningCycle_ = true; return;
+  case 90: hasG90_ = true; return;
+  case 91: hasG91_ = true; return;
   case 96: hasG96_ = true; return;
   case 103:
   case 136:
@@ -276,6 +313,8 @@ void LineScanner::scanGCode(const Number &number) {
 void LineScanner::scanMCode(const Number &number) {
   switch (number.whole) {
   case 6: count(TextSignal::ToolChange); return;
+  case 82: hasM82_ = true; return;
+  case 84: hasM84_ = true; return;
   case 97: hasM97_ = true; return;
   case 98: hasM98_ = true; return;
   case 225:
@@ -331,6 +370,10 @@ void LineScanner::scanVariable(const Number &number) {
     count(TextSignal::HaasTimer);
   else if ((n >= 20000 && n <= 20999) || (n >= 30000 && n <= 39999))
     count(TextSignal::HaasSetting);
+  else if (n >= 16001 && n <= 17999)
+    count(TextSignal::MitsubishiToolOffset);
+  else if (n >= 100000 && n <= 100010)
+    count(TextSignal::MitsubishiParameterRead);
   else if (n >= 98000 && n <= 199999)
     count(TextSignal::FanucLargeVariable);
   skipBlanks();
@@ -382,6 +425,12 @@ void LineScanner::countCombinations() {
     count(TextSignal::MacroCall);
   if (hasM98_ && hasLetter('P'))
     count(TextSignal::SubprogramCall);
+  if (hasG65_ && hasLetter('H') && hasVariableP_) // `P#100` is where the result goes; of a call it is the program
+    count(TextSignal::MacroA);
+  if (hasG15_ && hasLetter('H'))
+    count(TextSignal::OkumaWorkOffset);
+  if (hasM82_ && hasM84_)
+    count(TextSignal::ErosionSwitch);
   if (hasM97_ && hasLetter('P'))
     count(TextSignal::HaasLocalCall);
   if (hasG50_ && hasLetter('S'))
@@ -392,13 +441,18 @@ void LineScanner::countCombinations() {
     count(TextSignal::TurningCycle);
   if (hasG65_)
     return; // its letters are arguments
+  if (hasG91_ || (hasG90_ && (codes_ > 1 || !(hasLetter('X') || hasLetter('Z') || hasLetter('U') || hasLetter('W')))))
+    count(TextSignal::DistanceMode);
   if ((hasLetter('U') || hasLetter('W')) && !hasLetter('Y'))
     count(TextSignal::IncrementalAxis);
+  if (hasNumber('X') && hasNumber('Z') && !hasLetter('Y') && !hasHome_ && !hasLetter('H'))
+    count(TextSignal::PlaneMove);
   if (hasLetter('Y'))
     count(TextSignal::YAxis);
 }
 
 void LineScanner::sortLine() {
+  scan_.codeLines += hasCode_ ? 1U : 0U;
   if (!hasUnknown_ && (hasWord_ || hasSignal_))
     ++scan_.programLines;
   else if (hasSignal_)

@@ -8,8 +8,9 @@
 namespace feedhold {
 namespace {
 
-constexpr std::size_t kSampleBytes = 256 * 1024;
+constexpr std::size_t kSampleBytes = std::size_t{256} * 1024;
 constexpr std::uint32_t kMostCounted = 5; // more of the same says nothing new, and long files shall not win by length
+constexpr int kWeakMark = 2;              // of a dialect: less than this apart is as good as equal
 constexpr int kForeignThreshold = 12;     // one stray word of another language does not refuse a program
 
 int scoreOf(const TextScan &scan, std::span<const LanguageHint> hints) {
@@ -42,15 +43,23 @@ template <typename Row> struct Best {
   int score = 0;
 };
 
-/// The first of the best.
-Best<Dialect> bestDialect(const TextScan &scan, const DialectRegistry &registry) {
-  Best<Dialect> best;
-  for (const Dialect *dialect : registry.dialects) {
-    const int score = scoreOf(scan, dialect->hints);
-    if (best.row == nullptr || score > best.score)
-      best = {dialect, score};
-  }
-  return best;
+std::vector<int> scoresOf(const TextScan &scan, const DialectRegistry &registry) {
+  std::vector<int> scores;
+  for (const Dialect *dialect : registry.dialects)
+    scores.push_back(scoreOf(scan, dialect->hints));
+  return scores;
+}
+
+/// Whether the text prefers a dialect to any other one for the same kind of machine.
+bool prefers(const std::vector<int> &scores, const Dialect *chosen, const DialectRegistry &registry) {
+  if (chosen->machine != registry.dialects.front()->machine)
+    return true; // milling is what is assumed
+  const auto at = std::find(registry.dialects.begin(), registry.dialects.end(), chosen);
+  const int own = scores[static_cast<std::size_t>(at - registry.dialects.begin())];
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    if (registry.dialects[i]->machine == chosen->machine && scores[i] < own)
+      return true;
+  return false;
 }
 
 Best<ForeignLanguage> bestForeign(const TextScan &scan, const DialectRegistry &registry) {
@@ -61,6 +70,13 @@ Best<ForeignLanguage> bestForeign(const TextScan &scan, const DialectRegistry &r
       best = {&foreign, score};
   }
   return best;
+}
+
+bool hasCodes(const TextScan &scan) {
+  constexpr TextSignal kOwn[] = {TextSignal::ProgramNumber, TextSignal::MacroControl, TextSignal::OWord,
+                                 TextSignal::MacroAlarm, TextSignal::HashVariable};
+  return scan.codeLines != 0 ||
+         std::any_of(std::begin(kOwn), std::end(kOwn), [&scan](TextSignal signal) { return scan.count(signal) != 0; });
 }
 
 /// Languages with names of their own choosing have many lines that only partly speak to us.
@@ -74,21 +90,34 @@ const Dialect *findDialect(const DialectRegistry &registry, std::string_view id)
   return found != registry.dialects.end() ? *found : nullptr;
 }
 
+const Dialect *likeliestDialect(std::span<const int> scores, const DialectRegistry &registry) {
+  const int best = *std::max_element(scores.begin(), scores.end());
+  const auto likeliest =
+      std::find_if(scores.begin(), scores.end(), [best](int score) { return score + kWeakMark >= best; });
+  return registry.dialects[static_cast<std::size_t>(likeliest - scores.begin())];
+}
+
 LanguageGuess guessLanguage(std::string_view text, std::string_view path, const DialectRegistry &registry) {
   const TextScan scan = scanText(text.substr(0, kSampleBytes), path);
   LanguageGuess guess;
   if (scan.isMarkup || scan.isBinary)
     return guess;
-  const Best<Dialect> dialect = bestDialect(scan, registry);
+  guess.hasCodes = hasCodes(scan);
+  std::vector<int> scores = scoresOf(scan, registry);
+  const int best = *std::max_element(scores.begin(), scores.end());
   const Best<ForeignLanguage> foreign = bestForeign(scan, registry);
-  if (foreign.row != nullptr && foreign.score > dialect.score && hasForeignLines(scan)) {
+  if (foreign.row != nullptr && foreign.score > best && hasForeignLines(scan)) {
     guess.foreign = foreign.row;
+    guess.basis = GuessBasis::Text;
     guess.looksLikeProgram = true;
     guess.reasons = reasonsOf(scan, foreign.row->hints);
-  } else if (dialect.row != nullptr && scan.programLines > scan.otherLines) {
-    guess.dialect = dialect.row;
+  } else if (scan.programLines > scan.otherLines) {
+    guess.dialect = likeliestDialect(scores, registry);
     guess.looksLikeProgram = true;
-    guess.reasons = reasonsOf(scan, dialect.row->hints);
+    guess.reasons = reasonsOf(scan, guess.dialect->hints);
+    guess.basis = prefers(scores, guess.dialect, registry) ? GuessBasis::Text : GuessBasis::Nothing;
+    guess.scores = std::move(scores);
+    guess.kin = foreign.row;
   }
   return guess;
 }

@@ -3,6 +3,7 @@
 
 #include "base/support/text.h"
 #include "language/dialect/line_signals.h"
+#include "language/dialect/text_keywords.h"
 
 #include <algorithm>
 #include <string>
@@ -23,12 +24,16 @@ constexpr NamedSignal kExtensions[] = {
     {"ssb", TextSignal::OkumaFile},     {"eia", TextSignal::EiaFile},       {"ngc", TextSignal::NgcFile},
 };
 
-/// Files that hold programs at most as quotations.
+/// Documents, source code, data, pictures, archives, and the tables and settings of controls and simulators.
 constexpr std::string_view kOtherExtensions[] = {
-    "md",  "markdown", "rst",   "adoc", "html",  "htm",  "xml", "json", "yaml", "yml", "toml", "csv",
-    "tsv", "cpp",      "hpp",   "cc",   "cxx",   "c",    "hh",  "cs",   "java", "js",  "mjs",  "ts",
-    "tsx", "py",       "rb",    "rs",   "go",    "sh",   "bat", "ps1",  "lua",  "pl",  "css",  "scss",
-    "sql", "ini",      "cmake", "log",  "sarif", "diff", "tex", "svg",  "vue",  "php",
+    "md",     "markdown", "rst",   "adoc", "html",  "htm",  "xml",  "json",     "yaml", "yml", "toml",  "csv",
+    "tsv",    "cpp",      "hpp",   "cc",   "cxx",   "c",    "hh",   "cs",       "java", "js",  "mjs",   "ts",
+    "tsx",    "py",       "rb",    "rs",   "go",    "sh",   "bat",  "ps1",      "lua",  "pl",  "css",   "scss",
+    "sql",    "ini",      "cmake", "log",  "sarif", "diff", "tex",  "svg",      "vue",  "php", "vb",    "bas",
+    "pdf",    "doc",      "docx",  "xls",  "xlsx",  "ppt",  "pptx", "odt",      "ods",  "rtf", "png",   "jpg",
+    "jpeg",   "gif",      "bmp",   "ico",  "tif",   "tiff", "zip",  "7z",       "gz",   "rar", "tar",   "exe",
+    "dll",    "so",       "o",     "a",    "bin",   "stl",  "step", "stp",      "iges", "igs", "dxf",   "dwg",
+    "sldprt", "f3d",      "hal",   "tbl",  "var",   "cfg",  "conf", "contract", "lock", "pyc", "class", "jar",
 };
 
 std::string extensionOf(std::string_view path) {
@@ -56,16 +61,49 @@ bool beginsAsMarkup(std::string_view text) {
                      [body](std::string_view begin) { return body.substr(0, begin.size()) == begin; });
 }
 
+struct NamePart {
+  std::string_view begin;
+  TextSignal signal;
+};
+
+/// Words of a file name and of the folder that holds it.
+constexpr NamePart kNameParts[] = {
+    {"LATHE", TextSignal::LatheName},      {"TURN", TextSignal::LatheName},
+    {"DREH", TextSignal::LatheName},       {"MILL", TextSignal::MillName},
+    {"FRAES", TextSignal::MillName},       {"VMC", TextSignal::MillName},
+    {"HMC", TextSignal::MillName},         {"FANUC", TextSignal::FanucName},
+    {"HAAS", TextSignal::HaasName},        {"MITSUBISHI", TextSignal::MitsubishiName},
+    {"MAZAK", TextSignal::MitsubishiName}, {"MELDAS", TextSignal::MitsubishiName},
+};
+
+void scanNameParts(std::string_view path, TextScan &scan) {
+  std::size_t folder = path.find_last_of("/\\");
+  folder = folder == std::string_view::npos || folder == 0 ? 0 : path.find_last_of("/\\", folder - 1);
+  const std::string_view names = folder == std::string_view::npos ? path : path.substr(folder);
+  bool isStart = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (const NamePart &part : kNameParts)
+      if (isStart && beginsUpper(names.substr(i), part.begin))
+        scan.counts[static_cast<std::size_t>(part.signal)] = 1;
+    isStart = !isLetter(names[i]);
+  }
+}
+
 void scanName(std::string_view path, TextScan &scan) {
+  scanNameParts(path, scan);
   const std::string extension = extensionOf(path);
   for (const NamedSignal &named : kExtensions)
     if (extension == named.extension)
       ++scan.counts[static_cast<std::size_t>(named.signal)];
-  scan.isMarkup =
-      std::find(std::begin(kOtherExtensions), std::end(kOtherExtensions), extension) != std::end(kOtherExtensions);
+  scan.isMarkup = namesOtherFormat(path);
 }
 
 } // namespace
+
+bool namesOtherFormat(std::string_view path) {
+  const std::string extension = extensionOf(path);
+  return std::find(std::begin(kOtherExtensions), std::end(kOtherExtensions), extension) != std::end(kOtherExtensions);
+}
 
 std::string_view descriptionOf(TextSignal signal) {
   static constexpr std::string_view kDescriptions[] = {

@@ -25,11 +25,15 @@ struct TextScan {
   std::uint32_t programLines = 0; // made of NC words and macro words alone
   std::uint32_t signalLines = 0;  // hold some signal, and something else that is not understood
   std::uint32_t otherLines = 0;   // prose, another format, another language
+  std::uint32_t codeLines = 0;    // hold a G or M code: tables of tools and of offsets have none
   bool isMarkup = false;          // Markdown, HTML, JSON, source code: by its name or its first bytes
   bool isBinary = false;
 
   std::uint32_t count(TextSignal signal) const { return counts[static_cast<std::size_t>(signal)]; }
 };
+
+/// Whether the extension is one of a format that holds programs at most as quotations: documents, source code, data.
+bool namesOtherFormat(std::string_view path);
 
 /// `path` gives the file's name; it may be empty.
 TextScan scanText(std::string_view text, std::string_view path);

@@ -5,6 +5,7 @@
 #include "base/support/text.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 namespace feedhold {
@@ -45,6 +46,39 @@ bool transfersControl(CallKind kind) {
 
 bool opensLevel(CallKind kind) { return kind != CallKind::Subprogram; }
 
+/// Places in which a called program is looked for, the nearest first.  Inside a dump of a memory: the folder of the
+/// caller, then those that FANUC calls common program folder, MTB dedicated folders and system folder (B-63944EN,
+/// program management).
+constexpr std::array<std::string_view, 4> kCommonFolders = {"/USER/LIBRARY", "/MTB2", "/MTB1", "/SYSTEM"};
+constexpr int kSameFolder = 1 + static_cast<int>(kCommonFolders.size());
+constexpr int kFolderNear = kSameFolder + 1; // above or below that of the caller, or a library beside it
+constexpr int kOutOfReach = kFolderNear + 1;
+
+int distanceInMemory(std::string_view from, std::string_view to) {
+  if (from == to)
+    return 0;
+  for (std::size_t i = 0; i < kCommonFolders.size(); ++i)
+    if (to.find(kCommonFolders[i]) != std::string_view::npos)
+      return 1 + static_cast<int>(i);
+  return kOutOfReach;
+}
+
+/// `shop/sub_programs` for a caller in `shop/main_programs`: folders whose names say that others call what they hold.
+bool isLibraryBeside(std::string_view folder, std::string_view caller) {
+  constexpr std::array<std::string_view, 5> kNames = {"SUB", "MACRO", "LIB", "COMMON", "CYCLE"};
+  const std::size_t slash = folder.rfind('/');
+  if (slash == std::string_view::npos || slash != caller.rfind('/') ||
+      folder.substr(0, slash) != caller.substr(0, slash))
+    return false;
+  const std::string name = toUpper(folder.substr(slash + 1));
+  return std::any_of(kNames.begin(), kNames.end(),
+                     [&name](std::string_view part) { return name.find(part) != std::string::npos; });
+}
+
+bool isBelow(std::string_view folder, std::string_view above) {
+  return folder.size() > above.size() && folder.starts_with(above) && folder[above.size()] == '/';
+}
+
 } // namespace
 
 struct CallGraph::Impl {
@@ -71,7 +105,9 @@ struct CallGraph::Impl {
 
   void indexPrograms();
   void indexCalls();
-  std::vector<ProgramRef> find(FileId from, const ProgramName &name) const;
+  std::vector<ProgramRef> find(ProgramRef from, const ProgramName &name) const;
+  int distance(ProgramRef from, ProgramRef to) const;
+  const Program &program(ProgramRef ref) const { return file(ref.file).model->programs[ref.program]; }
   void computeDepths(ProgramRef start);
   std::optional<Depth> depthFromCallees(ProgramRef program) const;
 };
@@ -92,24 +128,34 @@ void CallGraph::Impl::indexPrograms() {
   }
 }
 
-/// The caller's own file first, then its folder, then everywhere; all of the nearest place.  A subroutine of o-words is
-/// found in the caller's own file or in the one named after it (`name.ngc`).
-std::vector<ProgramRef> CallGraph::Impl::find(FileId from, const ProgramName &name) const {
+/// How far a control looks for a program: none has the programs of another machine.
+int CallGraph::Impl::distance(ProgramRef from, ProgramRef to) const {
+  const ModelledFile &caller = file(from.file);
+  const ModelledFile &callee = file(to.file);
+  if (from.file == to.file)
+    return distanceInMemory(program(from).folder, program(to).folder);
+  if (caller.folder == callee.folder)
+    return kSameFolder;
+  const bool isNear = isBelow(caller.folder, callee.folder) || isBelow(callee.folder, caller.folder) ||
+                      isLibraryBeside(callee.folder, caller.folder);
+  return isNear ? kFolderNear : kOutOfReach;
+}
+
+/// The programs of the nearest place.  A subroutine of o-words is found in the caller's own file or in the one named
+/// after it (`name.ngc`), wherever that lies.
+std::vector<ProgramRef> CallGraph::Impl::find(ProgramRef from, const ProgramName &name) const {
   const auto found = name.empty() ? byName.end() : byName.find(keyOf(name));
   if (found == byName.end())
     return {};
-  const std::string &folder = file(from).folder;
-  const auto distance = [&](const ProgramRef &ref) {
-    const bool isInReach = !name.isSubroutine || ref.file == from || comparedName(file(ref.file).stem) == name.text;
-    return !isInReach ? 3 : ref.file == from ? 0 : file(ref.file).folder == folder ? 1 : 2;
-  };
-  int nearest = 3;
+  int nearest = kOutOfReach;
   std::vector<ProgramRef> programs;
   for (const ProgramRef &ref : found->second) {
-    const int here = distance(ref);
+    int here = distance(from, ref);
+    if (name.isSubroutine && ref.file != from.file)
+      here = comparedName(file(ref.file).stem) == name.text ? std::min(here, kFolderNear) : kOutOfReach;
     if (here < nearest)
       programs.clear();
-    if (here < 3 && here <= nearest)
+    if (here < kOutOfReach && here <= nearest)
       programs.push_back(ref);
     nearest = std::min(nearest, here);
   }
@@ -122,7 +168,7 @@ void CallGraph::Impl::indexCalls() {
       const Call &call = each.model->calls[CallId(i)];
       if (!transfersControl(call.kind))
         continue;
-      for (const ProgramRef &target : find(each.file, call.callee)) {
+      for (const ProgramRef &target : find({each.file, call.caller}, call.callee)) {
         callees[{each.file, call.caller}].push_back({target, call.kind});
         callers[target].push_back({each.file, CallId(i)});
       }
@@ -188,7 +234,14 @@ std::optional<ProgramRef> CallGraph::callee(FileId file, const Call &call) const
 }
 
 std::vector<ProgramRef> CallGraph::candidates(FileId file, const Call &call) const {
-  return impl_ && transfersControl(call.kind) ? impl_->find(file, call.callee) : std::vector<ProgramRef>();
+  return impl_ && transfersControl(call.kind) ? impl_->find({file, call.caller}, call.callee)
+                                              : std::vector<ProgramRef>();
+}
+
+bool CallGraph::reachesEncrypted(FileId file, const Call &call) const {
+  const std::vector<ProgramRef> programs = candidates(file, call);
+  return std::any_of(programs.begin(), programs.end(),
+                     [this](ProgramRef ref) { return impl_->program(ref).isEncrypted; });
 }
 
 std::vector<ProgramRef> CallGraph::namesakes(ProgramRef program) const {
@@ -199,7 +252,8 @@ std::vector<ProgramRef> CallGraph::namesakes(ProgramRef program) const {
   if (found == impl_->byName.end())
     return others;
   for (const ProgramRef &ref : found->second)
-    if (ref != program && impl_->file(ref.file).folder == impl_->file(program.file).folder)
+    if (ref != program && impl_->file(ref.file).folder == impl_->file(program.file).folder &&
+        impl_->program(ref).folder == impl_->program(program).folder)
       others.push_back(ref);
   return others;
 }

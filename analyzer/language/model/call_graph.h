@@ -20,7 +20,7 @@ struct ProgramRef {
 /// One file as the graph sees it.
 struct ModelledFile {
   FileId file;
-  std::string folder; // a call is looked up in the caller's file, its folder, then everywhere
+  std::string folder; // a call is looked up in the caller's file, its folder, then in folders near it
   std::string stem;   // file name without extension: `O9010` names a program without O word
   const ProgramModel *model;
 };
@@ -35,6 +35,8 @@ public:
   /// The programs that a call may reach: several where one number is given twice, so that which of them the control
   /// has in its memory is not known.
   std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
+  /// Whether a call may reach an encrypted program, of which nothing is known.
+  bool reachesEncrypted(FileId file, const Call &call) const;
   /// The other programs of its file and its folder that have the name of a program.
   std::vector<ProgramRef> namesakes(ProgramRef program) const;
   /// The calls that reach a program.

@@ -33,6 +33,10 @@ private:
     out_ += fmt::format("program {} from line {}", name.empty() ? "without a name" : name, at(program.first));
     if (program.within)
       out_ += fmt::format(" to line {}", at(BlockId(program.last.index() - 1)));
+    if (!program.folder.empty())
+      out_ += fmt::format(" in {}", program.folder);
+    if (program.isEncrypted)
+      out_ += ", encrypted";
     out_ += '\n';
     for (const SequenceNumber &each : model_.sequenceNumbers)
       if (model_.programOf(each.block) == id)

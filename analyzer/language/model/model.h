@@ -35,6 +35,8 @@ struct Program {
   bool returns = false; // an M99 stands in it, or it is a subroutine of o-words
   /// Of a subroutine from `o100 sub` up to its `endsub`: the program in whose text it stands, and which passes over it.
   std::optional<ProgramId> within = {};
+  std::string folder = {};  // of the control's memory, in the dump of which it stands
+  bool isEncrypted = false; // what it does is not known
   bool contains(BlockId block) const { return first <= block && block < last; }
 };
 

@@ -55,12 +55,16 @@ public:
     for (std::size_t i = 0; i < tree.blockCount(); ++i) {
       const BlockId id(i);
       const Block &block = tree.blocks[id];
+      if (block.has(Block::kFolder))
+        enterFolder(block.span(), id);
       const Word *header = isRead(block) ? headerOf(context_, id) : nullptr;
       const bool hasOWord = next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id;
       const bool says = hasOWord || (!block.has(Block::kPercent) && !isEmpty(tree, id));
       const bool nameless = !outer_ && isRead(block) && says;
       if (header || nameless)
         addProgram(header ? nameFrom(context_, *header) : ProgramName{}, header ? header->span() : block.span(), id);
+      if (block.has(Block::kEncrypted) && outer_)
+        model_.programs[*outer_].isEncrypted = true;
       while (next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id)
         place(model_.oWords[OWordId(next_++)], id);
     }
@@ -69,12 +73,24 @@ public:
   }
 
 private:
-  void addProgram(ProgramName name, Span header, BlockId first) {
+  /// `&F=/USER/PATH1/`: what follows up to the next such line lies in this folder.
+  void enterFolder(Span line, BlockId block) {
+    endPrograms(block);
+    outer_.reset();
+    folder_ = trimmed(context_.source.text(line).substr(std::string_view("&F=").size()));
+  }
+
+  void endPrograms(BlockId last) {
     for (const auto open : {outer_, subroutine_})
       if (open)
-        model_.programs[*open].last = first;
+        model_.programs[*open].last = last;
     subroutine_.reset();
+  }
+
+  void addProgram(ProgramName name, Span header, BlockId first) {
+    endPrograms(first);
     outer_ = model_.programs.add({std::move(name), header, first, BlockId(context_.tree.blockCount())});
+    model_.programs[*outer_].folder = folder_;
   }
 
   /// A subroutine without its `endsub` runs to the end of the program around it.
@@ -105,6 +121,7 @@ private:
   std::size_t next_ = 0; // in model_.oWords
   std::optional<ProgramId> outer_;
   std::optional<ProgramId> subroutine_;
+  std::string folder_; // of the dump
 };
 
 } // namespace

@@ -15,7 +15,7 @@ void Parser::readBlock() {
   openBlock(lastEnd_);
   if (at(TokenKind::Percent))
     readTapeMark();
-  while (!atEnd())
+  while (!atEnd() && !beginsNextProgram())
     readItem();
   closeBlock();
   if (at(TokenKind::EndOfBlock))

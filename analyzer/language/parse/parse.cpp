@@ -75,7 +75,8 @@ SyntaxTree Parser::run() {
   readLeader();
   token_ = lexer_.next();
   while (!at(TokenKind::EndOfFile))
-    readBlock();
+    if (!readDumpLine())
+      readBlock();
   openBlock(static_cast<std::uint32_t>(text_.size())); // the end mark
   tree_.blocks.add(block_);
   // Leader lines of a comment that goes on over a line end may be reported late.
@@ -122,11 +123,11 @@ void Parser::readLeader() {
 }
 
 /// A line that is not program text, as one block without issues; the lexer goes on behind its line end.
-void Parser::readRawLine(std::uint32_t begin, Block::Flag flag) {
+void Parser::readRawLine(std::uint32_t begin, int flags) {
   openBlock(begin);
   lexer_.moveTo(lexer_.lineEnd(begin));
   lastEnd_ = lexer_.lineEnd(begin);
-  block_.flags |= flag;
+  block_.flags |= static_cast<std::uint16_t>(flags);
   if (lastEnd_ > begin)
     addStatement(begin, BrokenStatement{});
   block_.end = lastEnd_;
@@ -137,6 +138,33 @@ void Parser::readRawLine(std::uint32_t begin, Block::Flag flag) {
     return;
   lexer_.moveTo(end.end);
   lastEnd_ = end.end;
+}
+
+/// Lines that FANUC writes into the dump of a whole memory: `&F=/USER/PATH1/` before the programs of a folder, and the
+/// encrypted text of protected programs, `G10L60P1[*..*]` and `[*..*]`.
+bool Parser::readDumpLine() {
+  const std::string_view line = text_.substr(token_.begin, lexer_.lineEnd(token_.begin) - token_.begin);
+  const bool isFolder = line.starts_with("&F=");
+  const bool isEncrypted =
+      line.starts_with("[*") || ((line.starts_with("G10L60") || line.starts_with("G10 L60")) && line.ends_with("*]"));
+  if (!isFolder && (!isEncrypted || tape_ == Tape::Closed))
+    return false;
+  if (tape_ == Tape::Closed)
+    tape_ = Tape::Open;
+  readRawLine(token_.begin, isFolder ? Block::kLeader | Block::kFolder : Block::kBroken | Block::kEncrypted);
+  contentSinceMark_ = true;
+  token_ = lexer_.next();
+  return true;
+}
+
+/// `M99O0810(NEXT)`: dumps run programs together where a line end is missing.
+bool Parser::beginsNextProgram() const {
+  if (!at(TokenKind::Address) || token_.letter() != 'O' || grammar_.oWords ||
+      tree_.words.size() <= block_.firstWord.index())
+    return false;
+  const Word &last = tree_.words[WordId(tree_.words.size() - 1)];
+  const std::optional<std::uint32_t> code = last.address() == 'M' ? last.integer() : std::nullopt;
+  return (code == 99 || code == 30 || code == 2) && peek().kind == TokenKind::Number;
 }
 
 /// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened.  The

@@ -37,8 +37,10 @@ private:
   // parse.cpp
   void reserve();
   void readLeader();
-  void readRawLine(std::uint32_t begin, Block::Flag flag);
+  void readRawLine(std::uint32_t begin, int flags);
   void readTapeMark();
+  bool readDumpLine();
+  bool beginsNextProgram() const;
 
   // blocks.cpp
   void readBlock();

@@ -34,8 +34,9 @@ private:
   void block(BlockId id) {
     const Block &block = tree_.blocks[id];
     const std::pair<Block::Flag, std::string_view> flags[] = {
-        {Block::kPercent, "percent"}, {Block::kLeader, "leader"}, {Block::kAfterEnd, "after-end"},
-        {Block::kBroken, "broken"},   {Block::kData, "data"},     {Block::kSkipInside, "skip-inside"},
+        {Block::kPercent, "percent"}, {Block::kLeader, "leader"},       {Block::kAfterEnd, "after-end"},
+        {Block::kBroken, "broken"},   {Block::kData, "data"},           {Block::kSkipInside, "skip-inside"},
+        {Block::kFolder, "folder"},   {Block::kEncrypted, "encrypted"},
     };
     std::string head = fmt::format("block {}", source_.lineOf(block.begin));
     if (block.has(Block::kSkip))

@@ -235,6 +235,8 @@ struct Block {
     kBroken = 16,     // something in it did not parse
     kSkipInside = 32, // a `/` in mid-block: what follows may be skipped
     kData = 64,       // a line of G10 L50 / L52 data: N is a parameter number
+    kFolder = 128,    // `&F=/USER/`: the next programs of a dump lie in this folder; a leader, too
+    kEncrypted = 256, // a line of an encrypted program; broken, too: it may do anything
   };
   std::uint32_t begin;
   std::uint32_t end; // without the end-of-block

@@ -43,15 +43,30 @@ Json findingToJson(const Finding &finding, const CheckedFile &file, const Report
   return row;
 }
 
+Json readFileToJson(const CheckedFile &file) {
+  return {{"path", file.path}, {"dialect", file.dialect}, {"chosenBy", nameOf(file.choice)}, {"reasons", file.reasons}};
+}
+
 } // namespace
 
 std::string writeJson(const Report &report) {
-  Json document = {{"version", 2}, {"findings", Json::array()}, {"skipped", Json::array()}, {"errors", Json::array()}};
+  Json document = {{"version", 2},
+                   {"findings", Json::array()},
+                   {"files", Json::array()},
+                   {"skipped", Json::array()},
+                   {"errors", Json::array()}};
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
     document["findings"].push_back(findingToJson(finding, file, report));
   });
+  for (const CheckedFile &file : report.result.files) {
+    if (isReadProgram(file))
+      document["files"].push_back(readFileToJson(file));
+    else if (!file.foreign.empty())
+      document["skipped"].push_back(
+          {{"path", file.path}, {"reason", file.foreign}, {"kind", nameOf(SkipKind::Refused)}});
+  }
   for (const SkippedFile &skipped : report.result.skipped)
-    document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}});
+    document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}, {"kind", nameOf(skipped.kind)}});
   for (const PathProblem &problem : report.result.errors)
     document["errors"].push_back({{"path", problem.path}, {"message", problem.message}});
   // A path or a replacement may hold bytes that are no UTF-8; they become U+FFFD.

@@ -22,6 +22,14 @@ std::string failureOf(const CheckedFile &file, const Finding &finding) {
       xml(place + "\n" + messageWithNotes(finding.diagnostic)));
 }
 
+std::string propertiesOf(const CheckedFile &file) {
+  if (!isReadProgram(file))
+    return "";
+  return fmt::format("    <properties>\n      <property name=\"dialect\" value=\"{}\"/>\n      <property "
+                     "name=\"chosenBy\" value=\"{}\"/>\n    </properties>\n",
+                     file.dialect, nameOf(file.choice));
+}
+
 std::string suiteOf(const CheckedFile &file, const Report &report) {
   std::string cases;
   std::size_t tests = 0;
@@ -35,8 +43,8 @@ std::string suiteOf(const CheckedFile &file, const Report &report) {
   }
   if (tests == 0)
     cases = fmt::format("    <testcase classname=\"{}\" name=\"no findings\"/>\n", xml(file.path));
-  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}  </testsuite>\n",
-                     xml(file.path), std::max<std::size_t>(tests, 1), failures, cases);
+  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}{}  </testsuite>\n",
+                     xml(file.path), std::max<std::size_t>(tests, 1), failures, propertiesOf(file), cases);
 }
 
 } // namespace

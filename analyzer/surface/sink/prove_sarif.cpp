@@ -104,8 +104,8 @@ std::string writeProveSarif(const ProveReport &report) {
       for (const Obligation &obligation : program.proof.obligations)
         if (isOpen(obligation))
           results.push_back(resultFor(obligation, file, program, report));
-  return sarif::document(driver(report), std::move(results),
-                         {report.result.errors, report.result.skipped, report.exitCode}, report.root);
+  return sarif::documentText({driver(report), nullptr, std::move(results)},
+                             {report.result.errors, report.result.skipped, report.exitCode}, report.root);
 }
 
 } // namespace feedhold

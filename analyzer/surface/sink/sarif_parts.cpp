@@ -73,11 +73,13 @@ Json fixToJson(const FixIt &fix, const std::string &path, const SourceFile &sour
           {"properties", {{"safety", nameOf(fix.safety)}}}};
 }
 
-std::string document(Json driver, Json results, const Invocation &invocation, const fs::path &root) {
-  Json run = {{"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}};
+std::string documentText(Document document, const Invocation &invocation, const fs::path &root) {
+  Json run = {{"tool", {{"driver", std::move(document.driver)}}}, {"columnKind", "utf16CodeUnits"}};
   run["originalUriBaseIds"] = {{kRoot, {{"uri", "file://" + uriPath((root / "").generic_string())}}}};
   run["invocations"] = Json::array({toJson(invocation, root)});
-  run["results"] = std::move(results);
+  if (!document.artifacts.is_null())
+    run["artifacts"] = std::move(document.artifacts);
+  run["results"] = std::move(document.results);
   const Json whole = {{"$schema", kSchema}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}};
   return json::documentText(whole);
 }

@@ -30,6 +30,11 @@ struct Invocation {
   int exitCode;
 };
 /// The whole text.
-std::string document(Json driver, Json results, const Invocation &invocation, const std::filesystem::path &root);
+struct Document {
+  Json driver;
+  Json artifacts; // null: none are listed
+  Json results;
+};
+std::string documentText(Document document, const Invocation &invocation, const std::filesystem::path &root);
 
 } // namespace feedhold::sarif

@@ -107,6 +107,16 @@ Json driver(const Report &report) {
   return row;
 }
 
+/// The files that were read, each with its dialect.
+Json artifacts(const Report &report) {
+  Json rows = Json::array();
+  for (const CheckedFile &file : report.result.files)
+    if (isReadProgram(file))
+      rows.push_back({{"location", sarif::artifactLocation(file.path, report.root)},
+                      {"properties", {{"dialect", file.dialect}, {"chosenBy", nameOf(file.choice)}}}});
+  return rows;
+}
+
 } // namespace
 
 std::string writeSarif(const Report &report) {
@@ -117,8 +127,8 @@ std::string writeSarif(const Report &report) {
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
     results.push_back(resultToJson(finding, file, report, ruleIndex));
   });
-  return sarif::document(driver(report), std::move(results),
-                         {report.result.errors, report.result.skipped, report.exitCode}, report.root);
+  return sarif::documentText({driver(report), artifacts(report), std::move(results)},
+                             {report.result.errors, report.result.skipped, report.exitCode}, report.root);
 }
 
 } // namespace feedhold

@@ -1,6 +1,7 @@
 // What several sinks need: the findings that are shown and where they are.  Internal to sink/.
 #pragma once
 
+#include "findings/project/sidecars.h"
 #include "surface/sink/sink.h"
 
 namespace feedhold {
@@ -8,6 +9,9 @@ namespace feedhold {
 inline bool isShown(const Finding &finding, const Report &report) {
   return !finding.suppressed || report.showSuppressed == ShowSuppressed::Yes;
 }
+
+/// Not one in another language, nor a file with contracts beside a program.
+inline bool isReadProgram(const CheckedFile &file) { return file.foreign.empty() && !isSidecarName(file.path); }
 
 /// Calls `visit(file, finding)` for every finding that is shown, in order.
 template <typename Visit> void forEachShown(const Report &report, Visit visit) {

@@ -47,6 +47,11 @@ Counts count(const Report &report) {
   return counts;
 }
 
+std::size_t countOf(const CheckResult &result, SkipKind kind) {
+  return static_cast<std::size_t>(std::count_if(result.skipped.begin(), result.skipped.end(),
+                                                [kind](const SkippedFile &skipped) { return skipped.kind == kind; }));
+}
+
 std::string findingsPart(const Counts &counts) {
   if (counts.all() == 0)
     return "no findings";
@@ -69,16 +74,36 @@ std::string fixesPart(const Counts &counts) {
   return text;
 }
 
-std::string guessesPart(const CheckResult &result) {
-  std::map<std::string_view, std::size_t> guessed;
-  for (const CheckedFile &file : result.files)
-    if (!file.isOnlyCalled && (file.choice == DialectChoice::Guess || file.choice == DialectChoice::Fallback))
-      ++guessed[file.dialect];
+std::string_view choiceInWords(DialectChoice choice) {
+  switch (choice) {
+  case DialectChoice::Option: return "by --dialect";
+  case DialectChoice::FilePattern: return "by a pattern of feedhold.toml";
+  case DialectChoice::Config: return "by feedhold.toml";
+  case DialectChoice::Guess: return "by its text";
+  case DialectChoice::FolderVote: return "by the other files of its folder";
+  case DialectChoice::Fallback: return "by default";
+  }
+  FEEDHOLD_UNREACHABLE("a way to choose a dialect");
+}
+
+/// One line for each dialect: of how many files, and who chose it.
+std::string dialectsPart(const CheckResult &result) {
+  std::map<std::string_view, std::map<DialectChoice, std::size_t>> chosen;
+  bool isGuessed = false;
+  for (const CheckedFile &file : result.files) {
+    if (file.isOnlyCalled || !isReadProgram(file))
+      continue;
+    ++chosen[file.dialect][file.choice];
+    isGuessed = isGuessed || file.choice >= DialectChoice::Guess;
+  }
   std::string text;
-  for (const auto &[dialect, files] : guessed)
-    text += fmt::format("guessed dialect {} for {}; set `dialect` in feedhold.toml or give --dialect\n", dialect,
-                        counted(files, "file"));
-  return text;
+  for (const auto &[dialect, choices] : chosen) {
+    std::vector<std::string> parts;
+    for (const auto &[choice, files] : choices)
+      parts.push_back(fmt::format("{} {}", files, choiceInWords(choice)));
+    text += fmt::format("dialect {}: {}\n", dialect, fmt::join(parts, ", "));
+  }
+  return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
 }
 
 } // namespace
@@ -87,24 +112,32 @@ std::string summary(const Report &report) {
   const Counts counts = count(report);
   const CheckResult &result = report.result;
   const auto checked = std::count_if(result.files.begin(), result.files.end(),
-                                     [](const CheckedFile &file) { return !file.isOnlyCalled; });
+                                     [](const CheckedFile &file) { return !file.isOnlyCalled && isReadProgram(file); });
   std::string head = fmt::format("{} in {}", findingsPart(counts), counted(static_cast<std::size_t>(checked), "file"));
   if (counts.suppressed != 0)
     head += fmt::format(", {} allowed", counts.suppressed);
-  if (!result.skipped.empty())
-    head += fmt::format(", {} skipped", counted(result.skipped.size(), "file"));
+  const auto foreign = std::count_if(result.files.begin(), result.files.end(),
+                                     [](const CheckedFile &file) { return !file.foreign.empty(); });
+  const std::size_t refused = countOf(result, SkipKind::Refused) + static_cast<std::size_t>(foreign);
+  const std::size_t others = countOf(result, SkipKind::NoProgram);
+  if (refused != 0)
+    head += fmt::format(", {} refused", counted(refused, "file"));
+  if (others != 0)
+    head += fmt::format(", {} {}", counted(others, "file"), others == 1 ? "is no NC program" : "are no NC programs");
   if (!result.errors.empty())
     head += fmt::format(", {} not checked", counted(result.errors.size(), "file"));
-  return head + "\n" + fixesPart(counts) + guessesPart(result);
+  return head + "\n" + fixesPart(counts) + dialectsPart(result);
 }
 
 std::string skippedFiles(const Report &report) {
   const CheckResult &result = report.result;
   std::string text;
-  for (std::size_t i = 0; i < std::min(result.skipped.size(), kSkippedShown); ++i)
-    text += fmt::format("skipped {}: {}\n", result.skipped[i].path, result.skipped[i].reason);
-  if (result.skipped.size() > kSkippedShown)
-    text += fmt::format("skipped {} more; --format json lists all\n", result.skipped.size() - kSkippedShown);
+  std::size_t shown = 0;
+  for (const SkippedFile &skipped : result.skipped)
+    if (skipped.kind == SkipKind::Refused && ++shown <= kSkippedShown)
+      text += fmt::format("refused {}: {}\n", skipped.path, skipped.reason);
+  if (shown > kSkippedShown)
+    text += fmt::format("refused {} more; --format json lists all\n", shown - kSkippedShown);
   return text;
 }
 

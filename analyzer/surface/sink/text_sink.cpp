@@ -6,11 +6,26 @@
 
 namespace feedhold {
 
+namespace {
+
+/// One line: what is in the file does not matter.
+std::string refusal(const CheckedFile &file, const Finding &finding) {
+  const std::string reasons = file.reasons.empty() ? "" : fmt::format(" ({})", fmt::join(file.reasons, "; "));
+  return fmt::format("{}: {}: {}{} [{}]\n", nameOf(finding.severity), file.path, finding.diagnostic.message, reasons,
+                     finding.rule->name);
+}
+
+} // namespace
+
 std::string writeText(const Report &report) {
   std::string text;
   const auto fileOf = [&](FileId id) -> const SourceFile & { return report.result.files[id.index()].source; };
   const RenderOptions options{.colour = report.colour};
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+    if (!file.foreign.empty()) {
+      text += refusal(file, finding) + "\n";
+      return;
+    }
     const std::string severity = std::string(nameOf(finding.severity)) + (finding.suppressed ? ", allowed" : "");
     text += render(finding.diagnostic, {severity, finding.rule->name}, file.source, fileOf, options);
     text += '\n';

@@ -1,5 +1,6 @@
 // The guess on small texts of every kind.
 #include "dialects/registry.h"
+#include "language/dialect/folder_vote.h"
 #include "language/dialect/text_signals.h"
 
 #include <algorithm>
@@ -50,6 +51,38 @@ TEST(Guess, Lathes) {
             "haas-ngc-lathe");
 }
 
+TEST(Guess, LathesWithoutCycles) {
+  EXPECT_EQ(guessed("O1\nG28U0W0\nT0101\nG97S1000M3\nG0X20.Z5.\nG1Z-10.F0.2\nG28U0W0\nM30\n"), "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nG0 X20. Z5.\nG1 X22. Z-1.\nG1 X30. Z-20.\nM30\n"), "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nG0 X20. Z5.\nM99\n", "/shop/LATHE 2/O1"), "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nG28 X0 Z0\nG0 X20. Z5.\nM99\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\nT0101 M06\nG43 H1 Z50.\nG0 X1. Y2.\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, DistanceModesAreNoLathes) {
+  EXPECT_EQ(guessed("O1\nG90 G0 X20. Z5.\nG1 X22. Z-1.\nG1 X30. Z-20.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\nG50 S2000\nT0101\nG90 X20. Z-5. F0.2\nX18.\nM30\n"), "fanuc-30i-lathe");
+}
+
+TEST(Guess, WhatItRestsOn) {
+  const auto basisOf = [](std::string_view text) { return guessLanguage(text, "", allDialects()).basis; };
+  EXPECT_EQ(basisOf("G0 X1. Y2.\nM30\n"), GuessBasis::Nothing);
+  EXPECT_EQ(basisOf("G50 S2000\nG0 X1. Z2.\nM30\n"), GuessBasis::Text);
+  EXPECT_EQ(basisOf("M97 P1\nM30\n"), GuessBasis::Text);
+}
+
+TEST(Guess, MarksInCodeOutweighComments) {
+  EXPECT_EQ(guessed("O00012(3\" MITSUBISHI FACE MILL)\nIF [#1 EQ 2] THEN\n#2=1\nENDIF\nM97 P1\nM30\n"), "haas-ngc");
+  EXPECT_EQ(guessed("O1(HAAS VISE JAWS)\nG0 X1. Y1.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1(FOR THE FANUC)\n#100000=1\n#100002=2\n#1=#100010\n#2=#16005\nM99\n"), "mitsubishi-m700");
+  EXPECT_EQ(guessed("O1(LIKE FANUC)\n#1=#3021\n#2=#3021\nM99\n"), "haas-ngc");
+}
+
+TEST(Guess, MacroAIsOfOlderSeries) {
+  EXPECT_EQ(guessed("O9010\nG65 H01 P#101 Q#102\nG65 H81 P100 Q#101 R1\nN100 M99\n"), "fanuc-0i");
+  EXPECT_EQ(guessed("O1\nG65 P9010 H5. A1.\nM30\n"), "fanuc-30i");
+}
+
 TEST(Guess, OWords) {
   EXPECT_EQ(guessed("o100 sub\n#<depth> = 3\no110 if [#1 gt 2]\ng1 z-1 f100\no110 endif\no100 endsub\nm2\n"),
             "linuxcnc");
@@ -75,6 +108,41 @@ TEST(Guess, LanguagesThatAreRefused) {
             "a macro language with C operators (DDCS, Centroid, Eding)");
   EXPECT_EQ(guessed("$INCLUDE COMMON\n@SPEED 100\n@FEED 101\nO9000\n#1=5\nM99\n"), "macro compiler source");
   EXPECT_EQ(guessed("%wait\n%X0=posx, Y0=posy\nG21\nM5\n"), "sender macro (CNCjs)");
+}
+
+TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
+  EXPECT_EQ(guessed("G54\nG0 X10 Y5\nM30\n", "WELLE.MPF"), "Sinumerik");
+  EXPECT_EQ(guessed("N10 T=\"MILL_10\" M6\nN20 CYCLE800(1,\"TC1\",0)\nN30 TRAORI\nN40 G0 X10\nM30\n"), "Sinumerik");
+  EXPECT_EQ(guessed("G15 H1\nG0 X10 Y5\nG56 H2 Z100\nM02\n"), "Okuma user task");
+  EXPECT_EQ(guessed("%NAME G71 *\nN10 G30 G17 X+0 Y+0 Z-40*\nN20 G99 T1 L+0 R+5*\nN30 G00 G40 G90 Z+250*\nN40 M2*\n"),
+            "Heidenhain DIN/ISO");
+  EXPECT_EQ(guessed("%PART,MX--,\nN10 G90 G54\nN20 (P1=5)\nN30 (RPT N1,N9)\nM30\n"), "Fagor 8055");
+  EXPECT_EQ(guessed("C000 = 0003 0015 2015\nC001 = 0010 0015 2010\nH000 = +000000.0100\nG90 G92 X0 Y0\nM02\n"),
+            "wire erosion (Sodick, Mitsubishi)");
+}
+
+TEST(Guess, FolderDecidesWhereATextFitsSeveralControls) {
+  const auto guessOf = [](std::string_view text) { return guessLanguage(text, "", allDialects()); };
+  const LanguageGuess neutral = guessOf("O1\n#1=#1+1\nM99\n");
+  const LanguageGuess lathe = guessOf("O2\nG50 S2000\nT0101\nG96 S180\nM30\n");
+  const LanguageGuess clear = guessOf("O00012\nM97 P1\nG103 P1\nM97 P2\nG0 X1. Y2.\nG1 Y3.\nY4.\nG43 H1 Z1.\nM30\n");
+  FolderVote vote(allDialects());
+  for (const LanguageGuess &guess : {neutral, lathe, clear})
+    vote.add(guess);
+  vote.add(lathe);
+  EXPECT_EQ(neutral.dialect->id, "fanuc-30i");
+  EXPECT_EQ(vote.decide(neutral).basis, GuessBasis::Neighbours);
+  EXPECT_EQ(vote.decide(neutral).dialect->machine, MachineKind::Turning);
+  EXPECT_EQ(vote.decide(clear).dialect->id, "haas-ngc");
+  EXPECT_EQ(vote.decide(clear).basis, GuessBasis::Text);
+
+  FolderVote foreign(allDialects());
+  foreign.add(guessOf("DEF INT N1\nDEF REAL N2\nR1=5\nM17\n"));
+  foreign.add(guessOf("DEF INT N3\nDEF REAL N4\nR2=5\nM17\n"));
+  const LanguageGuess plain = guessOf("G0 X1 Y2\nM30\n");
+  foreign.add(plain);
+  ASSERT_NE(foreign.decide(plain).foreign, nullptr);
+  EXPECT_EQ(foreign.decide(plain).foreign->name, "Sinumerik");
 }
 
 TEST(Guess, OneStrayWordRefusesNothing) {

@@ -69,15 +69,34 @@ TEST_F(Session, FoldersAreWalkedByNameAndContent) {
   write(".git/part.nc", kProgramWithSlip);
   const CheckResult result = run();
   EXPECT_EQ(names(result), (std::vector<std::string>{"a/part.NC", "a/part.txt", "b/O1001"}));
-  ASSERT_EQ(result.skipped.size(), 1U);
+  ASSERT_EQ(result.skipped.size(), 2U);
   EXPECT_TRUE(result.skipped[0].path.ends_with("a/notes.txt"));
+  EXPECT_EQ(result.skipped[0].kind, SkipKind::NoProgram);
+  EXPECT_TRUE(result.skipped[1].path.ends_with("a/readme.md"));
+  EXPECT_EQ(result.skipped[1].reason, "a `.md` file");
   EXPECT_TRUE(result.errors.empty());
 }
 
 TEST_F(Session, NamedFilesAreTakenWhateverTheirExtension) {
-  write("part.xyz", kProgramWithSlip);
-  EXPECT_EQ(names(run(options("part.xyz"))), (std::vector<std::string>{"part.xyz"}));
+  write("part.csv", kProgramWithSlip);
   EXPECT_EQ(run().errors.size(), 1U); // no program in the folder
+  CheckOptions named = options("part.csv");
+  named.control.dialect = "fanuc-30i";
+  EXPECT_EQ(names(run(named)), (std::vector<std::string>{"part.csv"}));
+}
+
+TEST_F(Session, AnyExtensionIsTakenByContent) {
+  for (const char *name :
+       {"a.gcode", "a.macro", "a.hom", "a.rc", "a.ALL", "a.mc12", "a.SSB", "a.LIB", "a.ptp", "O1 OLD"})
+    write(name, kProgramWithSlip);
+  write("tools.tdb", "T1 P1 D10.5\nT2 P2 D6.0\n"); // words, but no code
+  write("positions.dat", "0.5 1.5 2.5\n");
+  write("picture.dat2", std::string("\x01\x02\x03\x04\x05\x06\x07\x08", 8));
+  const CheckResult result = run();
+  EXPECT_EQ(result.files.size(), 10U);
+  ASSERT_EQ(result.skipped.size(), 3U);
+  for (const SkippedFile &skipped : result.skipped)
+    EXPECT_EQ(skipped.kind, SkipKind::NoProgram);
 }
 
 TEST_F(Session, ExcludeAndInclude) {
@@ -121,6 +140,39 @@ TEST_F(Session, SettingsByPattern) {
   EXPECT_EQ(result.files[0].dialect, "haas-ngc");
   EXPECT_TRUE(result.files[0].findings.empty());
   EXPECT_EQ(result.files[1].findings.size(), 1U);
+}
+
+TEST_F(Session, TheFolderVotesWhateverIsChecked) {
+  write("cell/O1.nc", "O1\n#1=#1+1\nM99\n");
+  write("cell/O2.nc", "%\nO00012\nM97 P1\nG103 P1\nM30\nN1 M99\n%\n");
+  const CheckResult whole = run();
+  const CheckResult alone = run(options("cell/O1.nc"));
+  ASSERT_EQ(whole.files.size(), 2U);
+  ASSERT_EQ(alone.files.size(), 1U);
+  EXPECT_EQ(whole.files[0].dialect, "haas-ngc");
+  EXPECT_EQ(whole.files[0].choice, DialectChoice::FolderVote);
+  EXPECT_EQ(whole.files[1].choice, DialectChoice::Guess);
+  EXPECT_EQ(alone.files[0].dialect, "haas-ngc");
+}
+
+TEST_F(Session, CallsFindWhatIsOnTheMachine) {
+  const auto missing = [this] {
+    CheckOptions asked = options();
+    asked.select = {"program-not-found"};
+    const CheckResult result = run(asked);
+    std::size_t found = 0;
+    for (const CheckedFile &file : result.files)
+      found += file.findings.size();
+    return found;
+  };
+  write("cell1/O1000.nc", "O1000\nM98P2000\nM30\n");
+  write("cell2/O2000.nc", "O2000\nM99\n"); // another machine
+  EXPECT_EQ(missing(), 1U);
+  write("cell1/parts/O2000.nc", "O2000\nM99\n");
+  EXPECT_EQ(missing(), 0U);
+  fs::remove_all(folder_ / "cell1/parts");
+  write("Sub_Programs/O2000.nc", "O2000\nM99\n");
+  EXPECT_EQ(missing(), 0U);
 }
 
 TEST_F(Session, FingerprintsOutliveEditsElsewhere) {
@@ -182,6 +234,7 @@ TEST_F(Session, BinaryAndEmptyFilesDoNotStopTheOthers) {
   const CheckResult result = run();
   EXPECT_EQ(names(result), (std::vector<std::string>{"part.nc"}));
   ASSERT_EQ(result.skipped.size(), 2U);
+  EXPECT_EQ(result.skipped[0].kind, SkipKind::Refused);
   EXPECT_EQ(result.skipped[0].reason, "the file is empty");
   EXPECT_EQ(result.skipped[1].reason, "a binary file");
 }

@@ -72,12 +72,24 @@ TEST_F(Sink, TextHasRuleCaretsAndPlace) {
   EXPECT_EQ(text.find("plain-style"), std::string::npos);
 }
 
+TEST_F(Sink, AnotherLanguageIsRefusedInOneLine) {
+  result_.files[0].foreign = "Sinumerik";
+  result_.files[0].reasons = {"a file named `.mpf`"};
+  result_.files[0].findings[1].diagnostic.message = "this is Sinumerik, which Feedhold does not read";
+  EXPECT_EQ(writeText(report()), "error: cell 1/part.nc: this is Sinumerik, which Feedhold does not read (a file named "
+                                 "`.mpf`) [missing-equals]\n\n");
+  const Json document = Json::parse(writeJson(report()));
+  EXPECT_TRUE(document["files"].empty());
+  EXPECT_EQ(document["skipped"][0],
+            Json::parse(R"({"path": "cell 1/part.nc", "reason": "Sinumerik", "kind": "refused"})"));
+}
+
 TEST_F(Sink, Summary) {
-  EXPECT_EQ(summary(report()),
-            "1 error in 1 file, 1 allowed, 1 file skipped, 1 file not checked\n"
-            "1 finding has a fix that needs your review: --diff --unsafe-fixes shows it\n"
-            "guessed dialect fanuc-30i for 1 file; set `dialect` in feedhold.toml or give --dialect\n");
-  EXPECT_EQ(skippedFiles(report()), "skipped picture.nc: a binary file\n");
+  EXPECT_EQ(summary(report()), "1 error in 1 file, 1 allowed, 1 file refused, 1 file not checked\n"
+                               "1 finding has a fix that needs your review: --diff --unsafe-fixes shows it\n"
+                               "dialect fanuc-30i: 1 by its text\n"
+                               "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n");
+  EXPECT_EQ(skippedFiles(report()), "refused picture.nc: a binary file\n");
   EXPECT_EQ(statistics(report(ShowSuppressed::Yes)), "      1 missing-equals\n      1 plain-style\n");
 }
 
@@ -93,7 +105,10 @@ TEST_F(Sink, Json) {
     "notes": ["the control stops"],
     "fixes": [{"title": "write `=`", "safety": "needs-review",
                "edits": [{"line": 2, "column": 5, "endLine": 2, "endColumn": 6, "replacement": "="}]}]})"));
-  EXPECT_EQ(document["skipped"], Json::parse(R"([{"path": "picture.nc", "reason": "a binary file"}])"));
+  EXPECT_EQ(document["skipped"],
+            Json::parse(R"([{"path": "picture.nc", "reason": "a binary file", "kind": "refused"}])"));
+  EXPECT_EQ(document["files"],
+            Json::parse(R"([{"path": "cell 1/part.nc", "dialect": "fanuc-30i", "chosenBy": "guess", "reasons": []}])"));
   EXPECT_EQ(document["errors"], Json::parse(R"([{"path": "gone.nc", "message": "no such file"}])"));
 }
 

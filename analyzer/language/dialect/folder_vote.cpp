@@ -1,0 +1,63 @@
+#include "language/dialect/folder_vote.h"
+
+#include <algorithm>
+
+namespace feedhold {
+namespace {
+
+constexpr int kMostOfOneFile = 20; // one file does not outvote all others
+constexpr int kMostOfFolder = 10;  // as much as two or three marks in the text of the file
+
+} // namespace
+
+void FolderVote::add(const LanguageGuess &file) {
+  if (!file.looksLikeProgram)
+    return;
+  ++programs_;
+  if (file.foreign != nullptr) {
+    auto &votes = foreign_[file.foreign->name];
+    votes = {file.foreign, votes.second + 1};
+    return;
+  }
+  sums_.resize(file.scores.size());
+  const int best = *std::max_element(file.scores.begin(), file.scores.end());
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+    sums_[i] += std::max(file.scores[i] - best, -kMostOfOneFile);
+}
+
+/// The language of more than half of the programs.
+const ForeignLanguage *FolderVote::commonForeign() const {
+  for (const auto &[name, votes] : foreign_)
+    if (votes.second * 2 > programs_)
+      return votes.first;
+  return nullptr;
+}
+
+LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
+  if (!own.looksLikeProgram || own.foreign != nullptr)
+    return own;
+  LanguageGuess guess = own;
+  if (const ForeignLanguage *foreign = commonForeign();
+      foreign != nullptr && (own.basis == GuessBasis::Nothing || own.kin == foreign)) {
+    guess.dialect = nullptr;
+    guess.foreign = foreign;
+    guess.basis = GuessBasis::Neighbours;
+    guess.reasons = {"most programs of the folder"};
+    return guess;
+  }
+  if (sums_.empty())
+    return guess;
+  const int most = *std::max_element(sums_.begin(), sums_.end());
+  std::vector<int> scores = own.scores;
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    scores[i] += std::max(sums_[i] - most, -kMostOfFolder);
+  const Dialect *dialect = likeliestDialect(scores, *registry_);
+  if (dialect != own.dialect) {
+    guess.dialect = dialect;
+    guess.basis = GuessBasis::Neighbours;
+    guess.reasons = {"the other programs of the folder"};
+  }
+  return guess;
+}
+
+} // namespace feedhold

@@ -1,0 +1,31 @@
+// FolderVote: what the files of one folder say together.  A macro of ten lines may fit every control; the programs
+// beside it tell for which one it was written.
+#pragma once
+
+#include "language/dialect/registry.h"
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace feedhold {
+
+class FolderVote {
+public:
+  explicit FolderVote(const DialectRegistry &registry) : registry_(&registry) {}
+
+  void add(const LanguageGuess &file);
+  /// The guess for a file of the folder, which may have voted itself.  What its own text says clearly counts more than
+  /// what the others say.
+  LanguageGuess decide(const LanguageGuess &own) const;
+
+private:
+  const ForeignLanguage *commonForeign() const;
+
+  const DialectRegistry *registry_;
+  std::vector<int> sums_; // by dialect, of what each file scores below its best
+  std::size_t programs_ = 0;
+  std::map<std::string_view, std::pair<const ForeignLanguage *, std::size_t>> foreign_; // by name
+};
+
+} // namespace feedhold
