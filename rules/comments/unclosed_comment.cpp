@@ -4,7 +4,16 @@
 namespace feedhold::rules::unclosed_comment {
 namespace {
 
-void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (context.text(issue.span).ends_with(')')) {
+    reporter.report(
+        {.message = "this comment goes over several lines",
+         .span = {issue.span.begin, issue.span.begin + 1},
+         .labels = {{{issue.span.end - 1, issue.span.end}, "closed here"}},
+         .notes = {"the control reads each line as a block, and a comment ends with its block on most controls",
+                   "put each line of the comment in parentheses of its own"}});
+    return;
+  }
   reporter.report({.message = "this comment has no closing `)`",
                    .span = issue.span,
                    .notes = {"the control does not execute what follows the `(`"},

@@ -42,7 +42,9 @@ bool readsByAxis(const FileContext &context, ExpressionId value) {
 /// The assignment to a variable with a number that is all that the block does.
 const Assignment *onlyAssignment(const FileContext &context, BlockId block) {
   const auto statements = context.tree.statementsOf(block);
-  const bool isAlone = statements.size() == 1 && context.tree.wordsOf(block).empty();
+  const bool isAlone = statements.size() == 1 && std::ranges::all_of(context.tree.wordsOf(block), [](const Word &word) {
+                         return word.address() == 'N';
+                       });
   const auto *assignment = isAlone ? std::get_if<Assignment>(&statements.front().node) : nullptr;
   return assignment && variableNumber(context.tree, assignment->target) ? assignment : nullptr;
 }

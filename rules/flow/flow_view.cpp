@@ -206,6 +206,19 @@ bool isCalledAsSubprogram(const FlowFacts &facts) {
   });
 }
 
+bool mayHoldCallersValue(const FlowFacts &facts, std::uint32_t variable) {
+  const CallGraph &graph = facts.programs.callGraph();
+  return std::ranges::any_of(graph.callers({facts.file.file, facts.program}), [&](const CallGraph::Caller &caller) {
+    const ProgramFile &file = facts.programs.file(caller.file);
+    const Call &call = file.model->calls[caller.call];
+    if (call.kind != CallKind::Subprogram && call.kind != CallKind::Local && call.kind != CallKind::External)
+      return false;
+    return isTested(file, call.caller, variable) ||
+           std::ranges::any_of(file.model->variablesOf(call.caller),
+                               [&](const VariableUse &use) { return mayWrite(file, use, variable); });
+  });
+}
+
 bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
   const Contract *contract = context.contractOf({context.file, facts.program});
   return contract && std::ranges::find(contract->globals, variable, &EntryValue::variable) != contract->globals.end();

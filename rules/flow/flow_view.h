@@ -47,6 +47,8 @@ std::string describeVariable(const Dialect &dialect, std::uint32_t variable);
 bool isMainProgram(const FlowFacts &facts);
 /// Some M98 reaches the program: it works on the local variables of its callers.
 bool isCalledAsSubprogram(const FlowFacts &facts);
+/// Some caller by M98 sets the local variable, or asks for its value.
+bool mayHoldCallersValue(const FlowFacts &facts, std::uint32_t variable);
 
 /// The contract of the program says what the common variable holds on entry.
 bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_t variable);

@@ -35,7 +35,8 @@ bool moves(const LoopFlow &loop, const FlowFacts &facts) {
 bool mayWait(const LoopFlow &loop, const FlowFacts &facts) {
   return !moves(loop, facts) && std::ranges::none_of(loop.exits, [&](const LoopExit &exit) {
     const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
-    return std::ranges::all_of(reads, [&](const Read &read) { return isLocal(facts.file, *read.number); });
+    return std::ranges::all_of(
+        reads, [&](const Read &read) { return *read.number == kVacantVariable || isLocal(facts.file, *read.number); });
   });
 }
 

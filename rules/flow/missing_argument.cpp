@@ -14,13 +14,13 @@ std::optional<Read> readAt(const ProgramFile &file, BlockId block, ExpressionId 
   return found == reads.end() ? std::nullopt : std::optional(*found);
 }
 
-/// The macro computes with the variable as if it were always there.
+/// The macro computes with the variable as if it were always there.  One that asks for its value in some condition
+/// knows that it may be missing.
 bool isRelied(const FlowFacts &facts, const VacantReadInCall &vacant) {
   const ProgramFile &file = facts.programs.file(vacant.read.file);
   const BlockId block = file.cfg.nodes[vacant.read.node].block;
   const auto read = readAt(file, block, vacant.expression);
-  return read && (read->use == ReadUse::Computed || read->use == ReadUse::Ordering) &&
-         !isTestedForVacancy(file, file.model->programOf(block), vacant.variable);
+  return read && read->use == ReadUse::Computed && !isTested(file, file.model->programOf(block), vacant.variable);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {

@@ -57,6 +57,16 @@ std::optional<NodeId> reachesFrom(const FlowFacts &facts, NodeId from, const std
   return std::nullopt;
 }
 
+/// `#100=#100+1`: the caller counts with the variable, so what it finds there is not meant as a result of the call.
+bool countsWith(const FlowFacts &facts, NodeId node, std::uint32_t variable) {
+  return std::ranges::any_of(assignmentsOf(facts, node), [&](const Assignment &assignment) {
+    if (variableOf(facts, assignment.target) != variable)
+      return false;
+    const auto reads = readsIn(facts.file, assignment.value, facts.node(node).block);
+    return std::ranges::any_of(reads, [&](const Read &read) { return read.number == variable; });
+  });
+}
+
 /// The value of the caller is used on both sides of the call: it is no result of the called program.
 std::optional<NodeId> usedAfter(const FlowFacts &facts, const CallerUse &use, NodeId call) {
   const auto after = reachesFrom(facts, call, use.reads, use, call);
@@ -93,7 +103,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                   toString(file.model->programs[callee->program].name), variable),
            .span = call.span,
            .labels = {{context.tree.blocks[facts.node(*after).block].span(), "read here after the call"}},
-           .notes = {"all programs share the common variables", "use a local variable: each macro has its own"}});
+           .notes = {"all programs share the common variables", "use a local variable: each macro has its own"}},
+          countsWith(facts, *after, variable) ? Severity::Warning : Severity::Info);
     }
   }
 }

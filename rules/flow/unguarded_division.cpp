@@ -28,7 +28,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
     const auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
     if (!argument || !variable || isTested(facts.file, facts.program, *argument) ||
-        isTested(facts.file, facts.program, *variable) || std::ranges::find(done, *argument) != done.end())
+        isTested(facts.file, facts.program, *variable) || mayHoldCallersValue(facts, *argument) ||
+        std::ranges::find(done, *argument) != done.end())
       continue;
     done.push_back(*argument);
     reporter.report({.message = fmt::format("{} may be 0 or vacant: nothing checks it before this division",

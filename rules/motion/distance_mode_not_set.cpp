@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 namespace feedhold::rules::distance_mode_not_set {
 namespace {
 
@@ -15,12 +18,15 @@ public:
     if (!codes || !codes->mayBeAtEntry() || isHavocked(state) || view_.axisWords(node).empty())
       return;
     // Machine coordinates are always absolute.
-    if (!view_.findAction(node, {CodeAction::MachineMove}))
-      first_.note(node);
+    if (view_.findAction(node, {CodeAction::MachineMove}))
+      return;
+    first_.note(node);
+    if (isFirstWithoutMotionCode(node, state))
+      withoutMotionCode_.push_back(node);
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node())
+    if (!first_.node() || isToldOtherwise(*first_.node(), context))
       return;
     const bool isMain = startedBy(context, view_.program()) == StartedBy::Operator;
     const Word &word = *view_.axisWords(*first_.node()).front();
@@ -36,13 +42,45 @@ public:
       diagnostic.notes = {
           "the caller's mode decides whether this is a position or a distance",
           "save #4003, set G90 or G91 and restore it at the end, or state the caller's mode: `(@MODAL G90)`"};
-    reporter.report(std::move(diagnostic),
-                    isMain && !context.dialect.behaviour.endRestoresModes ? Severity::Warning : Severity::Info);
+    reporter.report(std::move(diagnostic), isMain && comesToItsEnd(facts) && mayBeLeftIncremental(context)
+                                               ? Severity::Warning
+                                               : Severity::Info);
   }
 
 private:
+  bool isFirstWithoutMotionCode(NodeId node, const AbstractState &state) const {
+    const auto codes = view_.inForce(state, ModalKind::Motion);
+    return codes && codes->mayBeAtEntry() && !view_.modalMotionWords(node).empty() &&
+           !view_.sets(node, ModalKind::Cycle);
+  }
+  /// motion-code-not-set and arguments-of-subprogram speak of the same block.
+  bool isToldOtherwise(NodeId node, const FileContext &context) const {
+    const BlockId block = view_.node(node).block;
+    return std::ranges::find(withoutMotionCode_, node) != withoutMotionCode_.end() ||
+           !context.model.callsIn(block, block.next()).empty();
+  }
+  /// Some program of the folder has G91: it may be in force when this one starts.
+  static bool mayBeLeftIncremental(const FileContext &context) {
+    if (context.dialect.behaviour.endRestoresModes)
+      return false;
+    const auto folder = std::filesystem::path(context.source.path()).parent_path();
+    for (std::size_t i = 0; i < context.programs->size(); ++i) {
+      const ProgramFile &file = context.programs->file(FileId(i));
+      if (std::filesystem::path(file.source->path()).parent_path() == folder && hasIncremental(file))
+        return true;
+    }
+    return false;
+  }
+  static bool hasIncremental(const ProgramFile &file) {
+    return std::ranges::any_of(file.cfg.nodes, [](const Node &node) {
+      const auto *execute = std::get_if<ExecuteWords>(&node.instruction);
+      return execute && execute->traits.mayDo(CodeAction::Incremental);
+    });
+  }
+
   MotionView view_;
   FirstSeen first_;
+  std::vector<NodeId> withoutMotionCode_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -40,7 +40,9 @@ private:
   /// The first one only: what comes behind it is of the same kind.
   void tell(NodeId home, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
     const auto isOver = [&](NodeId node) {
-      return view_.sets(node, ModalKind::Distance) || std::holds_alternative<CallProgram>(view_.node(node).instruction);
+      // A probing move by a distance shows that the stretch is incremental on purpose.
+      return view_.sets(node, ModalKind::Distance) || view_.findAction(node, {CodeAction::Skip}) ||
+             std::holds_alternative<CallProgram>(view_.node(node).instruction);
     };
     const auto move = firstReached(facts, home, moves_, isOver);
     if (!move)

@@ -21,6 +21,9 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     if (!first_.node())
       return;
+    const BlockId block = view_.node(*first_.node()).block;
+    if (!context.model.callsIn(block, block.next()).empty())
+      return; // arguments-of-subprogram
     const bool isMain = startedBy(context, view_.program()) == StartedBy::Operator;
     const Word &word = *view_.modalMotionWords(*first_.node()).front();
     const auto sets = [&](NodeId node) { return view_.sets(node, ModalKind::Motion); };
@@ -30,7 +33,7 @@ public:
          .flow = pathFromEntry(facts, *first_.node(), sets),
          .notes = {"the block moves like the last move before it: at rapid, at feed, or along an arc",
                    "write the motion code in this block"}},
-        isMain ? Severity::Warning : Severity::Info);
+        isMain && comesToItsEnd(facts) ? Severity::Warning : Severity::Info);
   }
 
 private:

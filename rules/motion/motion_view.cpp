@@ -70,6 +70,13 @@ StartedBy startedBy(const FileContext &context, ProgramId program) {
              : StartedBy::Operator;
 }
 
+bool comesToItsEnd(const FlowFacts &facts) {
+  return std::ranges::any_of(facts.exits(), [&](const ExitFact &exit) {
+    const auto *end = std::get_if<EndProgram>(&facts.node(exit.node).instruction);
+    return !end || end->end != ProgramEnd::EndOfFile;
+  });
+}
+
 MotionView::MotionView(ProgramId program, const FileContext &context)
     : context_(context), program_(program), cfg_(context.programs->file(context.file).cfg),
       modes_(context.modes ? context.modes : std::make_shared<const ModalTable>(context.dialect)) {}

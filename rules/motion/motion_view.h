@@ -13,6 +13,9 @@ namespace feedhold::rules {
 enum class StartedBy : std::uint8_t { Operator, Caller };
 StartedBy startedBy(const FileContext &context, ProgramId program);
 
+/// By M02, M30 or M99: the text is no piece of a program.
+bool comesToItsEnd(const FlowFacts &facts);
+
 class MotionView {
 public:
   MotionView(ProgramId program, const FileContext &context);

@@ -210,7 +210,30 @@ Token Lexer::comment(std::uint32_t begin) {
     if (c == '\n' || c == '\r' || c == '(' || c == '#' || c == '%' || c == ';' || c == '[' || isDigit(c))
       break;
   }
-  return make(TokenKind::Comment, begin, end);
+  return make(TokenKind::Comment, begin, endOfParagraph(end).value_or(end));
+}
+
+/// A line of `)` alone closes what a line before it opens, unless another comment, a program or a tape mark comes
+/// between them.
+std::optional<std::uint32_t> Lexer::endOfParagraph(std::uint32_t from) const {
+  constexpr std::uint32_t kLongest = 2000;
+  const std::uint32_t limit = std::min(size(), from + kLongest);
+  for (std::uint32_t line = afterLineEnd(from); line < limit;) {
+    std::uint32_t i = line;
+    while (i < limit && (text_[i] == ' ' || text_[i] == '\t'))
+      ++i;
+    if (at(i) == '%' || ((at(i) == 'O' || at(i) == 'o') && isDigit(at(i + 1))))
+      return std::nullopt;
+    const bool closes = at(i) == ')';
+    const std::uint32_t close = i + 1;
+    for (i = closes ? close : i; i < limit && text_[i] != '\n' && text_[i] != '\r'; ++i)
+      if (text_[i] == '(' || (closes && text_[i] != ' ' && text_[i] != '\t'))
+        return std::nullopt;
+    if (closes)
+      return close;
+    line = std::max(afterLineEnd(i), i + 1);
+  }
+  return std::nullopt;
 }
 
 /// `**`, which blanks may part; `*` alone.

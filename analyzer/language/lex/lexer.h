@@ -48,6 +48,7 @@ private:
   Token oWord(std::uint32_t begin);
   Token number(std::uint32_t begin);
   Token comment(std::uint32_t begin);
+  std::optional<std::uint32_t> endOfParagraph(std::uint32_t from) const;
   Token star(std::uint32_t begin);
   Token endOfBlock(std::uint32_t begin);
   Token angle(std::uint32_t begin);

@@ -41,6 +41,15 @@ ProgramName nameFrom(const ResolveContext &context, const Word &word) {
 /// Blocks that the control does not read belong to no program; it begins with the first one that says something.
 bool isRead(const Block &block) { return !block.has(Block::kLeader) && !block.has(Block::kAfterEnd); }
 
+/// A comment and text behind its `)`, which is reported: no program begins with it.
+bool isBrokenComment(const SyntaxTree &tree, BlockId block) {
+  const auto statements = tree.statementsOf(block);
+  return tree.wordsOf(block).empty() && !tree.commentsOf(block).empty() &&
+         std::all_of(statements.begin(), statements.end(), [](const Statement &statement) {
+           return std::holds_alternative<BrokenStatement>(statement.node);
+         });
+}
+
 } // namespace
 
 namespace {
@@ -59,7 +68,7 @@ public:
         enterFolder(block.span(), id);
       const Word *header = isRead(block) ? headerOf(context_, id) : nullptr;
       const bool hasOWord = next_ < model_.oWords.size() && model_.oWords[OWordId(next_)].block == id;
-      const bool says = hasOWord || (!block.has(Block::kPercent) && !isEmpty(tree, id));
+      const bool says = hasOWord || (!block.has(Block::kPercent) && !isEmpty(tree, id) && !isBrokenComment(tree, id));
       const bool nameless = !outer_ && isRead(block) && says;
       if (header || nameless)
         addProgram(header ? nameFrom(context_, *header) : ProgramName{}, header ? header->span() : block.span(), id);

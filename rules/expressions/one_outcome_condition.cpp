@@ -1,0 +1,158 @@
+// one-outcome-condition: `IF[[#1NE1]OR[#1NE2]]`.
+#include "findings/rule/rule.h"
+
+#include "rules/expressions/expression_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace feedhold::rules::one_outcome_condition {
+namespace {
+
+/// A value that the variable may have; absent: vacant.
+using Sample = std::optional<double>;
+
+struct Comparison {
+  OperatorKind op;
+  ExpressionId variable;
+  Sample limit; // absent: `#0`
+};
+
+OperatorKind mirrored(OperatorKind op) {
+  if (op == OperatorKind::GreaterThan)
+    return OperatorKind::LessThan;
+  if (op == OperatorKind::GreaterOrEqual)
+    return OperatorKind::LessOrEqual;
+  if (op == OperatorKind::LessThan)
+    return OperatorKind::GreaterThan;
+  return op == OperatorKind::LessOrEqual ? OperatorKind::GreaterOrEqual : op;
+}
+
+std::optional<Comparison> comparisonIn(const FileContext &context, const BinaryOperation &relation) {
+  const auto limitOf = [&](ExpressionId side) -> std::optional<Sample> {
+    if (const auto value = literalValue(context.tree, side))
+      return Sample(value->toDouble());
+    return isVacant(context, side) ? std::optional(Sample()) : std::nullopt;
+  };
+  const auto isVariable = [&](ExpressionId side) {
+    return as<NumberedVariable>(context.tree, unwrapped(context.tree, side)) && !isVacant(context, side) &&
+           !readsLiveValue(context, side);
+  };
+  const auto left = limitOf(relation.left);
+  const auto right = limitOf(relation.right);
+  if (right && isVariable(relation.left))
+    return Comparison{relation.op, unwrapped(context.tree, relation.left), *right};
+  if (left && isVariable(relation.right))
+    return Comparison{mirrored(relation.op), unwrapped(context.tree, relation.right), *left};
+  return std::nullopt;
+}
+
+/// As the control compares: EQ and NE tell vacant from 0, the others take it as 0.
+bool holds(const Comparison &comparison, Sample value) {
+  if (comparison.op == OperatorKind::Equal || comparison.op == OperatorKind::NotEqual)
+    return (value == comparison.limit) == (comparison.op == OperatorKind::Equal);
+  const double number = value.value_or(0);
+  const double limit = comparison.limit.value_or(0);
+  if (number == limit)
+    return comparison.op == OperatorKind::GreaterOrEqual || comparison.op == OperatorKind::LessOrEqual;
+  const bool wantsGreater = comparison.op == OperatorKind::GreaterThan || comparison.op == OperatorKind::GreaterOrEqual;
+  return wantsGreater == (number > limit);
+}
+
+/// A condition of nothing but comparisons of one variable with constants, joined by AND and OR.
+class Combination {
+public:
+  Combination(const FileContext &context, ExpressionId root) : context_(context), root_(root) {
+    isReadable_ = collect(root) && comparisons_.size() > 1;
+  }
+  bool isReadable() const { return isReadable_; }
+
+  /// Absent: it depends on the value.
+  std::optional<bool> outcome() const {
+    const bool first = evaluate(root_, Sample(0));
+    for (const Sample &sample : samples())
+      if (evaluate(root_, sample) != first)
+        return std::nullopt;
+    return first;
+  }
+
+private:
+  static bool joins(OperatorKind op) { return op == OperatorKind::And || op == OperatorKind::Or; }
+
+  bool collect(ExpressionId id) {
+    const auto *operation = asInside<BinaryOperation>(context_.tree, id);
+    if (!operation)
+      return false;
+    if (joins(operation->op))
+      return collect(operation->left) && collect(operation->right);
+    const auto comparison = isRelation(operation->op) ? comparisonIn(context_, *operation) : std::nullopt;
+    if (!comparison ||
+        (!comparisons_.empty() && !sameText(context_, spanOf(comparisons_.front()), spanOf(*comparison))))
+      return false;
+    comparisons_.push_back(*comparison);
+    return true;
+  }
+  Span spanOf(const Comparison &comparison) const { return context_.tree.expressions[comparison.variable].span; }
+
+  bool evaluate(ExpressionId id, Sample value) const {
+    const auto &operation = *asInside<BinaryOperation>(context_.tree, id);
+    if (!joins(operation.op))
+      return holds(*comparisonIn(context_, operation), value);
+    const bool left = evaluate(operation.left, value);
+    const bool right = evaluate(operation.right, value);
+    return operation.op == OperatorKind::And ? left && right : left || right;
+  }
+
+  /// The limits, a value between any two of them, one beyond each end, and vacant.
+  std::vector<Sample> samples() const {
+    std::vector<double> limits;
+    for (const Comparison &comparison : comparisons_)
+      limits.push_back(comparison.limit.value_or(0));
+    std::ranges::sort(limits);
+    std::vector<Sample> all{limits.front() - 1, limits.back() + 1};
+    if (context_.dialect.behaviour.variablesMayBeVacant)
+      all.emplace_back();
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      all.emplace_back(limits[i]);
+      if (i > 0)
+        all.emplace_back((limits[i - 1] + limits[i]) / 2);
+    }
+    return all;
+  }
+
+  const FileContext &context_;
+  ExpressionId root_;
+  bool isReadable_ = false;
+  std::vector<Comparison> comparisons_;
+};
+
+void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
+  const auto condition = conditionOf(statement);
+  if (!condition)
+    return;
+  const Combination combination(context, *condition);
+  const auto outcome = combination.isReadable() ? combination.outcome() : std::nullopt;
+  if (!outcome)
+    return;
+  const Span span = context.tree.expressions[*condition].span;
+  reporter.report(
+      {.message = fmt::format("{} is {} for every value", context.quoted(span), *outcome ? "true" : "false"),
+       .span = span,
+       .notes = {*outcome ? "every value fulfils one of the comparisons that `OR` joins"
+                          : "no value fulfils all comparisons that `AND` joins",
+                 *outcome ? "join them with `AND`, or correct the limits"
+                          : "join them with `OR`, or correct the limits"}});
+}
+
+} // namespace
+
+extern const Rule oneOutcomeCondition;
+const Rule oneOutcomeCondition{.info = {"one-outcome-condition", Category::Expression, Severity::Warning,
+                                        "Reports comparisons of one variable, joined by `AND` or `OR`, that have one "
+                                        "outcome for every value."},
+                               .hooks = {.statement = check}};
+
+} // namespace feedhold::rules::one_outcome_condition
