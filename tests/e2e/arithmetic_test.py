@@ -172,6 +172,35 @@ G91G01Z-[#21/#10]F100
 END1
 M99
 """
+# A round pocket in turns: the depth of a turn is computed, so that its word is rounded.
+POCKET = """O1
+(@PARAM #18 1..10. MM)
+(@PARAM #4 20.5..100. MM)
+(@PARAM #6 1..20. MM)
+(@PARAM #22 1..5. MM)
+(@MODAL G17 G21 G40 G49 G80 G90)
+(@START X0 Y0 Z5.)
+(@TOOL FLAT RADIUS #18)
+{}
+(@KEEPIN WALL CYLINDER AXIS Z AT X0 Y0 RADIUS #4 Z-#6..5.)
+(@KEEPOUT FLOOR BOX Z..-#6)
+(@CLEARANCE Z5.)
+#1=FUP[#6/#22]
+#2=#4/2-#18/2
+#10=0
+G0X-#2Y0
+G1Z0F100
+WHILE[#10LT#1]DO1
+#10=#10+1
+{}
+G2I#2
+END1
+G90G0Z5.
+M99
+"""
+DOWN_IN_G90 = "G1Z-[#10*#6/#1]"
+DOWN_IN_G91 = "G91G1Z-[#6/#1]\nG90"
+SPACE = ("keep-in", "keep-out", "clearance")
 
 
 class ArithmeticOfTheControl(Scratch):
@@ -301,6 +330,37 @@ class ArithmeticOfTheControl(Scratch):
         for rows in (self.in_control, self.in_exact):
             self.assertEqual(rows(text.format(.6))["alarm-unreachable"]["verdict"], "unreachable")
             self.assertEqual(rows(text.format(.4))["alarm-unreachable"]["verdict"], "refuted")
+
+    def space_of(self, text, arithmetic="control"):
+        self.write("O1.nc", text)
+        result = self.feedhold("prove", "--no-cache", "--dialect", "fanuc-30i", "--isolated", "--format", "json",
+                               "--arithmetic", arithmetic, "O1.nc")
+        return [row for row in json.loads(result.stdout)["files"][0]["obligations"] if row["kind"] in SPACE]
+
+    def test_absolute_movements_keep_to_the_space_within_the_tolerance(self):
+        rows = self.space_of(POCKET.format("(@TOLERANCE 0.005)", DOWN_IN_G90))
+        self.assertEqual({row["kind"] for row in rows}, set(SPACE))
+        self.assertEqual({(row["verdict"], row["exactOnly"], row["tolerance"]) for row in rows}, {("proved", False, 0.005)})
+
+    def test_steps_that_drift_leave_the_space(self):
+        text = POCKET.format("", DOWN_IN_G91)
+        self.assertEqual({row["verdict"] for row in self.space_of(text, "exact")}, {"proved"})
+        for kind, how in (("keep-out", "inside FLOOR"), ("keep-in", "outside WALL")):
+            refuted = [row for row in self.space_of(text) if (row["kind"], row["verdict"]) == (kind, "refuted")]
+            self.assertTrue(refuted, kind)
+            for row in refuted:
+                self.assertEqual(row["tolerance"], 0.001)
+                self.assertGreater(row["witness"]["gouge"]["depth"], 0.001)
+                self.assertIn(how, row["witness"]["happened"])
+                self.assertIn("because the control rounds", row["witness"]["happened"])
+
+    def test_a_gouge_within_the_tolerance_is_none(self):
+        text = "O1\n(@PARAM #1 0..5.)\n(@MODAL G21 G40 G49 G90)\n(@START Z5.)\n(@TOOL FLAT RADIUS 1)\n{}" \
+               "(@KEEPOUT FLOOR BOX Z..-#1)\nG1Z-[#1+.004]F100\nM99\n"
+        for clause, expected in (("", "refuted"), ("(@TOLERANCE 0.003)\n", "refuted"), ("(@TOLERANCE 0.006)\n", "proved")):
+            with self.subTest(clause):
+                self.assertEqual([row["verdict"] for row in self.space_of(text.format(clause))], [expected])
+                self.assertEqual([row["verdict"] for row in self.space_of(text.format(clause), "exact")], ["refuted"])
 
     def test_the_evidence_is_of_exact_proofs(self):
         self.write("O1.nc", WHOLE_COUNTER)

@@ -254,7 +254,7 @@ prove::Verdict readVerdict(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, effort] = obligation;
+  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -265,6 +265,7 @@ void write(Writer &writer, const Obligation &obligation) {
   enumeration(verdict.kind());
   verdict.visit([&](const auto &alternative) { write(writer, alternative); });
   writer.number(effort);
+  writer.optional(tolerance, [&](double value) { writer.real(value); });
 }
 
 Obligation readObligation(Reader &reader) {
@@ -277,6 +278,8 @@ Obligation readObligation(Reader &reader) {
     obligation.alarm = reader.oneOf<AlarmKind>(kAlarmKinds);
   obligation.verdict = readVerdict(reader, place);
   obligation.effort = reader.number();
+  if (reader.isPresent())
+    obligation.tolerance = reader.real();
   return obligation;
 }
 

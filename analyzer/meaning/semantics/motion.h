@@ -2,6 +2,7 @@
 // shifts.
 #pragma once
 
+#include "meaning/semantics/arc_radii.h"
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
 #include "meaning/semantics/offsets.h"
@@ -377,26 +378,12 @@ private:
                ? interpretation_.divide(length, interpretation_.number(2))
                : length;
   }
-  Value distance(const Plane &plane, const Point &point, const Value &first, const Value &second) {
-    const Value a = asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first));
-    const Value b = asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second));
-    return interpretation_.function(
-        FunctionKind::Sqrt, interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b)));
-  }
-  /// By no more than the distances along the axes do (triangle inequality), of which proofs need no roots.
   Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
-    const auto sizeOf = [&](const Value &value) { return interpretation_.function(FunctionKind::Abs, value); };
-    const auto along = [&](Axis axis, const Value &centre) {
-      const auto length = [&](const Point &point) {
-        return sizeOf(asRadius(axis, interpretation_.subtract(point[indexOf(axis)], centre)));
-      };
-      return sizeOf(interpretation_.subtract(length(start), length(state_.position)));
+    const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
+      return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
+              asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
     };
-    const Value atMost = interpretation_.add(along(plane.first, first), along(plane.second, second));
-    const Value difference = sizeOf(interpretation_.subtract(distance(plane, start, first, second),
-                                                             distance(plane, state_.position, first, second)));
-    return interpretation_.both(interpretation_.compare(Relation::Greater, atMost, tolerance()),
-                                interpretation_.compare(Relation::Greater, difference, tolerance()));
+    return lengthsDiffer(interpretation_, spoke(start), spoke(state_.position), tolerance());
   }
   Value tolerance() {
     const Value metric = interpretation_.number(context_.behaviour().arcTolerance);

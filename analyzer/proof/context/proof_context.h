@@ -60,6 +60,8 @@ using Questions = std::vector<Question>;
 struct Denial {
   Obligation row;
   std::function<Violation(const ProofContext &)> violation;
+  /// Of a claim about space: the witness with the place of the gouge; empty: it has none.
+  std::function<Witness(const ProofContext &, Witness)> located = {};
 };
 
 /// Obligations with their verdicts, and the questions of which the answer was not found: `[i]` of `rows`.

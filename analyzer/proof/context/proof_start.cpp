@@ -1,6 +1,7 @@
 #include "proof/context/proof_start.h"
 
 #include "meaning/semantics/mappings.h"
+#include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
 
 #include <algorithm>
@@ -100,7 +101,10 @@ void ProofStart::readContract(const ProofSubject &subject) {
   codes_ = entry_.codes;
   leaveMappingsOpen(subject);
   demands_ = terms_->demands(contract, entry_);
-  space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_);
+  const TermId tolerance = interpretation_.arithmetic() == Arithmetic::Exact
+                               ? store_.number(smt::Number(0))
+                               : interpretation_.literal(toleranceOf(contract, subject.dialect())).number;
+  space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_, tolerance);
 }
 
 /// A mapping whose code is certain is taken to be the program's own; one of the caller ends with what was known of the
@@ -153,10 +157,11 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   if (!contract)
     return options;
   options.keepWrites = !contract->assigns.empty();
-  // Claims about space are proved in exact numbers.
-  options.moves = contract->clearance && isExact ? KeepMoves::WithColumn
-                  : hasSpaceClause(*contract)    ? KeepMoves::Yes
-                                                 : KeepMoves::No;
+  const bool asksOfSpace = hasSpaceClause(*contract) &&
+                           std::ranges::any_of(kSpaceKinds, [&](ObligationKind kind) { return subject.wants(kind); });
+  options.moves = contract->clearance && subject.wants(ObligationKind::Clearance) ? KeepMoves::WithColumn
+                  : asksOfSpace || !contract->limits.empty()                      ? KeepMoves::Yes
+                                                                                  : KeepMoves::No;
   const auto hintsOf = [&subject](const std::vector<LoopHint> &hints, HintTerm termOf) {
     return [&subject, &hints, termOf = std::move(termOf)](Place head, const SymbolicState &state) {
       std::vector<TermId> terms;
@@ -166,12 +171,15 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
       return terms;
     };
   };
-  options.invariants = [this, hints = hintsOf(contract->invariants, [this](ExpressionId hint, const auto &state) {
-                                return terms_->condition(hint, entry_, state);
-                              })](Place head, const SymbolicState &state) {
+  options.invariants = [this, asksOfSpace,
+                        hints = hintsOf(contract->invariants, [this](ExpressionId hint, const auto &state) {
+                          return terms_->condition(hint, entry_, state);
+                        })](Place head, const SymbolicState &state) {
     std::vector<TermId> all = hints(head, state);
-    const std::vector<TermId> inSpace = space_->hints(state);
-    all.insert(all.end(), inSpace.begin(), inSpace.end());
+    if (asksOfSpace) {
+      const std::vector<TermId> inSpace = space_->hints(state);
+      all.insert(all.end(), inSpace.begin(), inSpace.end());
+    }
     return all;
   };
   options.rankingHints = hintsOf(

@@ -36,9 +36,14 @@ public:
   Verdict of(const std::vector<PathGoal> &goals) {
     for (const PathGoal &goal : goals) {
       const Budget left = context_.budget.without(effort_);
-      take(discharge(context_.start.store(), queryOf(context_.start, goal), left));
-      if (witness_ || left.search == 0)
+      if (witness_)
         break;
+      if (effort_ > 0 && left.search == 0) { // the goals that are left are not asked
+        if (!open_)
+          open_ = verdict::Unknown{.reason = "gave up: the budget for this claim is used up"};
+        break;
+      }
+      take(discharge(context_.start.store(), queryOf(context_.start, goal), left));
     }
     if (witness_)
       return *std::move(witness_);

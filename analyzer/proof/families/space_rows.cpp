@@ -57,12 +57,13 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
   if (!rule.name.empty())
     row.id.insert(row.id.rfind('.'), "." + rule.name);
   const SpaceRuns runs(context_, rule, own);
+  row.tolerance = runs.tolerance();
   if (auto decided = decidedBefore(context_, runs.violation()))
     row.verdict = *std::move(decided);
   else
     row.verdict = decide(row, rule, moves, runs);
   if (verdict::Proved *proved = row.verdict.proved()) {
-    if (auto rounded = runs.roundedAway()) {
+    if (auto rounded = subject.options.arithmetic == Arithmetic::Exact ? runs.roundedAway() : std::nullopt) {
       proved->exactOnly = true;
       proved->why = *std::move(rounded);
     }
@@ -117,7 +118,10 @@ std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
     if (call.own == own)
       return Verdict::unknown(fmt::format("{}; the call may move the tool", call.why), own);
   const Query sound = start_.onPath(start_.demands(), rule.isSound);
-  if (!discharge(start_.store(), sound, context_.subject.options.budget).proved())
+  const Outcome soundness = discharge(start_.store(), sound, context_.subject.options.budget);
+  if (const auto *open = std::get_if<Unknown>(&soundness.answer))
+    return Verdict::unknown(open->reason);
+  if (!soundness.proved())
     return Verdict::unknown(
         "some calls make the tool or the region invalid (a negative radius, a range from high to low, a "
         "polygon whose sides cross); exclude them with `@REQUIRE`");
@@ -263,9 +267,12 @@ void settleSpace(const ProofContext &context, SettledRows &into) {
     if (context.subject.wants(rule.kind))
       for (const auto &[own, moves] : groupsOf(context, rule)) {
         into.rows.push_back(prover.row(rule, own, moves));
-        into.denials.push_back({into.rows.back(), [&rule, own = own](const ProofContext &judged) {
-                                  return SpaceRuns(judged, rule, own).violation();
-                                }});
+        into.denials.push_back(
+            {into.rows.back(),
+             [&rule, own = own](const ProofContext &judged) { return SpaceRuns(judged, rule, own).violation(); },
+             [&rule, own = own](const ProofContext &judged, Witness witness) {
+               return SpaceRuns(judged, rule, own).located(std::move(witness));
+             }});
       }
 }
 

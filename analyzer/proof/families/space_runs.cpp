@@ -47,12 +47,24 @@ geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &
 } // namespace
 
 std::optional<GougeAt> SpaceRuns::gougeIn(const RunResult &run, const GivenVariables &given) const {
-  constexpr double kLeastDepth = 1e-6; // less is the rounding of the machine's numbers, not a gouge
   const auto gouge = geometry::deepestGouge(spaceOf(context_, given), plainClaim(rule_.kind), rule_.region, run.moves,
                                             [this](const RecordedMove &move) { return move.own == own_; });
-  if (!gouge || gouge->depth < kLeastDepth)
+  if (!gouge || gouge->depth < leastDepth())
     return std::nullopt;
   return GougeAt{run.moves[gouge->move].place, gouge->at, gouge->depth};
+}
+
+std::optional<double> SpaceRuns::tolerance() const {
+  const ProofSubject &subject = context_.subject;
+  return subject.options.arithmetic == Arithmetic::Exact
+             ? std::nullopt
+             : std::optional(toleranceOf(*subject.contract(), subject.dialect()).toDouble());
+}
+
+/// Less is the rounding of the machine's numbers, or within the tolerance, and no gouge.
+double SpaceRuns::leastDepth() const {
+  constexpr double kRounding = 1e-6;
+  return kRounding + tolerance().value_or(0);
 }
 
 Violation SpaceRuns::violation() const {
@@ -60,6 +72,8 @@ Violation SpaceRuns::violation() const {
     const auto gouge = runs.gougeIn(run, given);
     return gouge ? std::optional(textOf(runs.rule_, *gouge)) : std::nullopt;
   };
+  if (tolerance())
+    return happened;
   return {happened, [runs = *this](const GivenVariables &given) {
             const WitnessSearch &witnesses = runs.context_.witnesses;
             const RunResult run = witnesses.runOf(given, WordRounding::None);

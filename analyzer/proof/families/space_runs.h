@@ -12,7 +12,8 @@ public:
       : context_(context), rule_(rule), own_(own) {}
 
   std::optional<GougeAt> gougeIn(const RunResult &run, const GivenVariables &given) const;
-  /// Proofs take words as they are written: what only their rounding to the least increment makes is no witness.
+  /// Proofs in exact numbers take words as they are written: what only their rounding to the least increment makes is
+  /// no witness against them.
   Violation violation() const;
   /// The same run as the witness of a refuted claim.
   Witness located(Witness witness) const;
@@ -22,7 +23,12 @@ public:
   /// What the rounded words of a sampled run lead to, where that is further than proofs over exact numbers know.
   std::optional<std::string> roundedAway() const;
 
+  /// How far the tool may pass what the claim says; absent: the claim is about exact numbers.
+  std::optional<double> tolerance() const;
+
 private:
+  double leastDepth() const;
+
   const ProofContext &context_;
   const SpaceRule &rule_;
   Place own_;

@@ -23,7 +23,8 @@ struct Obligation {
   std::string claim;                   // what is claimed, in words for the machinist
   std::optional<AlarmKind> alarm = {}; // of NoControlAlarm
   Verdict verdict = {};
-  std::uint64_t effort = 0; // units spent on it, of all kinds together
+  std::uint64_t effort = 0;             // units spent on it, of all kinds together
+  std::optional<double> tolerance = {}; // of a claim about space: how far the tool may pass what it says
 };
 
 /// Of one program, from different stages of its proof.

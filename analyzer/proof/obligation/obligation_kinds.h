@@ -12,4 +12,8 @@ inline constexpr std::array kObligationKinds = {
 #include "proof/obligation/obligation_kinds.def"
 };
 
+/// Claims about where the tool goes.
+inline constexpr std::array kSpaceKinds = {ObligationKind::KeepIn, ObligationKind::KeepOut, ObligationKind::Clearance,
+                                           ObligationKind::Travel};
+
 } // namespace feedhold::prove

@@ -75,4 +75,13 @@ std::vector<Contradiction> judgeRun(const ProofContext &context, const std::vect
                         [&](const Violation &violation) { return context.witnesses.shown(run, violation); });
 }
 
+void refute(const ProofContext &context, const std::vector<Denial> &denials, const WitnessSearch::Sample &run,
+            std::vector<Obligation> &rows) {
+  for (const Denial &denial : denials)
+    for (Obligation &row : rows)
+      if (row.verdict == Verdict::Unknown && isSameClaim(row, denial.row))
+        if (auto witness = context.witnesses.shown(run, denial.violation(context)))
+          row.verdict = denial.located ? denial.located(context, *std::move(witness)) : *std::move(witness);
+}
+
 } // namespace feedhold::prove

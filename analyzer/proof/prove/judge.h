@@ -18,7 +18,11 @@ void refuteByRounding(const ProofContext &context, const std::vector<Denial> &de
 std::vector<Contradiction> judge(const ProofContext &context, const std::vector<Denial> &denials,
                                  std::vector<Obligation> &rows);
 
-/// The same for one more run.
+/// Open claims that the run breaks.
+void refute(const ProofContext &context, const std::vector<Denial> &denials, const WitnessSearch::Sample &run,
+            std::vector<Obligation> &rows);
+
+/// As judge(), for one more run.
 std::vector<Contradiction> judgeRun(const ProofContext &context, const std::vector<Denial> &denials,
                                     const WitnessSearch::Sample &run, std::vector<Obligation> &rows);
 

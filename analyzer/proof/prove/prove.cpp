@@ -2,11 +2,13 @@
 
 #include "proof/families/families.h"
 #include "proof/guards/guard_inference.h"
+#include "proof/obligation/obligation_kinds.h"
 #include "proof/prove/judge.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace feedhold::prove {
 
@@ -18,6 +20,17 @@ struct Stage {
   LoopEnds ends = {};
   SettledRows settled = {};
 };
+
+/// By kind, then by place; names that several have are numbered.
+void putInOrder(std::vector<Obligation> &rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const Obligation &a, const Obligation &b) {
+    return std::pair(a.kind, a.span.begin) < std::pair(b.kind, b.span.begin);
+  });
+  std::map<std::string, int> names;
+  for (Obligation &row : rows)
+    if (const int number = ++names[row.id]; number > 1)
+      row.id += fmt::format(".{}", number);
+}
 
 class Work {
 public:
@@ -50,9 +63,10 @@ public:
     return {std::move(rows), std::move(stage_->found.unmodelled), stage_->found.incomplete, std::move(contradictions)};
   }
 
-  /// One more run is held against the verdicts.
+  /// One more run is held against the verdicts, and refutes what is open.
   void hold(const GivenVariables &given, ProgramProof &proof) {
     const WitnessSearch::Sample run{given, witnesses_->runOf(given)};
+    refute(contextOf(*stage_), stage_->settled.denials, run, proof.obligations);
     std::ranges::move(judgeRun(contextOf(*stage_), stage_->settled.denials, run, proof.obligations),
                       std::back_inserter(proof.contradictions));
   }
@@ -83,8 +97,7 @@ private:
     for (Obligation &row : settled.rows)
       if (row.kind == ObligationKind::AlarmIff)
         requireEnds(context, row);
-    if (subject_.options.arithmetic == Arithmetic::Exact)
-      settleSpace(context, settled);
+    settleSpace(context, settled);
     if (auto guarded = guardedRow(context))
       settled.rows.push_back(*std::move(guarded));
   }
@@ -103,17 +116,6 @@ private:
     none.verdict = verdict::Refuted{
         .shownBy = verdict::Refuted::NoCall{"no call satisfies this contract: its clauses contradict each other"}};
     rows.push_back(std::move(none));
-  }
-
-  /// By kind, then by place; names that several have are numbered.
-  static void putInOrder(std::vector<Obligation> &rows) {
-    std::stable_sort(rows.begin(), rows.end(), [](const Obligation &a, const Obligation &b) {
-      return std::pair(a.kind, a.span.begin) < std::pair(b.kind, b.span.begin);
-    });
-    std::map<std::string, int> names;
-    for (Obligation &row : rows)
-      if (const int number = ++names[row.id]; number > 1)
-        row.id += fmt::format(".{}", number);
   }
 
   /// A contract with an unreadable clause may not say what its author meant.
@@ -200,11 +202,6 @@ void takeFromExact(Obligation &row, const Obligation &exact) {
   }
 }
 
-bool isAboutSpace(ObligationKind kind) {
-  return kind == ObligationKind::KeepIn || kind == ObligationKind::KeepOut || kind == ObligationKind::Clearance ||
-         kind == ObligationKind::Travel;
-}
-
 /// A proof, and what it was made of.
 struct WholeProof {
   std::unique_ptr<Work> work;
@@ -219,34 +216,68 @@ WholeProof proveIn(const ProofSubject &subject) {
   return {std::move(work), std::move(proof)};
 }
 
-/// What holds but for the rounding of the control says so.  Claims about space are proved in exact numbers, and guards
-/// are searched for there.
-void compareWithExact(const ProofSubject &subject, WholeProof &rounded) {
-  ProgramProof &proof = rounded.proof;
-  const bool hasSpace = subject.contract() && hasSpaceClause(*subject.contract());
+using Kinds = std::set<ObligationKind>;
+
+ProveOptions withOnly(ProveOptions options, const Kinds &kinds) {
+  options.only.assign(kinds.begin(), kinds.end());
+  return options;
+}
+
+/// What holds but for the rounding of the control says so.  Guards are searched for in exact numbers.
+void compareWithExact(const ProofSubject &subject, std::vector<WholeProof> &parts) {
   const bool needsGuards = subject.options.guards == InferGuards::Yes;
-  if (!hasSpace && std::none_of(proof.obligations.begin(), proof.obligations.end(), [&](const Obligation &row) {
-        return isOpen(row) || (needsGuards && !row.verdict.holds());
-      }))
+  Kinds kinds;
+  for (const WholeProof &part : parts)
+    for (const Obligation &row : part.proof.obligations)
+      if (isOpen(row) || (needsGuards && !row.verdict.holds()))
+        kinds.insert(row.kind);
+  if (kinds.empty())
     return;
-  ProveOptions options = subject.options;
+  ProveOptions options = withOnly(subject.options, kinds);
   options.arithmetic = Arithmetic::Exact;
   const ProofSubject exact{subject.programs, subject.program, subject.contracts, options};
   ProgramProof inExact = std::move(proveIn(exact).proof);
-  for (const Obligation &row : inExact.obligations)
-    if (const Witness *witness = row.verdict.witness())
-      rounded.work->hold(witness->variables, proof);
-  for (Obligation &row : proof.obligations)
-    for (const Obligation &other : inExact.obligations)
-      if (isSameClaim(row, other))
-        takeFromExact(row, other);
-  for (Obligation &row : inExact.obligations)
-    if (isAboutSpace(row.kind)) {
-      if (verdict::Proved *proved = row.verdict.proved())
-        proved->exactOnly = true;
-      proof.obligations.push_back(std::move(row));
-    }
-  std::ranges::move(inExact.contradictions, std::back_inserter(proof.contradictions));
+  for (WholeProof &part : parts) {
+    std::vector<Obligation> &rows = part.proof.obligations;
+    for (const Obligation &row : inExact.obligations)
+      if (const Witness *witness = row.verdict.witness())
+        part.work->hold(witness->variables, part.proof);
+    for (Obligation &row : rows)
+      for (const Obligation &other : inExact.obligations)
+        if (isSameClaim(row, other))
+          takeFromExact(row, other);
+  }
+  std::ranges::move(inExact.contradictions, std::back_inserter(parts.front().proof.contradictions));
+}
+
+/// Claims about space are proved apart, with the movements of the program: they need much, and take nothing from the
+/// others.
+ProgramProof proveRounded(const ProofSubject &subject) {
+  Kinds space, others;
+  for (const ObligationKind kind : kObligationKinds)
+    if (subject.wants(kind))
+      (std::ranges::find(kSpaceKinds, kind) != kSpaceKinds.end() ? space : others).insert(kind);
+  const ProveOptions ofOthers = withOnly(subject.options, others), ofSpace = withOnly(subject.options, space);
+  const ProofSubject withoutSpace{subject.programs, subject.program, subject.contracts, ofOthers};
+  const ProofSubject inSpace{subject.programs, subject.program, subject.contracts, ofSpace};
+  const bool asksOfSpace = !space.empty() && subject.contract() && hasSpaceClause(*subject.contract());
+  std::vector<WholeProof> parts;
+  if (!others.empty() || !asksOfSpace)
+    parts.push_back(proveIn(others.empty() ? subject : withoutSpace));
+  if (asksOfSpace)
+    parts.push_back(proveIn(inSpace));
+  compareWithExact(subject, parts);
+  ProgramProof &whole = parts.front().proof;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    ProgramProof &part = parts[i].proof;
+    std::ranges::copy_if(part.obligations, std::back_inserter(whole.obligations),
+                         [&](const Obligation &row) { return space.contains(row.kind); });
+    std::ranges::move(part.contradictions, std::back_inserter(whole.contradictions));
+    if (!whole.incomplete)
+      whole.incomplete = std::move(part.incomplete);
+  }
+  putInOrder(whole.obligations);
+  return std::move(whole);
 }
 
 } // namespace
@@ -254,10 +285,7 @@ void compareWithExact(const ProofSubject &subject, WholeProof &rounded) {
 ProgramProof prove(const ProgramSet &programs, Callee program, const FileContracts *contracts,
                    const ProveOptions &options) {
   const ProofSubject subject{programs, program, contracts, options};
-  WholeProof whole = proveIn(subject);
-  if (options.arithmetic != Arithmetic::Exact)
-    compareWithExact(subject, whole);
-  return std::move(whole.proof);
+  return options.arithmetic == Arithmetic::Exact ? std::move(proveIn(subject).proof) : proveRounded(subject);
 }
 
 } // namespace feedhold::prove

@@ -79,11 +79,12 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
 }
 
 bool WitnessSearch::allowed(const GivenVariables &given) const {
-  if (demands_.empty())
-    return true;
   const smt::Model model = modelOf(given);
-  return std::all_of(demands_.begin(), demands_.end(),
-                     [&](smt::TermId demand) { return smt::isTrue(interpretation_.store(), demand, model); });
+  const auto holds = [&](smt::TermId condition) { return smt::isTrue(interpretation_.store(), condition, model); };
+  return std::ranges::all_of(demands_, holds) &&
+         std::ranges::all_of(interpretation_.entryValues(), [&](const auto &entry) {
+           return std::ranges::all_of(interpretation_.typedInput(entry.first, entry.second.number), holds);
+         });
 }
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {

@@ -1,6 +1,6 @@
 #include "proof/space/space_claims.h"
 
-#include "base/support/match.h"
+#include "proof/space/region_margins.h"
 #include "proof/space/region_shapes.h"
 
 #include <algorithm>
@@ -48,30 +48,39 @@ std::vector<FreeSpace> spacesOf(smt::TermStore &store, ObligationKind kind, cons
   return spaces;
 }
 
-/// What is so far from the border, or further; of a polygon only its height becomes less.
-TermShape shrunk(smt::TermStore &store, const TermShape &part, TermId margin) {
-  const auto within = [&](geometry::Interval<TermId> interval) {
-    if (interval.low)
-      interval.low = store.add(*interval.low, margin);
-    if (interval.high)
-      interval.high = store.subtract(*interval.high, margin);
-    return interval;
+/// For a tool whose point is so much higher.
+void raiseTool(smt::TermStore &store, FreeSpace &space, TermId height) {
+  const auto raise = [&store, height](geometry::Formula &formula) {
+    formula = [&store, height, inner = std::move(formula)](const TermPoint &point) {
+      return inner({point[0], point[1], store.add(point[2], height)});
+    };
   };
-  TermShape result = part;
-  match(
-      result,
-      [&](geometry::Box<TermId> &box) {
-        for (geometry::Interval<TermId> &side : box.sides)
-          side = within(side);
-      },
-      [&](geometry::Cylinder<TermId> &cylinder) {
-        cylinder.radius = store.subtract(cylinder.radius, margin);
-        cylinder.along = within(cylinder.along);
-      },
-      [&](geometry::Sphere<TermId> &sphere) { sphere.radius = store.subtract(sphere.radius, margin); },
-      [&](geometry::Prism<TermId> &prism) { prism.height = within(prism.height); },
-      [](geometry::Condition<TermId, TermId> &) {});
-  return result;
+  raise(space.all);
+  for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
+    for (geometry::Formula &formula : *formulas)
+      raise(formula);
+  for (FreeSpace::Beyond &beyond : space.beyond)
+    beyond = [&store, height, inner = std::move(beyond)](const TermPoint &anchor, const TermPoint &point) {
+      return inner({anchor[0], anchor[1], store.add(anchor[2], height)},
+                   {point[0], point[1], store.add(point[2], height)});
+    };
+}
+
+/// A region may be passed by the tolerance.
+std::vector<FreeSpace> spacesWithin(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
+                                    const std::vector<TermShape> &parts, TermId tolerance) {
+  if (kind == ObligationKind::KeepIn) {
+    const TolerantRegion region = keptInWithin(store, tool, parts, tolerance);
+    return spacesOf(store, kind, region.tool, region.parts);
+  }
+  const std::optional<geometry::Tool<TermId>> smaller =
+      tolerance == store.number(smt::Number(0)) ? std::nullopt : eroded(store, tool, tolerance);
+  if (!smaller)
+    return spacesOf(store, kind, tool, parts);
+  std::vector<FreeSpace> spaces = spacesOf(store, kind, *smaller, parts);
+  for (FreeSpace &space : spaces)
+    raiseTool(store, space, tolerance);
+  return spaces;
 }
 
 /// Also of its upper border, to which a larger tool comes no nearer.
@@ -88,18 +97,10 @@ std::vector<FreeSpace> insideWithMargin(smt::TermStore &store, geometry::Tool<Te
 /// By a tool that is larger, whose point lies lower by as much.
 std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::Tool<TermId> &tool,
                                          const std::vector<TermShape> &parts, TermId margin) {
-  const auto lower = [&store, margin](geometry::Formula &formula) {
-    formula = [&store, margin, inner = std::move(formula)](const TermPoint &point) {
-      return inner({point[0], point[1], store.subtract(point[2], margin)});
-    };
-  };
   const geometry::Tool<TermId> larger{store.add(tool.radius, margin), store.add(tool.corner, margin)};
   std::vector<FreeSpace> spaces = spacesOf(store, ObligationKind::KeepOut, larger, parts);
   for (FreeSpace &space : spaces) {
-    lower(space.all);
-    for (std::vector<geometry::Formula> *formulas : {&space.convexParts, &space.bounds})
-      for (geometry::Formula &formula : *formulas)
-        lower(formula);
+    raiseTool(store, space, store.negate(margin));
     space.beyond.clear(); // margins are found without
   }
   return spaces;
@@ -108,8 +109,7 @@ std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::
 } // namespace
 
 bool hasSpaceClause(const Contract &contract) {
-  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel ||
-         !contract.limits.empty();
+  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel;
 }
 
 bool isCutting(MoveKind kind) {
@@ -117,20 +117,21 @@ bool isCutting(MoveKind kind) {
 }
 
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
-                         const SymbolicState &entry)
-    : store_(store), terms_(terms), contract_(contract), entry_(entry) {
+                         const SymbolicState &entry, TermId tolerance)
+    : store_(store), terms_(terms), contract_(contract), entry_(entry), tolerance_(tolerance) {
   addRegions(contract.keepIn, ObligationKind::KeepIn);
   addRegions(contract.keepOut, ObligationKind::KeepOut);
   const auto number = [&](ExpressionId expression) { return terms_.number(expression, entry_, entry_); };
   if (contract.clearance)
     rules_.push_back({.kind = ObligationKind::Clearance,
                       .clause = contract.clearance->clause,
-                      .height = number(contract.clearance->height.value)});
+                      .height = store_.subtract(number(contract.clearance->height.value), tolerance_)});
   if (contract.travel) {
     const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(contract.travel->box);
     rules_.push_back({.kind = ObligationKind::Travel,
                       .clause = contract.travel->clause,
-                      .spaces = {geometry::inside(store_, box)},
+                      .spaces = {geometry::inside(
+                          store_, std::get<geometry::Box<TermId>>(shrunk(store_, box, store_.negate(tolerance_))))},
                       .isSound = geometry::isNotEmpty(store_, TermShape(box))});
   }
 }
@@ -159,7 +160,7 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
     rule.isSound = geometry::isTool(store_, tool);
     for (const TermShape &part : parts)
       rule.isSound = store_.logicalAnd(rule.isSound, geometry::isNotEmpty(store_, part));
-    rule.spaces = spacesOf(store_, kind, tool, parts);
+    rule.spaces = spacesWithin(store_, kind, tool, parts, tolerance_);
     const bool hasDistances = std::none_of(parts.begin(), parts.end(), isCondition);
     if (kind == ObligationKind::KeepOut || hasDistances)
       rule.spacesFor = [this, tool, parts, kind](TermId margin) {
@@ -289,7 +290,8 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   return questions;
 }
 
-/// Not below the height; or straight up, or straight down to where the tool has been.
+/// Not below the height; or straight up, or straight down to where the tool has been, both without tolerance: many
+/// small steps aside or down would add up.
 SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance &instance) const {
   const TermPoint start = inSpace(store_, instance.move.start, instance.point);
   const TermPoint end = inSpace(store_, instance.move.end, instance.point);

@@ -34,7 +34,9 @@ struct SpaceQuestion {
 
 class SpaceClaims {
 public:
-  SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract, const SymbolicState &entry);
+  /// `tolerance`: how far the tool may pass what a clause says.
+  SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract, const SymbolicState &entry,
+              smt::TermId tolerance);
 
   const std::vector<SpaceRule> &rules() const { return rules_; }
   bool concerns(const SpaceRule &rule, const MoveInstance &move) const;
@@ -60,13 +62,14 @@ private:
   ContractTerms &terms_;
   const Contract &contract_;
   const SymbolicState &entry_;
+  smt::TermId tolerance_;
   std::vector<SpaceRule> rules_;
 };
 
 /// A movement that takes material away.
 bool isCutting(MoveKind kind);
 
-/// Whether the contract has a clause on movements.
+/// Whether the contract has a clause on where the tool goes.
 bool hasSpaceClause(const Contract &contract);
 
 } // namespace feedhold::prove

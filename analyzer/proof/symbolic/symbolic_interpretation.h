@@ -120,6 +120,10 @@ public:
   /// What a proof assumes of the number that a variable of the programs holds at the start: that it can be typed.
   /// Whoever calls the program has to show it.  In exact arithmetic nothing is assumed.
   std::vector<smt::TermId> typedInput(std::uint32_t variable, const WrittenInput &written, smt::TermId number);
+  /// With what has been said of the inputs of the program itself.
+  std::vector<smt::TermId> typedInput(std::uint32_t variable, smt::TermId number) {
+    return typedInput(variable, written_[variable], number);
+  }
   /// Begins a step.
   void start();
   bool stopped() const { return stopped_; }

@@ -65,6 +65,7 @@ private:
             {"exactOnly", verdict.exactOnly()},
             {"bound", orNull(verdict.bound())},
             {"margin", verdict.margin() ? Json(*verdict.margin()) : Json()},
+            {"tolerance", obligation.tolerance ? Json(*obligation.tolerance) : Json()},
             {"witness", verdict.witness() ? witnessToJson(obligation, program) : Json()},
             {"guard", verdict.guard() ? guardToJson(obligation) : Json()},
             {"effort", obligation.effort}};

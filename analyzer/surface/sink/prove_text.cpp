@@ -38,6 +38,10 @@ public:
     VerdictCounts counts;
     counts.add(program_.proof);
     text_ = fmt::format("{}: {}: {}\n", file_.file().shown, programName(file_, program_), textOf(counts));
+    const auto inSpace = std::ranges::find_if(program_.proof.obligations,
+                                              [](const Obligation &row) { return row.tolerance.has_value(); });
+    if (inSpace != program_.proof.obligations.end())
+      text_ += fmt::format("  claims about space hold within {}\n", decimalText(*inSpace->tolerance, kMarginDecimals));
     if (program_.proof.incomplete)
       text_ += fmt::format("  not all paths were explored: {}\n", *program_.proof.incomplete);
     text_ += '\n';
@@ -93,6 +97,11 @@ private:
         fmt::format("{}: {}", textOf(witness),
                     happenedIn(*obligation.verdict.witness(), obligation, file_.project->dialect())),
         "replay it: " + witness.run()};
+    if (obligation.tolerance && obligation.verdict.witness()->happened.ends_with(prove::kByRounding))
+      notes.push_back(
+          fmt::format("{} is allowed; move in G90, or round each step to whole increments before the loop, or "
+                      "state what the part allows: `@TOLERANCE 0.05`",
+                      decimalText(*obligation.tolerance, kMarginDecimals)));
     if (obligation.kind == ObligationKind::AlarmUnreachable)
       notes.emplace_back("if the alarm is meant for such calls, declare it in the contract with `@ALARM`");
     if (obligation.verdict.witness()->gouge)
@@ -104,10 +113,15 @@ private:
     const prove::Verdict &verdict = obligation.verdict;
     const std::string_view reason = verdict.reason();
     if (const auto margin = verdict.margin())
-      return fmt::format("{}{}{}",
-                         *margin > 0 ? fmt::format("keeps at least {} away", decimalText(*margin, kMarginDecimals))
-                                     : std::string("margin 0: the tool reaches the boundary of the region"),
-                         reason.empty() ? "" : "; ", reason);
+      return fmt::format(
+          "{}{}{}",
+          *margin > 0
+              ? fmt::format("keeps at least {} away", decimalText(*margin, kMarginDecimals))
+              : std::string(
+                    obligation.tolerance
+                        ? "margin 0: the tool reaches the boundary of the region, or passes it within the tolerance"
+                        : "margin 0: the tool reaches the boundary of the region"),
+          reason.empty() ? "" : "; ", reason);
     if (verdict.bound().empty())
       return std::string(reason);
     return fmt::format("at most `{}` iterations{}{}", verdict.bound(), reason.empty() ? "" : ": ", reason);

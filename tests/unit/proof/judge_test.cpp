@@ -40,6 +40,24 @@ TEST(Judge, AFalseProofIsWithdrawnAndTold) {
     EXPECT_TRUE(row.verdict == Verdict::Unknown) << row.claim;
 }
 
+/// What is left when the budget is used up has not been proved.
+TEST(Settle, AsksAllGoalsOrGivesUp) {
+  Explored program(kProgram);
+  smt::TermStore &store = program.start.store();
+  const smt::TermId x = store.variable("x", smt::Sort::Real), zero = store.number(smt::Number(0));
+  const std::vector<smt::TermId> positive{store.less(zero, x)}, none;
+  const smt::TermId cube = store.multiply(x, store.multiply(x, x));
+  const Obligation row = program.subject.obligation(ObligationKind::Ensures, "a claim");
+  const Question question{.row = row,
+                          .goals = {{&positive, store.less(zero, store.add(cube, x))}, {&none, store.no()}},
+                          .broken = [](const RunResult &, const GivenVariables &) { return std::nullopt; }};
+  for (const std::uint64_t search : {1U, 10U, 100U, 1'000U, 1'000'000U}) {
+    ProofContext context = program.context();
+    context.budget.search = search;
+    EXPECT_FALSE(settle(context, question).verdict.holds()) << search;
+  }
+}
+
 TEST(Verdict, HasItsOwnDataAlone) {
   Verdict verdict = verdict::Proved{.why = "it falls", .bound = "5"};
   EXPECT_EQ(verdict.bound(), "5");
