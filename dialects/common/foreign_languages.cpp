@@ -23,6 +23,7 @@ constexpr std::array kHeidenhainIso = {
 constexpr std::array kErosion = {
     LanguageHint{TextSignal::ErosionCondition, 8},
     LanguageHint{TextSignal::ErosionSwitch, 12},
+    LanguageHint{TextSignal::ErosionValue, 4},
 };
 constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaVariable, 12},   LanguageHint{TextSignal::OkumaControl, 12},
@@ -40,8 +41,14 @@ constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecControl, 12},
     LanguageHint{TextSignal::ColonAssignment, 8},
 };
+/// Neither `%1234` nor `T1.1` alone is enough: Huazhong's controls have the one, and the other may be a mistake.
 constexpr std::array kFagor = {
     LanguageHint{TextSignal::FagorStatement, 8},
+    LanguageHint{TextSignal::FagorNumber, 10},
+    LanguageHint{TextSignal::FagorTool, 2},
+};
+constexpr std::array kLnc = {
+    LanguageHint{TextSignal::LncVariable, 6},
 };
 constexpr std::array kDollar = {
     LanguageHint{TextSignal::DollarControl, 12},
@@ -67,7 +74,7 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"Heidenhain Klartext", "Klartext has a grammar of its own; exclude these files", kKlartext},
     ForeignLanguage{"Heidenhain DIN/ISO", "its codes differ from those of Macro B controls; exclude these files",
                     kHeidenhainIso},
-    ForeignLanguage{"wire erosion (Sodick, Mitsubishi)",
+    ForeignLanguage{"wire erosion (Sodick, Mitsubishi, Accutex)",
                     "erosion machines have codes of their own; exclude these files", kErosion},
     ForeignLanguage{"Sinumerik",
                     "only programs in ISO dialect mode (`G291`) can be read; name the control with `--dialect`",
@@ -77,6 +84,7 @@ constexpr std::array kLanguages = {
                     "only LinuxCNC's RS274NGC is supported; try `--dialect linuxcnc` where the two agree", kPlanet},
     ForeignLanguage{"Syntec MACRO", "only programs in ISO mode (without `%@MACRO`) can be read", kSyntec},
     ForeignLanguage{"Fagor 8055", "statements in parentheses would be read as comments", kFagor},
+    ForeignLanguage{"LNC macro", "variables such as `@100` are not supported", kLnc},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not supported", kDollar},
     ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not supported", kFadal},
     ForeignLanguage{"a macro language with C operators (DDCS, Centroid, Eding)",

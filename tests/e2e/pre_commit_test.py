@@ -1,5 +1,6 @@
 """The real `pre-commit` with this project's hooks: a bad macro blocks the commit, a good one passes."""
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -76,6 +77,17 @@ class Check(Hooked):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("Skipped", result.stdout + result.stderr)
 
+    def test_programs_count_by_their_content(self):
+        for name in ("PART.HOM", "ALL-PROG", "bore.macro"):
+            (self.shop / name).write_text(BAD)
+            result = self.commit(self.shop)
+            self.assertNotEqual(result.returncode, 0, name)
+            self.assertIn("missing-equals", result.stdout + result.stderr)
+            (self.shop / name).write_text("all: programs\n\tcp a b\n")
+            result = self.commit(self.shop)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertIn("Passed", result.stdout + result.stderr)
+
     def test_leader_of_nul_bytes(self):
         (self.shop / "O1001").write_bytes(bytes(200) + BAD.encode())
         result = self.commit(self.shop)
@@ -120,11 +132,28 @@ class Prove(Hooked):
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("O9100.call-meets-contract", result.stdout + result.stderr)
 
+    def test_files_without_a_program_do_not_matter(self):
+        (self.shop / "feedhold.toml").unlink()
+        (self.shop / "Makefile").write_text("all: programs\n\tcp a b\n")
+        result = self.commit(self.shop)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("Passed", result.stdout + result.stderr)
+
     def test_other_files_do_not_matter(self):
         (self.shop / "notes.txt").write_text("Dear all,\nthis is text.\n")
         result = self.commit(self.shop)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("Passed", result.stdout + result.stderr)
+
+
+class Lists(unittest.TestCase):
+    def test_hooks_leave_out_what_the_search_of_a_folder_leaves_out(self):
+        source = (ROOT / "analyzer/language/dialect/text_signals.cpp").read_text()
+        rows = re.search(r"kOtherExtensions\[\] = \{(.*?)\};", source, re.S).group(1)
+        extensions = set(re.findall(r'"(\w+)"', rows))
+        hooks = (ROOT / ".pre-commit-hooks.yaml").read_text()
+        listed = [set(re.findall(r"\w+", names)) for names in re.findall(r"\\\.\(\n(.*?)\)\$", hooks, re.S)]
+        self.assertEqual(listed, [extensions, extensions, extensions - {"contract"}])
 
 
 if __name__ == "__main__":

@@ -171,6 +171,11 @@ std::optional<FoundBy> kindOfFileName(std::string_view name) {
   return namesOtherFormat(name) ? std::nullopt : std::optional(FoundBy::Content);
 }
 
+bool isNamedByChance(const SkippedFile &skipped, const std::vector<std::string> &named) {
+  return kindOfFileName(fs::path(skipped.path).filename().string()) == FoundBy::Content &&
+         std::find(named.begin(), named.end(), skipped.path) != named.end();
+}
+
 std::vector<FoundFile> discoverFolder(const fs::path &folder, ConfigFinder &configs) {
   Walker walker(configs);
   walker.addFolderAlone(folder);

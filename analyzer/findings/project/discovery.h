@@ -40,4 +40,8 @@ std::vector<FoundFile> discoverFolder(const std::filesystem::path &folder, Confi
 /// How a file of this name in a folder is looked at; absent: its extension is one of another format.
 std::optional<FoundBy> kindOfFileName(std::string_view name);
 
+/// Whether a file that was skipped is one of the `named` only because somebody, such as a hook, names all files that
+/// changed: by its name it may be a program or anything else.
+bool isNamedByChance(const SkippedFile &skipped, const std::vector<std::string> &named);
+
 } // namespace feedhold

@@ -1,5 +1,6 @@
 // How lines begin: block skip, program numbers, and the marks of languages that are not Macro B.
 #include "language/dialect/line_scanner.h"
+#include "language/dialect/remarks.h"
 
 namespace feedhold {
 
@@ -43,6 +44,11 @@ void LineScanner::scanHead() {
       stop();
       return;
     }
+    if (isSimulatorDirective(rest())) {
+      hasWord_ = true;
+      stop();
+      return;
+    }
     if (const std::size_t end = rest().rfind(']'); end != std::string_view::npos) {
       const std::string_view after = trimmed(rest().substr(end + 1));
       if (beginsUpper(after, "M99") || beginsUpper(after, "M97"))
@@ -68,6 +74,9 @@ void LineScanner::scanPercent() {
     count(TextSignal::SyntecMarker);
   } else if (isLetter(next) && (equalsUpper(rest(), "WAIT") || rest().find('=') != std::string_view::npos)) {
     count(TextSignal::SenderStatement);
+  } else if (isDigit(next)) {
+    if (takeNumber().digits >= 3 && scan_.codeLines == 0 && scan_.count(TextSignal::FagorNumber) == 0)
+      count(TextSignal::FagorNumber);
   } else if (isLetter(next) && rest().find(",MX") != std::string_view::npos) {
     count(TextSignal::FagorStatement);
     count(TextSignal::FagorStatement);

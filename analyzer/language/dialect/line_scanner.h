@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace feedhold {
@@ -18,6 +19,7 @@ struct Number {
   std::uint32_t whole = 0; // at most nine digits
   std::uint32_t digits = 0;
   bool hasFraction = false;
+  char tenths = '0'; // first digit of the fraction
 };
 
 class LineScanner {
@@ -72,6 +74,7 @@ private:
     }
     if (peek() == '.') {
       number.hasFraction = isDigit(peek(1));
+      number.tenths = number.hasFraction ? peek(1) : '0';
       ++at_;
       while (isDigit(peek()))
         ++at_;
@@ -90,6 +93,7 @@ private:
   void scanLongRun(std::string_view run);
   void scanJammed(std::string_view run);
   bool scanPair(std::string_view run);
+  std::optional<TextSignal> pairSignal(std::string_view run, bool isFirst, bool isJoined) const;
   void scanKeyword(const Keyword &keyword);
   void scanCondition();
   void scanWord(char letter);
@@ -104,6 +108,9 @@ private:
   void scanString();
   void scanMark(char c);
   bool scanErosion(char letter, const Number &number);
+  bool isConditionList() const;
+  void scanAt();
+  void countLatheMarks();
   void countCombinations();
   void sortLine();
 
@@ -138,6 +145,7 @@ private:
   bool hasVariableP_ = false; // `P#100`
   bool hasM82_ = false;
   bool hasM84_ = false;
+  bool hasG64_ = false;
 };
 
 } // namespace feedhold

@@ -27,6 +27,7 @@ void LineScanner::scanToken() {
   case ',':
   case '/':
   case '%': ++at_; return;
+  case '@': scanAt(); return;
   case '*':
     ++at_;
     if (hasCode_ && trimmed(rest()).empty())
@@ -52,21 +53,33 @@ void LineScanner::scanToken() {
 void LineScanner::scanMark(char c) {
   ++at_;
   const char next = peek();
-  if ((c == '=' || c == '!' || c == '>') && next == '=') {
+  const bool isComparison = (c == '=' || c == '!' || c == '>') && next == '=';
+  const bool isJunction = (c == '&' || c == '|') && next == c;
+  const bool isAssignment = c == ':' && next == '=';
+  if (isComparison || isJunction || isAssignment) {
     ++at_;
     if (hasHash_)
-      count(TextSignal::CLikeOperator);
-  } else if ((c == '&' && next == '&') || (c == '|' && next == '|')) {
-    ++at_;
-    if (hasHash_)
-      count(TextSignal::CLikeOperator);
-  } else if (c == ':' && next == '=') {
-    ++at_;
-    if (hasHash_)
-      count(TextSignal::ColonAssignment);
+      count(isAssignment ? TextSignal::ColonAssignment : TextSignal::CLikeOperator);
   } else if (static_cast<unsigned char>(c) >= 0x20 && c != '=') {
     hasUnknown_ = true; // blanks of other kinds and tape leader bytes are nothing
   }
+}
+
+/// `@100 = 25` and `Z@100`: LNC.  Macro B has no `@`.
+void LineScanner::scanAt() {
+  const bool isValue = at_ > 0 && isLetter(line_[at_ - 1]);
+  ++at_;
+  if (!isDigit(peek())) {
+    hasUnknown_ = true;
+    return;
+  }
+  takeNumber();
+  skipBlanks();
+  hasWord_ = true;
+  if (isValue || (peek() == '=' && peek(1) != '='))
+    count(TextSignal::LncVariable);
+  else
+    hasUnknown_ = true;
 }
 
 void LineScanner::scanLetters() {
@@ -87,6 +100,12 @@ void LineScanner::scanLongRun(std::string_view run) {
   }
   if (scanPair(run))
     return;
+  if ((equalsUpper(run, "XH") || equalsUpper(run, "YH")) && isDigit(peek())) {
+    count(TextSignal::ErosionValue);
+    hasWord_ = true;
+    takeNumber();
+    return;
+  }
   if (equalsUpper(run, "DPRNT") || equalsUpper(run, "BPRNT")) {
     hasWord_ = true;
     stop(); // everything up to the bracket is text
@@ -120,8 +139,6 @@ void LineScanner::scanJammed(std::string_view run) {
 
 /// Words that mean something only together with what follows.
 bool LineScanner::scanPair(std::string_view run) {
-  static constexpr std::string_view kTypes[] = {"REAL", "INT", "BOOL", "STRING", "CHAR", "AXIS", "FRAME"};
-  static constexpr std::string_view kCoordinates[] = {"AC", "IC", "DC", "ACP", "ACN"};
   static constexpr std::string_view kFrames[] = {"BEGIN PGM", "END PGM",  "BLK FORM",
                                                  "TOOL CALL", "TOOL DEF", "CALL PGM"};
   const std::size_t start = static_cast<std::size_t>(run.data() - line_.data());
@@ -134,32 +151,8 @@ bool LineScanner::scanPair(std::string_view run) {
   }
   const std::size_t after = at_;
   skipBlanks();
-  const std::string_view next = peekRun();
-  std::optional<TextSignal> signal;
-  if (equalsUpper(run, "DEF") && isOneOf(next, kTypes))
-    signal = TextSignal::SinumerikDefinition;
-  else if ((run == "PROC" || run == "EXTERN") && start == 0 && next.size() > 2)
-    signal = TextSignal::SinumerikDefinition;
-  else if (equalsUpper(run, "MSG") && peek() == '(' && peek(1) == '"')
-    signal = TextSignal::SinumerikWord;
-  else if (isOneOf(run, kCoordinates) && peek() == '(')
-    signal = TextSignal::SinumerikWord;
-  else if (equalsUpper(run, "CALL") && next.size() > 1 && toUpper(next[0]) == 'O')
-    signal = TextSignal::OkumaControl;
-  else if (equalsUpper(run, "CALL") && equalsUpper(next, "LBL"))
-    signal = TextSignal::KlartextLabel;
-  else if (equalsUpper(run, "FN") && isDigit(peek()))
-    signal = TextSignal::KlartextLabel;
-  else if (equalsUpper(run, "SUB") && start == 0 && next.size() > 1)
-    signal = TextSignal::EdingStatement;
-  else if (equalsUpper(run, "VC") && isDigit(peek()))
-    signal = TextSignal::OkumaVariable;
-  else if (run.size() >= 4 && toUpper(run[0]) == 'V' && peek() == '[')
-    signal = TextSignal::OkumaVariable;
-  else if (run.size() >= 2 && toUpper(run[0]) == 'N' && start == 0 && isDigit(line_[after < line_.size() ? after : 0]))
-    signal = TextSignal::OkumaLabel;
-  else if ((equalsUpper(run, "QL") || equalsUpper(run, "QR") || equalsUpper(run, "QS")) && isDigit(peek()))
-    signal = TextSignal::KlartextParameter;
+  const std::optional<TextSignal> signal =
+      pairSignal(run, start == 0, isDigit(after < line_.size() ? line_[after] : 0));
   if (!signal) {
     at_ = after;
     return false;
@@ -167,6 +160,35 @@ bool LineScanner::scanPair(std::string_view run) {
   count(*signal);
   stop();
   return true;
+}
+
+/// `run` is in front of at_, where blanks have been skipped; `isJoined`: a digit directly follows it.
+std::optional<TextSignal> LineScanner::pairSignal(std::string_view run, bool isFirst, bool isJoined) const {
+  static constexpr std::string_view kTypes[] = {"REAL", "INT", "BOOL", "STRING", "CHAR", "AXIS", "FRAME"};
+  static constexpr std::string_view kCoordinates[] = {"AC", "IC", "DC", "ACP", "ACN"};
+  static constexpr std::string_view kTextParameters[] = {"QL", "QR", "QS"};
+  const std::string_view next = peekRun();
+  const bool isDefinition = equalsUpper(run, "DEF") && isOneOf(next, kTypes);
+  if (isDefinition || ((run == "PROC" || run == "EXTERN") && isFirst && next.size() > 2))
+    return TextSignal::SinumerikDefinition;
+  const bool isMessage = equalsUpper(run, "MSG") && peek() == '(' && peek(1) == '"';
+  if (isMessage || (isOneOf(run, kCoordinates) && peek() == '('))
+    return TextSignal::SinumerikWord;
+  const bool isCall = equalsUpper(run, "CALL");
+  if (isCall && next.size() > 1 && toUpper(next[0]) == 'O')
+    return TextSignal::OkumaControl;
+  if ((isCall && equalsUpper(next, "LBL")) || (equalsUpper(run, "FN") && isDigit(peek())))
+    return TextSignal::KlartextLabel;
+  if (equalsUpper(run, "SUB") && isFirst && next.size() > 1)
+    return TextSignal::EdingStatement;
+  const bool isSystemVariable = run.size() >= 4 && toUpper(run[0]) == 'V' && peek() == '[';
+  if (isSystemVariable || (equalsUpper(run, "VC") && isDigit(peek())))
+    return TextSignal::OkumaVariable;
+  if (run.size() >= 2 && toUpper(run[0]) == 'N' && isFirst && isJoined)
+    return TextSignal::OkumaLabel;
+  if (isOneOf(run, kTextParameters) && isDigit(peek()))
+    return TextSignal::KlartextParameter;
+  return std::nullopt;
 }
 
 void LineScanner::scanKeyword(const Keyword &keyword) {
@@ -262,27 +284,48 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
   case 'T':
     if (number.digits == 4)
       count(TextSignal::TurretTool);
+    else if (number.hasFraction && !hasG65_)
+      count(TextSignal::FagorTool);
     return;
   default: return;
   }
 }
 
-/// Tables of wire erosion: `C001 = 0003 0015 ..` and `H001 = +000.150`; other controls assign to no address.
+/// Tables of wire erosion: `C001 = 0003 0015 ..`, `E001=10 17 ..`, `H001 = +000.150`; other controls assign to no
+/// address.
 bool LineScanner::scanErosion(char letter, const Number &number) {
-  if ((letter != 'C' && letter != 'H') || number.digits != 3)
+  if (letter != 'E' && ((letter != 'C' && letter != 'H') || number.digits != 3))
     return false;
   ++at_;
   skipBlanks();
-  if (!isDigit(peek()) && peek() != '+' && peek() != '-')
+  if (letter == 'E' ? !isConditionList() : !isDigit(peek()) && peek() != '+' && peek() != '-')
     return false;
   count(TextSignal::ErosionCondition);
   stop();
   return true;
 }
 
+/// Three numbers and more with blanks between them: a row of a table of conditions.
+bool LineScanner::isConditionList() const {
+  std::size_t numbers = 0;
+  std::size_t i = at_;
+  while (i < line_.size() && isDigit(line_[i])) {
+    ++numbers;
+    while (i < line_.size() && (isDigit(line_[i]) || line_[i] == '.'))
+      ++i;
+    while (i < line_.size() && isBlank(line_[i]))
+      ++i;
+  }
+  return numbers >= 3;
+}
+
 void LineScanner::scanGCode(const Number &number) {
-  if (number.hasFraction)
+  if (number.hasFraction) { // synchronized spindle and probing codes of RS274NGC
+    if ((number.whole == 33 && number.tenths == '1') ||
+        (number.whole == 38 && number.tenths >= '2' && number.tenths <= '5'))
+      count(TextSignal::NgcCode);
     return;
+  }
   switch (number.whole) {
   case 15: hasG15_ = true; return;
   case 28:
@@ -291,6 +334,7 @@ void LineScanner::scanGCode(const Number &number) {
   case 92: hasHome_ = true; return;
   case 43: count(TextSignal::LengthOffset); return;
   case 50: hasG50_ = true; return;
+  case 64: hasG64_ = true; return;
   case 65: hasG65_ = true; return;
   case 70:
   case 71:
@@ -439,8 +483,14 @@ void LineScanner::countCombinations() {
     count(TextSignal::SurfaceSpeed);
   if (hasTurningCycle_ && !hasLetter('Y') && ((hasLetter('P') && hasLetter('Q')) || hasLetter('U')))
     count(TextSignal::TurningCycle);
-  if (hasG65_)
-    return; // its letters are arguments
+  if (hasG64_ && hasNumber('P'))
+    count(TextSignal::NgcCode);
+  if (!hasG65_) // whose letters are arguments
+    countLatheMarks();
+}
+
+/// What a block says about the kind of machine: axes, and the codes with which they move.
+void LineScanner::countLatheMarks() {
   if (hasG91_ || (hasG90_ && (codes_ > 1 || !(hasLetter('X') || hasLetter('Z') || hasLetter('U') || hasLetter('W')))))
     count(TextSignal::DistanceMode);
   if ((hasLetter('U') || hasLetter('W')) && !hasLetter('Y'))

@@ -4,6 +4,7 @@
 #include "language/dialect/comment_signals.h"
 #include "language/dialect/line_signals.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace feedhold {
@@ -23,6 +24,16 @@ std::string_view behindSemicolon(std::string_view line) {
 }
 
 } // namespace
+
+bool isSimulatorDirective(std::string_view line) {
+  constexpr std::string_view kNames[] = {"BILLET", "TOOLDEF", "EDGEMOVE", "CLEAR", "STEP"};
+  if (!line.starts_with('['))
+    return false;
+  const std::string_view body = trimmed(line.substr(1));
+  return std::any_of(std::begin(kNames), std::end(kNames), [body](std::string_view name) {
+    return beginsUpper(body, name) && (body.size() == name.size() || !isLetter(body[name.size()]));
+  });
+}
 
 bool hasSemicolonRemarks(std::string_view text) {
   TextScan behind;

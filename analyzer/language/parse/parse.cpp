@@ -2,6 +2,7 @@
 #include "language/parse/parse.h"
 
 #include "base/support/text.h"
+#include "language/dialect/remarks.h"
 #include "language/parse/parser.h"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ SyntaxTree Parser::run() {
   readLeader();
   token_ = lexer_.next();
   while (!at(TokenKind::EndOfFile))
-    if (!readDumpLine())
+    if (!readDumpLine() && !readDirective())
       readBlock();
   openBlock(static_cast<std::uint32_t>(text_.size())); // the end mark
   tree_.blocks.add(block_);
@@ -153,6 +154,15 @@ bool Parser::readDumpLine() {
     tape_ = Tape::Open;
   readRawLine(token_.begin, isFolder ? Block::kLeader | Block::kFolder : Block::kBroken | Block::kEncrypted);
   contentSinceMark_ = true;
+  token_ = lexer_.next();
+  return true;
+}
+
+bool Parser::readDirective() {
+  if (!at(TokenKind::OpenBracket) ||
+      !isSimulatorDirective(text_.substr(token_.begin, lexer_.lineEnd(token_.begin) - token_.begin)))
+    return false;
+  readRawLine(token_.begin, Block::kLeader);
   token_ = lexer_.next();
   return true;
 }

@@ -40,6 +40,7 @@ private:
   void readRawLine(std::uint32_t begin, int flags);
   void readTapeMark();
   bool readDumpLine();
+  bool readDirective();
   bool beginsNextProgram() const;
 
   // blocks.cpp

@@ -148,10 +148,9 @@ private:
   }
 
   void expression(ExpressionId id, int depth) {
-    const Expression &expression_ = tree_.expressions[id];
+    const Expression &shown = tree_.expressions[id];
     match(
-        expression_.node,
-        [&](const NumberLiteral &node) { line(depth, fmt::format("number {}", node.value.toString())); },
+        shown.node, [&](const NumberLiteral &node) { line(depth, fmt::format("number {}", node.value.toString())); },
         [&](const NumberedVariable &node) { line(depth, fmt::format("variable #{}", node.number.toString())); },
         [&](const IndirectVariable &node) {
           line(depth, "indirect-variable");
@@ -180,7 +179,7 @@ private:
           for (const ExpressionId argument : node.arguments())
             expression(argument, depth + 1);
         },
-        [&](const BrokenExpression &) { line(depth, fmt::format("broken `{}`", text(expression_.span))); });
+        [&](const BrokenExpression &) { line(depth, fmt::format("broken `{}`", text(shown.span))); });
   }
 
   const SyntaxTree &tree_;

@@ -130,20 +130,13 @@ int exitCodeOf(const CheckResult &result, const CheckArguments &arguments) {
   return anyFails(result) && !arguments.exitZero ? kExitFindings : kExitClean;
 }
 
-/// A hook names every changed file that may be a program by its extension: `.h` and `.txt` files that are none are no
-/// mistake in its call.
-bool isNamedByChance(const SkippedFile &skipped, const CheckArguments &arguments) {
-  const std::filesystem::path path(skipped.path);
-  return kindOfFileName(path.filename().string()) == FoundBy::Content &&
-         std::find(arguments.paths.begin(), arguments.paths.end(), skipped.path) != arguments.paths.end();
-}
-
 /// Being asked to check something and checking nothing is a mistake in the call, not a clean program.
 void complainIfNothingWasChecked(CheckResult &result, const CheckArguments &arguments) {
   if (!result.files.empty() || !result.errors.empty())
     return;
-  const auto mistake = std::find_if(result.skipped.begin(), result.skipped.end(),
-                                    [&](const SkippedFile &skipped) { return !isNamedByChance(skipped, arguments); });
+  const auto mistake = std::find_if(result.skipped.begin(), result.skipped.end(), [&](const SkippedFile &skipped) {
+    return !isNamedByChance(skipped, arguments.paths);
+  });
   if (mistake != result.skipped.end())
     result.errors.push_back({mistake->path, "nothing to check: " + mistake->reason});
 }

@@ -1,5 +1,6 @@
 // `feedhold prove [PATHS]`: verdicts on the obligations of programs, for every input that their contracts allow.
 #include "dialects/registry.h"
+#include "findings/project/discovery.h"
 #include "rules/registry.h"
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/bundle_folder.h"
@@ -129,9 +130,14 @@ int exitCodeOf(const ProofsResult &result) {
 }
 
 /// Being asked to prove something and finding no program is a mistake in the call.
-void complainIfNothingWasProved(ProofsResult &result) {
-  if (result.files.empty() && result.errors.empty() && !result.skipped.empty())
-    result.errors.push_back({result.skipped.front().path, "nothing to prove: " + result.skipped.front().reason});
+void complainIfNothingWasProved(ProofsResult &result, const ProveArguments &arguments) {
+  if (!result.files.empty() || !result.errors.empty())
+    return;
+  const auto mistake = std::find_if(result.skipped.begin(), result.skipped.end(), [&](const SkippedFile &skipped) {
+    return !isNamedByChance(skipped, arguments.paths);
+  });
+  if (mistake != result.skipped.end())
+    result.errors.push_back({mistake->path, "nothing to prove: " + mistake->reason});
 }
 
 std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
@@ -201,7 +207,7 @@ int runProve(const ProveArguments &arguments) {
   }
   ProofsResult result = proveAll(options, {allDialects(), allRules()});
   addErrors(result, narrowed.value());
-  complainIfNothingWasProved(result);
+  complainIfNothingWasProved(result, arguments);
   if (!arguments.certificate.empty())
     if (const auto error = writeBundle(arguments.certificate, makeBundle(result, bundleReading(arguments),
                                                                          FEEDHOLD_VERSION, arguments.certificate)))

@@ -1,5 +1,7 @@
 #include "surface/sink/sarif_parts.h"
 
+#include "surface/sink/json_parts.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::sarif {

@@ -118,7 +118,30 @@ TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
             "Heidenhain DIN/ISO");
   EXPECT_EQ(guessed("%PART,MX--,\nN10 G90 G54\nN20 (P1=5)\nN30 (RPT N1,N9)\nM30\n"), "Fagor 8055");
   EXPECT_EQ(guessed("C000 = 0003 0015 2015\nC001 = 0010 0015 2010\nH000 = +000000.0100\nG90 G92 X0 Y0\nM02\n"),
-            "wire erosion (Sodick, Mitsubishi)");
+            "wire erosion (Sodick, Mitsubishi, Accutex)");
+  EXPECT_EQ(
+      guessed("E001=10 12 14 10 05 15 45;CUT1\nE002=09 20 04 07 03\nH1=0.2\nG90 G92 X0 Y0\nG1 G42 H1 X5. A0\nM02\n"),
+      "wire erosion (Sodick, Mitsubishi, Accutex)");
+  EXPECT_EQ(guessed("H20=2.5\nG92 X0 Y0\nG1 XH20 YH21\nG1 XH22 Y0\nM02\n"),
+            "wire erosion (Sodick, Mitsubishi, Accutex)");
+  EXPECT_EQ(guessed("; bore\n@100 = 25 ; size\nG43 H1 Z@820\nM10814 D@880\nM30\n"), "LNC macro");
+  EXPECT_EQ(guessed("%00210\nN0 T1.1\nN10 M6\nN20 G0 G43 Z10\nN30 M30\n"), "Fagor 8055");
+}
+
+TEST(Guess, OneMarkOfAnotherLanguageIsNotEnough) {
+  EXPECT_EQ(guessed("%1234\nT0101\nG90 G54 G0 X0 Y0\nM30\n%1235\nG0 X1\nM99\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\nT1.1 M6\nT2.1 M6\nT3.1 M6\nG43 H1 Z5.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\nG43 H1 XH2\nG0 Z@5\nE1=5\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, LinuxCncWithoutOWords) {
+  EXPECT_EQ(guessed("G21 G90\nG64 P0.01\nG0 X0 Y0\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("G0 X0 Y0\nG38.2 Z-10 F50\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("O1\nG05.1 Q1\nG54.1 P3\nG64\nG0 X0 Y0\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, DirectivesOfSimulatorsSayNothing) {
+  EXPECT_EQ(guessed("O1\n[BILLET X40 Y40 Z20\n[TOOLDEF T1 D6\nG54 G0 X0 Y0\nM30\n"), "fanuc-30i");
 }
 
 TEST(Guess, FolderDecidesWhereATextFitsSeveralControls) {
