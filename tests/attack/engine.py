@@ -82,7 +82,8 @@ class Engine:
 
     def messages(self, folder: Path, dialect: str) -> dict:
         """By the folder of each file, what `check` says: rule, message, name of the file, line."""
-        done = self.call("check", "--isolated", "--format", "json", "--dialect", dialect, str(folder))
+        done = self.call("check", "--severity", "info", "--isolated", "--format", "json", "--dialect", dialect,
+                         str(folder))
         found: dict[str, list] = {}
         for each in json.loads(done.stdout)["findings"]:
             path = Path(each["path"])

@@ -77,7 +77,7 @@ class EditorSession:
     @classmethod
     def findings_of_check(cls):
         """What the command line says of the file in its folder, as (line, marked text, rule, severity)."""
-        told = subprocess.run([FEEDHOLD, "check", "--format", "json", "."], cwd=cls.folder, capture_output=True)
+        told = subprocess.run([FEEDHOLD, "check", "--severity", "info", "--format", "json", "."], cwd=cls.folder, capture_output=True)
         lines = CALLER.splitlines()
         return sorted((it["line"], lines[it["line"] - 1][it["column"] - 1:it["endColumn"] - 1], it["rule"],
                        SEVERITIES[it["severity"]])

@@ -111,6 +111,7 @@ CheckOptions optionsFor(const Input &input) {
   options.select = input.rules;
   options.config.source = input.config ? ConfigSource::Nearest : ConfigSource::None;
   options.jobs = 1;
+  options.minSeverity = Severity::Info;
   return options;
 }
 

@@ -17,7 +17,7 @@ READER = "%\nO9000\n#500=#1\nM99\n%\n"
 
 def check(path):
     """Findings of a file or a folder by path, as rows."""
-    result = subprocess.run([FEEDHOLD, "check", "--format", "json", str(path)], capture_output=True)
+    result = subprocess.run([FEEDHOLD, "check", "--severity", "info", "--format", "json", str(path)], capture_output=True)
     found = {}
     for finding in json.loads(result.stdout)["findings"]:
         if not finding.get("suppressed"):

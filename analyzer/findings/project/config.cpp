@@ -71,9 +71,9 @@ public:
 
 private:
   void readRoot(const toml::table &root) {
-    static constexpr std::array<std::string_view, 11> kKeys = {"dialect",  "increment-system", "select",  "ignore",
-                                                               "error-on", "include",          "exclude", "files",
-                                                               "switches", "code-calls",       "severity"};
+    static constexpr std::array<std::string_view, 12> kKeys = {
+        "dialect", "increment-system", "select", "ignore",   "min-severity", "error-on",
+        "include", "exclude",          "files",  "switches", "code-calls",   "severity"};
     Config &config = result_.config;
     for (const auto &[key, node] : root) {
       if (key == "dialect")
@@ -86,6 +86,8 @@ private:
         config.ignore = ruleNames(node);
       else if (key == "error-on")
         config.errorOn = severity(node);
+      else if (key == "min-severity")
+        config.minSeverity = severity(node);
       else if (key == "include")
         config.include = strings(node);
       else if (key == "exclude")

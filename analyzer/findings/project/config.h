@@ -38,6 +38,7 @@ struct Config {
   std::vector<std::string> select = {}; // names of rules or categories; empty: all rules
   std::vector<std::string> ignore = {};
   std::optional<Severity> errorOn = std::nullopt;
+  std::optional<Severity> minSeverity = std::nullopt;
   std::vector<std::string> include = {}; // further files to take from a folder
   std::vector<std::string> exclude = {};
   std::vector<FilePattern> files = {};

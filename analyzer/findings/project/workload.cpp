@@ -128,7 +128,14 @@ private:
     if (options_.depth == CheckOptions::Depth::WithoutFlow)
       std::erase_if(profile.rules, [](const Rule *rule) { return rule->hooks.asksFlow(); });
     profile.errorOn = options_.errorOn.value_or(config.errorOn.value_or(Severity::Warning));
+    profile.minSeverity = std::min(profile.errorOn, minSeverity(config));
     return profile;
+  }
+
+  /// A person who names rules wants to see what they find.
+  Severity minSeverity(const Config &config) const {
+    const Severity unset = options_.select.empty() ? config.minSeverity.value_or(Severity::Warning) : Severity::Info;
+    return options_.minSeverity.value_or(unset);
   }
 
   static void apply(const std::vector<SwitchSetting> &settings, std::optional<IncrementSystem> increments,

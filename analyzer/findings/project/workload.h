@@ -29,6 +29,7 @@ struct CheckOptions {
   std::vector<std::string> select = {}; // names that exist
   std::vector<std::string> ignore = {};
   std::optional<Severity> errorOn = std::nullopt;
+  std::optional<Severity> minSeverity = std::nullopt;
   ConfigOptions config = {};
   unsigned jobs = 0;                          // 0: one per processor
   std::shared_ptr<const OpenTexts> open = {}; // of editors; null: none
@@ -46,6 +47,7 @@ struct Profile {
   std::vector<const Rule *> rules;
   std::vector<SeveritySetting> severities;
   Severity errorOn = Severity::Warning;
+  Severity minSeverity = Severity::Warning; // of the findings that are shown; not above errorOn
 };
 
 struct WorkItem {

@@ -22,7 +22,8 @@ namespace feedhold {
 namespace {
 
 CheckedFile headOf(const WorkItem &item) {
-  return {item.shown, item.source, item.profile->dialect.id, item.choice, item.reasons, item.profile->errorOn, {}};
+  return {item.shown,   item.source,           item.profile->dialect.id,  item.choice,
+          item.reasons, item.profile->errorOn, item.profile->minSeverity, {}};
 }
 
 Severity severityOf(const RawFinding &finding, const Profile &profile) {
@@ -94,6 +95,7 @@ std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext 
 /// What rules say of one file and of those beside it.
 struct Analysed {
   std::vector<Finding> findings;
+  std::vector<ProgramHead> programs;
   std::vector<CheckedFile> sidecars;
 };
 
@@ -103,6 +105,8 @@ Analysed analyseOne(const WorkItem &item, const FileContext &context, const Rule
       applySuppressions(runRules(item.profile->rules, context), context, rules, item.profile->rules);
   const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
   result.findings = findingsOf(std::move(raw), context, *item.profile);
+  for (const Program &program : context.model.programs)
+    result.programs.push_back({toString(program.name), program.header});
   for (std::size_t i = 1; i < context.contracts[context.file.index()]->sources.size(); ++i)
     if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(i), ofSidecars))
       result.sidecars.push_back(std::move(*file));
@@ -207,6 +211,7 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   for (std::size_t i = 0; i < items.size(); ++i) {
     files.push_back(headOf(items[i]));
     files.back().findings = std::move(analysed[i].findings);
+    files.back().programs = std::move(analysed[i].programs);
     files.back().foreign = items[i].foreign == nullptr ? std::string_view() : items[i].foreign->name;
     files.back().isOnlyCalled = isOnlyCalled(items[i], options);
     for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)

@@ -32,7 +32,7 @@ std::size_t errorCount(const CheckedFile &file) {
 std::vector<FixIt> wantedFixes(const CheckedFile &file, FixKind kind) {
   std::vector<FixIt> wanted;
   for (const Finding &finding : file.findings) {
-    if (finding.suppressed)
+    if (finding.suppressed || !isReported(finding, file))
       continue;
     const std::vector<FixIt> &fixes = finding.diagnostic.fixes;
     const auto first = std::find_if(fixes.begin(), fixes.end(), [&](const FixIt &candidate) {

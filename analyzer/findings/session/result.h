@@ -21,6 +21,12 @@ struct Finding {
   std::string allowedIn = {}; // the file beside the program that suppresses it; empty: a comment of the program
 };
 
+/// Where a program of a file begins.
+struct ProgramHead {
+  std::string name; // `O1000`; empty: none is written
+  Span header;
+};
+
 struct CheckedFile {
   std::string path; // as named, `/` as separator; the index in CheckResult::files is the FileId of labels
   SourceFile source;
@@ -28,9 +34,11 @@ struct CheckedFile {
   DialectChoice choice;
   std::vector<std::string_view> reasons;  // of a guess
   Severity errorOn;                       // findings from here on fail the run
+  Severity minSeverity;                   // findings from here on are shown
   std::vector<Finding> findings;          // by place, then by rule
   bool isOnlyCalled = false;              // no rules ran over it: it is there for the others
   std::string_view foreign = {};          // the language, of a file that is refused for it
+  std::vector<ProgramHead> programs = {}; // in order of the text
   std::vector<std::string> sidecars = {}; // paths of the files beside it that were read with it
 };
 
@@ -40,6 +48,8 @@ struct CheckResult {
   std::vector<PathProblem> errors;
 };
 
+/// Severe enough to be shown, and to be repaired.
+bool isReported(const Finding &finding, const CheckedFile &file);
 /// Not suppressed and severe enough to fail the run.
 bool fails(const Finding &finding, const CheckedFile &file);
 bool anyFails(const CheckResult &result);

@@ -7,6 +7,8 @@
 
 namespace feedhold {
 
+bool isReported(const Finding &finding, const CheckedFile &file) { return finding.severity >= file.minSeverity; }
+
 bool fails(const Finding &finding, const CheckedFile &file) {
   return !finding.suppressed && finding.severity >= file.errorOn;
 }

@@ -34,6 +34,7 @@ struct CheckArguments {
   std::vector<std::string> select;
   std::vector<std::string> ignore;
   std::string errorOn;
+  std::string minSeverity;
   ConfigArguments config;
   std::string stdinFilename = "<stdin>";
   std::string color = "auto";
@@ -65,6 +66,10 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--error-on", arguments.errorOn, "lowest severity that gives exit code 1 (default: warning)")
+      ->type_name("SEVERITY")
+      ->check(CLI::IsMember({"error", "warning", "info"}));
+  app.add_option("--severity", arguments.minSeverity,
+                 "lowest severity that is reported (default: warning; with --select: info)")
       ->type_name("SEVERITY")
       ->check(CLI::IsMember({"error", "warning", "info"}));
   addConfiguration(app, arguments.config);
@@ -119,6 +124,7 @@ CheckOptions toOptions(const CheckArguments &arguments) {
   options.select = arguments.select;
   options.ignore = arguments.ignore;
   options.errorOn = severityFromName(arguments.errorOn);
+  options.minSeverity = severityFromName(arguments.minSeverity);
   options.config = configFrom(arguments.config);
   options.jobs = arguments.jobs;
   return options;

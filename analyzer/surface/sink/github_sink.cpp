@@ -1,4 +1,5 @@
 // Workflow commands of GitHub Actions: each finding becomes an annotation of the pull request.
+#include "surface/sink/causes.h"
 #include "surface/sink/shown.h"
 
 #include <fmt/format.h>
@@ -34,13 +35,17 @@ std::string_view commandFor(Severity severity) {
 
 std::string writeGithub(const Report &report) {
   std::string text;
-  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+  for (const Cause &cause : causesOf(report)) { // a step may show ten annotations of a severity
+    const CheckedFile &file = *cause.places.front().file;
+    const Finding &finding = *cause.places.front().finding;
+    const std::string others = otherPlaces(cause);
     const TextRegion region = regionOf(file.source, finding.diagnostic.span);
     text += fmt::format("::{} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
                         finding.suppressed ? "notice" : commandFor(finding.severity), asProperty(file.path),
                         region.begin.line, region.end.line, region.begin.column, region.end.column,
-                        asProperty(finding.rule->name), asMessage(messageWithNotes(finding.diagnostic)));
-  });
+                        asProperty(finding.rule->name),
+                        asMessage(messageWithNotes(finding.diagnostic) + (others.empty() ? "" : "\n" + others)));
+  }
   for (const PathProblem &problem : report.result.errors)
     text += fmt::format("::error file={}::{}\n", asProperty(problem.path), asMessage(problem.message));
   return text;

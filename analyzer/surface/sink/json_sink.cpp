@@ -58,13 +58,16 @@ std::string writeJson(const Report &report) {
   forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
     document["findings"].push_back(findingToJson(finding, file, report));
   });
+  std::size_t hidden = 0;
   for (const CheckedFile &file : report.result.files) {
+    hidden += hiddenIn(file);
     if (isReadProgram(file))
       document["files"].push_back(readFileToJson(file));
     else if (!file.foreign.empty())
       document["skipped"].push_back(
           {{"path", file.path}, {"reason", file.foreign}, {"kind", nameOf(SkipKind::Refused)}});
   }
+  document["hidden"] = hidden;
   for (const SkippedFile &skipped : report.result.skipped)
     document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}, {"kind", nameOf(skipped.kind)}});
   for (const PathProblem &problem : report.result.errors)

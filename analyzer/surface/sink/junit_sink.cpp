@@ -35,7 +35,7 @@ std::string suiteOf(const CheckedFile &file, const Report &report) {
   std::size_t tests = 0;
   std::size_t failures = 0;
   for (const Finding &finding : file.findings) {
-    if (!isShown(finding, report))
+    if (!isShown(finding, file, report))
       continue;
     cases += failureOf(file, finding);
     ++tests;

@@ -1,10 +1,10 @@
 // The last lines of a run: counts and what to do next.
+#include "surface/sink/counts.h"
 #include "surface/sink/shown.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace feedhold {
@@ -13,35 +13,36 @@ namespace {
 
 constexpr std::size_t kSkippedShown = 5;
 
-std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 struct Counts {
-  std::array<std::size_t, 3> bySeverity{};
+  SeverityCounts findings;
   std::size_t safeFixes = 0;
   std::size_t otherFixes = 0;
   std::size_t suppressed = 0;
-
-  std::size_t of(Severity severity) const { return bySeverity[static_cast<std::size_t>(severity)]; }
-  std::size_t all() const { return bySeverity[0] + bySeverity[1] + bySeverity[2]; }
+  std::size_t hidden = 0; // below the severity that is shown
 };
+
+void countFixes(const Finding &finding, Counts &counts) {
+  const std::vector<FixIt> &fixes = finding.diagnostic.fixes;
+  if (fixes.empty())
+    return;
+  const bool isSafe =
+      std::any_of(fixes.begin(), fixes.end(), [](const FixIt &fix) { return fix.safety == FixSafety::Safe; });
+  ++(isSafe ? counts.safeFixes : counts.otherFixes);
+}
 
 Counts count(const Report &report) {
   Counts counts;
   for (const CheckedFile &file : report.result.files) {
+    if (!file.foreign.empty())
+      continue; // counted as refused
+    counts.hidden += hiddenIn(file);
     for (const Finding &finding : file.findings) {
       if (finding.suppressed) {
         ++counts.suppressed;
-        continue;
+      } else if (isReported(finding, file)) {
+        counts.findings.add(finding.severity);
+        countFixes(finding, counts);
       }
-      ++counts.bySeverity[static_cast<std::size_t>(finding.severity)];
-      const std::vector<FixIt> &fixes = finding.diagnostic.fixes;
-      const bool isSafe =
-          std::any_of(fixes.begin(), fixes.end(), [](const FixIt &fix) { return fix.safety == FixSafety::Safe; });
-      ++(isSafe ? counts.safeFixes : counts.otherFixes);
-      if (fixes.empty())
-        --counts.otherFixes;
     }
   }
   return counts;
@@ -52,15 +53,11 @@ std::size_t countOf(const CheckResult &result, SkipKind kind) {
                                                 [kind](const SkippedFile &skipped) { return skipped.kind == kind; }));
 }
 
-std::string findingsPart(const Counts &counts) {
-  if (counts.all() == 0)
-    return "no findings";
-  std::vector<std::string> parts;
-  for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Info})
-    if (counts.of(severity) != 0)
-      parts.push_back(severity == Severity::Info ? fmt::format("{} info", counts.of(severity))
-                                                 : counted(counts.of(severity), nameOf(severity)));
-  return fmt::format("{}", fmt::join(parts, ", "));
+std::string hiddenPart(const Counts &counts) {
+  return counts.hidden == 0 ? ""
+                            : fmt::format("{} of lower severity {} not shown: --severity info shows {}\n",
+                                          counted(counts.hidden, "finding"), counts.hidden == 1 ? "is" : "are",
+                                          counts.hidden == 1 ? "it" : "them");
 }
 
 std::string fixesPart(const Counts &counts) {
@@ -113,7 +110,8 @@ std::string summary(const Report &report) {
   const CheckResult &result = report.result;
   const auto checked = std::count_if(result.files.begin(), result.files.end(),
                                      [](const CheckedFile &file) { return !file.isOnlyCalled && isReadProgram(file); });
-  std::string head = fmt::format("{} in {}", findingsPart(counts), counted(static_cast<std::size_t>(checked), "file"));
+  std::string head =
+      fmt::format("{} in {}", counts.findings.inWords(), counted(static_cast<std::size_t>(checked), "file"));
   if (counts.suppressed != 0)
     head += fmt::format(", {} allowed", counts.suppressed);
   const auto foreign = std::count_if(result.files.begin(), result.files.end(),
@@ -126,7 +124,7 @@ std::string summary(const Report &report) {
     head += fmt::format(", {} {}", counted(others, "file"), others == 1 ? "is no NC program" : "are no NC programs");
   if (!result.errors.empty())
     head += fmt::format(", {} not checked", counted(result.errors.size(), "file"));
-  return head + "\n" + fixesPart(counts) + dialectsPart(result);
+  return programsOverview(report) + head + "\n" + hiddenPart(counts) + fixesPart(counts) + dialectsPart(result);
 }
 
 std::string skippedFiles(const Report &report) {

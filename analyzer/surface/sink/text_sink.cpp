@@ -1,5 +1,6 @@
 // For people at a terminal: the program text with carets, or one line for each finding.
 #include "base/diag/render.h"
+#include "surface/sink/causes.h"
 #include "surface/sink/shown.h"
 
 #include <fmt/format.h>
@@ -21,15 +22,21 @@ std::string writeText(const Report &report) {
   std::string text;
   const auto fileOf = [&](FileId id) -> const SourceFile & { return report.result.files[id.index()].source; };
   const RenderOptions options{.colour = report.colour};
-  forEachShown(report, [&](const CheckedFile &file, const Finding &finding) {
+  for (const Cause &cause : causesOf(report)) {
+    const CheckedFile &file = *cause.places.front().file;
+    const Finding &finding = *cause.places.front().finding;
+    const std::string others = otherPlaces(cause);
     if (!file.foreign.empty()) {
-      text += refusal(file, finding) + "\n";
-      return;
+      text += refusal(file, finding) + (others.empty() ? "" : fmt::format("   = note: {}\n", others)) + "\n";
+      continue;
     }
     const std::string severity = std::string(nameOf(finding.severity)) + (finding.suppressed ? ", allowed" : "");
-    text += render(finding.diagnostic, {severity, finding.rule->name}, file.source, fileOf, options);
+    Diagnostic diagnostic = finding.diagnostic;
+    if (!others.empty())
+      diagnostic.notes.push_back(others);
+    text += render(diagnostic, {severity, finding.rule->name}, file.source, fileOf, options);
     text += '\n';
-  });
+  }
   return text;
 }
 

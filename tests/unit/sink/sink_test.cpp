@@ -34,7 +34,14 @@ CheckResult sample() {
   Finding style{&kStyle, Severity::Info, {}, "fedcba9876543210", true};
   style.diagnostic.message = "a <comment>";
   style.diagnostic.span = {2, 9};
-  return {{{"cell 1/part.nc", source, "fanuc-30i", DialectChoice::Guess, {}, Severity::Warning, {style, slip}}},
+  return {{{"cell 1/part.nc",
+            source,
+            "fanuc-30i",
+            DialectChoice::Guess,
+            {},
+            Severity::Warning,
+            Severity::Info,
+            {style, slip}}},
           {{"picture.nc", "a binary file"}},
           {{"gone.nc", "no such file"}}};
 }
@@ -48,6 +55,15 @@ protected:
   CheckResult result_ = sample();
   RuleRegistry rules_{kRules};
 };
+
+bool followsSchema(const Json &document) {
+  std::ifstream file(FEEDHOLD_SOURCE_DIR "/docs/schemas/check.schema.json");
+  const Json text = Json::parse(file);
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
+  return valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
+}
 
 TEST_F(Sink, Names) {
   for (const Format format :
@@ -93,6 +109,18 @@ TEST_F(Sink, Summary) {
   EXPECT_EQ(statistics(report(ShowSuppressed::Yes)), "      1 missing-equals\n      1 plain-style\n");
 }
 
+TEST_F(Sink, FindingsBelowTheSeverityAreCountedOnly) {
+  result_.files[0].minSeverity = Severity::Warning;
+  result_.files[0].findings[0].suppressed = false;
+  EXPECT_EQ(writeConcise(report()), "cell 1/part.nc:2:1: error: `#510-#6` is 50% of a statement [missing-equals]\n");
+  EXPECT_NE(summary(report()).find("\n1 finding of lower severity is not shown: --severity info shows it\n"),
+            std::string::npos);
+  const Json document = Json::parse(writeJson(report()));
+  EXPECT_EQ(document["findings"].size(), 1U);
+  EXPECT_EQ(document["hidden"], 1);
+  EXPECT_TRUE(followsSchema(document));
+}
+
 TEST_F(Sink, Json) {
   const Json document = Json::parse(writeJson(report()));
   EXPECT_EQ(document["version"], 2);
@@ -110,15 +138,6 @@ TEST_F(Sink, Json) {
   EXPECT_EQ(document["files"],
             Json::parse(R"([{"path": "cell 1/part.nc", "dialect": "fanuc-30i", "chosenBy": "guess", "reasons": []}])"));
   EXPECT_EQ(document["errors"], Json::parse(R"([{"path": "gone.nc", "message": "no such file"}])"));
-}
-
-bool followsSchema(const Json &document) {
-  std::ifstream file(FEEDHOLD_SOURCE_DIR "/docs/schemas/check.schema.json");
-  const Json text = Json::parse(file);
-  valijson::Schema schema;
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-      .populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
-  return valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
 }
 
 TEST_F(Sink, JsonFollowsItsSchema) {
