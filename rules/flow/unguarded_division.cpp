@@ -1,5 +1,5 @@
 // unguarded-division: `#26/#17` where nothing asks whether Q was passed.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/passed_values.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,15 +32,20 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         std::ranges::find(done, *argument) != done.end())
       continue;
     done.push_back(*argument);
-    reporter.report({.message = fmt::format("{} may be 0 or vacant: nothing checks it before this division",
-                                            describeVariable(context.dialect, *argument)),
-                     .span = alarm.place,
-                     .label = "divides by it",
-                     .flow = pathFromEntry(facts, alarm.node),
-                     .notes = {fmt::format("if it is not passed, or is 0, the control {}",
-                                           stopsWith(context.dialect, AlarmKind::DivideByZero)),
-                               fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
-                                           *argument, *argument)}});
+    const PassedValues passed = passedFor(*argument, facts, context);
+    if (passed.zero == PassedZero::Never)
+      continue;
+    Diagnostic diagnostic{.message = fmt::format("{} may be 0 or vacant: nothing checks it before this division",
+                                                 describeVariable(context.dialect, *argument)),
+                          .span = alarm.place,
+                          .label = "divides by it",
+                          .flow = pathFromEntry(facts, alarm.node),
+                          .notes = {fmt::format("if it is not passed, or is 0, the control {}",
+                                                stopsWith(context.dialect, AlarmKind::DivideByZero)),
+                                    fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
+                                                *argument, *argument)}};
+    addPassed(diagnostic, passed, facts);
+    reporter.report(std::move(diagnostic));
   }
 }
 

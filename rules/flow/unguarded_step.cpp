@@ -1,5 +1,6 @@
 // unguarded-step: `#1=#1-#17` counts a loop, and nothing asks whether Q was passed.
 #include "rules/flow/loop_view.h"
+#include "rules/flow/passed_values.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,7 +24,8 @@ std::optional<Unguarded> unguardedStep(std::uint32_t variable, const LoopFlow &l
   const AbstractValue *size = name ? facts.valueOf(step->size) : nullptr;
   const bool mayBeNothing = size && isLocal(facts.file, *name) && (size->mayBeVacant() || size->number().contains(0));
   const auto argument = mayBeNothing ? argumentBehind(facts, *name) : std::nullopt;
-  if (!argument || isTested(facts.file, facts.program, *argument) || isTested(facts.file, facts.program, *name))
+  if (!argument || isTested(facts.file, facts.program, *argument) || isTested(facts.file, facts.program, *name) ||
+      mayHoldCallersValue(facts, *argument))
     return std::nullopt;
   return Unguarded{*argument, cover(tree.expressions[writes->front().assignment.target].span,
                                     tree.expressions[writes->front().assignment.value].span)};
@@ -42,14 +44,20 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (!found || std::ranges::find(done, found->argument) != done.end())
         continue;
       done.push_back(found->argument);
-      reporter.report({.message = fmt::format("{} is the step of a loop and may be 0 or vacant: nothing checks it",
-                                              describeVariable(context.dialect, found->argument)),
-                       .span = found->step,
-                       .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
-                       .flow = pathFromEntry(facts, exit.test),
-                       .notes = {"if it is not passed, or is 0, the loop never ends",
-                                 fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
-                                             found->argument, found->argument)}});
+      const PassedValues passed = passedFor(found->argument, facts, context);
+      if (passed.zero == PassedZero::Never)
+        continue;
+      Diagnostic diagnostic{
+          .message = fmt::format("{} is the step of a loop and may be 0 or vacant: nothing checks it",
+                                 describeVariable(context.dialect, found->argument)),
+          .span = found->step,
+          .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
+          .flow = pathFromEntry(facts, exit.test),
+          .notes = {"if it is not passed, or is 0, the loop never ends",
+                    fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program", found->argument,
+                                found->argument)}};
+      addPassed(diagnostic, passed, facts);
+      reporter.report(std::move(diagnostic));
     }
   }
 }

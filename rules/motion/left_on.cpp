@@ -1,10 +1,11 @@
 // See the header.
 #include "rules/motion/left_on.h"
 
+#include "rules/motion/behind_calls.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace feedhold::rules {
 namespace {
@@ -59,51 +60,18 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   return isHavocked(exit.state) || view.wasSet(exit.state, mode.kind, mode.actions);
 }
 
-/// Behind the call the program moves and comes to its end without putting the mode right.
-bool neverPutsRight(const MotionView &view, const ProgramFile &file, NodeId call, const LeftOn &mode) {
-  std::set<NodeId> seen;
-  std::vector<NodeId> open{call};
-  bool moves = false;
-  bool isEnded = false;
-  while (!open.empty()) {
-    const NodeId node = open.back();
-    open.pop_back();
-    isEnded = isEnded || std::holds_alternative<EndProgram>(view.node(node).instruction) ||
-              std::holds_alternative<ReturnFromProgram>(view.node(node).instruction);
-    forEachSuccessor(file.cfg, *file.model, node, ProgramUse::Called, [&](NodeId next) {
-      if (view.sets(next, mode.kind) || !seen.insert(next).second)
-        return;
-      moves = moves || !view.modalMotionWords(next).empty();
-      open.push_back(next);
-    });
-  }
-  return moves && isEnded;
-}
-
-/// Some caller in this run goes on moving in the mode that is left to it.
-bool reachesACaller(const LeftOn &mode, const FlowFacts &facts, const FileContext &context) {
-  for (const CallGraph::Caller &caller : context.callGraph.callers({context.file, facts.program})) {
-    const ProgramFile &file = facts.programs.file(caller.file);
-    const Call &call = file.model->calls[caller.call];
-    const FileContext other{file.file,   *file.source,      *file.dialect,   *file.tree,
-                            *file.model, context.callGraph, context.programs};
-    const MotionView view(call.caller, other);
-    for (NodeId node = file.cfg.nodeOf(call.block);
-         node.index() < file.cfg.nodes.size() && file.cfg.nodes[node].block == call.block; node = node.next())
-      if (std::holds_alternative<CallProgram>(file.cfg.nodes[node].instruction) &&
-          neverPutsRight(view, file, node, mode))
-        return true;
-  }
-  return false;
-}
-
-Severity severityAt(const ExitFact &exit, const LeftOn &mode, const FlowFacts &facts, const FileContext &context) {
+/// How much it matters; absent: it is as it should be.
+std::optional<Severity> severityAt(const ExitFact &exit, const LeftOn &mode, const CallersOfMode &callers) {
   if (exit.end == PathEnd::Ends)
     return mode.atProgramEnd.value_or(Severity::Warning);
-  return reachesACaller(mode, facts, context) ? Severity::Warning : Severity::Info;
+  if (callers.behind == BehindCalls::MovesOn)
+    return Severity::Warning;
+  if (!callers.allInFile)
+    return Severity::Info;
+  return callers.behind == BehindCalls::LeftAtEnd ? mode.atProgramEnd : std::nullopt;
 }
 
-void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
+void tell(const Leaving &leaving, const ExitFact &exit, Severity severity, const LeftOn &mode, const MotionView &view,
           const FlowFacts &facts, const Reporter &reporter) {
   const bool returns = exit.end == PathEnd::Returns;
   reporter.report({.message = fmt::format("{} is still active when the program {}",
@@ -112,7 +80,7 @@ void tell(const Leaving &leaving, const ExitFact &exit, const LeftOn &mode, cons
                    .labels = {{view.blockSpan(leaving.exit), returns ? "returns here" : "ends here"}},
                    .flow = describePath(facts, leaving.path),
                    .notes = {std::string(mode.consequence), std::string(mode.remedy)}},
-                  severityAt(exit, mode, facts, view.context()));
+                  severity);
 }
 
 } // namespace
@@ -124,9 +92,11 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   if (std::ranges::none_of(facts.exits(), [&](const ExitFact &exit) { return leaves(exit, mode, view); }))
     return;
   const std::vector<NodeId> switching = switchingNodes(mode, view, facts);
+  const CallersOfMode callers = behindCalls(mode, facts, context);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {
-    if (!leaves(exit, mode, view))
+    const auto severity = leaves(exit, mode, view) ? severityAt(exit, mode, callers) : std::nullopt;
+    if (!severity)
       continue;
     std::optional<Leaving> leaving;
     for (auto node = switching.rbegin(); node != switching.rend() && !leaving; ++node)
@@ -134,7 +104,7 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
     if (!leaving || std::ranges::find(told, leaving->word) != told.end())
       continue;
     told.push_back(leaving->word);
-    tell(*leaving, exit, mode, view, facts, reporter);
+    tell(*leaving, exit, *severity, mode, view, facts, reporter);
   }
 }
 

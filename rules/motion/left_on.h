@@ -15,8 +15,8 @@ struct LeftOn {
   std::string_view remedy;                   // "cancel it by G40 before the end"
 };
 
-/// What is left to a caller is a warning where a caller in the run goes on
-/// moving with it up to its end, else a remark.
+/// What is left to a caller is a warning where a caller in the run goes on moving with it up to its end, and else a
+/// remark.  Where all callers stand in the same file, they know what they call: it is reported if they leave it on.
 ///
 /// Reports each code that puts it on and from which an end can be reached with it still on; for each end the last such
 /// code in the text.

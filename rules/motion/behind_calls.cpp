@@ -1,0 +1,105 @@
+// See the header.
+#include "rules/motion/behind_calls.h"
+
+#include <algorithm>
+#include <set>
+
+namespace feedhold::rules {
+namespace {
+
+FileContext contextOf(const ProgramFile &file, const FileContext &context) {
+  return {file.file, *file.source, *file.dialect, *file.tree, *file.model, context.callGraph, context.programs};
+}
+
+/// A code of the group that is none of those that leave the mode on.
+bool putsRight(const MotionView &view, NodeId node, const LeftOn &mode) {
+  return view.sets(node, mode.kind) && !view.findAction(node, mode.actions);
+}
+
+/// Some block of the called program puts the mode right; true for a program that is not known.
+bool calleePutsRight(const CallProgram &call, const ProgramFile &file, const LeftOn &mode, const FileContext &context) {
+  const auto callee = context.programs->callee(file.file, call.call);
+  if (!callee)
+    return true;
+  const FileContext its = contextOf(context.programs->file(callee->file), context);
+  const MotionView view(callee->program, its);
+  std::set<NodeId> seen{callee->entry};
+  std::vector<NodeId> open{callee->entry};
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    if (putsRight(view, node, mode))
+      return true;
+    forEachSuccessor(view.cfg(), its.model, node, ProgramUse::Called, [&](NodeId next) {
+      if (seen.insert(next).second)
+        open.push_back(next);
+    });
+  }
+  return false;
+}
+
+/// Moves for which the mode matters: by inverse time feed a cutting block needs its own F, and one that has it is meant
+/// so.
+bool minds(const MotionView &view, NodeId node, const LeftOn &mode) {
+  if (view.modalMotionWords(node).empty())
+    return false;
+  return mode.kind != ModalKind::FeedMode ||
+         (!view.mayHave(node, 'F') &&
+          view.mayDo(node, {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}));
+}
+
+/// Where the program goes on behind one call.
+BehindCalls behindCall(NodeId call, const ProgramFile &file, const LeftOn &mode, const FileContext &context) {
+  const FileContext its = contextOf(file, context);
+  const MotionView view(file.model->programOf(file.cfg.nodes[call].block), its);
+  std::set<NodeId> seen;
+  std::vector<NodeId> open{call};
+  bool moves = false;
+  bool isLeft = false;
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    const auto *end = std::get_if<EndProgram>(&view.node(node).instruction);
+    isLeft = isLeft || std::holds_alternative<ReturnFromProgram>(view.node(node).instruction) ||
+             (end && !its.dialect.behaviour.endRestoresModes);
+    forEachSuccessor(file.cfg, *file.model, node, ProgramUse::Called, [&](NodeId next) {
+      const auto *another = std::get_if<CallProgram>(&view.node(next).instruction);
+      if (view.sets(next, mode.kind) || !seen.insert(next).second ||
+          (another && calleePutsRight(*another, file, mode, context)))
+        return;
+      moves = moves || minds(view, next, mode);
+      open.push_back(next);
+    });
+  }
+  if (!isLeft)
+    return BehindCalls::PutRight;
+  return moves ? BehindCalls::MovesOn : BehindCalls::LeftAtEnd;
+}
+
+/// Calls of the program by others, and those of its own blocks (M97).
+std::vector<CallGraph::Caller> callsOf(const FlowFacts &facts, const FileContext &context) {
+  std::vector<CallGraph::Caller> calls = context.callGraph.callers({context.file, facts.program});
+  for (CallId call(0); call.index() < context.model.calls.size(); call = call.next())
+    if (context.model.calls[call].kind == CallKind::Local && context.model.calls[call].caller == facts.program)
+      calls.push_back({context.file, call});
+  return calls;
+}
+
+} // namespace
+
+CallersOfMode behindCalls(const LeftOn &mode, const FlowFacts &facts, const FileContext &context) {
+  const std::vector<CallGraph::Caller> calls = callsOf(facts, context);
+  CallersOfMode found{.allInFile = !calls.empty()};
+  for (const CallGraph::Caller &caller : calls) {
+    const ProgramFile &file = facts.programs.file(caller.file);
+    const BlockId block = file.model->calls[caller.call].block;
+    found.allInFile = found.allInFile && caller.file == context.file;
+    for (NodeId node = file.cfg.nodeOf(block);
+         node.index() < file.cfg.nodes.size() && file.cfg.nodes[node].block == block; node = node.next())
+      if (std::holds_alternative<CallProgram>(file.cfg.nodes[node].instruction))
+        found.behind = std::max(found.behind, behindCall(node, file, mode, context));
+  }
+  return found;
+}
+
+} // namespace feedhold::rules
