@@ -16,26 +16,33 @@ bool putsRight(const MotionView &view, NodeId node, const LeftOn &mode) {
   return view.sets(node, mode.kind) && !view.findAction(node, mode.actions);
 }
 
-/// Some block of the called program puts the mode right; true for a program that is not known.
-bool calleePutsRight(const CallProgram &call, const ProgramFile &file, const LeftOn &mode, const FileContext &context) {
+/// What the called program may do to the mode; it is not followed into further calls.
+struct CalleeEffect {
+  bool putsOn = false;
+  bool putsRight = false;
+};
+/// Absent for a program that is not known.
+std::optional<CalleeEffect> effectOf(const CallProgram &call, const ProgramFile &file, const LeftOn &mode,
+                                     const FileContext &context) {
   const auto callee = context.programs->callee(file.file, call.call);
   if (!callee)
-    return true;
+    return std::nullopt;
   const FileContext its = contextOf(context.programs->file(callee->file), context);
   const MotionView view(callee->program, its);
+  CalleeEffect effect;
   std::set<NodeId> seen{callee->entry};
   std::vector<NodeId> open{callee->entry};
   while (!open.empty()) {
     const NodeId node = open.back();
     open.pop_back();
-    if (putsRight(view, node, mode))
-      return true;
+    effect.putsOn = effect.putsOn || view.findAction(node, mode.actions);
+    effect.putsRight = effect.putsRight || putsRight(view, node, mode);
     forEachSuccessor(view.cfg(), its.model, node, ProgramUse::Called, [&](NodeId next) {
       if (seen.insert(next).second)
         open.push_back(next);
     });
   }
-  return false;
+  return effect;
 }
 
 /// Moves for which the mode matters: by inverse time feed a cutting block needs its own F, and one that has it is meant
@@ -49,7 +56,12 @@ bool minds(const MotionView &view, NodeId node, const LeftOn &mode) {
 }
 
 /// Where the program goes on behind one call.
-BehindCalls behindCall(NodeId call, const ProgramFile &file, const LeftOn &mode, const FileContext &context) {
+BehindCalls behindCall(NodeId call, const CallProgram &instruction, const ProgramFile &file, const LeftOn &mode,
+                       const FileContext &context) {
+  // Of several local subroutines of a program (M97), each call enters one.
+  const bool isLocal = file.model->calls[instruction.call].kind == CallKind::Local;
+  if (const auto effect = effectOf(instruction, file, mode, context); isLocal && effect && !effect->putsOn)
+    return BehindCalls::PutRight;
   const FileContext its = contextOf(file, context);
   const MotionView view(file.model->programOf(file.cfg.nodes[call].block), its);
   std::set<NodeId> seen;
@@ -63,10 +75,11 @@ BehindCalls behindCall(NodeId call, const ProgramFile &file, const LeftOn &mode,
     isLeft = isLeft || std::holds_alternative<ReturnFromProgram>(view.node(node).instruction) ||
              (end && !its.dialect.behaviour.endRestoresModes);
     forEachSuccessor(file.cfg, *file.model, node, ProgramUse::Called, [&](NodeId next) {
-      const auto *another = std::get_if<CallProgram>(&view.node(next).instruction);
-      if (view.sets(next, mode.kind) || !seen.insert(next).second ||
-          (another && calleePutsRight(*another, file, mode, context)))
+      if (view.sets(next, mode.kind) || !seen.insert(next).second)
         return;
+      if (const auto *another = std::get_if<CallProgram>(&view.node(next).instruction))
+        if (const auto effect = effectOf(*another, file, mode, context); !effect || effect->putsRight)
+          return;
       moves = moves || minds(view, next, mode);
       open.push_back(next);
     });
@@ -96,8 +109,8 @@ CallersOfMode behindCalls(const LeftOn &mode, const FlowFacts &facts, const File
     found.allInFile = found.allInFile && caller.file == context.file;
     for (NodeId node = file.cfg.nodeOf(block);
          node.index() < file.cfg.nodes.size() && file.cfg.nodes[node].block == block; node = node.next())
-      if (std::holds_alternative<CallProgram>(file.cfg.nodes[node].instruction))
-        found.behind = std::max(found.behind, behindCall(node, file, mode, context));
+      if (const auto *instruction = std::get_if<CallProgram>(&file.cfg.nodes[node].instruction))
+        found.behind = std::max(found.behind, behindCall(node, *instruction, file, mode, context));
   }
   return found;
 }

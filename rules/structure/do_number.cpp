@@ -1,6 +1,7 @@
 // do-number: `DO4`, `DO#1`, `DO` alone.
 #include "findings/rule/rule.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::do_number {
@@ -26,9 +27,22 @@ std::optional<ExpressionId> numberOf(const Statement &statement) {
   return std::nullopt;
 }
 
-void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
+/// An END with the number of the DO before it: what is wrong with it is said there.
+bool repeatsDo(const Statement &statement, ExpressionId number, BlockId block, const FileContext &context) {
+  if (!std::holds_alternative<End>(statement.node))
+    return false;
+  const std::string_view text = context.text(context.tree.expressions[number].span);
+  const auto loops = context.model.loopsOf(context.model.programOf(block));
+  return std::ranges::any_of(loops, [&](const Loop &loop) {
+    const auto its = numberOf(context.tree.statements[loop.doStatement]);
+    return its && loop.doBlock < block && context.text(context.tree.expressions[*its].span) == text;
+  });
+}
+
+void check(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
   const auto number = numberOf(statement);
-  if (!number || std::holds_alternative<BrokenExpression>(context.tree.expressions[*number].node))
+  if (!number || std::holds_alternative<BrokenExpression>(context.tree.expressions[*number].node) ||
+      repeatsDo(statement, *number, block, context))
     return;
   const unsigned last = context.dialect.limits.lastLoopNumber;
   const auto value = literalValue(context.tree, *number);

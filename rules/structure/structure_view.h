@@ -1,7 +1,7 @@
 // How rules look at the flow of one program by its text alone: dead blocks, jumps, loops, IF structures.
 #pragma once
 
-#include "findings/rule/rule.h"
+#include "findings/rule/dead_blocks.h"
 
 #include <optional>
 #include <span>
@@ -9,32 +9,15 @@
 
 namespace feedhold::rules {
 
-/// The control reads the block: it is neither tape mark nor leader nor text behind the end.
-bool isRead(const Block &block);
-
-/// Words other than its sequence number and the head of a program, or a statement: something happens in the block.
-bool hasContent(const FileContext &context, BlockId block);
-
 /// The program has an O word or a `<NAME>`; without it the text may be a fragment of one.
 bool isNamed(const Program &program);
 
-/// Blocks that neither the block before them nor a jump leads to.
-class DeadBlocks {
-public:
-  DeadBlocks(const FileContext &context, ProgramId program);
+/// `o100 sub` that no `o100 endsub` closes and no `o100 return` leaves.
+bool isSubWithoutEnd(const Construct &construct, const ProgramModel &model);
 
-  bool contains(BlockId block) const;
-  /// Runs of dead blocks with content; `ender` is the block that control leaves for good before each.
-  struct Run {
-    BlockId ender;
-    BlockId first;
-    BlockId last; // inclusive
-  };
-  std::span<const Run> runs() const { return runs_; }
-
-private:
-  std::vector<Run> runs_;
-};
+/// An o-word, a WHILE, DO or END of the program does not parse or finds no partner: what its blocks do is not what was
+/// meant, and that is reported where it is wrong.
+bool isStructureBroken(const FileContext &context, ProgramId program);
 
 /// The last block with content of a program, when control can reach it and go on behind it.
 std::optional<BlockId> openEnd(const FileContext &context, ProgramId program);

@@ -1,5 +1,6 @@
 // unmatched-o-word: `o103 if` without `o103 endif`, and the other way round.
-#include "findings/rule/rule.h"
+#include "base/support/text.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,16 @@ std::string spelled(const std::string &label) {
   return std::ranges::all_of(label, [](char c) { return c >= '0' && c <= '9'; }) ? label : "<" + label + ">";
 }
 
+/// `o<foo>` and `o100` as OWordUse has them.
+std::string labelOf(std::string_view word) {
+  std::string_view label = trimmed(word.substr(1));
+  if (label.starts_with('<') && label.ends_with('>'))
+    return comparedName(label.substr(1, label.size() - 2));
+  while (label.size() > 1 && label.starts_with('0'))
+    label.remove_prefix(1);
+  return std::string(label);
+}
+
 void reportOpen(const OWordUse &head, const FileContext &context, const Reporter &reporter) {
   const Span span = context.tree.statements[head.statement].span;
   reporter.report(
@@ -73,12 +84,41 @@ void reportOpen(const OWordUse &head, const FileContext &context, const Reporter
        .notes = {"the interpreter searches for it to the end of the file and stops there"}});
 }
 
-/// A subroutine that is left by `return` works without its `endsub`.
-bool isLeftByReturn(const Construct &construct, const ProgramModel &model) {
-  const std::string &label = model.oWords[construct.parts.front()].label;
-  return construct.kind == OWordKind::Sub &&
-         std::any_of(model.oWords.begin(), model.oWords.end(),
-                     [&](const auto &use) { return use.kind == OWordKind::Return && use.label == label; });
+/// A subroutine begins before the one around it has ended: `o<outer> endsub` comes behind `o100 sub`.
+struct Nesting {
+  const OWordUse *outer;
+  const OWordUse *inner;
+  BlockId end; // of the outer one
+};
+std::vector<Nesting> nestings(const ProgramModel &model) {
+  std::vector<Nesting> found;
+  const OWordUse *last = nullptr; // `sub` before
+  for (const OWordUse &use : model.oWords) {
+    if (use.kind != OWordKind::Sub || !use.construct)
+      continue;
+    const OWordUse *outer = last;
+    last = &use;
+    if (!outer || model.constructs[*outer->construct].closed || (!found.empty() && use.block < found.back().end))
+      continue;
+    const auto end = std::find_if(model.oWords.begin(), model.oWords.end(), [&](const OWordUse &other) {
+      return other.kind == OWordKind::EndSub && other.label == outer->label && other.block > use.block;
+    });
+    if (end != model.oWords.end())
+      found.push_back({outer, &use, end->block});
+  }
+  return found;
+}
+
+void reportNested(const Nesting &nesting, const FileContext &context, const Reporter &reporter) {
+  const Span inner = context.tree.statements[nesting.inner->statement].span;
+  const Span outer = context.tree.statements[nesting.outer->statement].span;
+  const std::uint32_t line = context.source.lineOf(outer.begin);
+  reporter.report(
+      {.message = fmt::format("{} stands inside {} (line {})", context.quoted(inner), context.quoted(outer), line),
+       .span = inner,
+       .labels = {{outer, "this subroutine has not ended"}},
+       .notes = {"subroutines do not nest: the interpreter stops here",
+                 fmt::format("move it before line {}, or into a file of its own", line)}});
 }
 
 /// Labels that have a lone end and an open head: they do not meet because a construct between them is open itself, and
@@ -95,15 +135,38 @@ std::set<std::string> labelsParted(const ProgramModel &model) {
   return parted;
 }
 
+/// A block behind it begins with the label, and does not parse: `o<foo> ebdsub`.
+bool isEndMisspelled(const OWordUse &head, const FileContext &context) {
+  for (const SyntaxIssue &issue : context.tree.issues) {
+    const BlockId block = context.tree.blockAt(issue.span.begin);
+    if (issue.kind != SyntaxIssueKind::UnexpectedText || block <= head.block)
+      continue;
+    const auto words = context.tree.wordsOf(block);
+    if (!words.empty() && words.front().address() == 'O' && labelOf(context.text(words.front().span())) == head.label)
+      return true;
+  }
+  return false;
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
   const ProgramModel &model = context.model;
   const std::set<std::string> parted = labelsParted(model);
+  const std::vector<Nesting> nested = nestings(model);
+  for (const Nesting &nesting : nested)
+    reportNested(nesting, context, reporter);
+  // What a subroutine inside another one tears apart is not reported once more.
+  const auto isTold = [&](const OWordUse &use) {
+    return parted.contains(use.label) || std::ranges::any_of(nested, [&](const Nesting &nesting) {
+             return nesting.outer->block <= use.block && use.block <= nesting.end;
+           });
+  };
   for (const OWordUse &use : model.oWords)
-    if (!use.construct && !headOf(use.kind).empty() && !parted.contains(use.label))
+    if (!use.construct && !headOf(use.kind).empty() && !isTold(use))
       reportLone(use, context, reporter);
   for (const Construct &construct : model.constructs) {
     const OWordUse &head = model.oWords[construct.parts.front()];
-    if (!construct.closed && !parted.contains(head.label) && !isLeftByReturn(construct, model))
+    const bool isOpen = !construct.closed && (construct.kind != OWordKind::Sub || isSubWithoutEnd(construct, model));
+    if (isOpen && !isTold(head) && !isEndMisspelled(head, context))
       reportOpen(head, context, reporter);
   }
 }

@@ -2,12 +2,14 @@
 // for costs a few comparisons.
 #include "findings/rule/run_rules.h"
 
+#include "findings/rule/dead_blocks.h"
 #include "inference/absint/contract_entry.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace feedhold {
@@ -163,6 +165,30 @@ void visitModel(const HookLists &lists, const FileContext &context) {
       tell(lists.variable, context, use);
 }
 
+/// Whether a block is never executed: what is wrong in it stops no control, and that it is dead is reported.
+class NeverExecuted {
+public:
+  explicit NeverExecuted(const FileContext &context) : context_(context) {}
+  bool contains(BlockId block) {
+    if (context_.model.programs.empty())
+      return false;
+    const ProgramId program = context_.model.programOf(block);
+    return dead_.try_emplace(program.index(), context_, program).first->second.contains(block);
+  }
+
+private:
+  const FileContext &context_;
+  std::unordered_map<std::uint32_t, DeadBlocks> dead_;
+};
+
+/// A comment that is not closed hides what follows, which may be what makes blocks dead.
+void visitIssues(const HookLists &lists, const FileContext &context) {
+  NeverExecuted never(context);
+  for (const SyntaxIssue &issue : context.tree.issues)
+    if (issue.kind == SyntaxIssueKind::UnclosedComment || !never.contains(context.tree.blockAt(issue.span.begin)))
+      tell(lists.issues[static_cast<std::size_t>(issue.kind)], context, issue);
+}
+
 /// The clauses of one text: the program or a file beside it.
 void visitContracts(const HookLists &lists, const FileContext &context) {
   if (context.file.index() >= context.contracts.size())
@@ -239,8 +265,7 @@ std::vector<RawFinding> joined(std::vector<RuleFindings> sinks) {
 std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context) {
   std::vector<RuleFindings> sinks(rules.size());
   const HookLists lists = gather(rules, sinks);
-  for (const SyntaxIssue &issue : context.tree.issues)
-    tell(lists.issues[static_cast<std::size_t>(issue.kind)], context, issue);
+  visitIssues(lists, context);
   visitContracts(lists, context);
   tell(lists.file, context);
   Walk(lists, context).run();

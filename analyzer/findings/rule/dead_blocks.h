@@ -1,0 +1,47 @@
+// Blocks of a program that are never executed, by the text alone.
+#pragma once
+
+#include "findings/rule/rule.h"
+
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+namespace feedhold {
+
+/// The control reads the block: it is neither tape mark nor leader nor text behind the end.
+bool isRead(const Block &block);
+
+/// Words other than its sequence number and the head of a program, or a statement: something happens in the block.
+bool hasContent(const FileContext &context, BlockId block);
+
+/// Control never reaches the block behind this one.
+bool leavesForGood(const FileContext &context, BlockId block);
+
+/// Blocks that neither the block before them nor a jump leads to.
+class DeadBlocks {
+public:
+  DeadBlocks(const FileContext &context, ProgramId program);
+
+  bool contains(BlockId block) const;
+  /// Runs of dead blocks with content; `ender` is the block that control leaves for good before each.
+  struct Run {
+    BlockId ender;
+    BlockId first;
+    BlockId last; // inclusive
+  };
+  std::span<const Run> runs() const { return runs_; }
+
+  /// Which sequence numbers of a program control may be sent to.
+  struct Entries {
+    bool any = false; // a computed jump: every one
+    std::unordered_set<std::uint32_t> numbers;
+  };
+
+private:
+  void find(const FileContext &context, ProgramId program, const Entries &entries);
+
+  std::vector<Run> runs_;
+};
+
+} // namespace feedhold
