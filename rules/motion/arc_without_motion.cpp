@@ -24,7 +24,7 @@ public:
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, stands] : places_) {
       const Word *arc = view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
-      if (stands)
+      if (stands && view_.mayHave(node, 'R'))
         reporter.report({.message = fmt::format("this {} with `R` ends where it starts, so it cuts no arc",
                                                 context.quoted(arc->span())),
                          .span = view_.blockSpan(node),

@@ -1,33 +1,21 @@
 // arc-without-centre: `G02 X10. Y0.`.
 #include "findings/rule/rule.h"
+#include "language/model/word_habits.h"
 
-#include "rules/words/block_words.h"
-
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::arc_without_centre {
 namespace {
 
-bool isEndPoint(const Word &word, const FileContext &context) {
-  return formatOf(context.dialect, word.address()).kind == AddressKind::Length && !word.has(Word::kComma);
-}
-
-bool isCentre(const Word &word) {
-  return std::string_view("IJKR").find(word.address()) != std::string_view::npos && !word.has(Word::kComma);
-}
-
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  const auto words = context.tree.wordsOf(block);
-  const Word *arc = words.size() < 2 ? nullptr : findCode(context.tree, block, context.dialect, CodeRole::Arc);
-  if (!arc || std::any_of(words.begin(), words.end(), isCentre) || meansOwnWords(context, block))
-    return;
-  if (std::none_of(words.begin(), words.end(), [&](const Word &word) { return isEndPoint(word, context); }))
+  const Switch setting = context.dialect.switches.cir;
+  const Word *arc = setting == Switch::Off ? nullptr : arcWithoutCentre(context.tree, block, context.dialect);
+  if (!arc)
     return;
   reporter.report({.message = fmt::format("{} has neither `R` nor `I J K`", context.quoted(arc->span())),
                    .span = arc->span(),
                    .notes = {fmt::format("the control {}{}", stopsWith(context.dialect, AlarmKind::ArcWithoutCentre),
-                                         context.dialect.hasFanucParameters
+                                         context.dialect.hasFanucParameters && setting == Switch::Unknown
                                              ? ", or moves in a straight line if parameter 3403#5 (CIR) is 0"
                                              : ""),
                              "add R or I, J, K; for a straight move write G01"}});

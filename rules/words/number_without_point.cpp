@@ -1,7 +1,6 @@
 // number-without-point: `Z-2` among `Z2.` and `Z-28.`
 #include "findings/rule/rule.h"
-
-#include "rules/words/block_words.h"
+#include "language/model/word_habits.h"
 
 #include <fmt/format.h>
 
@@ -11,37 +10,6 @@ namespace {
 // So many whole lengths with a point must stand in the file for each one without before the latter is a slip.  In the
 // programs looked at the writers either had more than twenty for one, or about as many of both kinds.
 constexpr std::size_t kHabit = 10;
-
-struct Lengths {
-  std::vector<WordId> withoutPoint;
-  std::size_t wholeWithPoint = 0;
-};
-
-/// The words of the block are coordinates, not arguments, data, seconds or settings of a cycle.
-bool holdsCoordinates(const FileContext &context, BlockId block) {
-  return !context.tree.blocks[block].has(Block::kData) && !meansOwnWords(context, block) &&
-         !findCode(context.tree, block, context.dialect, CodeRole::Dwell) &&
-         !findCode(context.tree, block, context.dialect, CodeRole::Contour);
-}
-
-bool isLength(const Word &word, const FileContext &context) {
-  return word.isNumber() && !word.has(Word::kComma) && !word.number().isZero() &&
-         formatOf(context.dialect, word.address()).kind == AddressKind::Length;
-}
-
-Lengths lengthsOf(const FileContext &context) {
-  Lengths lengths;
-  for (std::size_t i = 0; i < context.tree.blockCount(); ++i)
-    for (const Word &word : context.tree.wordsOf(BlockId(i))) {
-      if (!isLength(word, context))
-        continue;
-      if (word.has(Word::kPoint))
-        lengths.wholeWithPoint += word.number().isInteger() ? 1 : 0;
-      else if (holdsCoordinates(context, BlockId(i)))
-        lengths.withoutPoint.push_back(context.tree.idOf(word));
-    }
-  return lengths;
-}
 
 void reportWord(const Word &word, const FileContext &context, const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
@@ -61,7 +29,7 @@ void reportWord(const Word &word, const FileContext &context, const Reporter &re
 void check(const FileContext &context, const Reporter &reporter) {
   if (context.dialect.switches.dpi == Switch::On)
     return;
-  const Lengths lengths = lengthsOf(context);
+  const WrittenLengths lengths = lengthsOf(context.tree, context.dialect);
   if (lengths.wholeWithPoint < kHabit * lengths.withoutPoint.size())
     return;
   for (const WordId word : lengths.withoutPoint)

@@ -1,6 +1,6 @@
 // several-m-codes: `M08 M03`.
 #include "findings/rule/rule.h"
-
+#include "language/model/word_habits.h"
 #include "rules/words/block_words.h"
 
 #include <fmt/format.h>
@@ -9,17 +9,7 @@ namespace feedhold::rules::several_m_codes {
 namespace {
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  const auto words = context.tree.wordsOf(block);
-  const Word *first = nullptr;
-  const Word *last = nullptr;
-  std::size_t count = 0;
-  for (const Word &word : words) {
-    if (word.address() != 'M' || !word.isCode() || word.has(Word::kAfterThen) || word.has(Word::kAfterSkip))
-      continue;
-    first = first ? first : &word;
-    last = &word;
-    ++count;
-  }
+  const auto [first, last, count] = mCodesOf(context.tree, block);
   const std::size_t mostEver = context.dialect.limits.mCodes;
   const Switch setting = context.dialect.switches.m3b;
   if (count < 2 || (setting == Switch::On && count <= mostEver) || passesArguments(context, block))

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace feedhold {
 
@@ -22,6 +23,7 @@ struct SwitchName {
 constexpr std::array kSwitchNames = {
     SwitchName{"dpi", &Switches::dpi},
     SwitchName{"ad2", &Switches::ad2},
+    SwitchName{"cir", &Switches::cir},
     SwitchName{"m3b", &Switches::m3b},
     SwitchName{"g67", &Switches::g67},
     SwitchName{"v15", &Switches::v15},
@@ -71,9 +73,10 @@ public:
 
 private:
   void readRoot(const toml::table &root) {
-    static constexpr std::array<std::string_view, 12> kKeys = {
+    static constexpr std::array<std::string_view, 13> kKeys = {
         "dialect", "increment-system", "select", "ignore",   "min-severity", "error-on",
-        "include", "exclude",          "files",  "switches", "code-calls",   "severity"};
+        "include", "exclude",          "files",  "switches", "code-calls",   "builders-variables",
+        "severity"};
     Config &config = result_.config;
     for (const auto &[key, node] : root) {
       if (key == "dialect")
@@ -98,6 +101,8 @@ private:
         config.switches = switches(node);
       else if (key == "code-calls")
         config.codeCalls = tables<CodeCall>(node, [this](const toml::table &table) { return codeCall(table); });
+      else if (key == "builders-variables")
+        config.buildersVariables = variables(node);
       else if (key == "severity")
         config.severities = severities(node);
       else
@@ -176,6 +181,27 @@ private:
       return static_cast<std::uint32_t>(*value);
     addError(node.source(), "`program` must be a program number, such as 9010");
     return 0;
+  }
+
+  /// Sorted, without overlap: one row for each number.
+  std::vector<VariableRange> variables(const toml::node &node) {
+    constexpr std::int64_t kLast = 99999;
+    std::set<std::uint32_t> numbers;
+    const toml::array *array = node.as_array();
+    if (!array)
+      addError(node.source(), "`builders-variables` must be a list of variable numbers, such as [3939, 8570]");
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+      const std::optional<std::int64_t> value = array->get(i)->value_exact<std::int64_t>();
+      if (value && *value >= 1 && *value <= kLast)
+        numbers.insert(static_cast<std::uint32_t>(*value));
+      else
+        addError(array->get(i)->source(), "a variable number is a whole number from 1 to 99999");
+    }
+    std::vector<VariableRange> rows;
+    rows.reserve(numbers.size());
+    for (const std::uint32_t number : numbers)
+      rows.push_back(buildersVariable(number, number));
+    return rows;
   }
 
   std::vector<SwitchSetting> switches(const toml::node &node) {
@@ -331,6 +357,8 @@ std::string textOf(const Switches &switches) {
     text += fmt::format("{}={} ", entry.name, static_cast<int>(switches.*entry.which));
   for (const CodeCall &call : switches.codeCalls)
     text += fmt::format("{}{}={}{} ", call.address, call.tenths, call.isMacro ? "macro " : "", call.program);
+  for (const VariableRange &range : switches.buildersVariables)
+    text += fmt::format("builders-variables={}-{} ", range.first, range.last);
   text += fmt::format("increment-system={} ", nameOf(switches.incrementSystem));
   return text;
 }

@@ -45,6 +45,7 @@ struct Config {
   std::vector<SwitchSetting> switches = {};
   std::optional<IncrementSystem> incrementSystem = std::nullopt;
   std::vector<CodeCall> codeCalls = {};
+  std::vector<VariableRange> buildersVariables = {};
   std::vector<SeveritySetting> severities = {};
 };
 

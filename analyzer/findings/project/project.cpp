@@ -95,11 +95,14 @@ std::vector<const FileContracts *> Project::contracts() const {
 
 Project loadProject(std::span<const WorkItem> items, const LoadOptions &options) {
   Project project;
-  project.files.resize(items.size());
+  std::vector<std::shared_ptr<ProjectFile>> files(items.size());
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
     const OpenedFile file = openedFileOf(items[i]);
-    project.files[i] = items[i].foreign == nullptr ? readFile(file, options.open) : unreadFile(file);
+    files[i] = items[i].foreign == nullptr ? readFile(file, options.open) : unreadFile(file);
   });
+  if (options.infer == InferMachines::Yes)
+    project.inferred = inferMachineSettings(files);
+  project.files.assign(files.begin(), files.end());
   connect(project, options.graphs, options.jobs);
   return project;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "findings/project/file_store.h"
+#include "findings/project/machine_settings.h"
 #include "findings/project/workload.h"
 #include "meaning/cfg/program_set.h"
 
@@ -17,6 +18,7 @@ namespace feedhold {
 struct Project {
   std::vector<std::shared_ptr<const ProjectFile>> files; // by FileId
   CallGraph callGraph;
+  std::vector<InferredSetting> inferred = {};
   std::optional<ProgramSet> set; // with control flow graphs; absent: calls alone were asked for
 
   const ProjectFile &file(FileId id) const { return *files[id.index()]; }
@@ -28,10 +30,12 @@ struct Project {
 
 // ---- the files of a run, each for its own control ----
 
-enum class LoadGraphs : std::uint8_t { No, Yes }; // of control flow
+enum class LoadGraphs : std::uint8_t { No, Yes };    // of control flow
+enum class InferMachines : std::uint8_t { No, Yes }; // for rules alone: see machine_settings.h
 
 struct LoadOptions {
   LoadGraphs graphs = LoadGraphs::Yes;
+  InferMachines infer = InferMachines::No;
   unsigned jobs = 0;
   std::shared_ptr<const OpenTexts> open = {}; // of editors
 };

@@ -18,27 +18,27 @@ std::shared_ptr<const Dialect> dialectOf(const OpenedFile &file) {
 
 } // namespace
 
-std::shared_ptr<const ProjectFile> readFile(const OpenedFile &file, const std::shared_ptr<const OpenTexts> &open) {
+std::shared_ptr<ProjectFile> readFile(const OpenedFile &file, const std::shared_ptr<const OpenTexts> &open) {
   std::shared_ptr<const Dialect> chosen = dialectOf(file);
   const Dialect &dialect = *chosen;
   SyntaxTree tree = parse(file.source, dialect);
   ProgramModel model = resolve(file.source, tree, dialect);
   std::vector<Sidecar> sidecars = sidecarsOf(file.path, model, open);
   FileContracts contracts = readContracts(file.source, tree, model, dialect, sidecars);
-  return std::make_shared<const ProjectFile>(ProjectFile{file.shown, file.path, file.source, std::move(chosen),
-                                                         std::move(tree), std::move(model), std::move(contracts),
-                                                         std::move(sidecars)});
+  return std::make_shared<ProjectFile>(ProjectFile{file.shown, file.path, file.source, std::move(chosen),
+                                                   std::move(tree), std::move(model), std::move(contracts),
+                                                   std::move(sidecars)});
 }
 
-std::shared_ptr<const ProjectFile> unreadFile(const OpenedFile &file) {
-  return std::make_shared<const ProjectFile>(ProjectFile{file.shown,
-                                                         file.path,
-                                                         file.source,
-                                                         file.dialect,
-                                                         parse(SourceFile::fromText("", ""), *file.dialect),
-                                                         {},
-                                                         {},
-                                                         {}});
+std::shared_ptr<ProjectFile> unreadFile(const OpenedFile &file) {
+  return std::make_shared<ProjectFile>(ProjectFile{file.shown,
+                                                   file.path,
+                                                   file.source,
+                                                   file.dialect,
+                                                   parse(SourceFile::fromText("", ""), *file.dialect),
+                                                   {},
+                                                   {},
+                                                   {}});
 }
 
 } // namespace feedhold

@@ -33,8 +33,8 @@ struct OpenedFile {
 };
 
 /// `open`: texts of editors, those of sidecars among them.
-std::shared_ptr<const ProjectFile> readFile(const OpenedFile &file, const std::shared_ptr<const OpenTexts> &open);
+std::shared_ptr<ProjectFile> readFile(const OpenedFile &file, const std::shared_ptr<const OpenTexts> &open);
 /// A file in a language that is not read: without blocks and programs.
-std::shared_ptr<const ProjectFile> unreadFile(const OpenedFile &file);
+std::shared_ptr<ProjectFile> unreadFile(const OpenedFile &file);
 
 } // namespace feedhold

@@ -122,6 +122,7 @@ private:
     apply({}, options_.control.incrementSystem, switches);
     if (!config.codeCalls.empty())
       switches.codeCalls = config.codeCalls;
+    switches.buildersVariables = config.buildersVariables;
     steps.push_back({Kind::Select, options_.select});
     steps.push_back({Kind::Ignore, options_.ignore});
     profile.rules = selectRules(known_.rules, steps);
@@ -246,20 +247,42 @@ std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, co
   return voters;
 }
 
-/// The files of a folder decide together for which control they were written.
+/// The folder of a file and those above it, up to the one that was named.
+std::vector<std::filesystem::path> foldersAbove(const std::filesystem::path &file, const CheckOptions &options) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> folders = {folderOf(file)};
+  for (const std::string &path : options.paths) {
+    const fs::path root = fs::absolute(path).lexically_normal() / "";
+    const fs::path below = folders.front().lexically_relative(root.parent_path());
+    if (below.empty() || below.generic_string().starts_with(".."))
+      continue;
+    while (folders.back() != root.parent_path() && folders.back().has_relative_path())
+      folders.push_back(folders.back().parent_path());
+    break;
+  }
+  return folders;
+}
+
+/// The files of a folder decide together for which control they were written; where too few of them say anything, those
+/// of the folder above do.
 void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const KnownNames &known) {
   if (options.control.dialect)
     return;
   std::map<std::filesystem::path, FolderVote> votes;
   const auto add = [&](const Candidate &candidate) {
-    votes.try_emplace(folderOf(candidate.found.path), known.dialects).first->second.add(candidate.guess);
+    for (const std::filesystem::path &folder : foldersAbove(candidate.found.path, options))
+      votes.try_emplace(folder, known.dialects).first->second.add(candidate.guess);
   };
   for (const Candidate &candidate : candidates)
     add(candidate);
   for (const Candidate &candidate : silentVoters(candidates, options, known))
     add(candidate);
-  for (Candidate &candidate : candidates)
-    candidate.guess = votes.at(folderOf(candidate.found.path)).decide(candidate.guess);
+  for (Candidate &candidate : candidates) {
+    const std::vector<std::filesystem::path> folders = foldersAbove(candidate.found.path, options);
+    const auto clear = std::find_if(folders.begin(), folders.end(),
+                                    [&](const std::filesystem::path &folder) { return votes.at(folder).isClear(); });
+    candidate.guess = votes.at(clear == folders.end() ? folders.back() : *clear).decide(candidate.guess);
+  }
 }
 
 Candidate pipedCandidate(const PipedText &piped, ConfigFinder &configs, const KnownNames &known) {

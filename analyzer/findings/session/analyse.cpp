@@ -176,11 +176,11 @@ bool anyAsksFlow(std::span<const WorkItem> items) {
 
 } // namespace
 
-std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
-                                 const AnalyseOptions &options) {
-  const Project project = loadProject(
-      items,
-      {.graphs = anyAsksFlow(items) ? LoadGraphs::Yes : LoadGraphs::No, .jobs = options.jobs, .open = options.open});
+AnalysedFiles analyse(std::span<const WorkItem> items, const RuleRegistry &rules, const AnalyseOptions &options) {
+  Project project = loadProject(items, {.graphs = anyAsksFlow(items) ? LoadGraphs::Yes : LoadGraphs::No,
+                                        .infer = InferMachines::Yes,
+                                        .jobs = options.jobs,
+                                        .open = options.open});
   const std::vector<const FileContracts *> contracts = project.contracts();
   std::vector<Analysed> analysed(items.size());
   std::atomic<std::size_t> done{0};
@@ -219,7 +219,7 @@ std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegi
   }
   std::vector<CheckedFile> sidecars = joinSidecars(std::move(analysed), files);
   std::move(sidecars.begin(), sidecars.end(), std::back_inserter(files));
-  return files;
+  return {std::move(files), std::move(project.inferred)};
 }
 
 } // namespace feedhold

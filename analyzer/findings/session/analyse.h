@@ -16,9 +16,13 @@ struct AnalyseOptions {
   const std::set<std::string> *only = nullptr; // as CheckOptions::only
 };
 
-/// One result for each item, in their order; the index of an item is its FileId.  Behind them those files with
+struct AnalysedFiles {
+  std::vector<CheckedFile> files;
+  std::vector<InferredSetting> inferred;
+};
+
+/// One file for each item, in their order; the index of an item is its FileId.  Behind them those files with
 /// contracts of which there is something to say.
-std::vector<CheckedFile> analyse(std::span<const WorkItem> items, const RuleRegistry &rules,
-                                 const AnalyseOptions &options);
+AnalysedFiles analyse(std::span<const WorkItem> items, const RuleRegistry &rules, const AnalyseOptions &options);
 
 } // namespace feedhold

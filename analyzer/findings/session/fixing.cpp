@@ -65,7 +65,8 @@ public:
 private:
   std::vector<CheckedFile> analyseAll() const {
     return analyse(workload_.items, known_.rules,
-                   {options_.jobs, options_.progress, options_.open, options_.only ? &*options_.only : nullptr});
+                   {options_.jobs, options_.progress, options_.open, options_.only ? &*options_.only : nullptr})
+        .files;
   }
 
   bool applyAll(const std::vector<CheckedFile> &files) {

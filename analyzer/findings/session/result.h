@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/source/source_file.h"
+#include "findings/project/machine_settings.h"
 #include "findings/project/outcome.h"
 #include "findings/rule/rule.h"
 
@@ -46,6 +47,7 @@ struct CheckResult {
   std::vector<CheckedFile> files;   // by path
   std::vector<SkippedFile> skipped; // by path
   std::vector<PathProblem> errors;
+  std::vector<InferredSetting> inferred = {}; // by folder
 };
 
 /// Severe enough to be shown, and to be repaired.

@@ -22,10 +22,11 @@ bool anyFails(const CheckResult &result) {
 
 CheckResult check(const CheckOptions &options, const KnownNames &known) {
   Workload workload = loadWorkload(options, known);
-  std::vector<CheckedFile> files =
+  AnalysedFiles analysis =
       analyse(workload.items, known.rules,
               {options.jobs, options.progress, options.open, options.only ? &*options.only : nullptr});
-  return {std::move(files), std::move(workload.skipped), std::move(workload.errors)};
+  return {std::move(analysis.files), std::move(workload.skipped), std::move(workload.errors),
+          std::move(analysis.inferred)};
 }
 
 } // namespace feedhold

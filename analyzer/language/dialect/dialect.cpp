@@ -28,14 +28,32 @@ const Code *findGCode(const Dialect &dialect, std::uint16_t tenths) { return fin
 
 const Code *findMCode(const Dialect &dialect, std::uint16_t tenths) { return findCode(dialect.mCodes, tenths); }
 
-const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) {
+VariableRange buildersVariable(std::uint32_t first, std::uint32_t last) {
+  return {.first = first,
+          .last = last,
+          .kind = VariableKind::System,
+          .role = VariableRole::Volatile,
+          .meaning = "variable of the machine builder"};
+}
+
+namespace {
+
+/// `ranges` are sorted, without overlap.
+const VariableRange *findIn(std::span<const VariableRange> ranges, std::uint32_t number) {
   const auto after =
-      std::upper_bound(dialect.variables.begin(), dialect.variables.end(), number,
+      std::upper_bound(ranges.begin(), ranges.end(), number,
                        [](std::uint32_t wanted, const VariableRange &range) { return wanted < range.first; });
-  if (after == dialect.variables.begin())
+  if (after == ranges.begin())
     return nullptr;
   const VariableRange &range = *(after - 1);
   return number <= range.last ? &range : nullptr;
+}
+
+} // namespace
+
+const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) {
+  const VariableRange *range = findIn(dialect.variables, number);
+  return range ? range : findIn(dialect.switches.buildersVariables, number);
 }
 
 namespace {

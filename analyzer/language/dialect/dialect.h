@@ -316,6 +316,7 @@ std::optional<IncrementSystem> incrementSystemNamed(std::string_view name);
 struct Switches {
   Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
   Switch ad2 = Switch::Off;     // 3403#6: a repeated address is an alarm
+  Switch cir = Switch::Unknown; // 3403#5: an arc without R, I, J, K is an alarm (On) or a straight line (Off)
   Switch m3b = Switch::Unknown; // 3404#7: up to three M codes in a block
   Switch g67 = Switch::Unknown; // 6000#0: G67 without G66 is no alarm
   Switch v15 = Switch::Off;     // 6000#3: tool offset numbering of Series 15
@@ -338,7 +339,11 @@ struct Switches {
   Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
   IncrementSystem incrementSystem = IncrementSystem::B;
   std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
+  /// Of the machine builder, by number: what they hold is not known, and may change at any time.
+  std::vector<VariableRange> buildersVariables = {};
 };
+/// A row for Switches::buildersVariables.
+VariableRange buildersVariable(std::uint32_t first, std::uint32_t last);
 
 /// What a control accepts beyond, or short of, the common grammar.
 struct Grammar {

@@ -8,6 +8,8 @@ namespace {
 constexpr int kMostOfOneFile = 20; // one file does not outvote all others
 constexpr int kMostOfFolder = 10;  // as much as two or three marks in the text of the file
 
+constexpr std::size_t kFewestSpeakers = 3;
+
 } // namespace
 
 void FolderVote::add(const LanguageGuess &file) {
@@ -19,11 +21,14 @@ void FolderVote::add(const LanguageGuess &file) {
     votes = {file.foreign, votes.second + 1};
     return;
   }
+  spoken_ += file.basis == GuessBasis::Text ? 1 : 0;
   sums_.resize(file.scores.size());
   const int best = *std::max_element(file.scores.begin(), file.scores.end());
   for (std::size_t i = 0; i < sums_.size(); ++i)
     sums_[i] += std::max(file.scores[i] - best, -kMostOfOneFile);
 }
+
+bool FolderVote::isClear() const { return spoken_ >= kFewestSpeakers || commonForeign() != nullptr; }
 
 /// The language of more than half of the programs.
 const ForeignLanguage *FolderVote::commonForeign() const {

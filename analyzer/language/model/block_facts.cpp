@@ -30,6 +30,41 @@ const Word *findWord(const SyntaxTree &tree, BlockId block, char address) {
 
 namespace {
 
+bool isMacroCall(CodeRole role) {
+  return role == CodeRole::MacroCall || role == CodeRole::ModalCall || role == CodeRole::ModalCallEach;
+}
+
+bool isCodeCall(const Word &word, const Dialect &dialect) {
+  const auto tenths = word.isNumber() ? word.tenths() : std::nullopt;
+  return tenths && findCodeCall(dialect, word.address(), *tenths);
+}
+
+} // namespace
+
+bool passesArguments(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  const auto words = tree.wordsOf(block);
+  return std::any_of(words.begin(), words.end(), [&](const Word &word) {
+    const Code *code = codeOf(word, dialect);
+    return (code && isMacroCall(code->role)) || isCodeCall(word, dialect);
+  });
+}
+
+bool meansOwnWords(const Word &word, const Dialect &dialect) {
+  if (isCodeCall(word, dialect))
+    return true;
+  if (!word.isCode())
+    return false;
+  const Code *code = codeOf(word, dialect);
+  return !code || isMacroCall(code->role) || code->role == CodeRole::DataSetting || code->role == CodeRole::OwnWords;
+}
+
+bool meansOwnWords(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  const auto words = tree.wordsOf(block);
+  return std::any_of(words.begin(), words.end(), [&](const Word &word) { return meansOwnWords(word, dialect); });
+}
+
+namespace {
+
 /// `#3000 = n`: the program stops here with an alarm.
 bool raisesAlarm(const SyntaxTree &tree, const Statement &statement, const Dialect &dialect) {
   const auto *assignment = std::get_if<Assignment>(&statement.node);

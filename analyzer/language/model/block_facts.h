@@ -15,6 +15,13 @@ const Word *findWord(const SyntaxTree &tree, BlockId block, char address);
 /// The dialect's row for a G or M word with a literal number; none for an argument of a call.
 const Code *codeOf(const Word &word, const Dialect &dialect);
 
+/// The words of the block are arguments of a macro call (G65, G66, a code of the machine's tables).
+bool passesArguments(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
+/// The word gives the others of its block a meaning of their own: a macro call, G10 data, or a code that is not in the
+/// dialect (machine builders make calls of such codes).
+bool meansOwnWords(const Word &word, const Dialect &dialect);
+bool meansOwnWords(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
+
 /// How the control goes on after a block that is not skipped.
 enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
 /// Ends: M02, M30, M99, `#3000=`, `o100 endsub`.  Jumps: an unconditional GOTO, `break`, `continue`, `return`.

@@ -1,5 +1,4 @@
-// Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, dwell,
-// shifts.
+// Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, shifts.
 #pragma once
 
 #include "meaning/semantics/arc_radii.h"
@@ -204,6 +203,8 @@ private:
       havocPosition(context_);
     }
     const Truth arc = isArc();
+    if (context_.certain(arc) && isLineForWantOfCentre())
+      return tell(context_, hasOtherWay() ? MoveKind::Unmodelled : MoveKind::Feed, start);
     if (interpretation_.mayBe(arc))
       followArc(start, arc, interpretation_.both(arc, holds));
     if (!context_.certain(arc) && interpretation_.wantsMoves())
@@ -215,6 +216,10 @@ private:
   Truth isArc() {
     return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
                             interpretation_.truth(false));
+  }
+  bool isLineForWantOfCentre() const { // with parameter 3403#5 (CIR) at 0
+    const auto isWritten = [&](char letter) { return words_.find(letter) != nullptr; };
+    return context_.dialect().switches.cir == Switch::Off && std::ranges::none_of(std::string_view("IJKR"), isWritten);
   }
   void tellLine(const Point &start) {
     const auto isMotion = [&](CodeAction action) {

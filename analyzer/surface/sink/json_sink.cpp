@@ -68,6 +68,13 @@ std::string writeJson(const Report &report) {
           {{"path", file.path}, {"reason", file.foreign}, {"kind", nameOf(SkipKind::Refused)}});
   }
   document["hidden"] = hidden;
+  document["inferred"] = Json::array();
+  for (const InferredSetting &setting : report.result.inferred)
+    document["inferred"].push_back({{"folder", setting.folder},
+                                    {"dialect", setting.dialect},
+                                    {"table", setting.table},
+                                    {"line", setting.line},
+                                    {"evidence", setting.evidence}});
   for (const SkippedFile &skipped : report.result.skipped)
     document["skipped"].push_back({{"path", skipped.path}, {"reason", skipped.reason}, {"kind", nameOf(skipped.kind)}});
   for (const PathProblem &problem : report.result.errors)

@@ -103,6 +103,18 @@ std::string dialectsPart(const CheckResult &result) {
   return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
 }
 
+/// What was concluded from the programs, with the line that settles it.
+std::string inferredPart(const CheckResult &result) {
+  std::string text;
+  for (const InferredSetting &setting : result.inferred) {
+    const std::string folder = setting.folder.empty() ? "." : setting.folder;
+    const std::string where = setting.table.empty() ? "" : fmt::format(" under [{}]", setting.table);
+    text += fmt::format("{}: read as a machine with `{}` ({}); to settle it, write this line{} in feedhold.toml\n",
+                        folder, setting.line, setting.evidence, where);
+  }
+  return text;
+}
+
 } // namespace
 
 std::string summary(const Report &report) {
@@ -124,7 +136,8 @@ std::string summary(const Report &report) {
     head += fmt::format(", {} {}", counted(others, "file"), others == 1 ? "is no NC program" : "are no NC programs");
   if (!result.errors.empty())
     head += fmt::format(", {} not checked", counted(result.errors.size(), "file"));
-  return programsOverview(report) + head + "\n" + hiddenPart(counts) + fixesPart(counts) + dialectsPart(result);
+  return programsOverview(report) + head + "\n" + hiddenPart(counts) + fixesPart(counts) + dialectsPart(result) +
+         inferredPart(result);
 }
 
 std::string skippedFiles(const Report &report) {

@@ -1,0 +1,170 @@
+#include "findings/project/machine_settings.h"
+
+#include "findings/project/config.h"
+#include "language/model/word_habits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace feedhold {
+
+namespace {
+
+// Evidence that a slip, or a slip and its copy, does not reach.
+constexpr std::size_t kFewestLengths = 20; // without a point
+constexpr std::size_t kShare = 5;          // one of so many lengths has no point
+constexpr Decimal kLongest(1000, 0);       // mm: a machinist who means least increments writes more
+constexpr std::size_t kFewestBlocks = 3;
+constexpr std::size_t kFewestFiles = 2;
+constexpr std::uint32_t kFirstSystemVariable = 1000;
+
+/// How often, and in how many files.
+struct Uses {
+  std::size_t count = 0;
+  std::set<const ProjectFile *> files;
+
+  void add(const ProjectFile &file) {
+    ++count;
+    files.insert(&file);
+  }
+  bool isHabit() const { return count >= kFewestBlocks && files.size() >= kFewestFiles; }
+};
+
+struct Machine {
+  std::string folder;
+  std::vector<std::shared_ptr<ProjectFile>> files;
+
+  const Dialect &dialect() const { return *files.front()->dialect; }
+};
+
+/// Found: the setting, as it is put into the switches and as it is told.
+struct Found {
+  std::string table, line, evidence;
+};
+
+template <typename Visit> void forEachBlock(const Machine &machine, Visit visit) {
+  for (const auto &file : machine.files)
+    for (std::size_t i = 0; i < file->tree.blockCount(); ++i)
+      visit(*file, BlockId(i));
+}
+
+/// Calculator-type decimal point input: `X32` is 32 mm.
+std::optional<Found> inferDpi(const Machine &machine, Switches &switches) {
+  std::size_t all = 0, without = 0, isLong = 0;
+  for (const auto &file : machine.files) {
+    const WrittenLengths lengths = lengthsOf(file->tree, *file->dialect);
+    all += lengths.withPoint + lengths.withoutPoint.size();
+    without += lengths.withoutPoint.size();
+    isLong += static_cast<std::size_t>(
+        std::count_if(lengths.withoutPoint.begin(), lengths.withoutPoint.end(), [&](WordId id) {
+          const Decimal value = file->tree.words[id].number();
+          return value >= kLongest || value <= kLongest.negated();
+        }));
+  }
+  if (switches.dpi != Switch::Unknown || without < kFewestLengths || without * kShare < all ||
+      isLong * kShare > without)
+    return std::nullopt;
+  switches.dpi = Switch::On;
+  return Found{"switches", "dpi = true", fmt::format("{} of {} lengths have no decimal point", without, all)};
+}
+
+std::optional<Found> inferCir(const Machine &machine, Switches &switches) {
+  if (switches.cir != Switch::Unknown || !machine.dialect().hasFanucParameters)
+    return std::nullopt;
+  Uses arcs;
+  forEachBlock(machine, [&](const ProjectFile &file, BlockId block) {
+    if (arcWithoutCentre(file.tree, block, *file.dialect))
+      arcs.add(file);
+  });
+  if (!arcs.isHabit())
+    return std::nullopt;
+  switches.cir = Switch::Off;
+  return Found{"switches", "cir = false",
+               fmt::format("{} arcs in {} programs have neither R nor I J K", arcs.count, arcs.files.size())};
+}
+
+std::optional<Found> inferM3b(const Machine &machine, Switches &switches) {
+  if (switches.m3b != Switch::Unknown)
+    return std::nullopt;
+  Uses blocks;
+  forEachBlock(machine, [&](const ProjectFile &file, BlockId block) {
+    const std::size_t codes = mCodesOf(file.tree, block).count;
+    if (codes > 1 && codes <= file.dialect->limits.mCodes)
+      blocks.add(file);
+  });
+  if (!blocks.isHabit())
+    return std::nullopt;
+  switches.m3b = Switch::On;
+  return Found{"switches", "m3b = true",
+               fmt::format("{} blocks in {} programs have several M codes", blocks.count, blocks.files.size())};
+}
+
+std::optional<Found> inferVariables(const Machine &machine, Switches &switches) {
+  if (!switches.buildersVariables.empty())
+    return std::nullopt;
+  std::map<std::uint32_t, Uses> unknown;
+  for (const auto &file : machine.files)
+    for (const VariableUse &use : file->model.variables)
+      if (use.number && *use.number >= kFirstSystemVariable && *use.number < kFirstNamedVariable &&
+          !findVariable(*file->dialect, *use.number))
+        unknown[*use.number].add(*file);
+  std::vector<std::string> numbers;
+  std::set<const ProjectFile *> files;
+  for (const auto &[number, uses] : unknown) {
+    if (!uses.isHabit())
+      continue;
+    switches.buildersVariables.push_back(buildersVariable(number, number));
+    numbers.push_back(std::to_string(number));
+    files.insert(uses.files.begin(), uses.files.end());
+  }
+  if (numbers.empty())
+    return std::nullopt;
+  return Found{"", fmt::format("builders-variables = [{}]", fmt::join(numbers, ", ")),
+               fmt::format("{} programs use variables that only this machine can have", files.size())};
+}
+
+std::vector<Machine> machinesOf(std::span<const std::shared_ptr<ProjectFile>> files) {
+  std::map<std::tuple<std::string, std::string_view, std::string>, Machine> machines;
+  for (const auto &file : files) {
+    if (!file)
+      continue;
+    std::string folder = std::filesystem::path(file->shown).parent_path().generic_string();
+    // Files with different settings of the configuration are kept apart.
+    Machine &machine = machines[{folder, file->dialect->id, textOf(file->dialect->switches)}];
+    machine.folder = std::move(folder);
+    machine.files.push_back(file);
+  }
+  std::vector<Machine> result;
+  for (auto &[key, machine] : machines)
+    result.push_back(std::move(machine));
+  return result;
+}
+
+} // namespace
+
+std::vector<InferredSetting> inferMachineSettings(std::span<const std::shared_ptr<ProjectFile>> files) {
+  std::vector<InferredSetting> all;
+  for (const Machine &machine : machinesOf(files)) {
+    Switches switches = machine.dialect().switches;
+    const std::size_t before = all.size();
+    for (const auto infer : {inferDpi, inferCir, inferM3b, inferVariables})
+      if (std::optional<Found> found = infer(machine, switches))
+        all.push_back({machine.folder, machine.dialect().id, std::move(found->table), std::move(found->line),
+                       std::move(found->evidence)});
+    if (all.size() == before)
+      continue;
+    for (const auto &file : machine.files) {
+      auto dialect = std::make_shared<Dialect>(*file->dialect);
+      dialect->switches = switches;
+      file->dialect = std::move(dialect);
+    }
+  }
+  return all;
+}
+
+} // namespace feedhold

@@ -1,0 +1,103 @@
+"""What the programs of a folder say about the settings of their machine, and what `check` makes of it."""
+import json
+import unittest
+
+from harness import Scratch
+
+CALCULATOR = "%\nO{number}(TURNING)\nG90G54\n" + "".join(
+    f"N{n}0G0X{n}Z1\nG1Z-{n}F200\n" for n in range(1, 9)) + "X2.5\nM30\n%\n"
+ARC = "%\nO{number}(FACE)\nG90G54G17\nG1X0.Y0.F100\nG2X10.Y5.\nG3X0.Y0.\nM30\n%\n"
+BUILDER = "%\nO{number}(PALLET)\n#3939=#1\n#101=#3939\nM99\n%\n"
+
+
+class MachineSettings(Scratch):
+    def report(self, *arguments):
+        result = self.check("--format", "json", "--severity", "info", "--exit-zero", *arguments)
+        document = json.loads(result.stdout)
+        return document["inferred"], [finding["rule"] for finding in document["findings"]]
+
+    def shop(self, text, programs, folder="nc"):
+        for number in range(1000, 1000 + programs):
+            self.write(f"{folder}/O{number}.nc", text.format(number=number))
+
+    def test_calculator_type_input(self):
+        self.shop(CALCULATOR, 2)
+        self.write("nc/O1002.nc", "%\nO1002\nG90G54\n" + "".join(f"G0X{n}.\n" for n in range(1, 12)) + "Z5\nM30\n%\n")
+        inferred, rules = self.report("--dialect", "fanuc-30i", "nc")
+        self.assertEqual([(row["folder"], row["table"], row["line"]) for row in inferred],
+                         [("nc", "switches", "dpi = true")])
+        self.assertNotIn("number-without-point", rules)
+        _, alone = self.report("--dialect", "fanuc-30i", "nc/O1002.nc")
+        self.assertIn("number-without-point", alone)
+
+    def test_least_increments_are_no_calculator(self):
+        self.shop(CALCULATOR.replace("X{n}", "X{n}000"), 1)
+        text = "%\nO1000\nG90G54\n" + "".join(f"G0X{n}000Z-{n}500\n" for n in range(1, 20)) + "M30\n%\n"
+        self.write("nc/O1000.nc", text)
+        self.assertEqual(self.report("--dialect", "fanuc-30i", "nc")[0], [])
+
+    def test_arcs_that_are_lines(self):
+        self.shop(ARC, 2)
+        inferred, rules = self.report("--dialect", "fanuc-0i", "nc")
+        self.assertEqual([row["line"] for row in inferred], ["cir = false"])
+        self.assertNotIn("arc-without-centre", rules)
+        _, one = self.report("--dialect", "fanuc-0i", "nc/O1000.nc")
+        self.assertIn("arc-without-centre", one)
+
+    def test_variables_of_the_builder(self):
+        self.shop(BUILDER, 2)
+        inferred, rules = self.report("--dialect", "fanuc-0i", "nc")
+        self.assertEqual([(row["table"], row["line"]) for row in inferred], [("", "builders-variables = [3939]")])
+        self.assertNotIn("variable-not-available", rules)
+        _, one = self.report("--dialect", "fanuc-0i", "nc/O1000.nc")
+        self.assertIn("variable-not-available", one)
+
+    def test_folders_are_machines(self):
+        self.shop(ARC, 2, "a")
+        self.shop(ARC, 1, "b")
+        inferred, rules = self.report("--dialect", "fanuc-0i", ".")
+        self.assertEqual([row["folder"] for row in inferred], ["a"])
+        self.assertEqual(rules.count("arc-without-centre"), 2)
+
+    def test_the_configuration_settles_it(self):
+        self.shop(ARC, 2)
+        self.shop(BUILDER, 2, "b")
+        self.write("feedhold.toml", "builders-variables = [3939]\n[switches]\ncir = true\n")
+        inferred, rules = self.report("--dialect", "fanuc-0i", ".")
+        self.assertEqual(inferred, [])
+        self.assertEqual(rules.count("arc-without-centre"), 4)
+        self.assertNotIn("variable-not-available", rules)
+
+    def test_the_lines_that_are_told_can_be_copied(self):
+        self.shop(ARC, 2, "nc")
+        self.shop(BUILDER, 2, "nc/b")
+        told = self.check("--dialect", "fanuc-0i", "--exit-zero", "nc").stdout
+        self.assertIn("`cir = false` (4 arcs in 2 programs have neither R nor I J K)", told)
+        self.assertIn("`builders-variables = [3939]`", told)
+        self.write("nc/feedhold.toml", "builders-variables = [3939]\n[switches]\ncir = false\n")
+        settled = self.check("--dialect", "fanuc-0i", "nc")
+        self.assertExit(settled, 0)
+        self.assertNotIn("cir", settled.stdout)
+
+    def test_an_arc_that_is_a_line_moves_in_a_line(self):
+        self.write("O1.nc", ARC.format(number=1))
+        self.write("feedhold.toml", "[switches]\ncir = false\n")
+        run = json.loads(self.feedhold("run", "--dialect", "fanuc-0i", "--format", "json", "O1.nc").stdout)
+        self.assertEqual((run["end"], run["alarm"]), ("M30", None))
+        self.assertEqual([move["kind"] for move in run["moves"]][-2:], ["feed", "feed"])
+        self.write("feedhold.toml", "[switches]\ncir = 1\n")
+        bad = self.check("O1.nc")
+        self.assertExit(bad, 2)
+
+    def test_wrong_lists_are_named(self):
+        self.write("O1.nc", BUILDER.format(number=1))
+        for line, message in (("builders-variables = 3939\n", "must be a list"),
+                              ("builders-variables = [0]\n", "a whole number from 1")):
+            self.write("feedhold.toml", line)
+            result = self.check("O1.nc")
+            self.assertExit(result, 2)
+            self.assertIn(message, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
