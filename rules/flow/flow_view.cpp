@@ -182,9 +182,21 @@ std::optional<char> letterOfArgument(const Dialect &dialect, std::uint32_t varia
   return static_cast<char>('A' + (found - dialect.argumentVariables.begin()));
 }
 
+bool isParameter(const FlowFacts &facts, std::uint32_t variable) {
+  const Program &program = facts.file.model->programs[facts.program];
+  return letterOfArgument(*facts.file.dialect, variable) ||
+         (program.name.isSubroutine && isLocal(facts.file, variable));
+}
+
 std::string describeVariable(const Dialect &dialect, std::uint32_t variable) {
   const auto letter = letterOfArgument(dialect, variable);
   return letter ? fmt::format("`#{}` ({})", variable, *letter) : fmt::format("`#{}`", variable);
+}
+
+std::string adviceToCheck(const Dialect &dialect, std::uint32_t argument) {
+  return dialect.behaviour.variablesMayBeVacant
+             ? fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program", argument, argument)
+             : fmt::format("check `[#{} EQ 0]` at the head of the subroutine", argument);
 }
 
 bool isMainProgram(const FlowFacts &facts) {
@@ -224,6 +236,16 @@ bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_
   return contract && std::ranges::find(contract->globals, variable, &EntryValue::variable) != contract->globals.end();
 }
 
+bool isAlwaysPassed(const FlowFacts &facts, std::uint32_t variable) {
+  const auto callers = facts.programs.callGraph().callers({facts.file.file, facts.program});
+  return !callers.empty() && std::ranges::all_of(callers, [&](const CallGraph::Caller &caller) {
+    const Call &call = facts.programs.file(caller.file).model->calls[caller.call];
+    return call.kind == CallKind::OWord
+               ? call.values.size() >= variable
+               : std::ranges::find(call.arguments, variable, &Argument::variable) != call.arguments.end();
+  });
+}
+
 bool maySet(const FlowFacts &facts, std::uint32_t variable) {
   const auto sharers = sharersOf(facts.programs, {facts.file.file, facts.program});
   if (!sharers)
@@ -234,6 +256,26 @@ bool maySet(const FlowFacts &facts, std::uint32_t variable) {
            std::ranges::any_of(file.model->variablesOf(program.program),
                                [&](const VariableUse &use) { return mayWrite(file, use, variable); });
   });
+}
+
+bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable) {
+  const Decimal firstBeyondCommon(1000, 0);
+  const auto mayNameCommon = [&](const SyntaxTree &tree, ExpressionId target) {
+    const auto *indirect = as<IndirectVariable>(tree, target);
+    return indirect && std::ranges::none_of(subexpressions(tree, indirect->index), [&](ExpressionId part) {
+             const auto value = literalValue(tree, part);
+             return value && *value >= firstBeyondCommon;
+           });
+  };
+  for (std::size_t i = 0; i < facts.programs.size(); ++i) {
+    const ProgramFile &file = facts.programs.file(FileId(i));
+    for (std::size_t k = 0; k < file.model->programs.size(); ++k)
+      if (std::ranges::any_of(file.model->variablesOf(ProgramId(k)), [&](const VariableUse &use) {
+            return use.write && (use.number ? *use.number == variable : mayNameCommon(*file.tree, use.expression));
+          }))
+        return true;
+  }
+  return false;
 }
 
 bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
@@ -274,7 +316,7 @@ bool isNeverSet(const FlowFacts &facts, std::uint32_t variable) {
 std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_t variable) {
   const ProgramFile &file = facts.file;
   if (!maySet(facts, variable))
-    return letterOfArgument(*file.dialect, variable) ? std::optional(variable) : std::nullopt;
+    return isParameter(facts, variable) ? std::optional(variable) : std::nullopt;
   std::optional<std::uint32_t> source;
   for (const BlockId block : blocksOf(file, facts.program))
     for (const Statement &statement : file.tree->statementsOf(block)) {
@@ -287,7 +329,7 @@ std::optional<std::uint32_t> argumentBehind(const FlowFacts &facts, std::uint32_
       if (!source)
         return std::nullopt;
     }
-  const bool isArgument = source && isLocal(file, *source) && letterOfArgument(*file.dialect, *source) &&
+  const bool isArgument = source && isLocal(file, *source) && isParameter(facts, *source) &&
                           (source == variable || !maySet(facts, *source));
   return isArgument ? source : std::nullopt;
 }
@@ -367,6 +409,23 @@ std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId
       other = node;
   }
   return other;
+}
+
+bool raisesAlarmAt(const ProgramFile &file, BlockId block) {
+  const auto raises = [&](BlockId each) {
+    const auto uses = file.model->variablesIn(each, each.next());
+    return std::ranges::any_of(uses, [&](const VariableUse &use) {
+      return use.write && use.number && raisesAlarm(*file.dialect, *use.number);
+    });
+  };
+  return raises(block) || raises(block.next());
+}
+
+bool leadsToAlarm(const FlowFacts &facts, BlockId block) {
+  const auto jumps = facts.file.model->jumpsIn(block, block.next());
+  return std::ranges::any_of(
+             jumps, [&](const Jump &jump) { return jump.target && raisesAlarmAt(facts.file, *jump.target); }) ||
+         (jumps.empty() && raisesAlarmAt(facts.file, block));
 }
 
 bool isLoneNumber(const FlowFacts &facts, NodeId node) {

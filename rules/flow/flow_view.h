@@ -39,8 +39,13 @@ std::vector<Read> readsIn(const ProgramFile &file, ExpressionId root, BlockId bl
 bool isLocal(const ProgramFile &file, std::uint32_t variable);
 /// The letter that passes a local variable by argument assignment I.
 std::optional<char> letterOfArgument(const Dialect &dialect, std::uint32_t variable);
+/// It can be passed by a call of the program: it has a letter, or is a parameter of a subroutine of o-words.
+bool isParameter(const FlowFacts &facts, std::uint32_t variable);
 /// "`#18` (R)", or "`#30`" for one without a letter.
 std::string describeVariable(const Dialect &dialect, std::uint32_t variable);
+
+/// What to write at the head of a macro whose argument must not be 0.
+std::string adviceToCheck(const Dialect &dialect, std::uint32_t argument);
 
 /// A program that the operator starts, and that starts with vacant local variables: no M99 in it, nobody calls it, and
 /// it comes to M02 or M30.
@@ -53,9 +58,14 @@ bool mayHoldCallersValue(const FlowFacts &facts, std::uint32_t variable);
 /// The contract of the program says what the common variable holds on entry.
 bool isPromised(const FlowFacts &facts, const FileContext &context, std::uint32_t variable);
 
+/// Some call in the checked programs, and all of them pass the argument.
+bool isAlwaysPassed(const FlowFacts &facts, std::uint32_t variable);
+
 /// Some assignment in the text of the program may set the variable, or some subprogram that shares its local variables
 /// may.  Where that cannot be told: true.
 bool maySet(const FlowFacts &facts, std::uint32_t variable);
+/// Some program of the run may set the common variable.
+bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable);
 /// Some read in a condition of the program.
 bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable);
 /// Some EQ or NE in the program.
@@ -83,6 +93,11 @@ std::optional<std::uint32_t> variableOf(const FlowFacts &facts, ExpressionId id)
 std::vector<Assignment> assignmentsOf(const FlowFacts &facts, NodeId node);
 /// The node that evaluates an expression of the block; absent when it is not reached.
 std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId expression);
+
+/// The block raises an alarm, or the one behind it where the block is a lone label.
+bool raisesAlarmAt(const ProgramFile &file, BlockId block);
+/// The condition of the block leads to an alarm.
+bool leadsToAlarm(const FlowFacts &facts, BlockId block);
 
 /// A block of nothing but a sequence number.
 bool isLoneNumber(const FlowFacts &facts, NodeId node);

@@ -42,8 +42,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                           .flow = pathFromEntry(facts, alarm.node),
                           .notes = {fmt::format("if it is not passed, or is 0, the control {}",
                                                 stopsWith(context.dialect, AlarmKind::DivideByZero)),
-                                    fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program",
-                                                *argument, *argument)}};
+                                    adviceToCheck(context.dialect, *argument)}};
     addPassed(diagnostic, passed, facts);
     reporter.report(std::move(diagnostic));
   }

@@ -54,8 +54,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
           .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
           .flow = pathFromEntry(facts, exit.test),
           .notes = {"if it is not passed, or is 0, the loop never ends",
-                    fmt::format("check `IF[#{} EQ #0]` and `IF[#{} EQ 0]` at the head of the program", found->argument,
-                                found->argument)}};
+                    adviceToCheck(context.dialect, found->argument)}};
       addPassed(diagnostic, passed, facts);
       reporter.report(std::move(diagnostic));
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace feedhold::rules::vacant_passes_guard {
 namespace {
@@ -17,25 +18,6 @@ std::optional<ExpressionId> comparedWithZero(const SyntaxTree &tree, const Binar
         value && value->isZero() && variableNumber(tree, unwrapped(tree, variable)))
       return unwrapped(tree, variable);
   return std::nullopt;
-}
-
-/// The block raises an alarm, or the one behind it where the block is a lone label.
-bool raisesAlarm(const ProgramFile &file, BlockId block) {
-  const auto raises = [&](BlockId each) {
-    const auto uses = file.model->variablesIn(each, each.next());
-    return std::ranges::any_of(uses, [&](const VariableUse &use) {
-      return use.write && use.number && raisesAlarm(*file.dialect, *use.number);
-    });
-  };
-  return raises(block) || raises(block.next());
-}
-
-/// The condition leads to an alarm.
-bool guardsAlarm(const FlowFacts &facts, BlockId block) {
-  const auto jumps = facts.file.model->jumpsIn(block, block.next());
-  return std::ranges::any_of(jumps,
-                             [&](const Jump &jump) { return jump.target && raisesAlarm(facts.file, *jump.target); }) ||
-         (jumps.empty() && raisesAlarm(facts.file, block));
 }
 
 /// Some comparison in the program refuses the vacant variable as well: with `#0`, or `LE 0`, `LT 1`.
@@ -65,57 +47,93 @@ bool givesDefault(const FlowFacts &facts, BlockId block, std::uint32_t variable)
          std::ranges::any_of(facts.file.model->variablesIn(block, block.next()), sets);
 }
 
+/// A common variable that the operator sets, as far as the checked programs show.
+bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::uint32_t variable, BlockId block) {
+  const VariableRange *range = findVariable(context.dialect, variable);
+  if (!range || (range->kind != VariableKind::Common && range->kind != VariableKind::Retentive) ||
+      isPromised(facts, context, variable) || isWrittenInAny(facts, variable))
+    return false;
+  const auto calls = context.model.callsOf(facts.program);
+  return std::ranges::none_of(calls, [&](const Call &call) {
+    return call.block < block &&
+           (!context.callGraph.callee(context.file, call) || context.callGraph.reachesEncrypted(context.file, call));
+  });
+}
+
+enum class GuardKind : std::uint8_t { Alarm, Default, Operator };
+
 struct Guard {
   Span span;
   std::uint32_t variable;
-  bool isDefault;
+  GuardKind kind;
 };
 
-/// The comparison lets the argument pass that it is to stop.
+/// The comparison lets the variable pass that it is to stop.
 std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &context, BlockId block,
                                   ExpressionId part) {
   const auto *relation = as<BinaryOperation>(context.tree, part);
   const auto variable = relation ? comparedWithZero(context.tree, *relation) : std::nullopt;
   const AbstractValue *value = variable ? facts.valueOf(*variable) : nullptr;
   const auto number = variable ? variableNumber(context.tree, *variable) : std::nullopt;
-  if (!value || !value->mayBeVacant() || !value->mayBeNumber() || !isLocal(facts.file, *number) ||
-      mayHoldCallersValue(facts, *number) || isRefusedElsewhere(facts, *number))
+  if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
     return std::nullopt;
-  const Guard guard{context.tree.expressions[part].span, *number, givesDefault(facts, block, *number)};
-  const bool stops = guardsAlarm(facts, block) && argumentBehind(facts, *number);
-  return stops || guard.isDefault ? std::optional(guard) : std::nullopt;
+  const Span span = context.tree.expressions[part].span;
+  if (!isLocal(facts.file, *number))
+    return leadsToAlarm(facts, block) && isSetByOperator(facts, context, *number, block)
+               ? std::optional(Guard{span, *number, GuardKind::Operator})
+               : std::nullopt;
+  if (isMainProgram(facts) || mayHoldCallersValue(facts, *number))
+    return std::nullopt;
+  if (givesDefault(facts, block, *number))
+    return Guard{span, *number, GuardKind::Default};
+  return leadsToAlarm(facts, block) && argumentBehind(facts, *number)
+             ? std::optional(Guard{span, *number, GuardKind::Alarm})
+             : std::nullopt;
 }
 
-/// One finding for all guards of a program that are written alike.
+std::string describe(const FileContext &context, const Guard &guard) {
+  return guard.kind == GuardKind::Operator
+             ? fmt::format("vacant `#{}`", guard.variable)
+             : fmt::format("missing {}", describeVariable(context.dialect, guard.variable));
+}
+
+std::vector<std::string> notesFor(const Guard &guard) {
+  const std::string test = fmt::format("`[#{} EQ #0]`", guard.variable);
+  if (guard.kind == GuardKind::Operator)
+    return {"a common variable that nobody has set is vacant, and `EQ` does not treat vacant as 0: no alarm is raised",
+            fmt::format("check {} as well", test)};
+  const std::string why = "an argument that is not passed is vacant, and `EQ` does not treat vacant as 0: ";
+  if (guard.kind == GuardKind::Default)
+    return {why + "it does not get this value", fmt::format("check {} instead", test)};
+  return {why + "no alarm is raised", fmt::format("check {} as well", test)};
+}
+
+/// One finding for all guards of one kind in a program.
 void tell(const std::vector<Guard> &guards, const FileContext &context, const Reporter &reporter) {
   const Guard &first = guards.front();
-  Diagnostic diagnostic{
-      .message = fmt::format("{} does not catch a missing {}", context.quoted(first.span),
-                             describeVariable(context.dialect, first.variable)),
-      .span = first.span,
-      .notes = {fmt::format("an argument that is not passed is vacant, and `EQ` does not treat vacant as 0: {}",
-                            first.isDefault ? "it does not get this value" : "no alarm is raised"),
-                fmt::format("check `[#{} EQ #0]` {}", first.variable, first.isDefault ? "instead" : "as well")}};
+  Diagnostic diagnostic{.message =
+                            fmt::format("{} does not catch a {}", context.quoted(first.span), describe(context, first)),
+                        .span = first.span,
+                        .notes = notesFor(first)};
   for (std::size_t i = 1; i < guards.size(); ++i)
-    diagnostic.labels.push_back(
-        {guards[i].span, fmt::format("nor this a missing {}", describeVariable(context.dialect, guards[i].variable))});
+    diagnostic.labels.push_back({guards[i].span, fmt::format("nor this a {}", describe(context, guards[i]))});
   reporter.report(std::move(diagnostic));
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
-  if (!context.dialect.behaviour.variablesMayBeVacant || isMainProgram(facts))
+  if (!context.dialect.behaviour.variablesMayBeVacant)
     return;
-  std::vector<Guard> guards;
+  std::map<GuardKind, std::vector<Guard>> guards;
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     if (!test || !test->condition || !facts.isReached(node))
       continue;
     for (const ExpressionId part : subexpressions(context.tree, *test->condition))
       if (const auto guard = passingGuard(facts, context, facts.node(node).block, part))
-        guards.push_back(*guard);
+        guards[guard->kind].push_back(*guard);
   }
-  if (!guards.empty())
-    tell(guards, context, reporter);
+  for (const auto &[kind, found] : guards)
+    tell(found, context, reporter);
 }
 
 } // namespace
@@ -123,7 +141,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule vacantPassesGuard;
 const Rule vacantPassesGuard{
     .info = {"vacant-passes-guard", Category::Flow, Severity::Warning,
-             "Reports a check or a default of an argument by `EQ 0` that does not catch a missing argument."},
+             "Reports a check or a default by `EQ 0` that does not catch a vacant argument or common variable."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::vacant_passes_guard

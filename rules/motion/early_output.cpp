@@ -31,7 +31,7 @@ bool mayWait(const MotionView &view, NodeId node) {
     if (word->address() != 'G')
       return word->address() == 'M' || word->address() == 'T';
     const Code *code = codeOf(*word, view.context().dialect);
-    return !code || code->role == CodeRole::Skip || code->role == CodeRole::MachinePosition ||
+    return !code || isSkip(code->role) || code->role == CodeRole::MachinePosition ||
            code->role == CodeRole::ReferenceReturn ||
            (code->role == CodeRole::Plain && code->group == 0 && changesNothing(code->action));
   });

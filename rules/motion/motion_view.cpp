@@ -27,6 +27,7 @@ bool takesAxisWords(const Code &code) {
   case CodeRole::ModalCallCancel:
   case CodeRole::ReferenceReturn:
   case CodeRole::Skip:
+  case CodeRole::SkipOrAlarm:
   case CodeRole::Contour:
   case CodeRole::SubprogramCall:
   case CodeRole::LocalCall:
@@ -44,8 +45,7 @@ bool takesAxisWords(const Code &code) {
 }
 
 bool movesByItself(const Code &code) {
-  return code.role == CodeRole::ReferenceReturn || code.role == CodeRole::Skip ||
-         code.role == CodeRole::MachinePosition;
+  return code.role == CodeRole::ReferenceReturn || isSkip(code.role) || code.role == CodeRole::MachinePosition;
 }
 
 template <typename Is> std::vector<const Word *> endPoint(const MotionView &view, NodeId node, Is &&takes) {

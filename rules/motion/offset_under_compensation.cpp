@@ -1,5 +1,5 @@
 // offset-under-compensation: `#13001=5.` while G41 is in force.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/system_variables.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -9,14 +9,6 @@
 
 namespace feedhold::rules::offset_under_compensation {
 namespace {
-
-bool isToolOffset(const FileContext &context, std::uint32_t variable) {
-  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(context.dialect, variable);
-  if (!range || range->kind != VariableKind::System || range->role != VariableRole::Stored)
-    return false;
-  return range->meaning.starts_with("tool ") || range->meaning.starts_with("geometry") ||
-         range->meaning.starts_with("wear");
-}
 
 class OffsetUnderCompensation final : public FlowRule {
 public:

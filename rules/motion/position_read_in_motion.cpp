@@ -26,9 +26,8 @@ bool stopsReadingAhead(const MotionView &view, NodeId node) {
       return true;
     const Code *code = word->address() == 'G' ? codeOf(*word, view.context().dialect) : nullptr;
     return word->address() == 'G' &&
-           (!code || code->role == CodeRole::Dwell || code->role == CodeRole::Skip ||
-            code->role == CodeRole::MachinePosition || code->role == CodeRole::ReferenceReturn ||
-            code->action == CodeAction::CompensationOff);
+           (!code || code->role == CodeRole::Dwell || isSkip(code->role) || code->role == CodeRole::MachinePosition ||
+            code->role == CodeRole::ReferenceReturn || code->action == CodeAction::CompensationOff);
   });
 }
 

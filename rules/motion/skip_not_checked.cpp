@@ -1,5 +1,5 @@
 // skip-not-checked: `#100=#5061` behind G31, and nothing asks whether the probe has touched anything.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/system_variables.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -10,82 +10,244 @@
 namespace feedhold::rules::skip_not_checked {
 namespace {
 
-VariableRole roleOf(const FileContext &context, std::uint32_t variable) {
-  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(context.dialect, variable);
-  return range && range->kind == VariableKind::System ? range->role : VariableRole::Plain;
-}
+/// What holds before a node on some path on which no condition has looked at the result of a skip move yet.
+struct Unchecked {
+  bool skipPosition = false; // #5061..: of such a move
+  bool position = false;     // the axes are where it has ended
+  std::uint32_t fresh = ~0U; // the axes whose touches no condition has followed, as bits
+  std::uint32_t touched = 0;
+  std::set<std::uint32_t> variables; // that were computed from where it has ended
+  bool isReached = false;
 
-/// Variables that were computed from where the axes stopped.
-std::set<std::uint32_t> measured(const FlowFacts &facts, const FileContext &context) {
-  std::set<std::uint32_t> found;
-  for (std::size_t before = 1; before != found.size();) {
-    before = found.size();
+  bool join(const Unchecked &other) {
+    const Unchecked old = *this;
+    skipPosition |= other.skipPosition;
+    position |= other.position;
+    fresh = isReached ? fresh | other.fresh : other.fresh;
+    touched |= other.touched;
+    variables.insert(other.variables.begin(), other.variables.end());
+    isReached = true;
+    return !old.isReached || old.skipPosition != skipPosition || old.position != position || old.fresh != fresh ||
+           old.touched != touched || old.variables.size() != variables.size();
+  }
+};
+
+struct Use {
+  NodeId node;
+  Span span;
+  bool isOffset;
+};
+
+class Skips {
+public:
+  Skips(const FlowFacts &facts, const FileContext &context)
+      : facts_(facts), context_(context), view_(facts.program, context) {
+    findSkips();
+    if (skips_.empty())
+      return;
+    findMeasured();
+    propagate();
     for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
-      for (const Assignment &assignment : assignmentsOf(facts, node)) {
-        const auto target = variableNumber(context.tree, unwrapped(context.tree, assignment.target));
-        const auto reads = readsIn(facts.file, assignment.value, facts.node(node).block);
-        const bool isMeasured = std::ranges::any_of(reads, [&](const Read &read) {
-          return !read.number || found.contains(*read.number) ||
-                 roleOf(context, *read.number) == VariableRole::SkipPosition ||
-                 roleOf(context, *read.number) == VariableRole::BlockEndPosition;
-        });
-        if (target && isMeasured)
-          found.insert(*target);
-      }
-    if (before == found.size())
-      break;
+      if (stateOf(node).isReached)
+        findUses(node);
   }
-  return found;
-}
+  const std::vector<Use> &uses() const { return uses_; }
+  /// The last one in the text before the place: none of them is far.
+  NodeId skipBefore(NodeId node) const {
+    NodeId found = skips_.front();
+    for (const NodeId skip : skips_)
+      if (skip < node)
+        found = skip;
+    return found;
+  }
+  Span spanOf(NodeId node) const { return view_.blockSpan(node); }
+  /// Some condition looks at a position, perhaps behind the assignment that takes it.
+  bool areChecked() const {
+    for (NodeId node = facts_.entry(); node < facts_.end(); node = node.next())
+      if (isCheck(node) && std::holds_alternative<Test>(facts_.node(node).instruction))
+        return true;
+    return false;
+  }
 
-/// A condition looks at a position, at something computed from it, or at an input.
-bool asksForIt(const FlowFacts &facts, const FileContext &context) {
-  const auto measuredHere = measured(facts, context);
-  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
-    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
-    if (!test || !test->condition)
-      continue;
-    const auto reads = readsIn(facts.file, *test->condition, facts.node(node).block);
-    if (std::ranges::any_of(reads, [&](const Read &read) {
-          return !read.number || measuredHere.contains(*read.number) ||
-                 roleOf(context, *read.number) != VariableRole::Plain;
-        }))
-      return true;
+private:
+  Unchecked &stateOf(NodeId node) { return states_[node.index() - facts_.entry().index()]; }
+
+  void findSkips() {
+    for (NodeId node = facts_.entry(); node < facts_.end(); node = node.next())
+      for (const Word *word : view_.mayDo(node, {CodeAction::Skip}) ? view_.wordsOf(node) : std::vector<const Word *>{})
+        if (const Code *code = word->address() == 'G' ? codeOf(*word, context_.dialect) : nullptr;
+            code && isSkip(code->role) && facts_.isReached(node))
+          (code->role == CodeRole::Skip ? skips_ : sureSkips_).push_back(node);
   }
-  return false;
+  /// Everything that may be computed from a position: a condition that reads it may be the check.
+  void findMeasured() {
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (NodeId node = facts_.entry(); node < facts_.end(); node = node.next())
+        for (const Assignment &assignment : assignmentsOf(facts_, node)) {
+          const auto target = variableOf(facts_, assignment.target);
+          const auto reads = readsIn(facts_.file, assignment.value, facts_.node(node).block);
+          const bool isMeasured = std::ranges::any_of(reads, [&](const Read &read) {
+            const auto number = variableOf(facts_, read.expression);
+            return !number || measured_.contains(*number) || isPosition(roleOf(context_, *number));
+          });
+          grows |= target && isMeasured && measured_.insert(*target).second;
+        }
+    }
+  }
+  /// Looks at a position, at something computed from one, or at a signal of the machine.
+  bool isCheck(NodeId node) const {
+    const Instruction &instruction = facts_.node(node).instruction;
+    if (std::holds_alternative<Havoc>(instruction) || std::holds_alternative<CallProgram>(instruction) ||
+        std::holds_alternative<JumpTo>(instruction))
+      return true;
+    const auto *test = std::get_if<Test>(&instruction);
+    if (!test || !test->condition)
+      return test != nullptr;
+    const auto reads = readsIn(facts_.file, *test->condition, facts_.node(node).block);
+    return std::ranges::any_of(reads, [&](const Read &read) {
+      const auto number = variableOf(facts_, read.expression);
+      return !number || measured_.contains(*number) || roleOf(context_, *number) != VariableRole::Plain;
+    });
+  }
+  std::uint32_t axesOf(NodeId node) const {
+    std::uint32_t axes = 0;
+    for (const Word *word : view_.axisWords(node))
+      axes |= 1U << (word->address() - 'A');
+    return axes == 0 ? ~0U : axes;
+  }
+  bool isUnsure(NodeId node) const { return std::ranges::binary_search(skips_, node); }
+  bool moves(NodeId node) const { return !view_.axisWords(node).empty(); }
+
+  bool reads(ExpressionId value, NodeId node, const Unchecked &state) const {
+    const auto all = readsIn(facts_.file, value, facts_.node(node).block);
+    return std::ranges::any_of(all, [&](const Read &read) {
+      if (read.use == ReadUse::Other && !as<NumberedVariable>(context_.tree, read.expression))
+        return false;
+      const auto number = tableNumber(context_, read.expression);
+      const auto variable = number ? number : variableOf(facts_, read.expression);
+      if (!variable)
+        return false;
+      const VariableRole role = roleOf(context_, *variable);
+      return role == VariableRole::SkipPosition ? state.skipPosition
+             : isPosition(role)                 ? state.position
+                                                : state.variables.contains(*variable);
+    });
+  }
+  Unchecked after(NodeId node, Unchecked state) const {
+    if (isCheck(node)) {
+      state.skipPosition = state.position = false;
+      state.variables.clear();
+      state.fresh &= ~state.touched;
+    } else if (isUnsure(node)) {
+      const std::uint32_t axes = axesOf(node);
+      state.skipPosition = state.position = (state.fresh & axes) != 0;
+      state.touched |= axes;
+    } else if (moves(node)) {
+      state.position = false;
+      state.skipPosition = state.skipPosition && !std::ranges::binary_search(sureSkips_, node);
+    }
+    for (const Assignment &assignment : assignmentsOf(facts_, node))
+      if (const auto target = variableOf(facts_, assignment.target)) {
+        if (reads(assignment.value, node, state))
+          state.variables.insert(*target);
+        else
+          state.variables.erase(*target);
+      }
+    return state;
+  }
+  void propagate() {
+    states_.resize(facts_.end().index() - facts_.entry().index());
+    stateOf(facts_.entry()).isReached = true;
+    std::vector<NodeId> open{facts_.entry()};
+    while (!open.empty()) {
+      const NodeId node = open.back();
+      open.pop_back();
+      const Unchecked left = after(node, stateOf(node));
+      forEachSuccessor(facts_.file.cfg, *facts_.file.model, node, ProgramUse::Called, [&](NodeId next) {
+        if (next >= facts_.entry() && next < facts_.end() && facts_.isReached(next) && stateOf(next).join(left))
+          open.push_back(next);
+      });
+    }
+  }
+  void findUses(NodeId node) {
+    const Unchecked &state = stateOf(node);
+    for (const Assignment &assignment : assignmentsOf(facts_, node))
+      if (reads(assignment.value, node, state)) {
+        const auto target = tableNumber(context_, assignment.target);
+        uses_.push_back(
+            {node, context_.tree.expressions[assignment.target].span, target && isOffset(context_, *target)});
+      }
+    const auto words = view_.wordsOf(node);
+    const auto does = [&](CodeRole role) {
+      return std::ranges::any_of(words, [&](const Word *word) {
+        const Code *code = word->address() == 'G' ? codeOf(*word, context_.dialect) : nullptr;
+        return code && code->role == role;
+      });
+    };
+    if (!does(CodeRole::DataSetting) && !view_.findAction(node, {CodeAction::CoordinateSet}))
+      return;
+    const bool readsIt = std::ranges::any_of(words, [&](const Word *word) {
+      return word->form() == WordForm::Expression && reads(word->expression(), node, state);
+    });
+    if (readsIt || (state.position && setsHere(node)))
+      uses_.push_back({node, view_.blockSpan(node), true});
+  }
+  /// The block gives the present position a value: G92, or G10 L20 of a control on which it counts from there.
+  bool setsHere(NodeId node) const {
+    if (view_.findAction(node, {CodeAction::CoordinateSet}))
+      return true;
+    const Word *kind = findWord(context_.tree, facts_.node(node).block, 'L');
+    const auto number = kind && context_.dialect.grammar.oWords ? kind->integer() : std::nullopt;
+    return number == 20U || number == 10U || number == 11U;
+  }
+
+  const FlowFacts &facts_;
+  const FileContext &context_;
+  MotionView view_;
+  std::vector<NodeId> skips_;
+  std::vector<NodeId> sureSkips_; // with an alarm where the signal does not come
+  std::set<std::uint32_t> measured_;
+  std::vector<Unchecked> states_;
+  std::vector<Use> uses_;
+};
+
+std::string adviceFor(const Dialect &dialect) {
+  return dialect.grammar.oWords
+             ? "probe with `G38.2`, which stops with an error, or test `#5070`, which is 1 after a contact"
+             : "compare the position with the programmed end point, and raise an alarm when they are equal";
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
-  const auto uses = context.model.variablesOf(facts.program);
-  const auto read = std::ranges::find_if(uses, [&](const VariableUse &use) {
-    return !use.write && use.number && roleOf(context, *use.number) == VariableRole::SkipPosition;
-  });
-  if (read == uses.end() || isTooLarge(facts) || !reachedNode(facts, read->block))
+  if (isTooLarge(facts))
     return;
-  const MotionView view(facts.program, context);
-  std::optional<NodeId> skip;
-  for (NodeId node = facts.entry(); node < facts.end() && !skip; node = node.next())
-    for (const Word *word : view.wordsOf(node))
-      if (const Code *code = word->address() == 'G' ? codeOf(*word, context.dialect) : nullptr;
-          code && code->role == CodeRole::Skip)
-        skip = node;
-  if (!skip || asksForIt(facts, context))
+  const Skips skips(facts, context);
+  const auto &uses = skips.uses();
+  const auto offset = std::ranges::find_if(uses, &Use::isOffset);
+  if (uses.empty() || (offset == uses.end() && skips.areChecked()))
     return;
-  const Span span = context.tree.expressions[read->expression].span;
-  reporter.report(
-      {.message = fmt::format("{} is used, but nothing checks whether the skip signal came", context.quoted(span)),
-       .span = span,
-       .labels = {{view.blockSpan(*skip), "without a signal this moves to its end point"}},
-       .notes = {"if the probe touches nothing, the end point is taken as the surface",
-                 "compare the position with the end point, and raise an alarm when they are equal"}});
+  const Use &use = offset == uses.end() ? uses.front() : *offset;
+  const std::string seen = use.isOffset ? "takes the end of a skip move as the surface" : "is set from a skip position";
+  Diagnostic diagnostic{
+      .message = fmt::format("{} {}, but nothing checks whether the skip signal came", context.quoted(use.span), seen),
+      .span = use.span,
+      .labels = {{skips.spanOf(skips.skipBefore(use.node)), "without a signal this moves to its end point"}},
+      .notes = {use.isOffset ? "if the probe touches nothing, the offset is set to the end point of the move"
+                             : "if the probe touches nothing, the end point is taken as the surface",
+                adviceFor(context.dialect)}};
+  for (const Use &other : uses)
+    if (use.isOffset && other.isOffset && other.node != use.node)
+      diagnostic.labels.push_back({other.span, "this offset as well"});
+  reporter.report(std::move(diagnostic), use.isOffset ? Severity::Warning : Severity::Info);
 }
 
 } // namespace
 
 extern const Rule skipNotChecked;
 const Rule skipNotChecked{
-    .info = {"skip-not-checked", Category::Motion, Severity::Info,
-             "Reports a skip position that is used without a check whether the skip signal came."},
+    .info = {"skip-not-checked", Category::Motion, Severity::Warning,
+             "Reports an offset or a variable that is set from a skip move without a check whether the skip signal "
+             "came."},
     .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::skip_not_checked

@@ -99,7 +99,7 @@ private:
       const Code *code = codeOf(*word, view_.context().dialect);
       if (word->address() == 'M' && !code)
         return true;
-      if (code && code->role == CodeRole::Skip)
+      if (code && isSkip(code->role))
         return true;
     }
     return false;

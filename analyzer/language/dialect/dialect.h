@@ -52,6 +52,7 @@ enum class CodeRole : std::uint8_t {
   CoordinateShift, // G52 G92 ..: axis words are values, not motion
   ReferenceReturn, // G28 G30 ..
   Skip,            // G31
+  SkipOrAlarm,     // G37, G38.2: a skip move that stops with an alarm where the signal does not come
   Contour,         // cycles that name a contour by sequence numbers P..Q.. (G70-G73 of lathes, G150 ..)
   SubprogramCall,  // M98
   LocalCall,       // M97 of controls that have it
@@ -61,6 +62,7 @@ enum class CodeRole : std::uint8_t {
   ProgramStop,     // M00 M01
   JumpOnInput,     // M96 P Q of controls that have it: jumps to N P while input Q is off
 };
+constexpr bool isSkip(CodeRole role) { return role == CodeRole::Skip || role == CodeRole::SkipOrAlarm; }
 
 /// What a code does to the state of the machine, as far as that is modelled (meaning/semantics).  Every row of a table
 /// names one; a test refuses Unclassified.

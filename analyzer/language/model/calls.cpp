@@ -34,6 +34,7 @@ std::optional<CallKind> kindOf(const Word &word, const Dialect &dialect) {
   case CodeRole::CoordinateShift:
   case CodeRole::ReferenceReturn:
   case CodeRole::Skip:
+  case CodeRole::SkipOrAlarm:
   case CodeRole::Contour:
   case CodeRole::Return:
   case CodeRole::ProgramEnd:

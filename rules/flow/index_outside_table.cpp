@@ -1,0 +1,82 @@
+// index-outside-table: `#[5221+[#23-54]*20]` in the branch for negative `#23`.
+#include "rules/flow/system_variables.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace feedhold::rules::index_outside_table {
+namespace {
+
+/// Tables whose numbers are computed from an axis and an offset.
+bool isComputedTable(VariableRole role) {
+  constexpr std::array kTables = {VariableRole::WorkOffset,      VariableRole::AdditionalWorkOffset,
+                                  VariableRole::MachinePosition, VariableRole::WorkPosition,
+                                  VariableRole::SkipPosition,    VariableRole::BlockEndPosition};
+  return std::ranges::find(kTables, role) != kTables.end();
+}
+
+/// The first and the last number of the table, with all its parts.
+VariableSpan tableOf(const Dialect &dialect, VariableRole role) {
+  VariableSpan span{kFirstNamedVariable, 0};
+  for (const VariableRange &range : dialect.variables)
+    if (range.role == role && range.kind == VariableKind::System)
+      span = {std::min(span.first, range.first), std::max(span.last, range.last)};
+  return span;
+}
+
+struct Outside {
+  const VariableUse *use;
+  VariableSpan table;
+  bool isBelow;
+  double nearest;
+};
+
+std::optional<Outside> outsideAt(const FlowFacts &facts, const FileContext &context, const VariableUse &use) {
+  const auto *indirect = as<IndirectVariable>(context.tree, use.expression);
+  const auto base = indirect ? tableNumber(context, use.expression) : std::nullopt;
+  const VariableRole role = base ? roleOf(context, *base) : VariableRole::Plain;
+  const AbstractValue *index = isComputedTable(role) ? facts.valueOf(indirect->index) : nullptr;
+  if (!index || !index->mayBeNumber())
+    return std::nullopt;
+  const VariableSpan table = tableOf(context.dialect, role);
+  const Interval &numbers = index->number().interval();
+  if (numbers.hi < table.first)
+    return Outside{&use, table, true, numbers.hi};
+  return numbers.lo >= static_cast<double>(table.last) + 1 ? std::optional(Outside{&use, table, false, numbers.lo})
+                                                           : std::nullopt;
+}
+
+/// One finding for consecutive blocks: X, Y and Z of one offset.
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  std::vector<Outside> all;
+  for (const VariableUse &use : context.model.variablesOf(facts.program))
+    if (const auto outside = outsideAt(facts, context, use))
+      all.push_back(*outside);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Outside &first = all[i];
+    const Span span = context.tree.expressions[first.use->expression].span;
+    const auto node = nodeOf(facts, first.use->block, first.use->expression);
+    Diagnostic diagnostic{.message = fmt::format("{} never names a variable of the table from `#{}` to `#{}`",
+                                                 context.quoted(span), first.table.first, first.table.last),
+                          .span = span,
+                          .flow = node ? pathFromEntry(facts, *node) : std::vector<Label>{},
+                          .notes = {fmt::format("on this path the number is {} {:g}, {} the table",
+                                                first.isBelow ? "at most" : "at least", first.nearest,
+                                                first.isBelow ? "below" : "behind"),
+                                    "correct the base or the factor for this branch"}};
+    for (; i + 1 < all.size() && all[i + 1].use->block.index() - all[i].use->block.index() <= 1; ++i)
+      diagnostic.labels.push_back({context.tree.expressions[all[i + 1].use->expression].span, "nor does this"});
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+} // namespace
+
+extern const Rule indexOutsideTable;
+const Rule indexOutsideTable{
+    .info = {"index-outside-table", Category::Flow, Severity::Warning,
+             "Reports a computed number of a system variable that always lies outside of the table."},
+    .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
+
+} // namespace feedhold::rules::index_outside_table

@@ -1,0 +1,95 @@
+// unguarded-difference: `#691/#692` with `#692=#603-#601`, which is 0 where both are equal.
+#include "rules/flow/definitions.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules::unguarded_difference {
+namespace {
+
+bool readsVariable(const SyntaxTree &tree, ExpressionId root) {
+  return std::ranges::any_of(subexpressions(tree, root), [&](ExpressionId part) {
+    return as<NumberedVariable>(tree, part) || as<IndirectVariable>(tree, part) || as<NamedVariable>(tree, part);
+  });
+}
+
+/// `#603-#601`
+bool isDifference(const SyntaxTree &tree, ExpressionId id) {
+  const auto *difference = asInside<BinaryOperation>(tree, id);
+  return difference && difference->op == OperatorKind::Subtract && readsVariable(tree, difference->left) &&
+         readsVariable(tree, difference->right);
+}
+
+/// The divisor without the functions that keep a 0.
+ExpressionId withoutAbs(const SyntaxTree &tree, ExpressionId id) {
+  const ExpressionId inner = unwrapped(tree, id);
+  const auto *call = as<FunctionCall>(tree, inner);
+  return call && call->function == FunctionKind::Abs && !call->arguments().empty()
+             ? withoutAbs(tree, call->arguments().front())
+             : inner;
+}
+
+/// Some condition before the place asks for one of the variables.
+bool isAsked(const FlowFacts &facts, NodeId at, ExpressionId difference, std::optional<std::uint32_t> variable) {
+  const auto parts = readsIn(facts.file, difference, facts.node(at).block);
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+    if (!test || !test->condition || !facts.isReached(node) || !findPath(facts, node, at, [](NodeId) { return false; }))
+      continue;
+    for (const Read &read : readsIn(facts.file, *test->condition, facts.node(node).block))
+      if (!read.number || read.number == variable ||
+          std::ranges::find(parts, read.number, &Read::number) != parts.end())
+        return true;
+  }
+  return false;
+}
+
+/// The difference that the divisor is, or that its variable holds.
+std::optional<ExpressionId> differenceBehind(const FlowFacts &facts, NodeId node, ExpressionId divisor) {
+  if (isDifference(*facts.file.tree, divisor))
+    return unwrapped(*facts.file.tree, divisor);
+  const auto variable = variableOf(facts, divisor);
+  const auto known = variable ? definitionsOf(facts, *variable, node) : std::nullopt;
+  if (!known || known->fromEntry || known->nodes.size() != 1)
+    return std::nullopt;
+  const auto assignment = assignmentTo(facts, known->nodes.front(), *variable);
+  return assignment && isDifference(*facts.file.tree, assignment->value) ? std::optional(assignment->value)
+                                                                         : std::nullopt;
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isTooLarge(facts))
+    return;
+  for (const AlarmFact &alarm : facts.alarms()) {
+    if (alarm.kind != AlarmKind::DivideByZero || alarm.always)
+      continue;
+    const auto place = expressionAt(facts, facts.node(alarm.node).block, alarm.place);
+    if (!place)
+      continue;
+    const ExpressionId divisor = withoutAbs(context.tree, *place);
+    const auto difference = differenceBehind(facts, alarm.node, divisor);
+    if (!difference || isAsked(facts, alarm.node, *difference, variableOf(facts, divisor)))
+      continue;
+    Diagnostic diagnostic{
+        .message = fmt::format("{} is 0 where the two values are equal: nothing checks it before this "
+                               "division",
+                               context.quoted(context.tree.expressions[*difference].span)),
+        .span = alarm.place,
+        .label = "divides by it",
+        .notes = {fmt::format("the control then {}", stopsWith(context.dialect, AlarmKind::DivideByZero)),
+                  "test the difference for 0 first; for an angle, write `ATAN[..]/[..]`, which takes "
+                  "a divisor of 0"}};
+    if (!alarm.place.contains(context.tree.expressions[*difference].span))
+      diagnostic.labels.push_back({context.tree.expressions[*difference].span, "computed here"});
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+} // namespace
+
+extern const Rule unguardedDifference;
+const Rule unguardedDifference{.info = {"unguarded-difference", Category::Flow, Severity::Info,
+                                        "Reports a division by a difference that is never checked for 0."},
+                               .hooks = {.flow = check}};
+
+} // namespace feedhold::rules::unguarded_difference
