@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::rules::approach_before_length_offset {
 namespace {
@@ -17,8 +18,11 @@ public:
 
   void after(NodeId node, const AbstractState &state) override {
     if (view_.mayHave(node, 'Z') && !isHavocked(state) && zWord(node) && !isBehind(node) &&
-        view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+        view_.surely(state, ModalKind::Distance, {CodeAction::Absolute})) {
       approaches_.push_back(node);
+      if (view_.inForce(state, ModalKind::Length) == CodeSet::atEntry())
+        withLengthOfEntry_.insert(node);
+    }
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
@@ -29,9 +33,31 @@ public:
       if (facts.isReached(change) && view_.findAction(change, {CodeAction::ToolChange}) &&
           !view_.findAction(change, kOffsets)) // `T5 M6 G43`
         tell(change, facts, context, reporter);
+    for (const NodeId node : withLengthOfEntry_)
+      if (comesBeforeOffset(node, facts)) {
+        tellBeforeFirst(node, reporter, context);
+        return;
+      }
   }
 
 private:
+  /// The next block sets the length of a tool that was changed before the program, or by hand.
+  bool comesBeforeOffset(NodeId node, const FlowFacts &facts) const {
+    const NodeId next = view_.node(node).next;
+    if (next == node || !view_.findAction(next, {CodeAction::LengthPlus, CodeAction::LengthMinus}) || !zWord(next))
+      return false;
+    for (NodeId other = facts.entry(); other < node; other = other.next())
+      if (view_.findAction(other, {CodeAction::ToolChange}))
+        return false;
+    return true;
+  }
+  void tellBeforeFirst(NodeId node, const Reporter &reporter, const FileContext &context) const {
+    reporter.report({.message = fmt::format("{} moves the tool before its `G43`", context.quoted(zWord(node)->span())),
+                     .span = zWord(node)->span(),
+                     .labels = {{view_.blockSpan(view_.node(node).next), "sets the length offset"}},
+                     .notes = {"the length offset is that of the program before, or none: the tool may hit the part",
+                               "write G43 and H in the first block that moves Z"}});
+  }
   const Word *zWord(NodeId node) const {
     for (const Word *word : view_.modalMotionWords(node))
       if (word->address() == 'Z')
@@ -65,7 +91,8 @@ private:
   }
 
   MotionView view_;
-  std::vector<NodeId> approaches_; // with a Z, and no offset in the same block
+  std::vector<NodeId> approaches_;     // with a Z, and no offset in the same block
+  std::set<NodeId> withLengthOfEntry_; // of these, those before any G43 and G49 of the program
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

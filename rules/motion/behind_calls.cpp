@@ -13,7 +13,7 @@ FileContext contextOf(const ProgramFile &file, const FileContext &context) {
 
 /// A code of the group that is none of those that leave the mode on.
 bool putsRight(const MotionView &view, NodeId node, const LeftOn &mode) {
-  return view.sets(node, mode.kind) && !view.findAction(node, mode.actions);
+  return decides(mode, view, node) && !switchedBy(mode, view, node);
 }
 
 /// What the called program may do to the mode; it is not followed into further calls.
@@ -35,7 +35,7 @@ std::optional<CalleeEffect> effectOf(const CallProgram &call, const ProgramFile 
   while (!open.empty()) {
     const NodeId node = open.back();
     open.pop_back();
-    effect.putsOn = effect.putsOn || view.findAction(node, mode.actions);
+    effect.putsOn = effect.putsOn || switchedBy(mode, view, node);
     effect.putsRight = effect.putsRight || putsRight(view, node, mode);
     forEachSuccessor(view.cfg(), its.model, node, ProgramUse::Called, [&](NodeId next) {
       if (seen.insert(next).second)
@@ -55,6 +55,16 @@ bool minds(const MotionView &view, NodeId node, const LeftOn &mode) {
           view.mayDo(node, {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}));
 }
 
+/// The last code in the text before the call that decides the mode puts it right: the program does not want it on.
+bool hadOther(NodeId call, const MotionView &view, const LeftOn &mode) {
+  for (NodeId node = call; node != view.cfg().entryOf(view.program());) {
+    node = NodeId(node.index() - 1);
+    if (decides(mode, view, node))
+      return !switchedBy(mode, view, node);
+  }
+  return false;
+}
+
 /// Where the program goes on behind one call.
 BehindCalls behindCall(NodeId call, const CallProgram &instruction, const ProgramFile &file, const LeftOn &mode,
                        const FileContext &context) {
@@ -68,6 +78,7 @@ BehindCalls behindCall(NodeId call, const CallProgram &instruction, const Progra
   std::vector<NodeId> open{call};
   bool moves = false;
   bool isLeft = false;
+  bool isSetAgain = false;
   while (!open.empty()) {
     const NodeId node = open.back();
     open.pop_back();
@@ -75,18 +86,24 @@ BehindCalls behindCall(NodeId call, const CallProgram &instruction, const Progra
     isLeft = isLeft || std::holds_alternative<ReturnFromProgram>(view.node(node).instruction) ||
              (end && !its.dialect.behaviour.endRestoresModes);
     forEachSuccessor(file.cfg, *file.model, node, ProgramUse::Called, [&](NodeId next) {
-      if (view.sets(next, mode.kind) || !seen.insert(next).second)
+      if (decides(mode, view, next)) {
+        isSetAgain = isSetAgain || switchedBy(mode, view, next);
+        return;
+      }
+      if (!seen.insert(next).second)
         return;
       if (const auto *another = std::get_if<CallProgram>(&view.node(next).instruction))
-        if (const auto effect = effectOf(*another, file, mode, context); !effect || effect->putsRight)
+        if (const auto effect = effectOf(*another, file, mode, context); !effect || effect->putsRight) {
+          isSetAgain = isSetAgain || (effect && effect->putsOn);
           return;
+        }
       moves = moves || minds(view, next, mode);
       open.push_back(next);
     });
   }
-  if (!isLeft)
-    return BehindCalls::PutRight;
-  return moves ? BehindCalls::MovesOn : BehindCalls::LeftAtEnd;
+  if (moves && (isLeft || isSetAgain || hadOther(call, view, mode)))
+    return BehindCalls::MovesOn;
+  return isLeft ? BehindCalls::LeftAtEnd : BehindCalls::PutRight;
 }
 
 /// Calls of the program by others, and those of its own blocks (M97).

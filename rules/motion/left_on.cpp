@@ -20,14 +20,16 @@ struct Leaving {
 std::vector<NodeId> switchingNodes(const LeftOn &mode, const MotionView &view, const FlowFacts &facts) {
   std::vector<NodeId> nodes;
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
-    if (facts.isReached(node) && view.findAction(node, mode.actions))
+    if (facts.isReached(node) && switchedBy(mode, view, node))
       nodes.push_back(node);
   return nodes;
 }
 
-/// A call, which may be of a program that is not among the files, or a code that the dialect does not have.
+/// A call, which may be of a program that is not among the files, a code that the dialect does not have, or a block
+/// that could not be read.
 bool mayPutRightUnseen(const MotionView &view, NodeId node) {
-  if (std::holds_alternative<CallProgram>(view.node(node).instruction))
+  const Instruction &instruction = view.node(node).instruction;
+  if (std::holds_alternative<CallProgram>(instruction) || std::holds_alternative<Havoc>(instruction))
     return true;
   return std::ranges::any_of(
       view.wordsOf(node), [&](const Word *word) { return word->isCode() && !codeOf(*word, view.context().dialect); });
@@ -36,18 +38,18 @@ bool mayPutRightUnseen(const MotionView &view, NodeId node) {
 std::optional<Leaving> leavingFrom(NodeId from, const ExitFact &exit, const LeftOn &mode, const MotionView &view,
                                    const FlowFacts &facts) {
   const auto sets = [&](NodeId node) {
-    return view.sets(node, mode.kind) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
+    return decides(mode, view, node) || (mode.kind == ModalKind::Cycle && view.sets(node, ModalKind::Motion)) ||
            (isHavocked(exit.state) && mayPutRightUnseen(view, node));
   };
   auto path = findPath(facts, from, exit.node, sets);
   if (!path)
     return std::nullopt;
-  return Leaving{view.findAction(from, mode.actions), exit.node, std::move(*path)};
+  return Leaving{switchedBy(mode, view, from), exit.node, std::move(*path)};
 }
 
 /// The contract of the program says that its caller has the mode on.
 bool isOnAtEntry(const LeftOn &mode, const MotionView &view, const FlowFacts &facts) {
-  const auto group = view.modes().groupOf(mode.kind);
+  const auto group = mode.special ? std::nullopt : view.modes().groupOf(mode.kind);
   if (!group || facts.entryCodes()[*group].mayBeAtEntry())
     return false;
   return (facts.entryCodes()[*group].codes() & ~view.modes().maskOf(mode.kind, mode.actions)) == 0;
@@ -57,6 +59,8 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   const bool isRestored = exit.end == PathEnd::Ends && view.context().dialect.behaviour.endRestoresModes;
   if (exit.end == PathEnd::Alarm || isRestored || (exit.end == PathEnd::Ends && !mode.atProgramEnd))
     return false;
+  if (mode.special)
+    return mode.special->isOn(exit.state);
   return isHavocked(exit.state) || view.wasSet(exit.state, mode.kind, mode.actions);
 }
 
@@ -84,6 +88,14 @@ void tell(const Leaving &leaving, const ExitFact &exit, Severity severity, const
 }
 
 } // namespace
+
+const Word *switchedBy(const LeftOn &mode, const MotionView &view, NodeId node) {
+  return mode.special ? mode.special->switchedBy(view, node) : view.findAction(node, mode.actions);
+}
+
+bool decides(const LeftOn &mode, const MotionView &view, NodeId node) {
+  return mode.special ? mode.special->putsRight(view, node) : view.sets(node, mode.kind);
+}
 
 void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const MotionView view(facts.program, context);

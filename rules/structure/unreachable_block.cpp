@@ -3,6 +3,7 @@
 
 #include "rules/structure/structure_view.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::unreachable_block {
@@ -27,12 +28,30 @@ std::optional<BlockId> firstUnintended(const DeadBlocks::Run &run, const FileCon
   return block <= run.last ? std::optional(block) : std::nullopt;
 }
 
+/// The block that jumps were to lead to, if it raises an alarm.
+bool isAlarm(BlockId block, const FileContext &context) {
+  return std::ranges::any_of(context.model.variablesIn(block, block.next()), [&](const VariableUse &use) {
+    return use.write && use.number && raisesAlarm(context.dialect, *use.number);
+  });
+}
+
+void reportAlarm(BlockId block, BlockId ender, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this alarm is never raised: no jump leads to it",
+                   .span = context.tree.blocks[block].span(),
+                   .labels = {{context.tree.blocks[ender].span(), "the program never continues past this block"}},
+                   .notes = {"the check that should lead here is missing, or its GOTO names another block"}});
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
     const auto start = firstUnintended(run, context);
     if (!start || context.model.programOf(*start) != program)
       continue;
+    if (isAlarm(*start, context) && findWord(context.tree, *start, 'N')) {
+      reportAlarm(*start, run.ender, context, reporter);
+      continue;
+    }
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
     const std::uint32_t last = context.source.lineOf(context.tree.blocks[run.last].begin);
     reporter.report({.message = first == last ? "this block is never executed"

@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 #include "language/model/word_habits.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::number_without_point {
@@ -10,6 +11,8 @@ namespace {
 // So many whole lengths with a point must stand in the file for each one without before the latter is a slip.  In the
 // programs looked at the writers either had more than twenty for one, or about as many of both kinds.
 constexpr std::size_t kHabit = 10;
+// A zero in front says more: there are controls whose programs have numbers of a fixed width, all without a point.
+constexpr std::size_t kHabitOfZeros = 3;
 
 void reportWord(const Word &word, const FileContext &context, const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
@@ -26,10 +29,32 @@ void reportWord(const Word &word, const FileContext &context, const Reporter &re
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 
+/// `Z-0560`: nobody writes a zero in front of a number, but behind a point that got lost there is one.
+bool hasLeadingZero(const Word &word, const FileContext &context) {
+  std::string_view digits = context.text(word.span()).substr(1);
+  digits.remove_prefix(std::min(digits.find_first_not_of(" \t+-"), digits.size()));
+  return digits.size() >= 3 && digits.front() == '0';
+}
+
+void reportLeadingZero(const Word &word, const FileContext &context, const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("{} begins with a zero and has no decimal point", context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {"the lengths around it have a point, which may have been lost here: the control reads "
+                 "another number than the one that was meant",
+                 "write the point, or the number without the zero"}});
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
+  WrittenLengths lengths = lengthsOf(context.tree, context.dialect);
+  const auto odd = std::ranges::stable_partition(
+      lengths.withoutPoint, [&](WordId word) { return !hasLeadingZero(context.tree.words[word], context); });
+  if (lengths.withPoint >= kHabitOfZeros * odd.size())
+    for (const WordId word : odd)
+      reportLeadingZero(context.tree.words[word], context, reporter);
+  lengths.withoutPoint.erase(odd.begin(), odd.end());
   if (context.dialect.switches.dpi == Switch::On)
     return;
-  const WrittenLengths lengths = lengthsOf(context.tree, context.dialect);
   if (lengths.wholeWithPoint < kHabit * lengths.withoutPoint.size())
     return;
   for (const WordId word : lengths.withoutPoint)

@@ -1,16 +1,23 @@
 // See the header.
 #include "findings/rule/dead_blocks.h"
 
+#include "base/support/text.h"
+
 #include <algorithm>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 namespace feedhold {
 
 namespace {
 
-using Entries = DeadBlocks::Entries;
+/// Which sequence numbers of a program control may be sent to.
+struct Entries {
+  bool any = false; // a computed jump: every one
+  std::unordered_set<std::uint32_t> numbers;
+};
 
 void addTarget(Entries &entries, const Jump &jump) {
   const auto number = targetNumber(jump);
@@ -45,11 +52,9 @@ void addStarts(Entries &entries, const FileContext &context, ProgramId program) 
   }
 }
 
+/// Where control may arrive from outside, or in a way that the text does not tell.
 Entries entriesOf(const FileContext &context, ProgramId program) {
   Entries entries;
-  for (const Jump &jump : context.model.jumpsOf(program))
-    if (jump.kind != JumpKind::CallAt)
-      addTarget(entries, jump);
   // `G65 H80 P n` and its like jump, too.
   entries.any = entries.any || std::ranges::any_of(context.model.callsOf(program),
                                                    [](const Call &call) { return call.kind == CallKind::MacroA; });
@@ -107,53 +112,101 @@ bool hasContent(const FileContext &context, BlockId block) {
          });
 }
 
-/// A block that does not parse may jump anywhere, if it is executed.
-bool mayJumpUnread(const FileContext &context, const Program &program, const DeadBlocks &dead) {
-  for (BlockId block = program.first; block < program.last; block = block.next())
-    if (context.tree.blocks[block].has(Block::kBroken) && !dead.contains(block))
-      return true;
-  return false;
+namespace {
+
+/// A block that does not parse and may have been meant to jump.
+bool mayJumpUnread(const FileContext &context, BlockId id) {
+  const Block &block = context.tree.blocks[id];
+  return block.has(Block::kBroken) && (mayNameWord(context.source, context.tree, id) ||
+                                       toUpper(context.text(block.span())).find("GO") != std::string::npos);
 }
+
+/// The blocks to which control may come: along blocks and jumps that are themselves reached.
+class ReachedBlocks {
+public:
+  ReachedBlocks(const FileContext &context, ProgramId id)
+      : context_(context), program_(context.model.programs[id]),
+        reached_(program_.last.index() - program_.first.index()) {
+    for (const SequenceNumber &label : context.model.sequenceNumbersOf(id))
+      labels_[label.number].push_back(label.block);
+    for (const Loop &loop : context.model.loopsOf(id))
+      if (loop.endBlock)
+        endOfDo_.emplace(loop.doBlock.index(), *loop.endBlock);
+    const Entries entries = entriesOf(context, id);
+    open_.push_back(program_.first);
+    for (BlockId block = program_.first; block < program_.last; block = block.next())
+      if (continuesIf(context, block) || isReachedByOWord(context, block) || isEntry(context, entries, block))
+        open_.push_back(block);
+    while (!open_.empty()) {
+      const BlockId block = open_.back();
+      open_.pop_back();
+      follow(block);
+    }
+  }
+
+  bool contains(BlockId block) const { return reached_[block.index() - program_.first.index()]; }
+
+private:
+  void follow(BlockId from) {
+    for (BlockId block = from; block < program_.last && !contains(block); block = block.next()) {
+      reached_[block.index() - program_.first.index()] = true;
+      if (!isRead(context_.tree.blocks[block]))
+        continue;
+      // An END is reached from its DO, when that is.
+      if (const auto end = endOfDo_.find(block.index()); end != endOfDo_.end())
+        open_.push_back(end->second);
+      for (const Jump &jump : context_.model.jumpsIn(block, block.next()))
+        if (jump.kind != JumpKind::CallAt)
+          addTargets(jump);
+      if (mayJumpUnread(context_, block))
+        addAllLabels();
+      if (leavesForGood(context_, block))
+        return;
+    }
+  }
+  void addTargets(const Jump &jump) {
+    if (const auto number = targetNumber(jump)) {
+      if (const auto label = labels_.find(*number); label != labels_.end())
+        open_.insert(open_.end(), label->second.begin(), label->second.end());
+    } else if (jump.computed) {
+      addAllLabels();
+    }
+  }
+  void addAllLabels() {
+    if (!std::exchange(hasAllLabels_, true))
+      for (const auto &[number, blocks] : labels_)
+        open_.insert(open_.end(), blocks.begin(), blocks.end());
+  }
+
+  const FileContext &context_;
+  const Program &program_;
+  std::vector<bool> reached_;
+  std::unordered_map<std::uint32_t, std::vector<BlockId>> labels_;
+  std::unordered_map<std::uint32_t, BlockId> endOfDo_;
+  std::vector<BlockId> open_;
+  bool hasAllLabels_ = false;
+};
+
+} // namespace
 
 DeadBlocks::DeadBlocks(const FileContext &context, ProgramId id) {
-  Entries entries = entriesOf(context, id);
-  find(context, id, entries);
-  if (!mayJumpUnread(context, context.model.programs[id], *this))
-    return;
-  runs_.clear();
-  entries.any = true;
-  find(context, id, entries);
-}
-
-void DeadBlocks::find(const FileContext &context, ProgramId id, const DeadBlocks::Entries &entries) {
   const Program &program = context.model.programs[id];
-  std::unordered_map<std::uint32_t, BlockId> doOfEnd;
-  for (const Loop &loop : context.model.loopsOf(id))
-    if (loop.endBlock)
-      doOfEnd.emplace(loop.endBlock->index(), loop.doBlock);
-  bool isDead = false; // control does not come from `ender`, the last block that it ran
+  const ReachedBlocks reached(context, id);
   BlockId ender = program.first;
   bool inRun = false;
   for (BlockId block = program.first; block < program.last; block = block.next()) {
     if (!isRead(context.tree.blocks[block]))
       continue;
-    // An END is reached from its DO, when that is.
-    const auto loop = doOfEnd.find(block.index());
-    const bool endsLoop = loop != doOfEnd.end() && !contains(loop->second);
-    if (endsLoop || continuesIf(context, block) || isReachedByOWord(context, block) ||
-        isEntry(context, entries, block)) {
-      isDead = false;
+    if (reached.contains(block)) {
       inRun = false;
-    } else if (isDead && hasContent(context, block)) {
+      if (leavesForGood(context, block))
+        ender = block;
+    } else if (hasContent(context, block)) {
       if (inRun)
         runs_.back().last = block;
       else
         runs_.push_back({ender, block, block});
       inRun = true;
-    }
-    if (!isDead && leavesForGood(context, block)) {
-      isDead = true;
-      ender = block;
     }
   }
 }

@@ -4,7 +4,6 @@
 #include "findings/rule/rule.h"
 
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 namespace feedhold {
@@ -18,7 +17,7 @@ bool hasContent(const FileContext &context, BlockId block);
 /// Control never reaches the block behind this one.
 bool leavesForGood(const FileContext &context, BlockId block);
 
-/// Blocks that neither the block before them nor a jump leads to.
+/// Blocks to which neither the block before them nor a jump leads that is itself executed.
 class DeadBlocks {
 public:
   DeadBlocks(const FileContext &context, ProgramId program);
@@ -32,15 +31,7 @@ public:
   };
   std::span<const Run> runs() const { return runs_; }
 
-  /// Which sequence numbers of a program control may be sent to.
-  struct Entries {
-    bool any = false; // a computed jump: every one
-    std::unordered_set<std::uint32_t> numbers;
-  };
-
 private:
-  void find(const FileContext &context, ProgramId program, const Entries &entries);
-
   std::vector<Run> runs_;
 };
 

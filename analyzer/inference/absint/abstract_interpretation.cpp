@@ -337,12 +337,22 @@ void AbstractInterpretation::remember(const ProgramFile &file, ExpressionId expr
 
 // ---- what happens --------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// The text alone tells of it, at the word.
+bool isMistakeOfWord(AlarmKind kind) {
+  return kind == AlarmKind::ReadProtected || kind == AlarmKind::WriteProtected ||
+         kind == AlarmKind::VariableNotAvailable || kind == AlarmKind::NoDataAfterAddress;
+}
+
+} // namespace
+
 void AbstractInterpretation::alarm(Truth truth, const AlarmReport &report) {
   if (!mayBeTrue(truth) || stopped_)
     return;
   if (observer_)
     observer_->alarm(truth, report);
-  stopped_ = truth == Truth::True;
+  stopped_ = truth == Truth::True && !isMistakeOfWord(report.kind);
   mayHaveDividedByZero_ = mayHaveDividedByZero_ || report.kind == AlarmKind::DivideByZero;
 }
 

@@ -127,6 +127,9 @@ public:
   void join(State &state, Truth truth, const State &second);
 
   // ---- what happens ----
+  /// A word that always stops the control is a finding of its own; rules judge the rest of the program as if it were
+  /// corrected.  Sound: more is reached than in any run.
+  static constexpr bool kGoesOnBehindMistakes = true;
   void alarm(Truth truth, const AlarmReport &report);
   void userAlarm(const Value &number, Span place);
   bool wantsMoves() const { return observer_ != nullptr; }

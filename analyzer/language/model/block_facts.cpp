@@ -1,6 +1,8 @@
 // What the codes of one block mean together.
 #include "language/model/block_facts.h"
 
+#include "base/support/text.h"
+
 #include <algorithm>
 
 namespace feedhold {
@@ -129,6 +131,33 @@ FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialec
   if (tree.blocks[block].has(Block::kSkip) && flow > FlowAfter::MayJump)
     return FlowAfter::MayJump;
   return flow;
+}
+
+bool mayNameWord(const SourceFile &source, const SyntaxTree &tree, BlockId id) {
+  const Block &block = tree.blocks[id];
+  const std::span<const Comment> comments = tree.commentsOf(id);
+  const auto isCode = [&](std::uint32_t at) {
+    return std::none_of(comments.begin(), comments.end(),
+                        [&](const Comment &comment) { return comment.span.begin <= at && at < comment.span.end; });
+  };
+  char address = ' ';  // a letter that no other letter stands before
+  bool isName = false; // the last letter had one before it
+  for (std::uint32_t at = block.begin; at < block.end; ++at) {
+    const char c = toUpper(source.text({at, at + 1}).front());
+    if (c == ' ' || c == '\t' || !isCode(at))
+      continue;
+    if (c >= 'A' && c <= 'Z') {
+      isName = isName || address != ' ';
+      address = c;
+      continue;
+    }
+    const bool isValue = isDigit(c) || c == '#' || c == '[' || c == '-' || c == '+' || c == '.';
+    if (address != ' ' && address != 'N' && !isName && isValue)
+      return true;
+    address = ' ';
+    isName = false;
+  }
+  return false;
 }
 
 bool isEmpty(const SyntaxTree &tree, BlockId block) {

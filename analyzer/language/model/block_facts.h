@@ -1,6 +1,7 @@
 // What the codes of one block mean together: the roles of its G and M words, and how control leaves it.
 #pragma once
 
+#include "base/source/source_file.h"
 #include "language/dialect/dialect.h"
 #include "language/syntax/tree.h"
 
@@ -26,6 +27,10 @@ bool meansOwnWords(const SyntaxTree &tree, BlockId block, const Dialect &dialect
 enum class FlowAfter : std::uint8_t { Next, MayJump, Jumps, Ends };
 /// Ends: M02, M30, M99, `#3000=`, `o100 endsub`.  Jumps: an unconditional GOTO, `break`, `continue`, `return`.
 FlowAfter flowAfter(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
+
+/// The text of the block, its comments apart, has a letter other than N with a number, a variable or an expression
+/// behind it: of a block that could not be read, whether it may have been meant to hold a code or a coordinate.
+bool mayNameWord(const SourceFile &source, const SyntaxTree &tree, BlockId block);
 
 /// The block only ends or separates: no word, no statement (it may hold comments).
 bool isEmpty(const SyntaxTree &tree, BlockId block);

@@ -134,9 +134,15 @@ struct Havoc {
   std::string_view reason;
 };
 
+/// The same for what names no code and no axis: no reading of it changes modal state or position.  Proofs treat it as a
+/// Havoc.
+struct HavocVariables {
+  std::string_view reason;
+};
+
 using Instruction =
     std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop, RequireLoop, StartCount,
-                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc>;
+                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc, HavocVariables>;
 
 struct Node {
   BlockId block;

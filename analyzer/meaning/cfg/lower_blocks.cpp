@@ -92,7 +92,11 @@ void Lowering::wholeBlock(BlockId id) {
 /// The control stops with an alarm at what it cannot read, or else it may do anything; jumps, loops and ends that could
 /// be read may or may not take place.
 void Lowering::brokenBlock(const BlockWords &words) {
-  emit(Havoc{"a block that could not be read"});
+  constexpr std::string_view kReason = "a block that could not be read";
+  if (mayNameWord(source_, tree_, block_))
+    emit(Havoc{kReason});
+  else
+    emit(HavocVariables{kReason});
   flowStatements();
   if (!words.ending())
     return;

@@ -122,12 +122,11 @@ void Lowering::ifStatement(const If &statement) {
   }
   case IfAction::Words: wordsUnderCondition(statement.condition); return;
   case IfAction::Lines:
-    if (dialect_.grammar.blockIf)
-      ifLines(statement);
-    else
-      emit(Havoc{"an IF without a statement"});
+    if (!dialect_.grammar.blockIf)
+      emit(HavocVariables{"an IF without a statement"}); // it stops; else it is that of another control
+    ifLines(statement);
     return;
-  case IfAction::Nothing: emit(Havoc{"an IF without a statement"}); return;
+  case IfAction::Nothing: emit(HavocVariables{"an IF without a statement"}); return;
   }
 }
 
@@ -138,7 +137,7 @@ void Lowering::ifLines(const If &statement) {
 
 void Lowering::elseIfLine(const ElseIf &statement) {
   if (openIfs_.empty() || !openIfs_.back().test) {
-    emit(Havoc{"an ELSEIF without its IF"});
+    emit(HavocVariables{"an ELSEIF without its IF"});
     return;
   }
   OpenIf &open = openIfs_.back();
@@ -149,7 +148,7 @@ void Lowering::elseIfLine(const ElseIf &statement) {
 
 void Lowering::elseLine() {
   if (openIfs_.empty() || !openIfs_.back().test) {
-    emit(Havoc{"an ELSE without its IF"});
+    emit(HavocVariables{"an ELSE without its IF"});
     return;
   }
   OpenIf &open = openIfs_.back();
@@ -160,7 +159,7 @@ void Lowering::elseLine() {
 
 void Lowering::endIfLine() {
   if (openIfs_.empty()) {
-    emit(Havoc{"an ENDIF without its IF"});
+    emit(HavocVariables{"an ENDIF without its IF"});
     return;
   }
   OpenIf &open = openIfs_.back();
@@ -173,6 +172,10 @@ void Lowering::endIfLine() {
 
 /// IF without ENDIF: the control stops where it looks for it.
 void Lowering::closeOpenIfs() {
+  if (!dialect_.grammar.blockIf) { // it does not look for it
+    openIfs_.clear();
+    return;
+  }
   const auto stopAt = [&](NodeId node) {
     cfg_.nodes[node].instruction = StopWithAlarm{AlarmKind::IfFormat};
     setNext(node, node);

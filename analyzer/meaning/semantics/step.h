@@ -137,6 +137,17 @@ template <ValueAlgebra R> void startCount(StepContext<R> &context, const StartCo
   counters[start.counter.index()] = context.interpretation.roundTo(times, Decimal(1, 0));
 }
 
+template <ValueAlgebra R> void havocVariables(StepContext<R> &context, const HavocVariables &unread) {
+  if constexpr (requires { R::kGoesOnBehindMistakes; }) {
+    context.interpretation.unmodelled(unread.reason, context.place());
+    context.interpretation.havocVariables(context.state, 0, 0xffffffff);
+    for (std::size_t local = 1; local <= kLocalVariables; ++local)
+      context.state.locals[local] = context.interpretation.anything();
+  } else {
+    context.interpretation.havoc(context.state, unread.reason, context.place());
+  }
+}
+
 } // namespace detail
 
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
@@ -159,6 +170,8 @@ template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &
     interpretation.alarm(interpretation.truth(true), {stop->alarm, context.place()});
   else if (const auto *havoc = std::get_if<Havoc>(&instruction))
     interpretation.havoc(context.state, havoc->reason, context.place());
+  else if (const auto *unread = std::get_if<HavocVariables>(&instruction))
+    detail::havocVariables(context, *unread);
 }
 
 template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words) {

@@ -1,0 +1,110 @@
+// rapid-at-depth: G00 in the plane at the depth of the last cut, then a feed to the depth that the tool already has.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace feedhold::rules::rapid_at_depth {
+namespace {
+
+constexpr std::initializer_list<CodeAction> kFeeding = {CodeAction::Linear, CodeAction::ArcClockwise,
+                                                        CodeAction::ArcCounterclockwise};
+
+/// Follows the depth through blocks that stand one behind the other.
+class RapidAtDepth final : public FlowRule {
+public:
+  RapidAtDepth(ProgramId program, const FileContext &context)
+      : view_(program, context), asked_(context.dialect.machine == MachineKind::Milling) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!asked_)
+      return;
+    if (node != next_)
+      forget();
+    next_ = node.next();
+    if (!std::holds_alternative<ExecuteWords>(view_.node(node).instruction)) {
+      if (!std::holds_alternative<Pass>(view_.node(node).instruction))
+        forget();
+      return;
+    }
+    const auto words = view_.modalMotionWords(node);
+    if (words.empty())
+      return afterNoMove(node);
+    const auto depth = std::ranges::find(words, 'Z', [](const Word *word) { return word->address(); });
+    const Word *level = depth == words.end() ? nullptr : *depth;
+    if ((level && !level->isNumber()) || !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) ||
+        isInCycle(state) || view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}))
+      return forget();
+    if (view_.surely(state, ModalKind::Motion, {CodeAction::Rapid}))
+      return afterRapid(node, level);
+    if (!view_.surely(state, ModalKind::Motion, kFeeding))
+      return forget();
+    afterFeed(node, level, words.size() == 1);
+  }
+
+  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[rapid, plunge] : found_) {
+      const Word &first = *view_.modalMotionWords(rapid).front();
+      const Word &level = *view_.modalMotionWords(plunge).front();
+      reporter.report(
+          {.message = fmt::format("{} moves at rapid at the depth of the cut", context.quoted(first.span())),
+           .span = first.span(),
+           .labels = {{level.span(), "feeds to the depth that the tool already has"}},
+           .notes = {"the tool goes through the part at rapid", "retract in Z before this block"}});
+    }
+  }
+
+private:
+  void forget() {
+    depth_.reset();
+    rapid_.reset();
+  }
+  /// A code that moves by itself, changes the tool or its length, or the coordinates.
+  void afterNoMove(NodeId node) {
+    if (!view_.axisWords(node).empty() ||
+        view_.findAction(node, {CodeAction::ToolChange, CodeAction::LengthPlus, CodeAction::LengthMinus,
+                                CodeAction::LengthOff, CodeAction::WorkOffset, CodeAction::LocalShift,
+                                CodeAction::CoordinateSet, CodeAction::ReferenceReturn, CodeAction::MachineMove}))
+      forget();
+  }
+  void afterRapid(NodeId node, const Word *level) {
+    if (level)
+      return forget();
+    rapid_ = depth_ ? std::optional(node) : std::nullopt;
+  }
+  void afterFeed(NodeId node, const Word *level, bool isAlone) {
+    if (rapid_ && level && isAlone && level->number() == *depth_)
+      found_.emplace(*rapid_, node);
+    rapid_.reset();
+    if (level)
+      depth_ = level->number().isNegative() ? std::optional(level->number()) : std::nullopt;
+  }
+  bool isInCycle(const AbstractState &state) const {
+    const auto codes = view_.inForce(state, ModalKind::Cycle);
+    return codes && (codes->codes() & ~view_.modes().maskOf(ModalKind::Cycle, {CodeAction::CycleOff})) != 0;
+  }
+
+  MotionView view_;
+  bool asked_;
+  NodeId next_{0};
+  std::optional<Decimal> depth_; // to which the tool was fed, and where it is
+  std::optional<NodeId> rapid_;  // the last block, at that depth
+  std::map<NodeId, NodeId> found_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<RapidAtDepth>(program, context);
+}
+
+} // namespace
+
+extern const Rule rapidAtDepth;
+const Rule rapidAtDepth{
+    .info = {"rapid-at-depth", Category::Motion, Severity::Warning,
+             "Reports a rapid move in the plane at the depth of the last cut, when the next block feeds `Z` to the "
+             "same depth."},
+    .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules::rapid_at_depth
