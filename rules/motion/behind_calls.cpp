@@ -101,7 +101,9 @@ BehindCalls behindCall(NodeId call, const CallProgram &instruction, const Progra
       open.push_back(next);
     });
   }
-  if (moves && (isLeft || isSetAgain || hadOther(call, view, mode)))
+  // An entry macro leaves compensation on for its caller; nobody wants G91 so.
+  const bool isUnwanted = mode.kind == ModalKind::Distance && (isSetAgain || hadOther(call, view, mode));
+  if (moves && (isLeft || isUnwanted))
     return BehindCalls::MovesOn;
   return isLeft ? BehindCalls::LeftAtEnd : BehindCalls::PutRight;
 }

@@ -68,6 +68,8 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
 std::optional<Severity> severityAt(const ExitFact &exit, const LeftOn &mode, const CallersOfMode &callers) {
   if (exit.end == PathEnd::Ends)
     return mode.atProgramEnd.value_or(Severity::Warning);
+  if (mode.special) // to shift the caller is what such a program is for
+    return callers.allInFile ? std::nullopt : std::optional(Severity::Info);
   if (callers.behind == BehindCalls::MovesOn)
     return Severity::Warning;
   if (!callers.allInFile)
