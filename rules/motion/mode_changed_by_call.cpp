@@ -61,7 +61,9 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     std::ranges::sort(moves_);
     std::ranges::sort(feeds_);
-    for (const auto &[call, later] : after_) {
+    for (const auto &entry : after_) {
+      const NodeId call = entry.first;
+      const InForce &later = entry.second;
       const InForce &earlier = before_.at(call);
       const auto code = [&](ModalKind kind, CodeSet was, CodeSet is, const std::vector<NodeId> &uses) {
         if (was.isSingle() && is.isSingle() && was != is)
