@@ -38,8 +38,7 @@ std::optional<Comparison> comparisonIn(const FileContext &context, const BinaryO
     return isVacant(context, side) ? std::optional(Sample()) : std::nullopt;
   };
   const auto isVariable = [&](ExpressionId side) {
-    return as<NumberedVariable>(context.tree, unwrapped(context.tree, side)) && !isVacant(context, side) &&
-           !readsLiveValue(context, side);
+    return !isConstant(context.tree, side) && !isVacant(context, side) && !readsLiveValue(context, side);
   };
   const auto left = limitOf(relation.left);
   const auto right = limitOf(relation.right);
@@ -62,7 +61,7 @@ bool holds(const Comparison &comparison, Sample value) {
   return wantsGreater == (number > limit);
 }
 
-/// A condition of nothing but comparisons of one variable with constants, joined by AND and OR.
+/// A condition of nothing but comparisons of one variable, or one expression, with constants, joined by AND and OR.
 class Combination {
 public:
   Combination(const FileContext &context, ExpressionId root) : context_(context), root_(root) {

@@ -55,13 +55,38 @@ std::optional<ExpressionId> angleIn(const SyntaxTree &tree, ExpressionId id) {
   return left || operation->op == OperatorKind::Divide ? left : angleIn(tree, operation->right);
 }
 
-/// `ATAN[..]*180/3.14`, `ATAN[..]*57.3`: from radians to degrees, which it is already.
+/// The product of the constant factors of a product or quotient, parts that are constant as a whole included.
+double constantFactor(const SyntaxTree &tree, ExpressionId id) {
+  const ExpressionId inner = unwrapped(tree, id);
+  if (const auto value = literalValue(tree, inner))
+    return value->toDouble();
+  const auto *operation = as<BinaryOperation>(tree, inner);
+  if (!operation || (operation->op != OperatorKind::Multiply && operation->op != OperatorKind::Divide))
+    return 1;
+  const double left = constantFactor(tree, operation->left);
+  const double right = constantFactor(tree, operation->right);
+  return operation->op == OperatorKind::Multiply ? left * right : left / right;
+}
+
+bool isProduct(const SyntaxTree &tree, ExpressionId id) {
+  const auto *operation = asInside<BinaryOperation>(tree, id);
+  return operation && (operation->op == OperatorKind::Multiply || operation->op == OperatorKind::Divide);
+}
+
+/// `ATAN[..]*180/3.14`, `ATAN[..]*57.3`, `[180/3.14]*ATAN[..]`: from radians to degrees, which it is already.
 void checkResult(ExpressionId id, const FileContext &context, const Reporter &reporter) {
   const auto *operation = as<BinaryOperation>(context.tree, id);
   const bool byPi = operation && operation->op == OperatorKind::Divide && isFactor(context.tree, operation->right, kPi);
-  const bool byFactor = operation && operation->op == OperatorKind::Multiply &&
-                        (isFactor(context.tree, operation->right, kDegreesInRadian) ||
-                         isFactor(context.tree, operation->left, kDegreesInRadian));
+  // Of the parts of a product, only the first one is told.
+  const auto *left = operation ? asInside<BinaryOperation>(context.tree, operation->left) : nullptr;
+  const bool isTold = left && left->op == OperatorKind::Divide && isFactor(context.tree, left->right, kPi);
+  const double factor = operation && isProduct(context.tree, id) ? constantFactor(context.tree, id) : 1;
+  const auto isDegrees = [](double value) {
+    return std::abs(value - kDegreesInRadian.value) < kDegreesInRadian.tolerance;
+  };
+  const bool byFactor =
+      !isTold && isDegrees(factor) &&
+      (!angleIn(context.tree, operation->left) || !isDegrees(constantFactor(context.tree, operation->left)));
   const auto angle = byPi || byFactor ? angleIn(context.tree, id) : std::nullopt;
   if (!angle)
     return;
