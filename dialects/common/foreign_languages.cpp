@@ -36,6 +36,11 @@ constexpr std::array kPlanet = {
     LanguageHint{TextSignal::AngleName, 30},
     LanguageHint{TextSignal::PlanetMark, 40},
 };
+constexpr std::array kGrbl = {
+    LanguageHint{TextSignal::OWord, 30},
+    LanguageHint{TextSignal::AngleName, 30},
+    LanguageHint{TextSignal::GrblCommand, 40},
+};
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},
     LanguageHint{TextSignal::SyntecControl, 12},
@@ -82,6 +87,8 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"Okuma user task", "named labels and variables of OSP programs are not supported", kOkuma},
     ForeignLanguage{"RS274NGC of PlanetCNC or grblHAL",
                     "only LinuxCNC's RS274NGC is supported; try `--dialect linuxcnc` where the two agree", kPlanet},
+    ForeignLanguage{"RS274NGC of grblHAL or FluidNC", "only LinuxCNC's RS274NGC is supported; exclude these files",
+                    kGrbl},
     ForeignLanguage{"Syntec MACRO", "only programs in ISO mode (without `%@MACRO`) can be read", kSyntec},
     ForeignLanguage{"Fagor 8055", "statements in parentheses would be read as comments", kFagor},
     ForeignLanguage{"LNC macro", "variables such as `@100` are not supported", kLnc},

@@ -76,6 +76,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.thenMayBeWords = true;
   dialect.grammar.thenMayBeOmitted = true;
   dialect.grammar.conditionalReturn = true;
+  dialect.grammar.commentsMayNest = true; // programs that shops saved from the control hold such comments
   dialect.grammar.sequenceZero = true;
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;

@@ -1,28 +1,80 @@
 // nested-comment: `(A (B) C)`: `C)` is read as program.
-#include "findings/rule/rule.h"
+#include "findings/rule/dead_blocks.h"
 
 #include "base/support/text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::nested_comment {
 namespace {
 
-void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+/// `(A (B) C)` as a control reads it.
+struct Parts {
+  Span open;  // the inner `(`
+  Span close; // the `)` that ends the comment
+  Span rest;  // behind it
+};
+
+Parts partsOf(const SyntaxIssue &issue, const FileContext &context) {
   const std::uint32_t end = issue.other.begin + static_cast<std::uint32_t>(context.text(issue.other).find(')')) + 1;
-  const Span rest{end, issue.other.end};
-  const bool nothingLost = trimmed(context.text({rest.begin, rest.end - 1})).empty();
-  reporter.report(
-      {.message = fmt::format("{} is outside the comment", context.quoted(rest)),
-       .span = rest,
-       .labels = {{issue.span, "this `(` does not open a comment"}, {{end - 1, end}, "the comment ends here"}},
-       .notes = {"comments do not nest: the control reads the text after the first `)` as program"},
-       .fixes = {{nothingLost ? FixSafety::Safe : FixSafety::NeedsReview,
-                  "remove the inner parentheses",
-                  {{issue.span, ""}, {{end - 1, end}, ""}}}}});
+  return {issue.span, {end - 1, end}, {end, issue.other.end}};
 }
 
-constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
+/// Only the last `)` is left over.
+bool losesNothing(const Parts &parts, const FileContext &context) {
+  return trimmed(context.text({parts.rest.begin, parts.rest.end - 1})).empty();
+}
+
+std::vector<Parts> nestedIn(const FileContext &context) {
+  NeverExecuted never(context);
+  std::vector<Parts> found;
+  for (const SyntaxIssue &issue : context.tree.issues)
+    if (issue.kind == SyntaxIssueKind::NestedComment && !never.contains(context.tree.blockAt(issue.span.begin)))
+      found.push_back(partsOf(issue, context));
+  return found;
+}
+
+/// Haas controls save such comments themselves; what they make of text behind the first `)` is not documented.
+Severity severityFor(bool isHarmless, const FileContext &context) {
+  if (!context.dialect.grammar.commentsMayNest)
+    return Severity::Error;
+  return isHarmless ? Severity::Info : Severity::Warning;
+}
+
+/// A habit of an author or of a generator: one finding for the file, at the first place that matters most, and one fix.
+void check(const FileContext &context, const Reporter &reporter) {
+  const std::vector<Parts> found = nestedIn(context);
+  if (found.empty())
+    return;
+  const auto harmless = [&](const Parts &parts) { return losesNothing(parts, context); };
+  const auto worst = std::ranges::find_if_not(found, harmless);
+  const bool isHarmless = worst == found.end();
+  const Parts &first = isHarmless ? found.front() : *worst;
+  const bool stopsInside = context.dialect.grammar.oWords;
+  Diagnostic diagnostic;
+  if (stopsInside) {
+    diagnostic.message = "a `(` inside a comment";
+    diagnostic.span = first.open;
+    diagnostic.notes = {"the interpreter stops here: nested comment found"};
+  } else {
+    diagnostic.message = fmt::format("{} is outside the comment", context.quoted(first.rest));
+    diagnostic.span = first.rest;
+    diagnostic.labels = {{first.open, "this `(` does not open a comment"}, {first.close, "the comment ends here"}};
+    diagnostic.notes = {context.dialect.grammar.commentsMayNest
+                            ? "comments do not nest: the control may read the text after the first `)` as program"
+                            : "comments do not nest: the control reads the text after the first `)` as program"};
+  }
+  if (found.size() > 1)
+    diagnostic.notes.push_back(fmt::format("{} comments of this file have parentheses inside", found.size()));
+  FixIt fix{isHarmless ? FixSafety::Safe : FixSafety::NeedsReview, "remove the inner parentheses", {}};
+  for (const Parts &parts : found) {
+    fix.edits.push_back({parts.open, ""});
+    fix.edits.push_back({parts.close, ""});
+  }
+  diagnostic.fixes.push_back(std::move(fix));
+  reporter.report(std::move(diagnostic), severityFor(isHarmless, context));
+}
 
 } // namespace
 
@@ -31,6 +83,6 @@ const Rule nestedComment{
     .info =
         {"nested-comment", Category::Comment, Severity::Error,
          "Reports parentheses inside a comment: the comment ends at the first `)`, and the rest is read as program."},
-    .hooks = {.issue = check, .issueKinds = kIssues}};
+    .hooks = {.file = check}};
 
 } // namespace feedhold::rules::nested_comment

@@ -17,7 +17,40 @@ std::string whatIsWrong(Span span, const FileContext &context) {
   return fmt::format("unexpected {} in this expression", context.quoted(span));
 }
 
+/// `[<#_value>]` for `[#<_value>]`, `#ABS[#6]` for `ABS[#6]`: what is written, and what is meant.
+struct Slip {
+  Span span;
+  std::string message;
+  std::string meant;
+};
+std::optional<Slip> slipAt(Span place, const FileContext &context) {
+  const std::string_view text = context.source.text();
+  if (text.substr(place.begin).starts_with("<#")) {
+    const std::size_t close = text.find_first_of(">\r\n", place.begin);
+    if (close == std::string_view::npos || text[close] != '>')
+      return std::nullopt;
+    const Span span{place.begin, static_cast<std::uint32_t>(close) + 1};
+    const std::string meant = fmt::format("#<{}", context.text({span.begin + 2, span.end}));
+    return Slip{span, fmt::format("the `#` of {} stands inside the brackets", context.quoted(span)), meant};
+  }
+  const std::size_t open = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", place.begin);
+  const bool isName = open != std::string_view::npos && open > place.begin + 1 && text[open] == '[';
+  if (place.begin == 0 || text[place.begin - 1] != '#' || !isName)
+    return std::nullopt;
+  const std::string name(text.substr(place.begin, open - place.begin));
+  return Slip{
+      {place.begin - 1, static_cast<std::uint32_t>(open)}, fmt::format("`#` in front of the function {}", name), name};
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (const auto slip = slipAt(issue.span, context)) {
+    reporter.report(
+        {.message = slip->message,
+         .span = slip->span,
+         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat))},
+         .fixes = {{.title = fmt::format("write `{}`", slip->meant), .edits = {{slip->span, slip->meant}}}}});
+    return;
+  }
   reporter.report({.message = whatIsWrong(issue.span, context),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat))}});

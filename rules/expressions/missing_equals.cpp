@@ -1,12 +1,41 @@
 // missing-equals: a statement without `=`.
 #include "findings/rule/rule.h"
 
+#include "base/support/text.h"
+
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::missing_equals {
 namespace {
 
+constexpr std::size_t kLongestExample = 12;
+
+/// `G90 G01 #33`: a value whose address letter is missing, and no statement that lacks its `=`.
+bool stopsBehindWords(const SyntaxIssue &issue, const FileContext &context) {
+  const auto words = context.tree.wordsOf(context.tree.blockAt(issue.other.begin));
+  return issue.span.empty() && std::ranges::any_of(words, [&](const Word &word) {
+           return word.address() != 'N' && word.address() != 'O' && word.span().end <= issue.other.begin;
+         });
+}
+
+void reportLoneVariable(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const std::string_view text = trimmed(context.text(issue.other));
+  reporter.report(
+      {.message = fmt::format("{} has no address letter", context.quoted(issue.other)),
+       .span = issue.other,
+       .notes = {fmt::format("a variable alone moves nothing: the control {}",
+                             stopsWith(context.dialect, AlarmKind::MissingEquals)),
+                 text.size() <= kLongestExample
+                     ? fmt::format("write the letter of the axis or function: `X{}`, `Z{}`, `F{}`", text, text, text)
+                     : "write the letter of the axis or function before it"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (stopsBehindWords(issue, context)) {
+    reportLoneVariable(issue, context, reporter);
+    return;
+  }
   const bool replaces = !issue.span.empty();
   const std::string seen = replaces ? fmt::format("write `=` instead of {}", context.quoted(issue.span)) : "insert `=`";
   reporter.report({.message = fmt::format("{} is a statement without `=`", context.quoted(issue.other)),

@@ -1,4 +1,5 @@
 // loop-never-entered: the condition of a WHILE does not hold in any run.
+#include "base/support/text.h"
 #include "rules/flow/flow_view.h"
 
 #include <algorithm>
@@ -25,6 +26,30 @@ std::string valuesOf(const FlowFacts &facts, const FileContext &context, Express
   return text;
 }
 
+/// Where the operator writes a number: `#12= -0.1 ( )`.
+bool isBlankToFill(BlockId block, const FileContext &context) {
+  return std::ranges::any_of(context.tree.commentsOf(block), [&](const Comment &comment) {
+    const std::string_view text = context.text(comment.span);
+    return text.size() > 2 && trimmed(text.substr(1, text.size() - 2)).empty();
+  });
+}
+
+/// The bounds are numbers that a template leaves to the operator: the loop may be skipped on purpose.
+bool comparesBlanks(ExpressionId condition, BlockId block, const FlowFacts &facts, const FileContext &context) {
+  std::vector<std::uint32_t> variables;
+  for (const Read &read : readsIn(facts.file, condition, block))
+    if (read.number)
+      variables.push_back(*read.number);
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    for (const Assignment &assignment : assignmentsOf(facts, node)) {
+      const auto target = variableNumber(context.tree, unwrapped(context.tree, assignment.target));
+      if (target && std::ranges::find(variables, *target) != variables.end() &&
+          literalValue(context.tree, assignment.value) && isBlankToFill(facts.node(node).block, context))
+        return true;
+    }
+  return false;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
@@ -41,7 +66,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     reporter.report({.message = fmt::format("this loop is never entered: {} is always false", context.quoted(span)),
                      .span = span,
                      .label = values,
-                     .notes = {"whatever the loop was meant to cut is left out, without an alarm"}});
+                     .notes = {"whatever the loop was meant to cut is left out, without an alarm"}},
+                    comparesBlanks(*test->condition, block, facts, context) ? Severity::Info : Severity::Warning);
   }
 }
 

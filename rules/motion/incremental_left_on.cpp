@@ -9,7 +9,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                 .actions = {CodeAction::Incremental},
                 .atProgramEnd = std::nullopt,
                 .consequence = "the caller's absolute coordinates would be read as incremental",
-                .remedy = "restore the mode that #4003 gave at the start, or write G90"},
+                .remedy = context.dialect.grammar.oWords
+                              ? "write M70 at the start and M72 before the end, or write G90"
+                              : "restore the mode that #4003 gave at the start, or write G90"},
                facts, context, reporter);
 }
 

@@ -9,7 +9,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                 .actions = {CodeAction::PlaneZX, CodeAction::PlaneYZ},
                 .atProgramEnd = std::nullopt,
                 .consequence = "the caller's arcs, canned cycles and cutter compensation would work in the wrong plane",
-                .remedy = "restore the plane that #4002 gave at the start, or write G17"},
+                .remedy = context.dialect.grammar.oWords
+                              ? "write M70 at the start and M72 before the end, or write G17"
+                              : "restore the plane that #4002 gave at the start, or write G17"},
                facts, context, reporter);
 }
 

@@ -3,6 +3,7 @@
 
 #include "rules/structure/structure_view.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::rules::missing_program_end {
@@ -13,6 +14,28 @@ bool isClosedByPercent(const FileContext &context, BlockId last) {
     if (context.tree.blocks[block].has(Block::kPercent))
       return true;
   return false;
+}
+
+constexpr int kMostBlocksOfSnippet = 5;
+
+/// A few statements without motion, M codes, jumps and calls, that nobody calls: to be pasted into programs.
+bool isSnippet(const FileContext &context, ProgramId id) {
+  const Program &program = context.model.programs[id];
+  if (context.callGraph.isCalled({context.file, id}) || !context.model.callsOf(id).empty() ||
+      !context.model.jumpsOf(id).empty() || !context.model.loopsOf(id).empty())
+    return false;
+  int blocks = 0;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    if (!isRead(context.tree.blocks[block]) || !hasContent(context, block))
+      continue;
+    const auto words = context.tree.wordsOf(block);
+    const bool acts = std::ranges::any_of(words, [](const Word &word) {
+      return word.address() != 'N' && word.address() != 'O' && !word.has(Word::kAfterThen);
+    });
+    if (acts || context.tree.statementsOf(block).empty() || ++blocks > kMostBlocksOfSnippet)
+      return false;
+  }
+  return blocks > 0;
 }
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
@@ -28,7 +51,8 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
                    .span = context.tree.blocks[*last].span(),
                    .label = maySkip ? "with block skip on, the program does not end here" : "",
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),
-                             "end a main program with M30, a subprogram or macro with M99"}});
+                             "end a main program with M30, a subprogram or macro with M99"}},
+                  isSnippet(context, id) ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

@@ -7,6 +7,15 @@ namespace feedhold::rules::if_without_action {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  // Where THEN may be left out, no manual says what becomes of a condition alone.
+  if (context.dialect.grammar.thenMayBeOmitted) {
+    reporter.report({.message = "this IF has no action",
+                     .span = issue.span,
+                     .notes = {"the manual has no such form: the control stops, or the condition has no effect",
+                               "write the action in this block: `IF[..]GOTO10` or `IF[..]THEN#1=0`"}},
+                    Severity::Warning);
+    return;
+  }
   reporter.report({.message = "this IF has no action",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),

@@ -23,16 +23,31 @@ bool mayFollowCondition(Span action, const FileContext &context) {
          });
 }
 
+/// Words for the machine under a condition: no manual of such a control has the form, and none says that it stops.
+void reportWords(const SyntaxIssue &issue, const Reporter &reporter) {
+  reporter.report({.message = "words follow the condition without `THEN`",
+                   .span = issue.span,
+                   .labels = {{issue.other, "the IF"}},
+                   .notes = {"the manual has no such form: the control stops, or executes the words whatever the "
+                             "condition",
+                             "write the words in a block of their own, and jump over it with the opposite condition"}},
+                  Severity::Warning);
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.grammar.thenMayBeOmitted && mayFollowCondition(issue.span, context))
+  if (context.dialect.grammar.thenMayBeOmitted) {
+    if (!mayFollowCondition(issue.span, context))
+      reportWords(issue, reporter);
     return;
+  }
   reporter.report({.message = "`THEN` or `GOTO` is missing after the condition",
                    .span = issue.span,
                    .labels = {{issue.other, "the IF"}},
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat)),
                              context.dialect.grammar.thenMayBeWords
                                  ? "write THEN before the action"
-                                 : "write THEN before a macro statement; to skip words, jump over their block"}});
+                                 : "write THEN before a macro statement; to skip words, write them in the next block "
+                                   "and jump over it: `IF[#1NE#2]GOTO20`"}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::IfWithoutThen};

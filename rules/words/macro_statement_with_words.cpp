@@ -19,9 +19,8 @@ bool takesWords(const Statement &statement) {
          std::holds_alternative<LoneExpression>(statement.node);
 }
 
-std::vector<std::string> notesFor(const FileContext &context) {
-  return {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MixedBlock)),
-          "put the macro statement in its own block"};
+std::string stopsAtMixed(const FileContext &context) {
+  return fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MixedBlock));
 }
 
 void checkStatement(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
@@ -35,7 +34,7 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
         {.message = fmt::format("{} is in the same block as a macro statement", context.quoted(word.span())),
          .span = word.span(),
          .labels = {{statement.span, "the macro statement"}},
-         .notes = notesFor(context)});
+         .notes = {stopsAtMixed(context), "put the macro statement in its own block"}});
     return;
   }
 }
@@ -43,10 +42,11 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.macroWithWords)
     return;
-  reporter.report({.message = "two macro statements in one block",
+  const std::string second = context.quoted(issue.span);
+  reporter.report({.message = fmt::format("{} is a second macro statement in one block", second),
                    .span = issue.span,
                    .labels = {{issue.other, "the first one"}},
-                   .notes = notesFor(context)});
+                   .notes = {stopsAtMixed(context), fmt::format("write {} in a block of its own", second)}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::TwoStatements};

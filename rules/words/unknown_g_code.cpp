@@ -12,11 +12,13 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
   const auto tenths = word.tenths();
   if (tenths && (findGCode(context.dialect, *tenths) || findCodeCall(context.dialect, 'G', *tenths)))
     return;
-  reporter.report({.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(word.span())),
-                   .span = word.span(),
-                   .notes = {fmt::format("the control {}, unless a parameter makes the code a call",
-                                         stopsWith(context.dialect, AlarmKind::GCodeNotUsable)),
-                             "if the code calls a program, list it under `[[code-calls]]` in feedhold.toml"}});
+  reporter.report(
+      {.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {fmt::format("the control {}, unless {} makes the code a call",
+                             stopsWith(context.dialect, AlarmKind::GCodeNotUsable),
+                             context.dialect.grammar.oWords ? "a `REMAP=` of the .ini file" : "a parameter"),
+                 "if the code calls a program, list it under `[[code-calls]]` in feedhold.toml"}});
 }
 
 } // namespace

@@ -216,4 +216,11 @@ bool DeadBlocks::contains(BlockId block) const {
   return behind != runs_.begin() && block <= std::prev(behind)->last;
 }
 
+bool NeverExecuted::contains(BlockId block) {
+  if (context_.model.programs.empty())
+    return false;
+  const ProgramId program = context_.model.programOf(block);
+  return dead_.try_emplace(program.index(), context_, program).first->second.contains(block);
+}
+
 } // namespace feedhold

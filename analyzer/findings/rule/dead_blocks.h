@@ -4,6 +4,7 @@
 #include "findings/rule/rule.h"
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace feedhold {
@@ -33,6 +34,17 @@ public:
 
 private:
   std::vector<Run> runs_;
+};
+
+/// Whether a block is never executed: what is wrong in it stops no control, and that it is dead is reported.
+class NeverExecuted {
+public:
+  explicit NeverExecuted(const FileContext &context) : context_(context) {}
+  bool contains(BlockId block);
+
+private:
+  const FileContext &context_;
+  std::unordered_map<std::uint32_t, DeadBlocks> dead_; // by program
 };
 
 } // namespace feedhold

@@ -3,13 +3,13 @@
 #include "findings/rule/run_rules.h"
 
 #include "findings/rule/dead_blocks.h"
+#include "findings/rule/placeholders.h"
 #include "inference/absint/contract_entry.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 namespace feedhold {
@@ -165,22 +165,6 @@ void visitModel(const HookLists &lists, const FileContext &context) {
       tell(lists.variable, context, use);
 }
 
-/// Whether a block is never executed: what is wrong in it stops no control, and that it is dead is reported.
-class NeverExecuted {
-public:
-  explicit NeverExecuted(const FileContext &context) : context_(context) {}
-  bool contains(BlockId block) {
-    if (context_.model.programs.empty())
-      return false;
-    const ProgramId program = context_.model.programOf(block);
-    return dead_.try_emplace(program.index(), context_, program).first->second.contains(block);
-  }
-
-private:
-  const FileContext &context_;
-  std::unordered_map<std::uint32_t, DeadBlocks> dead_;
-};
-
 /// A comment that is not closed hides what follows, which may be what makes blocks dead.
 void visitIssues(const HookLists &lists, const FileContext &context) {
   NeverExecuted never(context);
@@ -262,7 +246,22 @@ std::vector<RawFinding> joined(std::vector<RuleFindings> sinks) {
 
 } // namespace
 
-std::vector<RawFinding> runRules(std::span<const Rule *const> rules, const FileContext &context) {
+namespace {
+
+constexpr std::string_view kPlaceholderRule = "placeholder";
+
+/// A text with placeholders is no program: only that it is none is said of it.
+std::vector<const Rule *> rulesFor(const FileContext &context, std::span<const Rule *const> rules) {
+  std::vector<const Rule *> chosen(rules.begin(), rules.end());
+  if (placeholderIn(context))
+    std::erase_if(chosen, [](const Rule *rule) { return rule->info.name != kPlaceholderRule; });
+  return chosen;
+}
+
+} // namespace
+
+std::vector<RawFinding> runRules(std::span<const Rule *const> all, const FileContext &context) {
+  const std::vector<const Rule *> rules = rulesFor(context, all);
   std::vector<RuleFindings> sinks(rules.size());
   const HookLists lists = gather(rules, sinks);
   visitIssues(lists, context);

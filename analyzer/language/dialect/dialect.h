@@ -365,6 +365,7 @@ struct Grammar {
   bool oWords = false;                 // `o100 if [..]`, `o<name> call [1]`; control words without a label do not exist
   bool namedParameters = false;        // `#<name>`
   bool semicolonComment = false;       // `;` begins a comment that ends with the line
+  bool commentsMayNest = false;        // the control itself saves `(A (B))`
   bool anyIndex = false;               // `##2`, `#abs[#1]`: any value may stand behind `#`
   bool doubleStar = false;             // `**` raises to a power
   bool smallLetters = false;           // lower case is as good as upper case

@@ -92,9 +92,15 @@ void LineScanner::scanDollar() {
                                                   "FOR", "ENDFOR", "GOTO",   "SWITCH",  "ENDSWITCH", "CASE",
                                                   "DO",  "ENDDO",  "BREAK",  "DEFAULT", "CONTINUE"};
   static constexpr std::string_view kDirective[] = {"INCLUDE", "LIST", "NOLIST", "EJECT", "MIX"};
+  // Homing, jogging, switches of states, and settings by name or by path.
+  static constexpr std::string_view kGrbl[] = {"H", "J", "G", "I", "X", "C", "N", "SLP", "ALARM", "SETTINGS"};
   ++at_;
   const std::string_view run = takeRun();
-  if (isOneOf(run, kControl)) {
+  const bool isPath = run.size() > 1 && peek() == '/' && isLetter(peek(1));
+  const bool isCommand = isOneOf(run, kGrbl) && (atEnd() || peek() == '=' || isBlank(peek()));
+  if (isPath || isCommand) {
+    count(TextSignal::GrblCommand);
+  } else if (isOneOf(run, kControl)) {
     count(TextSignal::DollarControl);
   } else if (isOneOf(run, kDirective)) {
     count(TextSignal::CompilerDirective);

@@ -100,6 +100,8 @@ TEST(Guess, LanguagesThatAreRefused) {
   EXPECT_EQ(guessed("NTOP G0 X=VC1\nVC1=VC1+1\nCALL OPULL PL=2\nRTS\n"), "Okuma user task");
   EXPECT_EQ(guessed("(dlgname,Measure)\n(dlgshow)\no<chk> if[#<option> EQ 1]\nG65 P191 D#<dist>\no<chk> endif\nM2\n"),
             "RS274NGC of PlanetCNC or grblHAL");
+  EXPECT_EQ(guessed("o10 if [#<_selected_tool> LT 0]\n(print, tool)\n$Alarm/Send=3\no10 endif\n$H\nM6\n"),
+            "RS274NGC of grblHAL or FluidNC");
   EXPECT_EQ(guessed("%@MACRO\n@1 := 5;\n#1 := @1 + 2;\nIF #1 > 3 THEN\nEND_IF;\nM99;\n"), "Syntec MACRO");
   EXPECT_EQ(guessed("(P1=5)\n(CALL 3)\nG1 X10\n(RET)\n"), "Fagor 8055");
   EXPECT_EQ(guessed("$IF V.P.COUNT > 3\nG1 X10\n$ENDIF\nM30\n"), "ISG or Fagor 8060 (`$IF`)");

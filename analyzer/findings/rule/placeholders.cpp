@@ -1,0 +1,63 @@
+// See the header.
+#include "findings/rule/placeholders.h"
+
+#include "base/support/text.h"
+
+#include <array>
+
+namespace feedhold {
+
+namespace {
+
+/// The line around a byte, without its end.
+Span lineAround(std::string_view text, std::uint32_t offset) {
+  const std::size_t before = offset == 0 ? std::string_view::npos : text.find_last_of("\r\n", offset - 1);
+  const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+  const std::size_t end = std::min(text.find_first_of("\r\n", offset), text.size());
+  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(std::max(begin, end))};
+}
+
+/// A line of dots alone: what is left out.
+bool isEllipsis(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return (text.size() >= 3 && text.find_first_not_of('.') == std::string_view::npos) || text == "\xe2\x80\xa6";
+}
+
+/// `#n`: a number to be chosen.
+std::size_t findLetterVariable(std::string_view line) {
+  for (std::size_t at = line.find("#n"); at != std::string_view::npos; at = line.find("#n", at + 1)) {
+    const char next = at + 2 < line.size() ? line[at + 2] : ' ';
+    if (!isLetter(next) && !isDigit(next))
+      return at;
+  }
+  return std::string_view::npos;
+}
+
+std::optional<Span> placeholderOf(std::string_view text, Span line) {
+  constexpr std::array<std::string_view, 4> kMarks = {"${", "[..]", "[...]", "{{"};
+  const std::string_view content = text.substr(line.begin, line.size());
+  if (isEllipsis(content))
+    return line;
+  for (const std::string_view mark : kMarks)
+    if (const std::size_t at = content.find(mark); at != std::string_view::npos) {
+      const auto begin = line.begin + static_cast<std::uint32_t>(at);
+      return Span{begin, begin + static_cast<std::uint32_t>(mark.size())};
+    }
+  if (const std::size_t at = findLetterVariable(content); at != std::string_view::npos) {
+    const auto begin = line.begin + static_cast<std::uint32_t>(at);
+    return Span{begin, begin + 2};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Span> placeholderIn(const FileContext &context) {
+  const std::string_view text = context.source.text();
+  for (const SyntaxIssue &issue : context.tree.issues)
+    if (const auto found = placeholderOf(text, lineAround(text, issue.span.begin)))
+      return found;
+  return std::nullopt;
+}
+
+} // namespace feedhold
