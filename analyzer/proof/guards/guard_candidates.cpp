@@ -30,16 +30,17 @@ struct Inequality {
 
 class Candidates {
 public:
-  Candidates(AtomMaker &make, SymbolicInterpretation &interpretation, const Exploration &found)
-      : make_(make), store_(interpretation.store()), found_(found) {}
+  Candidates(AtomMaker &make, SymbolicInterpretation &interpretation, const Exploration &found,
+             const std::vector<double> &constants)
+      : make_(make), store_(interpretation.store()), found_(found), constants_(constants) {}
 
-  std::vector<GuardAtom> of(const GuardSubject &subject, const std::vector<double> &constants) {
+  std::vector<GuardAtom> of(const GuardSubject &subject) {
     for (const Query &query : subject.queries)
       speaksOf(query);
     for (const LoopInstance *loop : subject.loops)
       speaksOf(*loop);
     signs();
-    relations(constants);
+    relations();
     std::stable_sort(atoms_.begin(), atoms_.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
     if (atoms_.size() > kMostCandidateAtoms)
       atoms_.erase(atoms_.begin() + kMostCandidateAtoms, atoms_.end());
@@ -48,8 +49,18 @@ public:
 
 private:
   void take(std::optional<GuardAtom> atom) {
-    if (atom && atom->holds != store_.yes() && atom->holds != store_.no() && known_.insert(atom->holds).second)
+    if (atom && atom->holds != store_.yes() && atom->holds != store_.no() && isOfShop(*atom) &&
+        known_.insert(atom->holds).second)
       atoms_.push_back(std::move(*atom));
+  }
+  /// A machinist bounds a variable by a whole number, or by one that the program writes: `#111 LE 14.5` is neither.
+  bool isOfShop(const GuardAtom &atom) const {
+    const smt::LinearSum sum = store_.linear(atom.side);
+    if (!atom.comparison || sum.terms.size() != 1)
+      return true;
+    const Number bound = -sum.constant / sum.terms[0].second;
+    return bound.isInteger() || std::any_of(constants_.begin(), constants_.end(),
+                                            [&](double constant) { return abs(bound) == abs(decimal(constant)); });
   }
   void meet(TermId term, bool isNear) {
     for (const TermId variable : smt::variablesOf(store_, term)) {
@@ -196,7 +207,7 @@ private:
       take(make_.compare(negative, Comparison::NotBelow, AtomRank::Pair));
     }
   }
-  void relations(const std::vector<double> &constants) {
+  void relations() {
     std::vector<TermId> inputs = inputs_;
     std::stable_partition(inputs.begin(), inputs.end(), [&](TermId input) { return near_.contains(input); });
     if (inputs.size() > kMostInputs)
@@ -207,7 +218,7 @@ private:
           for (const Comparison comparison : {Comparison::NotBelow, Comparison::Above})
             take(make_.compare(store_.subtract(input, other), comparison, AtomRank::Pair));
     for (const TermId input : inputs)
-      for (const double constant : constants) {
+      for (const double constant : constants_) {
         const TermId distance = store_.subtract(input, store_.number(decimal(constant)));
         for (const Comparison comparison : {Comparison::NotBelow, Comparison::Above}) {
           take(make_.compare(distance, comparison, AtomRank::Bound));
@@ -219,6 +230,7 @@ private:
   AtomMaker &make_;
   smt::TermStore &store_;
   const Exploration &found_;
+  const std::vector<double> &constants_; // that the program writes
   std::vector<GuardAtom> atoms_;
   std::set<TermId> known_;
   std::vector<TermId> inputs_; // the numbers of those that the subject speaks of
@@ -230,7 +242,7 @@ private:
 std::vector<GuardAtom> guardCandidates(AtomMaker &make, SymbolicInterpretation &interpretation,
                                        const GuardSubject &subject, const Exploration &found,
                                        const std::vector<double> &constants) {
-  return Candidates(make, interpretation, found).of(subject, constants);
+  return Candidates(make, interpretation, found, constants).of(subject);
 }
 
 } // namespace feedhold::prove

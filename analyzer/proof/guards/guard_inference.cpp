@@ -33,7 +33,8 @@ bool mayBeGuarded(const Obligation &claim) {
   case ObligationKind::ProgramEnds:
   case ObligationKind::AlarmUnreachable:
   case ObligationKind::Ensures: return true;
-  case ObligationKind::NoControlAlarm: return claim.alarm != AlarmKind::EndOfRecord; // that is for want of an M99
+  case ObligationKind::NoControlAlarm: // an M99 is missing, or a program: no argument mends that
+    return claim.alarm != AlarmKind::EndOfRecord && claim.alarm != AlarmKind::ProgramNotFound;
   case ObligationKind::AlarmIff:
   case ObligationKind::Assigns:
   case ObligationKind::ModalPreserved:
