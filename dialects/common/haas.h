@@ -72,6 +72,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.limits.firstAlarmNumber = 1;
   dialect.limits.lastAlarmNumber = 999;
   dialect.limits.alarmMessageLength = 34;
+  dialect.limits.mCodes = 1; // "Only one M-code is allowed in each line of a program" (operator's manuals)
   dialect.grammar.conditionMayBeAnyValue = true;
   dialect.grammar.thenMayBeWords = true;
   dialect.grammar.thenMayBeOmitted = true;

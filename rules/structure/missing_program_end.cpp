@@ -38,16 +38,30 @@ bool isSnippet(const FileContext &context, ProgramId id) {
   return blocks > 0;
 }
 
+/// A program without O word, as postprocessors write it, is no piece of one if it changes tools and moves them.
+bool isWholeProgram(const FileContext &context, const Program &program) {
+  bool changesTool = false;
+  bool moves = false;
+  for (BlockId block = program.first; block < program.last; block = block.next())
+    for (const Word &word : context.tree.wordsOf(block)) {
+      const Code *code = codeOf(word, context.dialect);
+      changesTool = changesTool || (code && code->action == CodeAction::ToolChange);
+      moves = moves || (changesTool && axisOf(word.address()));
+    }
+  return moves && context.dialect.grammar.sequenceJumps;
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
-  if (!isNamed(program))
+  if (!isNamed(program) && !isWholeProgram(context, program))
     return;
   const auto last = openEnd(context, id);
   if (!last || (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)) ||
       isStructureBroken(context, id))
     return;
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;
-  reporter.report({.message = fmt::format("`{}` can run past its last block", toString(program.name)),
+  const std::string name = isNamed(program) ? fmt::format("`{}`", toString(program.name)) : "the program";
+  reporter.report({.message = fmt::format("{} can run past its last block", name),
                    .span = context.tree.blocks[*last].span(),
                    .label = maySkip ? "with block skip on, the program does not end here" : "",
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::EndOfRecord)),

@@ -21,9 +21,10 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   reporter.report({.message = fmt::format("{} M codes in one block", count),
                    .span = last->span(),
                    .labels = {{first->span(), "the first one"}},
-                   .notes = {count > mostEver ? fmt::format("no setting of the control allows more than {}", mostEver)
-                             : sure           ? std::string("the control executes only the last one")
-                                              : std::string(off),
+                   .notes = {mostEver == 1      ? std::string("the control takes only one M code in a block")
+                             : count > mostEver ? fmt::format("no setting of the control allows more than {}", mostEver)
+                             : sure             ? std::string("the control executes only the last one")
+                                                : std::string(off),
                              "put each M code in its own block"}},
                   sure ? Severity::Warning : Severity::Info);
 }

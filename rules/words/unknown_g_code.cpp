@@ -1,5 +1,5 @@
 // unknown-g-code: `G777`.
-#include "findings/rule/rule.h"
+#include "rules/words/lone_number.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@ namespace feedhold::rules::unknown_g_code {
 namespace {
 
 void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {
-  if (!word.isNumber())
+  if (!word.isNumber() || loneNumberIn(word, context))
     return;
   const auto tenths = word.tenths();
   if (tenths && (findGCode(context.dialect, *tenths) || findCodeCall(context.dialect, 'G', *tenths)))

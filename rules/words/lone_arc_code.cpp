@@ -1,0 +1,70 @@
+// lone-arc-code: `G40 G2`, where `G28` is meant.
+#include "rules/words/block_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace feedhold::rules::lone_arc_code {
+namespace {
+
+bool hasWord(const FileContext &context, BlockId block, std::string_view addresses) {
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    return addresses.find(word.address()) != std::string_view::npos && !word.has(Word::kComma);
+  });
+}
+
+constexpr std::string_view kBesideMotion = "NGMFSTHDO";
+
+/// The arc code of a block that moves nothing.
+const Word *loneArc(const FileContext &context, BlockId block) {
+  const Block &its = context.tree.blocks[block];
+  if (its.has(Block::kData) || its.has(Block::kBroken) || meansOwnWords(context, block))
+    return nullptr;
+  const Word *arc = findCode(context.tree, block, context.dialect, CodeRole::Arc);
+  const bool isAlone = std::ranges::all_of(context.tree.wordsOf(block), [](const Word &word) {
+    return kBesideMotion.find(word.address()) != std::string_view::npos && !word.has(Word::kArgument);
+  });
+  return arc && isAlone && !arc->has(Word::kAfterThen) ? arc : nullptr;
+}
+
+/// The arcs that the code is for follow in blocks of their own, or may do so in another program.
+bool isForLaterBlocks(const FileContext &context, BlockId block) {
+  const Program &program = context.model.programs[context.model.programOf(block)];
+  for (BlockId next = block.next(); next < program.last; next = next.next()) {
+    if (!context.model.callsIn(next, next.next()).empty() || context.tree.blocks[next].has(Block::kBroken) ||
+        findCode(context.tree, next, context.dialect, CodeRole::Return))
+      return true;
+    if (findCode(context.tree, next, context.dialect, CodeRole::Motion) ||
+        findCode(context.tree, next, context.dialect, CodeRole::Arc) ||
+        findCode(context.tree, next, context.dialect, CodeRole::ProgramEnd))
+      return false;
+    if (hasWord(context, next, "IJKR"))
+      return true;
+    if (hasWord(context, next, "XYZUVWABC"))
+      return false;
+  }
+  return true;
+}
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Word *arc = loneArc(context, block);
+  if (!arc || isForLaterBlocks(context, block))
+    return;
+  reporter.report(
+      {.message = fmt::format("{} has no end point and no centre, so nothing moves", context.quoted(arc->span())),
+       .span = arc->span(),
+       .notes = {"the arc mode stays in force for the coordinates of later blocks",
+                 "check whether another code was meant, such as G20, G28 or M03; else delete it"}});
+}
+
+} // namespace
+
+extern const Rule loneArcCode;
+const Rule loneArcCode{.info = {"lone-arc-code", Category::Word, Severity::Warning,
+                                "Reports a `G02` or `G03` in a block without coordinates, when no arc follows for "
+                                "which it sets the mode."},
+                       .hooks = {.block = check}};
+
+} // namespace feedhold::rules::lone_arc_code
