@@ -20,7 +20,7 @@ inline constexpr std::array kTurningHints = {
     LanguageHint{TextSignal::SurfaceSpeed, 3},    LanguageHint{TextSignal::TurretTool, 2},
     LanguageHint{TextSignal::IncrementalAxis, 1}, LanguageHint{TextSignal::YAxis, -4},
     LanguageHint{TextSignal::LengthOffset, -6},   LanguageHint{TextSignal::ToolChange, -4},
-    LanguageHint{TextSignal::DistanceMode, -6}, // in G code system A, `G90` is a cycle and `G91` is none
+    LanguageHint{TextSignal::DistanceMode, -3}, // in G code system A, `G90` is a cycle and `G91` is none
     LanguageHint{TextSignal::PlaneMove, 1},       LanguageHint{TextSignal::LatheName, 4},
     LanguageHint{TextSignal::MillName, -4},
 };

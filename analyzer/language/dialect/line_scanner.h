@@ -135,6 +135,7 @@ private:
   bool hasM97_ = false;
   bool hasTurningCycle_ = false;
   bool hasG50_ = false;
+  bool hasG92_ = false;
   bool hasG96_ = false;
   bool hasCode_ = false; // a G or M code
   bool hasG15_ = false;

@@ -200,6 +200,10 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
     scanCondition();
   } else if (keyword.spelling == "THEN") {
     endsWithThen_ = true;
+  } else if (keyword.spelling == "DO" && !hasOWord_) {
+    skipBlanks();
+    if (isDigit(peek()))
+      count(TextSignal::NumberedLoop);
   } else if (keyword.spelling == "ENDIF" && !hasOWord_) {
     count(TextSignal::BlockIf);
   }
@@ -330,10 +334,10 @@ void LineScanner::scanGCode(const Number &number) {
   case 15: hasG15_ = true; return;
   case 28:
   case 30:
-  case 53:
-  case 92: hasHome_ = true; return;
+  case 53: hasHome_ = true; return;
   case 43: count(TextSignal::LengthOffset); return;
   case 50: hasG50_ = true; return;
+  case 92: hasG92_ = hasHome_ = true; return;
   case 64: hasG64_ = true; return;
   case 65: hasG65_ = true; return;
   case 70:
@@ -477,7 +481,7 @@ void LineScanner::countCombinations() {
     count(TextSignal::ErosionSwitch);
   if (hasM97_ && hasLetter('P'))
     count(TextSignal::HaasLocalCall);
-  if (hasG50_ && hasLetter('S'))
+  if ((hasG50_ || hasG92_) && hasLetter('S') && !hasLetter('X') && !hasLetter('Z'))
     count(TextSignal::SpindleLimit);
   if (hasG96_ && hasLetter('S'))
     count(TextSignal::SurfaceSpeed);

@@ -179,7 +179,7 @@ int present(const CheckResult &result, const CheckArguments &arguments) {
   }
   if (arguments.quiet)
     return exitCode;
-  printAside(skippedFiles(report));
+  printAside(skippedFiles(result.skipped));
   if (isForPeople || !arguments.output.empty())
     print(summary(report));
   return exitCode;

@@ -11,6 +11,7 @@
 #include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
+#include "surface/sink/sink.h"
 
 #include <fmt/format.h>
 
@@ -168,6 +169,8 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
         : arguments.format == "json"  ? writeProveJson(report)
         : arguments.format == "sarif" ? writeProveSarif(report)
                                       : writeProveText(report));
+  if (!arguments.quiet)
+    printAside(skippedFiles(result.skipped));
   if (!arguments.quiet && arguments.format == "text")
     print(proveSummary(report));
   return report.exitCode;

@@ -35,7 +35,7 @@ std::string write(Format format, const Report &report);
 /// For people, behind the findings: how many of what, which dialects were guessed, what to do next.
 std::string summary(const Report &report);
 /// For people: the files that are no programs and why, the first few by name.
-std::string skippedFiles(const Report &report);
+std::string skippedFiles(const std::vector<SkippedFile> &skipped);
 /// The number of findings of each rule, most first.
 std::string statistics(const Report &report);
 

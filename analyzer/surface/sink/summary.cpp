@@ -140,11 +140,10 @@ std::string summary(const Report &report) {
          inferredPart(result);
 }
 
-std::string skippedFiles(const Report &report) {
-  const CheckResult &result = report.result;
+std::string skippedFiles(const std::vector<SkippedFile> &files) {
   std::string text;
   std::size_t shown = 0;
-  for (const SkippedFile &skipped : result.skipped)
+  for (const SkippedFile &skipped : files)
     if (skipped.kind == SkipKind::Refused && ++shown <= kSkippedShown)
       text += fmt::format("refused {}: {}\n", skipped.path, skipped.reason);
   if (shown > kSkippedShown)

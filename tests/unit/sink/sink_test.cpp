@@ -105,7 +105,7 @@ TEST_F(Sink, Summary) {
                                "1 finding has a fix that needs your review: --diff --unsafe-fixes shows it\n"
                                "dialect fanuc-30i: 1 by its text\n"
                                "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n");
-  EXPECT_EQ(skippedFiles(report()), "refused picture.nc: a binary file\n");
+  EXPECT_EQ(skippedFiles(result_.skipped), "refused picture.nc: a binary file\n");
   EXPECT_EQ(statistics(report(ShowSuppressed::Yes)), "      1 missing-equals\n      1 plain-style\n");
 }
 
