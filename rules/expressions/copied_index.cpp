@@ -51,7 +51,7 @@ const Assignment *onlyAssignment(const FileContext &context, BlockId block) {
 
 /// The block gives the next variable the same value as the block before it.
 bool repeats(const FileContext &context, BlockId block) {
-  if (block.index() == 0)
+  if (block.index() == 0 || block.index() >= context.tree.blockCount())
     return false;
   const Assignment *before = onlyAssignment(context, BlockId(block.index() - 1));
   const Assignment *now = onlyAssignment(context, block);

@@ -51,7 +51,7 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
       {.message = fmt::format("{} is not set on every path to this block", context.quoted(span)),
        .span = span,
        .labels = {{*setting, "set here"}},
-       .flow = describePath(facts, *path),
+       .flow = describePathPast(facts, *path, [&](NodeId each) { return paths.sets(each); }),
        .notes = {"without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
                  "set it before the conditions, or close the gap between them"}},
       passesCases(facts, paths, *path) ? Severity::Info : Severity::Warning);

@@ -112,14 +112,35 @@ std::optional<NodeId> firstReached(const FlowFacts &facts, NodeId from, std::spa
   return found == wanted.end() ? std::nullopt : std::optional(*found);
 }
 
-std::vector<Label> describePath(const FlowFacts &facts, std::span<const NodeId> path) {
+namespace {
+
+/// `tells`: of the index of a node in the path, before the last one.
+template <typename Tells>
+std::vector<Label> decisionsOf(const FlowFacts &facts, std::span<const NodeId> path, Tells tells) {
   std::vector<Label> labels;
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
-    if (std::string text = decision(facts, path[i], path[i + 1]); !text.empty())
+    if (std::string text = decision(facts, path[i], path[i + 1]); !text.empty() && tells(i))
       labels.push_back(labelOf(facts, path[i], std::move(text)));
   if (labels.size() > kMostSteps) // the last decisions tell most
     labels.erase(labels.begin(), labels.end() - kMostSteps);
   return labels;
+}
+
+} // namespace
+
+std::vector<Label> describePath(const FlowFacts &facts, std::span<const NodeId> path) {
+  return decisionsOf(facts, path, [](std::size_t) { return true; });
+}
+
+std::vector<Label> describePathPast(const FlowFacts &facts, std::span<const NodeId> path,
+                                    const std::function<bool(NodeId)> &isPassed) {
+  std::vector<Label> labels = decisionsOf(facts, path, [&](std::size_t i) {
+    for (NodeId node = path[i].next(); node < path[i + 1]; node = node.next())
+      if (isPassed(node))
+        return true;
+    return false;
+  });
+  return labels.empty() ? describePath(facts, path) : labels;
 }
 
 std::vector<Label> pathFromEntry(const FlowFacts &facts, NodeId to, const std::function<bool(NodeId)> &blocked) {

@@ -19,6 +19,10 @@ std::optional<NodeId> firstReached(const FlowFacts &facts, NodeId from, std::spa
 /// The places of a path where something is decided: branches with what they decided, jumps, calls.  For
 /// Diagnostic::flow.
 std::vector<Label> describePath(const FlowFacts &facts, std::span<const NodeId> path);
+/// Only those that pass over one of some nodes: the jumps and false conditions for which it is not executed.  All where
+/// none does.
+std::vector<Label> describePathPast(const FlowFacts &facts, std::span<const NodeId> path,
+                                    const std::function<bool(NodeId)> &isPassed);
 
 /// Both: the path from the head of the program to a node; empty where there is nothing to tell.
 std::vector<Label> pathFromEntry(

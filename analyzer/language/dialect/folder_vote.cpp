@@ -10,6 +10,15 @@ constexpr int kMostOfFolder = 10;  // as much as two or three marks in the text 
 
 constexpr std::size_t kFewestSpeakers = 3;
 
+/// What the text says, `#100` or `IF`, is said for the controls of several makers.
+bool fitsSeveral(const LanguageGuess &guess) {
+  constexpr std::ptrdiff_t kSeveral = 4;
+  constexpr int kAlike = 3;
+  const int best = *std::max_element(guess.scores.begin(), guess.scores.end());
+  return std::count_if(guess.scores.begin(), guess.scores.end(),
+                       [best](int score) { return score >= best - kAlike; }) >= kSeveral;
+}
+
 } // namespace
 
 void FolderVote::add(const LanguageGuess &file) {
@@ -43,7 +52,7 @@ LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
     return own;
   LanguageGuess guess = own;
   if (const ForeignLanguage *foreign = commonForeign();
-      foreign != nullptr && (own.basis == GuessBasis::Nothing || own.kin == foreign)) {
+      foreign != nullptr && (own.basis == GuessBasis::Nothing || own.kin == foreign || fitsSeveral(own))) {
     guess.dialect = nullptr;
     guess.foreign = foreign;
     guess.basis = GuessBasis::Neighbours;
