@@ -39,17 +39,28 @@ std::string_view says(std::optional<bool> value) {
   return *value ? "is always true" : "is never true";
 }
 
+/// Of `o10 if [..]` and `o10 elseif [..]` too.
+std::optional<ExpressionId> askedIn(const SyntaxTree &tree, const Statement &statement) {
+  const auto *oWord = std::get_if<OWord>(&statement.node);
+  if (oWord && (oWord->kind == OWordKind::If || oWord->kind == OWordKind::ElseIf) && oWord->argumentCount == 1)
+    return tree.argumentsOf(*oWord).front();
+  return conditionOf(statement);
+}
+
 void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
-  const auto condition = conditionOf(statement);
+  const auto condition = askedIn(context.tree, statement);
   if (!condition || !isConstant(context.tree, *condition))
     return;
   const auto value = outcome(context.tree, *condition);
   if (isEndlessLoop(statement, value))
     return;
   const Span span = context.tree.expressions[*condition].span;
+  // `o10 if [0]` switches a part of the program off, and generators of programs write `o10 if [0 EQ 1]`.
+  const bool isSwitch = std::holds_alternative<OWord>(statement.node);
   reporter.report({.message = fmt::format("{} {}", context.quoted(span), says(value)),
                    .span = span,
-                   .notes = {"it contains no variable; a `#` may be missing"}});
+                   .notes = {"it contains no variable; a `#` may be missing"}},
+                  isSwitch ? Severity::Info : Severity::Warning);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // computed-goto-target: `GOTO#1` to a number that no block has.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/passed_values.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -19,11 +19,48 @@ std::vector<double> missingOf(const FlowFacts &facts, const AbstractValue &targe
   return missing;
 }
 
+// Beyond it no test has set a bound.
+constexpr double kAnyNumber = 1e6;
+
+/// `IF[#1GT3]GOTO90`, `GOTO#1`: the argument has an upper bound, and neither a lower one nor a test for vacant.
+std::optional<std::uint32_t> checkedAboveOnly(const FlowFacts &facts, const FileContext &context, NodeId node,
+                                              ExpressionId target, const AbstractValue &value) {
+  if (!value.mayBeNumber() || value.number().interval().hi > kAnyNumber || value.number().interval().lo > -kAnyNumber)
+    return std::nullopt;
+  const auto reads = readsIn(facts.file, target, facts.node(node).block);
+  const auto variable = reads.size() == 1 ? reads.front().number : std::nullopt;
+  const auto argument = variable && isParameter(facts, *variable) ? argumentBehind(facts, *variable) : std::nullopt;
+  const bool isOpen = argument && argument == variable && !isTestedForVacancy(facts.file, facts.program, *argument) &&
+                      !isMainProgram(facts) && !mayHoldCallersValue(facts, *argument) &&
+                      passedFor(*argument, facts, context).zero != PassedZero::Never;
+  return isOpen ? argument : std::nullopt;
+}
+
+void reportUnchecked(std::uint32_t argument, ExpressionId target, const FlowFacts &facts, const FileContext &context,
+                     const Reporter &reporter) {
+  const Span span = context.tree.expressions[target].span;
+  Diagnostic diagnostic{
+      .message = fmt::format("nothing checks the lower bound of {}: {} may be no sequence number of this program",
+                             describeVariable(context.dialect, argument), context.quoted(span)),
+      .span = span,
+      .notes = {fmt::format("if it is 0, negative or not passed, the control {}",
+                            stopsWith(context.dialect, AlarmKind::SequenceNotFound)),
+                fmt::format("check the lower bound as well, as in `IF[#{} LT 1]`", argument)}};
+  addPassed(diagnostic, passedFor(argument, facts, context), facts);
+  reporter.report(std::move(diagnostic), Severity::Warning);
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *jump = std::get_if<JumpTo>(&facts.node(node).instruction);
     const AbstractValue *target = jump && facts.isReached(node) ? facts.valueOf(jump->target) : nullptr;
-    if (!target || !target->isNumber() || target->number().set().isMany())
+    if (!target)
+      continue;
+    if (const auto argument = checkedAboveOnly(facts, context, node, jump->target, *target)) {
+      reportUnchecked(*argument, jump->target, facts, context, reporter);
+      continue;
+    }
+    if (!target->isNumber() || target->number().set().isMany())
       continue;
     const auto missing = missingOf(facts, *target);
     if (missing.empty())

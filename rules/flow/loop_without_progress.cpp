@@ -7,6 +7,27 @@
 namespace feedhold::rules::loop_without_progress {
 namespace {
 
+/// `#5=#5-#104` where `#104` is 0: the block changes nothing.
+bool isStepOfZero(const FlowFacts &facts, const LoopWrite &write, std::uint32_t variable) {
+  const auto step = stepOf(facts, write.assignment, variable);
+  const AbstractValue *size = step ? facts.valueOf(step->size) : nullptr;
+  if (!size)
+    return false;
+  const auto name = variableOf(facts, step->size);
+  if (size->isVacant())
+    return name && !isNeverSet(facts, *name); // else another rule's
+  return size->isNumber() && size->number().interval().lo == 0 && size->number().interval().hi == 0;
+}
+
+/// The first block of the loop that counts a variable of the condition, by 0.
+std::optional<LoopWrite> stepOfZero(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
+  for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block))
+    if (const auto writes = read.number ? writesTo(facts, loop, *read.number) : std::nullopt;
+        writes && !writes->empty())
+      return writes->front();
+  return std::nullopt;
+}
+
 /// The condition can have another outcome in a later pass, or that cannot be told.
 bool mayChange(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
   const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
@@ -16,7 +37,8 @@ bool mayChange(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &fact
     if (!read.number || (*read.number != kVacantVariable && !isPlain(facts.file, *read.number)))
       return true;
     const auto writes = writesTo(facts, loop, *read.number);
-    return !writes || !writes->empty();
+    return !writes || !std::ranges::all_of(
+                          *writes, [&](const LoopWrite &write) { return isStepOfZero(facts, write, *read.number); });
   });
 }
 
@@ -69,6 +91,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
         .flow = pathFromEntry(facts, exit.test),
         .notes = {loop.mayStop ? "nothing in the loop changes a variable of the condition"
                                : "nothing in the loop changes a variable of the condition; only reset stops it"}};
+    if (const auto zero = stepOfZero(exit, loop, facts)) {
+      diagnostic.labels.push_back({context.tree.blocks[facts.node(zero->node).block].span(), "the step is 0 here"});
+      diagnostic.notes = {"the step is 0, so no variable of the condition changes", "check the step before the loop"};
+    }
     if (!head.contains(span))
       diagnostic.labels.push_back({head, "the loop begins here"});
     reporter.report(std::move(diagnostic));

@@ -48,8 +48,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (passed.zero == PassedZero::Never)
         continue;
       Diagnostic diagnostic{
-          .message = fmt::format("{} is the step of a loop and may be 0 or vacant: nothing checks it",
-                                 describeVariable(context.dialect, found->argument)),
+          .message = fmt::format("{} is the step of a loop and may be 0{}: nothing checks it",
+                                 describeVariable(context.dialect, found->argument),
+                                 context.dialect.behaviour.variablesMayBeVacant ? " or vacant" : ""),
           .span = found->step,
           .labels = {{context.tree.expressions[exit.condition].span, "the condition that ends the loop"}},
           .flow = pathFromEntry(facts, exit.test),

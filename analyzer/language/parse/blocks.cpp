@@ -249,7 +249,7 @@ void Parser::readComment() {
       const std::uint32_t begin = token_.begin;
       moveTo(span.end + static_cast<std::uint32_t>(close) + 1);
       addStatement(begin, BrokenStatement{});
-      block_.flags |= Block::kBroken;
+      block_.flags |= Block::kCommentTail;
       return;
     }
   }
@@ -260,7 +260,7 @@ void Parser::readComment() {
 void Parser::readStrayCloseParenthesis() {
   const std::uint32_t begin = token_.begin;
   issue(SyntaxIssueKind::StrayCloseParenthesis, token_.span(), {}, Broken::No);
-  block_.flags |= Block::kBroken;
+  block_.flags |= Block::kCommentTail;
   while (at(TokenKind::CloseParenthesis))
     advance();
   addStatement(begin, BrokenStatement{});

@@ -36,7 +36,7 @@ private:
     const std::pair<Block::Flag, std::string_view> flags[] = {
         {Block::kPercent, "percent"}, {Block::kLeader, "leader"},       {Block::kAfterEnd, "after-end"},
         {Block::kBroken, "broken"},   {Block::kData, "data"},           {Block::kSkipInside, "skip-inside"},
-        {Block::kFolder, "folder"},   {Block::kEncrypted, "encrypted"},
+        {Block::kFolder, "folder"},   {Block::kEncrypted, "encrypted"}, {Block::kCommentTail, "comment-tail"},
     };
     std::string head = fmt::format("block {}", source_.lineOf(block.begin));
     if (block.has(Block::kSkip))

@@ -207,6 +207,7 @@ struct OWord {
   std::uint32_t firstArgument;          // condition, count, arguments, value: SyntaxTree::argumentsOf
   std::uint32_t argumentCount;
 };
+/// Of a block that is not broken: the tail of a comment.
 struct BrokenStatement {};
 
 struct Statement {
@@ -228,15 +229,16 @@ struct Comment {
 /// the first ones of the next block (SyntaxTree::wordsOf ..).
 struct Block {
   enum Flag : std::uint16_t {
-    kSkip = 1,        // `/` or `/n` at its head
-    kPercent = 2,     // `%`
-    kLeader = 4,      // text before the program: not read by the control
-    kAfterEnd = 8,    // text after the closing `%`: not read by the control
-    kBroken = 16,     // something in it did not parse
-    kSkipInside = 32, // a `/` in mid-block: what follows may be skipped
-    kData = 64,       // a line of G10 L50 / L52 data: N is a parameter number
-    kFolder = 128,    // `&F=/USER/`: the next programs of a dump lie in this folder; a leader, too
-    kEncrypted = 256, // a line of an encrypted program; broken, too: it may do anything
+    kSkip = 1,          // `/` or `/n` at its head
+    kPercent = 2,       // `%`
+    kLeader = 4,        // text before the program: not read by the control
+    kAfterEnd = 8,      // text after the closing `%`: not read by the control
+    kBroken = 16,       // something in it did not parse
+    kSkipInside = 32,   // a `/` in mid-block: what follows may be skipped
+    kData = 64,         // a line of G10 L50 / L52 data: N is a parameter number
+    kFolder = 128,      // `&F=/USER/`: the next programs of a dump lie in this folder; a leader, too
+    kEncrypted = 256,   // a line of an encrypted program; broken, too: it may do anything
+    kCommentTail = 512, // text of a comment behind its `)`; what else stands in the block could be read
   };
   std::uint32_t begin;
   std::uint32_t end; // without the end-of-block

@@ -53,7 +53,7 @@ bool Lowering::isPlain(BlockId id) {
   while (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block < id)
     ++nextJump_;
   const Block &block = tree_.blocks[id];
-  constexpr std::uint16_t kSpecial = Block::kSkip | Block::kBroken | Block::kSkipInside;
+  constexpr std::uint16_t kSpecial = Block::kSkip | Block::kBroken | Block::kCommentTail | Block::kSkipInside;
   if ((block.flags & kSpecial) != 0 || block.firstStatement != tree_.blocks[id.next()].firstStatement)
     return false;
   if (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block == id)
@@ -78,6 +78,8 @@ void Lowering::wholeBlock(BlockId id) {
   if (head.has(Block::kBroken)) {
     brokenBlock(blockWords);
   } else {
+    if (head.has(Block::kCommentTail))
+      emit(Mistake{"text behind a comment"});
     words(blockWords);
     statements();
     calls(blockWords);

@@ -111,7 +111,8 @@ private:
   }
 
   bool mayChange(BlockId id) const {
-    constexpr std::array kUntouched = {Block::kLeader, Block::kAfterEnd, Block::kBroken, Block::kData};
+    constexpr std::array kUntouched = {Block::kLeader, Block::kAfterEnd, Block::kBroken, Block::kCommentTail,
+                                       Block::kData};
     const Block &block = tree_.blocks[id];
     const auto statements = tree_.statementsOf(id);
     return std::none_of(kUntouched.begin(), kUntouched.end(), [&](Block::Flag flag) { return block.has(flag); }) &&

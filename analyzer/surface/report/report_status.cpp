@@ -60,7 +60,8 @@ namespace {
 std::vector<std::size_t> unreadableLines(const ProjectFile &file, ProgramId program) {
   std::vector<std::size_t> lines;
   for (BlockId block(0); block.index() < file.tree.blocks.size(); block = BlockId(block.index() + 1))
-    if (file.tree.blocks[block].has(Block::kBroken) && file.model.programOf(block) == program)
+    if ((file.tree.blocks[block].flags & (Block::kBroken | Block::kCommentTail)) != 0 &&
+        file.model.programOf(block) == program)
       lines.push_back(file.source.lineOf(file.tree.blocks[block].span().begin));
   return lines;
 }
