@@ -76,6 +76,8 @@ void check(const FileContext &context, const Reporter &reporter) {
   reporter.report(std::move(diagnostic), severityFor(isHarmless, context));
 }
 
+constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::NestedComment};
+
 } // namespace
 
 extern const Rule nestedComment;
@@ -83,6 +85,6 @@ const Rule nestedComment{
     .info =
         {"nested-comment", Category::Comment, Severity::Error,
          "Reports parentheses inside a comment: the comment ends at the first `)`, and the rest is read as program."},
-    .hooks = {.file = check}};
+    .hooks = {.issueKinds = kIssues, .file = check}};
 
 } // namespace feedhold::rules::nested_comment

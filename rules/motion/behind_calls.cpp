@@ -1,15 +1,13 @@
 // See the header.
 #include "rules/motion/behind_calls.h"
 
+#include "rules/motion/folder_programs.h"
+
 #include <algorithm>
 #include <set>
 
 namespace feedhold::rules {
 namespace {
-
-FileContext contextOf(const ProgramFile &file, const FileContext &context) {
-  return {file.file, *file.source, *file.dialect, *file.tree, *file.model, context.callGraph, context.programs};
-}
 
 /// A code of the group that is none of those that leave the mode on.
 bool putsRight(const MotionView &view, NodeId node, const LeftOn &mode) {

@@ -2,6 +2,7 @@
 #include "rules/motion/left_on.h"
 
 #include "rules/motion/behind_calls.h"
+#include "rules/motion/folder_programs.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,22 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   return isHavocked(exit.state) || view.wasSet(exit.state, mode.kind, mode.actions);
 }
 
+bool cancels(const LeftOn &mode, const FileContext &context) {
+  if (context.model.programs.empty())
+    return false;
+  const MotionView view(ProgramId(0), context);
+  for (NodeId node(0); node.index() < view.cfg().nodes.size(); node = node.next())
+    if (decides(mode, view, node) && !switchedBy(mode, view, node))
+      return true;
+  return false;
+}
+
+bool isCancelledElsewhere(const LeftOn &mode, const FileContext &context) {
+  return std::ranges::any_of(filesOfFolder(context), [&](FileId file) {
+    return cancels(mode, contextOf(context.programs->file(file), context));
+  });
+}
+
 /// How much it matters; absent: it is as it should be.
 std::optional<Severity> severityAt(const ExitFact &exit, const LeftOn &mode, const CallersOfMode &callers) {
   if (exit.end == PathEnd::Ends)
@@ -107,6 +124,7 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
     return;
   const std::vector<NodeId> switching = switchingNodes(mode, view, facts);
   const CallersOfMode callers = behindCalls(mode, facts, context);
+  const bool isForgotten = mode.followsHabit && isCancelledElsewhere(mode, context);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {
     const auto severity = leaves(exit, mode, view) ? severityAt(exit, mode, callers) : std::nullopt;
@@ -118,7 +136,8 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
     if (!leaving || std::ranges::find(told, leaving->word) != told.end())
       continue;
     told.push_back(leaving->word);
-    tell(*leaving, exit, *severity, mode, view, facts, reporter);
+    const bool warns = isForgotten && exit.end == PathEnd::Ends;
+    tell(*leaving, exit, warns ? Severity::Warning : *severity, mode, view, facts, reporter);
   }
 }
 

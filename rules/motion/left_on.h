@@ -20,6 +20,8 @@ struct LeftOn {
     bool (*isOn)(const AbstractState &);
   };
   std::optional<Special> special = std::nullopt;
+  /// A remark about the end is a warning where programs of the folder cancel the mode: this one forgot to.
+  bool followsHabit = false;
 };
 
 /// The word of the node that puts the mode on.

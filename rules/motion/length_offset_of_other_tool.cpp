@@ -1,5 +1,5 @@
 // length-offset-of-other-tool: `T2 M06`, then `G43 H1`.
-#include "findings/rule/rule.h"
+#include "rules/motion/folder_programs.h"
 
 #include <fmt/format.h>
 
@@ -131,29 +131,58 @@ bool turns(ProgramId program, const FileContext &context) {
   return context.dialect.machine == MachineKind::Turning;
 }
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (turns(program, context))
-    return;
+std::vector<Section> sectionsOf(ProgramId program, const FileContext &context) {
   Reader reader(program, context);
   const Program &its = context.model.programs[program];
   for (BlockId block = its.first; block < its.last; block = block.next())
     reader.read(block);
+  return reader.sections();
+}
+
+/// Some other program of the folder counts offsets otherwise.
+bool hasOtherScheme(ProgramId own, const FileContext &context) {
+  for (const FileId file : filesOfFolder(context)) {
+    const FileContext its = contextOf(context.programs->file(file), context);
+    for (ProgramId program(0); program.index() < its.model.programs.size(); program = program.next())
+      if ((file != context.file || program != own) && std::ranges::any_of(sectionsOf(program, its), differs))
+        return true;
+  }
+  return false;
+}
+
+constexpr std::uint32_t kMostOfSmallMagazine = 20; // above, H may count by a scheme of the shop
+
+/// The only tool of the program has the small number of another one.
+bool isLoneMismatch(const std::vector<Section> &sections, ProgramId program, const FileContext &context) {
+  if (sections.size() != 1 || sections.front().lengths.size() != 1)
+    return false;
+  return sections.front().tool < kMostOfSmallMagazine &&
+         sections.front().lengths.front().number < kMostOfSmallMagazine && !hasOtherScheme(program, context);
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (turns(program, context))
+    return;
+  const std::vector<Section> sections = sectionsOf(program, context);
   std::set<std::uint32_t> tools;
   std::set<std::uint32_t> paired;
   std::set<std::uint32_t> odd;
-  for (const Section &section : reader.sections()) {
+  for (const Section &section : sections) {
     tools.insert(section.tool);
     if (agrees(section))
       paired.insert(section.tool);
     else if (differs(section))
       odd.insert(section.tool);
   }
-  for (const Section &section : reader.sections()) {
-    const bool isHabit = section.radiusAgrees || (!paired.empty() && odd.size() <= paired.size());
+  const bool isLone = isLoneMismatch(sections, program, context);
+  for (const Section &section : sections) {
+    const bool isHabit = section.radiusAgrees || isLone || (!paired.empty() && odd.size() <= paired.size());
     if (differs(section) && isHabit && !isSecondOffset(section, section.lengths.front().number, tools, paired))
       tell(section, context, reporter);
   }
 }
+
+void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {}
 
 } // namespace
 
@@ -162,6 +191,6 @@ const Rule lengthOffsetOfOtherTool{
     .info = {"length-offset-of-other-tool", Category::Motion, Severity::Warning,
              "Reports a `G43 H` with the number of another tool in a program that otherwise gives tool and length "
              "offset one number."},
-    .hooks = {.program = check}};
+    .hooks = {.program = check, .flow = asksForPrograms}};
 
 } // namespace feedhold::rules::length_offset_of_other_tool

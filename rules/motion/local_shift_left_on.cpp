@@ -33,10 +33,9 @@ bool putsRight(const MotionView &view, NodeId node) {
 bool isOn(const AbstractState &state) {
   bool isZeroed = false;
   for (const AbstractValue &shift : state.local) {
-    const auto constant = shift.number().constantValue();
-    if (constant && *constant != 0)
+    if (!shift.number().contains(0)) // X50 without a point is one of two lengths
       return true;
-    isZeroed = isZeroed || constant;
+    isZeroed = isZeroed || shift.number().constantValue();
   }
   return !isZeroed;
 }

@@ -1,11 +1,11 @@
 // no-length-offset: M06, moves in Z, and no G43 in the whole program.
+#include "rules/motion/folder_programs.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <set>
 
 namespace feedhold::rules::no_length_offset {
@@ -15,6 +15,7 @@ namespace {
 struct Tools {
   const Word *change = nullptr; // of the program itself
   const Word *depth = nullptr;  // the first Z of the program itself behind it
+  std::size_t changes = 0;      // of the program itself
   bool moves = false;           // some Z moves
   bool hasPlane = false;        // and some Y: a mill, whatever the dialect
   bool hasOffset = false;       // G43, or what may set the length some other way
@@ -74,8 +75,10 @@ private:
         continue;
       }
       tools.hasOffset = tools.hasOffset || setsLength(*code);
-      if (isOuter && code->action == CodeAction::ToolChange && !tools.change)
-        tools.change = &word;
+      if (isOuter && code->action == CodeAction::ToolChange) {
+        tools.change = tools.change ? tools.change : &word;
+        ++tools.changes;
+      }
       isPosition = isPosition && code->role != CodeRole::ReferenceReturn && code->role != CodeRole::MachinePosition;
     }
     if (!depth || !isPosition || (isOuter && !tools.change))
@@ -89,26 +92,25 @@ private:
   std::set<ProgramRef> seen_;
 };
 
-/// So many programs show what a shop does.
-constexpr std::size_t kEnough = 50;
-
 /// More programs of the folder that change tools have a length offset than have none.
 bool isHabitOfFolder(const FileContext &context) {
-  const auto folder = std::filesystem::path(context.source.path()).parent_path();
   std::size_t with = 0;
   std::size_t without = 0;
   Reader reader(context);
-  for (std::size_t i = 0; i < context.programs->size() && with + without < kEnough; ++i) {
-    const ProgramFile &file = context.programs->file(FileId(i));
-    if (std::filesystem::path(file.source->path()).parent_path() != folder)
-      continue;
-    for (std::size_t program = 0; program < file.model->programs.size(); ++program) {
-      const Tools tools = reader.read({FileId(i), ProgramId(program)});
+  for (const FileId file : filesOfFolder(context))
+    for (std::size_t program = 0; program < context.programs->file(file).model->programs.size(); ++program) {
+      const Tools tools = reader.read({file, ProgramId(program)});
       if (tools.change && tools.moves)
         ++(tools.hasOffset ? with : without);
     }
-  }
   return with > without;
+}
+
+/// Two tools have lengths to tell apart, whatever the work offset says of Z; a numbered main program is for a machine
+/// with a magazine, and no text of a hobby router.
+bool needsOffset(const Tools &tools, ProgramId program, const FileContext &context) {
+  return tools.changes > 1 ||
+         (!context.model.programs[program].name.empty() && startedBy(context, program) == StartedBy::Operator);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -127,7 +129,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
        .notes = {"Z moves with the length offset of the program before, or with none: the depth is wrong by "
                  "the length of the tool",
                  "write G43 and H in the first block that moves Z"}},
-      isHabitOfFolder(context) ? Severity::Warning : Severity::Info);
+      needsOffset(tools, facts.program, context) || isHabitOfFolder(context) ? Severity::Warning : Severity::Info);
 }
 
 } // namespace

@@ -9,7 +9,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                 .actions = {CodeAction::PolarOn},
                 .atProgramEnd = Severity::Info,
                 .consequence = "every later X is read as a radius and every Y as an angle",
-                .remedy = "cancel it with G15 before the end"},
+                .remedy = "cancel it with G15 before the end",
+                .followsHabit = context.dialect.hasFanucParameters},
                facts, context, reporter);
 }
 

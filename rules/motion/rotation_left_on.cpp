@@ -9,7 +9,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                 .actions = {CodeAction::RotationOn},
                 .atProgramEnd = Severity::Info,
                 .consequence = "every later move is rotated too",
-                .remedy = "cancel it with G69 before the end"},
+                .remedy = "cancel it with G69 before the end",
+                .followsHabit = context.dialect.hasFanucParameters},
                facts, context, reporter);
 }
 

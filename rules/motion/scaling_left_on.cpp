@@ -9,7 +9,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                 .actions = {CodeAction::ScalingOn},
                 .atProgramEnd = Severity::Info,
                 .consequence = "every later move is scaled too",
-                .remedy = "cancel it with G50 before the end"},
+                .remedy = "cancel it with G50 before the end",
+                .followsHabit = context.dialect.hasFanucParameters},
                facts, context, reporter);
 }
 

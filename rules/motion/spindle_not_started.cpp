@@ -41,7 +41,8 @@ public:
       diagnostic.flow = pathFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
       diagnostic.notes.push_back("start the spindle with S and M03 before the first cut");
     }
-    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) ? Severity::Warning : Severity::Info);
+    reporter.report(std::move(diagnostic),
+                    speaksOfSpindle(facts) || isStartedInFile() ? Severity::Warning : Severity::Info);
   }
 
 private:
@@ -72,6 +73,13 @@ private:
       if (std::ranges::any_of(words, [](const Word *word) { return word->address() == 'S'; }) || starts(node))
         return true;
     }
+    return false;
+  }
+  /// By another program of the memory of the same machine.
+  bool isStartedInFile() const {
+    for (NodeId node(0); node.index() < view_.cfg().nodes.size(); node = node.next())
+      if (starts(node))
+        return true;
     return false;
   }
   bool cuts(const AbstractState &state) const {
