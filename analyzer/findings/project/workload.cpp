@@ -263,7 +263,7 @@ std::vector<std::filesystem::path> foldersAbove(const std::filesystem::path &fil
   return folders;
 }
 
-/// The files of a folder decide together for which control they were written; where too few of them say anything, those
+/// The files of a folder decide together for which control they were written; where too few of them say the same, those
 /// of the folder above do.
 void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const KnownNames &known) {
   if (options.control.dialect)
@@ -281,7 +281,7 @@ void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const
     const std::vector<std::filesystem::path> folders = foldersAbove(candidate.found.path, options);
     const auto clear = std::find_if(folders.begin(), folders.end(),
                                     [&](const std::filesystem::path &folder) { return votes.at(folder).isClear(); });
-    candidate.guess = votes.at(clear == folders.end() ? folders.back() : *clear).decide(candidate.guess);
+    candidate.guess = votes.at(clear == folders.end() ? folders.front() : *clear).decide(candidate.guess);
   }
 }
 

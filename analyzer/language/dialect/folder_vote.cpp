@@ -30,14 +30,22 @@ void FolderVote::add(const LanguageGuess &file) {
     votes = {file.foreign, votes.second + 1};
     return;
   }
-  spoken_ += file.basis == GuessBasis::Text ? 1 : 0;
+  if (file.basis == GuessBasis::Text)
+    ++speakers_[file.dialect];
   sums_.resize(file.scores.size());
   const int best = *std::max_element(file.scores.begin(), file.scores.end());
   for (std::size_t i = 0; i < sums_.size(); ++i)
     sums_[i] += std::max(file.scores[i] - best, -kMostOfOneFile);
 }
 
-bool FolderVote::isClear() const { return spoken_ >= kFewestSpeakers || commonForeign() != nullptr; }
+bool FolderVote::isClear() const {
+  std::size_t all = 0, most = 0;
+  for (const auto &[dialect, files] : speakers_) {
+    all += files;
+    most = std::max(most, files);
+  }
+  return (all >= kFewestSpeakers && most * 3 >= all * 2) || commonForeign() != nullptr;
+}
 
 /// The language of more than half of the programs.
 const ForeignLanguage *FolderVote::commonForeign() const {

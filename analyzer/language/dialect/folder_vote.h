@@ -15,7 +15,7 @@ public:
   explicit FolderVote(const DialectRegistry &registry) : registry_(&registry) {}
 
   void add(const LanguageGuess &file);
-  /// Enough of the programs say something; else a larger folder is to be asked.
+  /// Enough of the programs speak for one dialect; else a larger folder is to be asked.
   bool isClear() const;
   /// The guess for a file of the folder, which may have voted itself.  What its own text says clearly counts more than
   /// what the others say.
@@ -27,7 +27,7 @@ private:
   const DialectRegistry *registry_;
   std::vector<int> sums_; // by dialect, of what each file scores below its best
   std::size_t programs_ = 0;
-  std::size_t spoken_ = 0; // programs whose text speaks for some dialect
+  std::map<const Dialect *, std::size_t> speakers_; // programs whose text speaks for a dialect
   std::map<std::string_view, std::pair<const ForeignLanguage *, std::size_t>> foreign_; // by name
 };
 
