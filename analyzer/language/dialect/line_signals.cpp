@@ -429,7 +429,7 @@ void LineScanner::scanVariable(const Number &number) {
     return;
   if (n == 3000)
     count(TextSignal::MacroAlarm);
-  else if (n == 1505 || n == 1503)
+  else if (n >= 1500 && n <= 1519) // no control that is read has variables there
     count(TextSignal::DdcsVariable);
 }
 
