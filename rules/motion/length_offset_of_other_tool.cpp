@@ -110,7 +110,7 @@ bool isSecondOffset(const Section &section, std::uint32_t length, const std::set
   return paired.contains(section.tool) || (length > section.tool && (length - section.tool) % 10 == 0);
 }
 
-void tell(const Section &section, const FileContext &context, const Reporter &reporter) {
+void tell(const Section &section, const FileContext &context, const Reporter &reporter, Severity severity) {
   const Offset &offset = section.lengths.front();
   reporter.report(
       {.message = fmt::format("{} is the length offset of another tool than {}", context.quoted(offset.word->span()),
@@ -119,7 +119,8 @@ void tell(const Section &section, const FileContext &context, const Reporter &re
        .labels = {{section.toolWord->span(), "the tool in the spindle"}},
        .notes = {fmt::format("tool {} moves with the length that is stored for tool {}: it cuts too deep, or air",
                              section.tool, offset.number),
-                 fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}});
+                 fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}},
+      severity);
 }
 
 /// A lathe, whatever the dialect: the offsets of turrets have numbers of their own.
@@ -174,11 +175,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     else if (differs(section))
       odd.insert(section.tool);
   }
-  const bool isLone = isLoneMismatch(sections, program, context);
+  const bool isLone = isLoneMismatch(sections, program, context); // without a habit to compare it with
   for (const Section &section : sections) {
     const bool isHabit = section.radiusAgrees || isLone || (!paired.empty() && odd.size() <= paired.size());
     if (differs(section) && isHabit && !isSecondOffset(section, section.lengths.front().number, tools, paired))
-      tell(section, context, reporter);
+      tell(section, context, reporter, isLone && !section.radiusAgrees ? Severity::Info : Severity::Warning);
   }
 }
 

@@ -6,6 +6,13 @@
 namespace feedhold::rules::g10_not_closed {
 namespace {
 
+/// Controls without `G11` take such blocks one by one.
+bool hasEnd(const Dialect &dialect) {
+  constexpr std::uint16_t kG11 = 110;
+  const Code *code = findGCode(dialect, kG11);
+  return code && code->role == CodeRole::DataSettingEnd;
+}
+
 bool opensData(const FileContext &context, BlockId block) {
   if (!findCode(context.tree, block, context.dialect, CodeRole::DataSetting))
     return false;
@@ -25,7 +32,7 @@ bool isClosed(const FileContext &context, BlockId open) {
 }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (!opensData(context, block) || isClosed(context, block))
+  if (!hasEnd(context.dialect) || !opensData(context, block) || isClosed(context, block))
     return;
   const Word *code = findCode(context.tree, block, context.dialect, CodeRole::DataSetting);
   const Word *kind = findWord(context.tree, block, 'L');
