@@ -89,10 +89,8 @@ private:
 
   // nodes
   NodeId end() const { return NodeId(cfg_.nodes.size()); }
-  NodeId emit(Instruction instruction) {
-    return cfg_.nodes.add({block_, NodeId(cfg_.nodes.size() + 1), std::move(instruction)});
-  }
-  NodeId emitLast(Instruction instruction) { return cfg_.nodes.add({block_, end(), std::move(instruction)}); }
+  NodeId emit(Instruction instruction) { return cfg_.nodes.add({block_, NodeId(cfg_.nodes.size() + 1), instruction}); }
+  NodeId emitLast(Instruction instruction) { return cfg_.nodes.add({block_, end(), instruction}); }
   void setNext(NodeId node, NodeId next) { cfg_.nodes[node].next = next; }
   /// Goes on behind the node that comes next, or straight to what `emit` made behind that.
   NodeId emitTest(std::optional<ExpressionId> condition) { return emit(Test{condition, end().next()}); }
