@@ -140,15 +140,9 @@ struct HavocVariables {
   std::string_view reason;
 };
 
-/// The control stops here at a mistake of which the text tells, and which does not hide what the rest of the block was
-/// meant to do: that follows.  Proofs treat it as a Havoc.
-struct Mistake {
-  std::string_view reason;
-};
-
 using Instruction =
     std::variant<Pass, BlockSkip, ExecuteWords, Assign, Test, JumpTo, EnterLoop, JumpIntoLoop, RequireLoop, StartCount,
-                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc, HavocVariables, Mistake>;
+                 CountDown, CallProgram, ReturnFromProgram, EndProgram, StopWithAlarm, Havoc, HavocVariables>;
 
 struct Node {
   BlockId block;

@@ -82,8 +82,7 @@ private:
         [&](const EndProgram &end) { return std::string(kEnds[static_cast<std::size_t>(end.end)]); },
         [&](const StopWithAlarm &stop) { return "alarm " + alarm(stop.alarm); },
         [](const Havoc &havoc) { return fmt::format("havoc {}", havoc.reason); },
-        [](const HavocVariables &havoc) { return fmt::format("havoc variables {}", havoc.reason); },
-        [](const Mistake &mistake) { return fmt::format("mistake {}", mistake.reason); });
+        [](const HavocVariables &havoc) { return fmt::format("havoc variables {}", havoc.reason); });
   }
 
   const Cfg &cfg_;

@@ -8,11 +8,19 @@
 
 namespace feedhold {
 
+namespace {
+
+/// A control that tolerates a stray `)` reads the tail of a comment as words of the block, which may change any of
+/// them.
+constexpr std::uint16_t kUnread = Block::kBroken | Block::kCommentTail;
+
+} // namespace
+
 void Lowering::block(BlockId id) {
   cfg_.blockNode[id.index()] = end();
   const Block &block = tree_.blocks[id];
   const bool tapeMark = block.has(Block::kPercent) && tree_.wordsOf(id).empty();
-  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && !block.has(Block::kBroken)))
+  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && (block.flags & kUnread) == 0))
     return;
   block_ = id;
   if (isPlain(id))
@@ -53,7 +61,7 @@ bool Lowering::isPlain(BlockId id) {
   while (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block < id)
     ++nextJump_;
   const Block &block = tree_.blocks[id];
-  constexpr std::uint16_t kSpecial = Block::kSkip | Block::kBroken | Block::kCommentTail | Block::kSkipInside;
+  constexpr std::uint16_t kSpecial = Block::kSkip | kUnread | Block::kSkipInside;
   if ((block.flags & kSpecial) != 0 || block.firstStatement != tree_.blocks[id.next()].firstStatement)
     return false;
   if (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block == id)
@@ -75,11 +83,9 @@ void Lowering::wholeBlock(BlockId id) {
   std::optional<NodeId> skip;
   if (head.has(Block::kSkip))
     skip = emit(BlockSkip{head.skipLevel, end()});
-  if (head.has(Block::kBroken)) {
+  if ((head.flags & kUnread) != 0) {
     brokenBlock(blockWords);
   } else {
-    if (head.has(Block::kCommentTail))
-      emit(Mistake{"text behind a comment"});
     words(blockWords);
     statements();
     calls(blockWords);

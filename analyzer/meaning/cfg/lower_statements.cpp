@@ -66,10 +66,7 @@ void Lowering::statement(StatementId id) {
       [&](const NameVariables &) { emit(Pass{}); },
       [&](const ConditionalWords &words) { wordsUnderCondition(words.condition); },
       [&](const Print &) { emit(Pass{}); }, [&](const OWord &oWord) { oWordStatement(id, oWord); },
-      [&](const BrokenStatement &) {
-        if (tree_.blocks[block_].has(Block::kBroken))
-          emit(Havoc{"a statement that could not be read"});
-      });
+      [&](const BrokenStatement &) { emit(Havoc{"a statement that could not be read"}); });
 }
 
 const Jump *Lowering::jumpOf(const Statement &statement) const {

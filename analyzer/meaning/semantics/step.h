@@ -148,13 +148,6 @@ template <ValueAlgebra R> void havocVariables(StepContext<R> &context, const Hav
   }
 }
 
-template <ValueAlgebra R> void passMistake(StepContext<R> &context, const Mistake &mistake) {
-  if constexpr (requires { R::kGoesOnBehindMistakes; })
-    context.interpretation.unmodelled(mistake.reason, context.place());
-  else
-    context.interpretation.havoc(context.state, mistake.reason, context.place());
-}
-
 } // namespace detail
 
 template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &instruction, ExecutedWords<R> &words) {
@@ -179,8 +172,6 @@ template <ValueAlgebra R> void step(StepContext<R> &context, const Instruction &
     interpretation.havoc(context.state, havoc->reason, context.place());
   else if (const auto *unread = std::get_if<HavocVariables>(&instruction))
     detail::havocVariables(context, *unread);
-  else if (const auto *mistake = std::get_if<Mistake>(&instruction))
-    detail::passMistake(context, *mistake);
 }
 
 template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, const ExecutedWords<R> &words) {
