@@ -1,4 +1,4 @@
-// modal-call-not-cancelled: `G66` and no `G67`.
+// modal-call-not-cancelled: `G66` and no `G67`, or the same `G66` once more.
 #include "findings/rule/rule.h"
 
 #include "rules/calls/call_view.h"
@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::rules::modal_call_not_cancelled {
 namespace {
@@ -37,7 +38,28 @@ const Call *leftInForce(const FileContext &context, ProgramId program) {
   return last;
 }
 
+/// The same macro is called modally again before G67, on the only way that the text shows.
+void checkRepeated(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const std::set<BlockId> targets = context.model.jumpTargetsOf(program);
+  const Call *active = nullptr;
+  for (const Call &call : context.model.callsOf(program)) {
+    const bool isSame = active && isModal(call.kind) && call.kind == active->kind && !call.callee.empty() &&
+                        call.callee == active->callee;
+    const auto target = active ? targets.upper_bound(active->block) : targets.end();
+    if (isSame && (target == targets.end() || *target > call.block))
+      reporter.report(
+          {.message = fmt::format("{} is called modally again before `G67`", context.quoted(call.span)),
+           .span = call.span,
+           .labels = {{active->span, "still active"}},
+           .notes = {"modal calls nest: each move calls the macro, and each move of the macro calls it once more",
+                     "cancel the first call with G67 before the second"}});
+    active = isModal(call.kind) ? &call : nullptr;
+  }
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.hasFanucParameters)
+    checkRepeated(program, context, reporter);
   const Call *call = leftInForce(context, program);
   if (!call || callerCancels(context, program))
     return;
@@ -51,8 +73,9 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 } // namespace
 
 extern const Rule modalCallNotCancelled;
-const Rule modalCallNotCancelled{.info = {"modal-call-not-cancelled", Category::Call, Severity::Warning,
-                                          "Reports a modal macro call (`G66`) without a later `G67`."},
-                                 .hooks = {.program = check}};
+const Rule modalCallNotCancelled{
+    .info = {"modal-call-not-cancelled", Category::Call, Severity::Warning,
+             "Reports a modal macro call (`G66`) without a later `G67`, or again before it."},
+    .hooks = {.program = check}};
 
 } // namespace feedhold::rules::modal_call_not_cancelled

@@ -20,11 +20,8 @@ constexpr std::array kCutting = {CodeAction::Linear, CodeAction::ArcClockwise, C
 /// Follows M03, M05 and cycles through the text of one program, so that a block that cannot be read hides nothing else.
 class Reader {
 public:
-  Reader(ProgramId program, const FileContext &context) : context_(context) {
-    for (const Jump &jump : context.model.jumpsOf(program))
-      if (jump.target)
-        targets_.insert(*jump.target);
-  }
+  Reader(ProgramId program, const FileContext &context)
+      : context_(context), targets_(context.model.jumpTargetsOf(program)) {}
 
   void read(BlockId block, const Reporter &reporter) {
     if (targets_.contains(block) || !context_.model.callsIn(block, block.next()).empty() ||

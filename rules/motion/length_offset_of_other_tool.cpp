@@ -48,11 +48,8 @@ bool hidesTool(const FileContext &context, BlockId block, const std::set<BlockId
 /// Follows T, M06, G43 H and D through the text of one program.
 class Reader {
 public:
-  Reader(ProgramId program, const FileContext &context) : context_(context) {
-    for (const Jump &jump : context.model.jumpsOf(program))
-      if (jump.target)
-        targets_.insert(*jump.target);
-  }
+  Reader(ProgramId program, const FileContext &context)
+      : context_(context), targets_(context.model.jumpTargetsOf(program)) {}
 
   void read(BlockId block) {
     if (hidesTool(context_, block, targets_)) {

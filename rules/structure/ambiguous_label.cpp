@@ -1,4 +1,4 @@
-// ambiguous-label: `N10` twice, and a GOTO that can only ever find one of them.
+// ambiguous-label: `N10` twice, and a GOTO, or a contour cycle, that can only ever find one of them.
 #include "findings/rule/rule.h"
 
 #include "rules/structure/structure_view.h"
@@ -17,15 +17,25 @@ constexpr std::string_view kSearchOrder =
 
 using Copies = std::span<const SequenceNumber>;
 
-/// The GOTOs of a program that find a block, by the number that they name.
-using Gotos = std::unordered_map<std::uint32_t, std::vector<const Jump *>>;
+/// The GOTOs, and the P of contour cycles, of a program that find a block, by the number that they name.
+struct Seekers {
+  std::vector<const Jump *> gotos;
+  std::vector<const Jump *> contours;
+};
+using SeekersByNumber = std::unordered_map<std::uint32_t, Seekers>;
 
-Gotos gotosOf(ProgramId program, const FileContext &context) {
-  Gotos gotos;
-  for (const Jump &jump : context.model.jumpsOf(program))
-    if (const auto number = targetNumber(jump); number && jump.kind == JumpKind::Goto && jump.target)
-      gotos[*number].push_back(&jump);
-  return gotos;
+SeekersByNumber seekersOf(ProgramId program, const FileContext &context) {
+  SeekersByNumber seekers;
+  for (const Jump &jump : context.model.jumpsOf(program)) {
+    const auto number = targetNumber(jump);
+    if (!number || !jump.target)
+      continue;
+    if (jump.kind == JumpKind::Goto)
+      seekers[*number].gotos.push_back(&jump);
+    else if (jump.kind == JumpKind::ContourFrom)
+      seekers[*number].contours.push_back(&jump);
+  }
+  return seekers;
 }
 
 Span spanOf(const SequenceNumber &copy, const FileContext &context) { return context.tree.words[copy.word].span(); }
@@ -77,18 +87,47 @@ void checkNumber(Copies copies, std::span<const Jump *const> jumps, const FileCo
       reportBackward(*jump, copies, context, reporter);
 }
 
+/// The contour stands before the cycle (G70), and the search finds one of another cycle.
+void checkContour(std::span<const Jump *const> cycles, Copies copies, const FileContext &context,
+                  const Reporter &reporter) {
+  for (const Jump *cycle : cycles) {
+    const auto behind = std::ranges::find_if(copies, [&](const SequenceNumber &c) { return c.block > cycle->block; });
+    if (behind == copies.begin())
+      continue;
+    const SequenceNumber &nearest = *std::prev(behind);
+    const bool isOfOther = std::ranges::any_of(
+        cycles, [&](const Jump *other) { return other->block > cycle->block && other->block < *cycle->target; });
+    if (nearest.block == *cycle->target || (*cycle->target > cycle->block && !isOfOther))
+      continue;
+    const Span found = spanOf(copyAt(copies, *cycle->target), context);
+    reporter.report(
+        {.message = fmt::format("{} may find the `N{}` in line {} instead of the contour before this cycle",
+                                context.quoted(cycle->span), nearest.number, context.source.lineOf(found.begin)),
+         .span = cycle->span,
+         .labels = {{spanOf(nearest, context), "the contour before it"}, {found, "has the same number"}},
+         .notes = {"the numbers of a contour must not occur twice in a program: the cycle may cut another "
+                   "contour",
+                   "give each contour its own sequence numbers"}});
+    return;
+  }
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  const Gotos gotos = gotosOf(program, context);
-  if (gotos.empty())
+  const SeekersByNumber seekers = seekersOf(program, context);
+  if (seekers.empty())
     return;
   const auto labels = sortedSequenceNumbers(context.model, program);
   for (std::size_t first = 0; first < labels.size();) {
     std::size_t last = first + 1;
     while (last < labels.size() && labels[last].number == labels[first].number)
       ++last;
-    const auto jumps = gotos.find(labels[first].number);
-    if (last - first > 1 && jumps != gotos.end())
-      checkNumber(Copies(labels).subspan(first, last - first), jumps->second, context, reporter);
+    const Copies copies = Copies(labels).subspan(first, last - first);
+    const auto found = seekers.find(labels[first].number);
+    if (copies.size() > 1 && found != seekers.end()) {
+      if (!found->second.gotos.empty())
+        checkNumber(copies, found->second.gotos, context, reporter);
+      checkContour(found->second.contours, copies, context, reporter);
+    }
     first = last;
   }
 }
@@ -97,8 +136,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule ambiguousLabel;
 const Rule ambiguousLabel{.info = {"ambiguous-label", Category::Structure, Severity::Warning,
-                                   "Reports a `GOTO` to a sequence number that several blocks of the program have, "
-                                   "when it may find the wrong one."},
+                                   "Reports a `GOTO`, or a contour cycle, with a sequence number that several blocks "
+                                   "of the program have, when it may find the wrong one."},
                           .hooks = {.program = check}};
 
 } // namespace feedhold::rules::ambiguous_label

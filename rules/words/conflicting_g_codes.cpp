@@ -29,21 +29,33 @@ bool maySupersede(const Code &code, const Dialect &dialect) {
   return code.action == CodeAction::CycleOff && rapid && rapid->group == code.group;
 }
 
-/// G53 and G31: both say what the axis words of their block mean.
+const Word *findActive(BlockId block, const FileContext &context, CodeRole role) {
+  const Word *word = findCode(context.tree, block, context.dialect, role);
+  return word && !word->has(Word::kAfterSkip) ? word : nullptr;
+}
+
+/// G53 with G31 or G28: both say what the axis words of their block mean.
 void reportTwoMeanings(BlockId block, const FileContext &context, const Reporter &reporter) {
-  const Word *machine = findCode(context.tree, block, context.dialect, CodeRole::MachinePosition);
-  const Word *skip = machine ? findCode(context.tree, block, context.dialect, CodeRole::Skip) : nullptr;
-  if (!skip || machine->has(Word::kAfterSkip) || skip->has(Word::kAfterSkip))
+  const Word *machine = findActive(block, context, CodeRole::MachinePosition);
+  const Word *skip = machine ? findActive(block, context, CodeRole::Skip) : nullptr;
+  const Word *reference = machine ? findActive(block, context, CodeRole::ReferenceReturn) : nullptr;
+  const Word *other = skip ? skip : reference;
+  if (!other)
     return;
+  const std::string consequence =
+      skip ? "the control uses one of them: the probe moves to a work coordinate, or without looking for the signal"
+           : "the control uses one of them: the axes move through a point in other coordinates, or stop short of the "
+             "reference position";
+  const std::string remedy = skip ? "compute the distance, and move by `G91` and the skip code"
+                                  : fmt::format("keep {} with machine coordinates, or {} with `G91`",
+                                                context.quoted(machine->span()), context.quoted(other->span()));
   reporter.report({.message = fmt::format("{} and {} exclude each other: both move by the axis words of the block",
-                                          context.quoted(machine->span()), context.quoted(skip->span())),
-                   .span = skip->span(),
+                                          context.quoted(machine->span()), context.quoted(other->span())),
+                   .span = other->span(),
                    .labels = {{machine->span(), "machine coordinates"}},
-                   .notes = {"the control uses one of them: the probe moves to a work coordinate, or without looking "
-                             "for the signal",
-                             "compute the distance, and move by `G91` and the skip code"}},
-                  // Some machine builders make a pair of it that works.
-                  Severity::Info);
+                   .notes = {consequence, remedy}},
+                  // Some machine builders make a pair with the skip code that works.
+                  skip ? Severity::Info : Severity::Warning);
 }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {

@@ -5,6 +5,7 @@
 #include "language/syntax/tree.h"
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -174,6 +175,8 @@ public:
   // The same for the blocks of one program, those of the subroutines in its text included.
   std::span<const SequenceNumber> sequenceNumbersOf(ProgramId program) const;
   std::span<const Jump> jumpsOf(ProgramId program) const;
+  /// The blocks of the program to which its jumps lead: control may come to them on more than one way.
+  std::set<BlockId> jumpTargetsOf(ProgramId program) const;
   std::span<const Loop> loopsOf(ProgramId program) const;
   std::span<const LoneEnd> loneEndsOf(ProgramId program) const;
   std::span<const Call> callsOf(ProgramId program) const;

@@ -53,6 +53,14 @@ std::span<const Jump> ProgramModel::jumpsOf(ProgramId program) const {
   return jumpsIn(programs[program].first, programs[program].last);
 }
 
+std::set<BlockId> ProgramModel::jumpTargetsOf(ProgramId program) const {
+  std::set<BlockId> targets;
+  for (const Jump &jump : jumpsOf(program))
+    if (jump.target)
+      targets.insert(*jump.target);
+  return targets;
+}
+
 std::span<const Loop> ProgramModel::loopsOf(ProgramId program) const {
   return loopsIn(programs[program].first, programs[program].last);
 }
