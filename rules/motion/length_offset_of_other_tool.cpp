@@ -1,4 +1,4 @@
-// length-offset-of-other-tool: `T2 M06`, then `G43 H1`.
+// length-offset-of-other-tool: `T2 M06`, then `G43 H1` or `G41 D1`.
 #include "rules/motion/folder_programs.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,8 @@ struct Section {
   std::uint32_t tool;
   const Word *toolWord;
   std::vector<Offset> lengths;
-  bool radiusAgrees = false; // D has the number of the tool
+  std::vector<Offset> radii = {}; // D with G41, G42
+  bool radiusAgrees = false;      // D has the number of the tool
 };
 
 bool isLiteral(const Word &word, char address) {
@@ -69,9 +70,15 @@ public:
       return;
     if (length && hasAction(context_, block, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
       sections_.back().lengths.push_back({*length->integer(), length});
-    for (const Word &word : context_.tree.wordsOf(block))
-      if (isLiteral(word, 'D') && *word.integer() == sections_.back().tool)
+    const bool compensates = hasAction(context_, block, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+    for (const Word &word : context_.tree.wordsOf(block)) {
+      if (!isLiteral(word, 'D'))
+        continue;
+      if (*word.integer() == sections_.back().tool)
         sections_.back().radiusAgrees = true;
+      else if (compensates)
+        sections_.back().radii.push_back({*word.integer(), &word});
+    }
   }
 
   const std::vector<Section> &sections() const { return sections_; }
@@ -118,6 +125,23 @@ void tell(const Section &section, const FileContext &context, const Reporter &re
                              section.tool, offset.number),
                  fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}},
       severity);
+}
+
+/// H has the number of the tool, and D that of another tool of the program.
+void checkRadius(const Section &section, const std::set<std::uint32_t> &tools, const FileContext &context,
+                 const Reporter &reporter) {
+  const auto other = std::ranges::find_if(
+      section.radii, [&](const Offset &offset) { return offset.number != 0 && tools.contains(offset.number); });
+  if (section.radiusAgrees || !agrees(section) || other == section.radii.end())
+    return;
+  reporter.report(
+      {.message = fmt::format("{} is the radius offset of another tool than {}", context.quoted(other->word->span()),
+                              context.quoted(section.toolWord->span())),
+       .span = other->word->span(),
+       .labels = {{section.toolWord->span(), "the tool in the spindle"}},
+       .notes = {fmt::format("tool {} is compensated by the radius of tool {}: the contour gets another size",
+                             section.tool, other->number),
+                 fmt::format("write `D{}` if tool {} is meant", section.tool, section.tool)}});
 }
 
 /// A lathe, whatever the dialect: the offsets of turrets have numbers of their own.
@@ -172,11 +196,14 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     else if (differs(section))
       odd.insert(section.tool);
   }
+  const bool countsRadii = std::ranges::any_of(sections, &Section::radiusAgrees);
   const bool isLone = isLoneMismatch(sections, program, context); // without a habit to compare it with
   for (const Section &section : sections) {
     const bool isHabit = section.radiusAgrees || isLone || (!paired.empty() && odd.size() <= paired.size());
     if (differs(section) && isHabit && !isSecondOffset(section, section.lengths.front().number, tools, paired))
       tell(section, context, reporter, isLone && !section.radiusAgrees ? Severity::Info : Severity::Warning);
+    if (countsRadii)
+      checkRadius(section, tools, context, reporter);
   }
 }
 
@@ -187,8 +214,8 @@ void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {
 extern const Rule lengthOffsetOfOtherTool;
 const Rule lengthOffsetOfOtherTool{
     .info = {"length-offset-of-other-tool", Category::Motion, Severity::Warning,
-             "Reports a `G43 H` with the number of another tool in a program that otherwise gives tool and length "
-             "offset one number."},
+             "Reports a `G43 H`, or a `G41 D`, with the number of another tool in a program that otherwise gives "
+             "tool and offset one number."},
     .hooks = {.program = check, .flow = asksForPrograms}};
 
 } // namespace feedhold::rules::length_offset_of_other_tool

@@ -1,0 +1,155 @@
+// spindle-not-restarted: `T2 M06`, `S3000`, and a cut; M03 stands only behind the first tool change.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+namespace feedhold::rules::spindle_not_restarted {
+namespace {
+
+constexpr std::array kDrilling = {CodeAction::CycleDrill,     CodeAction::CycleDwell,   CodeAction::CyclePeck,
+                                  CodeAction::CycleChipBreak, CodeAction::CycleBore,    CodeAction::CycleBoreStop,
+                                  CodeAction::CycleBoreDwell, CodeAction::CycleFineBore};
+constexpr std::array kFeeding = {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise};
+constexpr std::array kStarting = {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise};
+constexpr std::array kHarmless = {CodeAction::CoolantOn, CodeAction::CoolantOff, CodeAction::SpindleStop};
+
+/// What is programmed between two tool changes.
+struct Section {
+  const Word *change;
+  const Word *start = nullptr;     // M03, M04
+  const Word *speed = nullptr;     // S
+  const Word *lateSpeed = nullptr; // S behind the last cut: of the next tool
+  const Word *cut = nullptr;       // the first code that feeds the tool
+  bool cutsForSure = false;        // a drilling cycle, coolant: no dowel pin, no stop for the bar
+  bool mayStartUnseen = false;     // in a call, by an M code of the machine builder, by hand, on another path
+};
+
+template <typename Actions> bool isOneOf(const Code *code, const Actions &actions) {
+  return code && std::ranges::find(actions, code->action) != actions.end();
+}
+
+class Reader {
+public:
+  Reader(ProgramId program, const FileContext &context)
+      : context_(context), targets_(context.model.jumpTargetsOf(program)) {}
+
+  void read(BlockId block) {
+    const auto words = context_.tree.wordsOf(block);
+    const bool changes = std::ranges::any_of(words, [&](const Word &word) {
+      const Code *code = word.isCode() ? codeOf(word, context_.dialect) : nullptr;
+      return code && code->action == CodeAction::ToolChange;
+    });
+    if (changes)
+      sections_.push_back(
+          {.change = &words.front(), .speed = sections_.empty() ? nullptr : sections_.back().lateSpeed});
+    if (sections_.empty())
+      return;
+    Section &section = sections_.back();
+    const Block &its = context_.tree.blocks[block];
+    if (its.has(Block::kSkip) || its.has(Block::kSkipInside) || its.has(Block::kBroken) || targets_.contains(block) ||
+        !context_.model.callsIn(block, block.next()).empty())
+      section.mayStartUnseen = true;
+    for (const Word &word : words)
+      readWord(word, section);
+  }
+  const std::vector<Section> &sections() const { return sections_; }
+
+private:
+  void readWord(const Word &word, Section &section) const {
+    if (word.address() == 'S') {
+      section.speed = section.speed ? section.speed : &word;
+      section.lateSpeed = &word;
+    }
+    if (!word.isCode())
+      return;
+    const Code *code = codeOf(word, context_.dialect);
+    if (code && code->action == CodeAction::ToolChange)
+      section.change = &word;
+    else if (isOneOf(code, kStarting))
+      section.start = section.start ? section.start : &word;
+    else if (isOneOf(code, kDrilling) || isOneOf(code, kFeeding))
+      readCut(word, isOneOf(code, kDrilling), section);
+    else if (code && code->action == CodeAction::CoolantOn)
+      section.cutsForSure = true;
+    if (mayStart(word, code))
+      section.mayStartUnseen = true;
+  }
+  static void readCut(const Word &word, bool drills, Section &section) {
+    section.cut = section.cut ? section.cut : &word;
+    section.lateSpeed = nullptr;
+    section.cutsForSure = section.cutsForSure || drills;
+  }
+  /// An M code that is not known not to; one of a cycle that taps, probes or skips.
+  static bool mayStart(const Word &word, const Code *code) {
+    if (!code || code->action == CodeAction::Anything || isSkip(code->role))
+      return true;
+    const bool isKnown = isOneOf(code, kStarting) || isOneOf(code, kHarmless) || code->role == CodeRole::ProgramEnd ||
+                         code->action == CodeAction::ToolChange || code->role == CodeRole::Return;
+    return word.address() == 'M' ? !isKnown && !isOptionalStop(word) : code->role == CodeRole::OwnWords;
+  }
+  static bool isOptionalStop(const Word &word) { return word.isNumber() && word.tenths() == 10; }
+
+  const FileContext &context_;
+  std::set<BlockId> targets_;
+  std::vector<Section> sections_;
+};
+
+void tellStart(const Section &section, const Section &other, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("no `M03` or `M04` comes between {} and this cut",
+                                          context.quoted(section.change->span())),
+                   .span = section.cut->span(),
+                   .labels = {{section.change->span(), "the spindle stops for the tool change"},
+                              {other.start->span(), "started for another tool"}},
+                   .notes = {"the tool is fed into the part with the spindle stopped",
+                             "start the spindle with S and M03 before this cut"}});
+}
+
+void tellSpeed(const Section &section, const Section &other, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("{} starts the spindle with the speed of the tool before",
+                                          context.quoted(section.start->span())),
+                   .span = section.start->span(),
+                   .labels = {{section.change->span(), "changed here"}, {other.speed->span(), "speed of another tool"}},
+                   .notes = {"no S stands between the tool change and this code, as it does for the other tools",
+                             "write the speed of this tool"}});
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.machine != MachineKind::Milling)
+    return;
+  Reader reader(program, context);
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next())
+    reader.read(block);
+  const auto &sections = reader.sections();
+  const auto starts = [](const Section &section) { return section.start && section.speed && section.cut; };
+  const auto like = std::ranges::find_if(sections, starts);
+  if (like == sections.end())
+    return;
+  const auto others = std::ranges::count_if(sections, starts);
+  constexpr std::ptrdiff_t kHabit = 2;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const Section &section = sections[i];
+    if (!section.cut || section.mayStartUnseen)
+      continue;
+    if (!section.start && (section.speed || section.cutsForSure))
+      tellStart(section, *like, context, reporter);
+    else if (section.start && !section.speed && i > 0 && others >= kHabit)
+      tellSpeed(section, *like, context, reporter);
+  }
+}
+
+} // namespace
+
+extern const Rule spindleNotRestarted;
+const Rule spindleNotRestarted{
+    .info = {"spindle-not-restarted", Category::Motion, Severity::Warning,
+             "Reports a tool that cuts without an `M03` or an `S` behind its tool change, when other tools of the "
+             "program have them."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules::spindle_not_restarted
