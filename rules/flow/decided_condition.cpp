@@ -1,5 +1,6 @@
 // decided-condition: an IF that can have one outcome only, given what was decided or computed before it.
 #include "rules/flow/loop_view.h"
+#include "rules/flow/void_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,6 +12,33 @@ namespace {
 bool asksVacancy(const FileContext &context, ExpressionId condition) {
   const auto *relation = asInside<BinaryOperation>(context.tree, condition);
   return relation && (isVacant(context, relation->left) || isVacant(context, relation->right));
+}
+
+/// It should raise an alarm, and never does, for a reason that shows a mistake.
+std::optional<VoidReason> voidReason(const FlowFacts &facts, const FileContext &context, NodeId node,
+                                     ExpressionId condition, Truth truth) {
+  const auto alarm = alarmWhenTrue(facts, node);
+  return alarm && *alarm == (truth == Truth::False) ? whyVoid(facts, context, node, condition) : std::nullopt;
+}
+
+void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter, NodeId node,
+            ExpressionId condition, Truth truth, std::optional<VoidReason> reason) {
+  const Span span = context.tree.expressions[condition].span;
+  Diagnostic diagnostic{.message = fmt::format("{} {} here{}", context.quoted(span),
+                                               truth == Truth::True ? "is always true" : "is never true",
+                                               reason ? ": this check cannot raise its alarm" : ""),
+                        .span = span,
+                        .flow = pathFromEntry(facts, node)};
+  if (reason) {
+    if (reason->label)
+      diagnostic.labels.push_back(std::move(*reason->label));
+    diagnostic.notes.push_back(std::move(reason->note));
+  } else {
+    diagnostic.notes.emplace_back(asksVacancy(context, condition) && truth == Truth::False
+                                      ? "it has been set before, so it holds a number and is not vacant"
+                                      : "the blocks before it leave no other outcome");
+  }
+  reporter.report(std::move(diagnostic), reason ? Severity::Warning : Severity::Info);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
@@ -25,24 +53,18 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const auto statements = context.tree.statementsOf(block);
     const bool isWhile =
         std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
-    const bool vacancy = asksVacancy(context, *test->condition);
-    if (isWhile || isAskedToBeSure(facts, *test->condition, block))
-      continue;
-    const Span span = context.tree.expressions[*test->condition].span;
-    reporter.report(
-        {.message = fmt::format("{} {} here", context.quoted(span),
-                                *truth == Truth::True ? "is always true" : "is never true"),
-         .span = span,
-         .flow = pathFromEntry(facts, node),
-         .notes = {vacancy && *truth == Truth::False ? "it has been set before, so it holds a number and is not vacant"
-                                                     : "the blocks before it leave no other outcome"}});
+    const auto reason = isWhile ? std::nullopt : voidReason(facts, context, node, *test->condition, *truth);
+    const bool toBeSure =
+        isAskedToBeSure(facts, *test->condition, block) && !(reason && asksVacancy(context, *test->condition));
+    if (!isWhile && !toBeSure)
+      report(facts, context, reporter, node, *test->condition, *truth, reason);
   }
 }
 
 } // namespace
 
 extern const Rule decidedCondition;
-const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Info,
+const Rule decidedCondition{.info = {"decided-condition", Category::Flow, Severity::Warning,
                                      "Reports a condition that always has the same outcome."},
                             .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 

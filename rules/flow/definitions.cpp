@@ -83,9 +83,9 @@ bool leadsTo(const FlowFacts &facts, NodeId from, NodeId at, NodeId test) {
   return found;
 }
 
-bool isPassedAlways(const FlowFacts &facts, NodeId test, NodeId at) { return !leadsTo(facts, facts.entry(), at, test); }
-
 } // namespace
+
+bool isPassedAlways(const FlowFacts &facts, NodeId node, NodeId at) { return !leadsTo(facts, facts.entry(), at, node); }
 
 std::optional<Definitions> definitionsOf(const FlowFacts &facts, std::uint32_t variable, NodeId at) {
   if (isTooLarge(facts) || (variable < kFirstNamedVariable && !isPlain(facts.file, variable)))

@@ -29,5 +29,7 @@ struct PassedTest {
   bool isTrue;
 };
 std::vector<PassedTest> testsBefore(const FlowFacts &facts, NodeId at);
+/// No path from the head of the program to the place goes round the node.
+bool isPassedAlways(const FlowFacts &facts, NodeId node, NodeId at);
 
 } // namespace feedhold::rules

@@ -428,6 +428,13 @@ bool leadsToAlarm(const FlowFacts &facts, BlockId block) {
          (jumps.empty() && raisesAlarmAt(facts.file, block));
 }
 
+std::optional<bool> alarmWhenTrue(const FlowFacts &facts, NodeId test) {
+  if (leadsToAlarm(facts, facts.node(test).block))
+    return true;
+  const BlockId behind = facts.node(facts.node(test).next).block;
+  return raisesAlarmAt(facts.file, behind) ? std::optional(false) : std::nullopt;
+}
+
 bool isLoneNumber(const FlowFacts &facts, NodeId node) {
   return std::holds_alternative<Pass>(facts.node(node).instruction) && facts.node(node).next == node.next() &&
          facts.file.tree->statementsOf(facts.node(node).block).empty();

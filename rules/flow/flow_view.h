@@ -98,6 +98,8 @@ std::optional<NodeId> nodeOf(const FlowFacts &facts, BlockId block, ExpressionId
 bool raisesAlarmAt(const ProgramFile &file, BlockId block);
 /// The condition of the block leads to an alarm.
 bool leadsToAlarm(const FlowFacts &facts, BlockId block);
+/// The outcome of the test with which an alarm is raised: where it jumps to, or behind it.  Absent: with none.
+std::optional<bool> alarmWhenTrue(const FlowFacts &facts, NodeId test);
 
 /// A block of nothing but a sequence number.
 bool isLoneNumber(const FlowFacts &facts, NodeId node);

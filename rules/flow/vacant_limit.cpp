@@ -64,14 +64,6 @@ std::optional<Limit> limitIn(const FlowFacts &facts, const BinaryOperation &rela
   return std::nullopt;
 }
 
-/// The alarm that the test decides about: where it jumps to, or behind it.
-std::optional<bool> alarmWhenTrue(const FlowFacts &facts, NodeId node) {
-  if (leadsToAlarm(facts, facts.node(node).block))
-    return true;
-  const BlockId behind = facts.node(facts.node(node).next).block;
-  return raisesAlarmAt(facts.file, behind) ? std::optional(false) : std::nullopt;
-}
-
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.behaviour.variablesMayBeVacant || isMainProgram(facts))
     return;

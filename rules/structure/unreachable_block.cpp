@@ -39,7 +39,8 @@ void reportAlarm(BlockId block, BlockId ender, const FileContext &context, const
   reporter.report({.message = "this alarm is never raised: no jump leads to it",
                    .span = context.tree.blocks[block].span(),
                    .labels = {{context.tree.blocks[ender].span(), "the program never continues past this block"}},
-                   .notes = {"the check that should lead here is missing, or its GOTO names another block"}});
+                   .notes = {"the check that should lead here is missing, or its GOTO names another block"}},
+                  Severity::Warning);
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
@@ -58,14 +59,15 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
                                               : fmt::format("the blocks from here to line {} are never executed", last),
                      .span = context.tree.blocks[*start].span(),
                      .labels = {{context.tree.blocks[run.ender].span(), "the program never continues past this block"}},
-                     .notes = {"no jump leads here: delete the blocks, or correct the jump that should lead here"}});
+                     .notes = {"no jump leads here: delete the blocks, or correct the jump that should lead here"}},
+                    Severity::Info);
   }
 }
 
 } // namespace
 
 extern const Rule unreachableBlock;
-const Rule unreachableBlock{.info = {"unreachable-block", Category::Structure, Severity::Info,
+const Rule unreachableBlock{.info = {"unreachable-block", Category::Structure, Severity::Warning,
                                      "Reports blocks that are never executed: the block before them always goes "
                                      "elsewhere, and no jump leads to them."},
                             .hooks = {.program = check}};
