@@ -64,9 +64,18 @@ constexpr std::array kFadal = {
     LanguageHint{TextSignal::FadalLine, 12},
 };
 constexpr std::array kCLike = {
-    LanguageHint{TextSignal::CLikeOperator, 6},   LanguageHint{TextSignal::BareCondition, 4},
-    LanguageHint{TextSignal::DdcsVariable, 16},   LanguageHint{TextSignal::CentroidStatement, 20},
+    LanguageHint{TextSignal::CLikeOperator, 6},
+    LanguageHint{TextSignal::BareCondition, 4},
+    LanguageHint{TextSignal::CentroidStatement, 20},
     LanguageHint{TextSignal::EdingStatement, 12},
+};
+/// Its macros are Macro B with variables of their own; comparisons by characters are common, words are accepted.
+constexpr std::array kDdcs = {
+    LanguageHint{TextSignal::DdcsMessage, 40},  LanguageHint{TextSignal::DdcsVariable, 16},
+    LanguageHint{TextSignal::DdcsOffset, 40},   LanguageHint{TextSignal::DdcsFile, 16},
+    LanguageHint{TextSignal::DdcsWord, 8},      LanguageHint{TextSignal::DdcsPosition, 2},
+    LanguageHint{TextSignal::DdcsTitle, 2},     LanguageHint{TextSignal::CLikeOperator, 6},
+    LanguageHint{TextSignal::BareCondition, 4},
 };
 constexpr std::array kCompiler = {
     LanguageHint{TextSignal::CompilerDirective, 25},
@@ -94,8 +103,11 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"LNC macro", "variables such as `@100` are not supported", kLnc},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not supported", kDollar},
     ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not supported", kFadal},
-    ForeignLanguage{"a macro language with C operators (DDCS, Centroid, Eding)",
+    ForeignLanguage{"a macro language with C operators (Centroid, Eding)",
                     "only Macro B comparisons such as `EQ` and conditions in brackets are supported", kCLike},
+    ForeignLanguage{"a macro for DDCS",
+                    "its variables mean something else than on a Macro B control; exclude these files", kDdcs,
+                    Resemblance::MacroB},
     ForeignLanguage{"macro compiler source", "check the part programs, or the compiled text", kCompiler},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},

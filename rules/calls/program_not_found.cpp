@@ -33,8 +33,12 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule programNotFound;
-const Rule programNotFound{.info = {"program-not-found", Category::Call, Severity::Info,
-                                    "Reports a call to a program that is in none of the checked files."},
+const Rule programNotFound{.info = {"program-not-found",
+                                    Category::Call,
+                                    Severity::Info,
+                                    "Reports a call to a program that is in none of the checked files.",
+                                    {},
+                                    CauseScope::OneFolder},
                            .hooks = {.file = check}};
 
 } // namespace feedhold::rules::program_not_found

@@ -68,6 +68,55 @@ FixIt allowance(const Cut &cut, const FileContext &context) {
   return {.title = fmt::format("insert `{}`", text), .edits = {{{end, end}, std::string(text)}}};
 }
 
+bool isNumbered(const SyntaxTree &tree, ExpressionId id, const Decimal &number) {
+  const auto *variable = asInside<NumberedVariable>(tree, id);
+  return variable && variable->number == number;
+}
+
+/// Where a whole number that is off by one selects something else, and is not one pass more or less.
+bool isSelector(const SyntaxTree &tree, ExpressionId user, const auto &isResult) {
+  if (const auto *operation = as<BinaryOperation>(tree, user))
+    return (operation->op == OperatorKind::Equal || operation->op == OperatorKind::NotEqual) &&
+           (isResult(operation->left) || isResult(operation->right));
+  if (const auto *variable = as<IndirectVariable>(tree, user)) {
+    const auto *offset = asInside<BinaryOperation>(tree, variable->index);
+    return isResult(variable->index) || (offset && (isResult(offset->left) || isResult(offset->right)));
+  }
+  return false;
+}
+
+/// The variable to which the block assigns the whole number.
+std::optional<Decimal> variableOf(const SyntaxTree &tree, BlockId block, ExpressionId cut) {
+  for (const Statement &statement : tree.statementsOf(block)) {
+    const auto *assignment = std::get_if<Assignment>(&statement.node);
+    const auto *target = assignment && unwrapped(tree, assignment->value) == cut
+                             ? as<NumberedVariable>(tree, assignment->target)
+                             : nullptr;
+    if (target)
+      return target->number;
+  }
+  return std::nullopt;
+}
+
+/// The whole number, or the variable that it is assigned to, is compared by EQ or NE, or is the index of a variable.
+bool selects(const Cut &cut, const FlowFacts &facts, const FileContext &context) {
+  const SyntaxTree &tree = context.tree;
+  const auto variable = variableOf(tree, facts.file.cfg.nodes[cut.node].block, cut.id);
+  const auto isResult = [&](ExpressionId id) {
+    return unwrapped(tree, id) == cut.id || (variable && isNumbered(tree, id, *variable));
+  };
+  std::optional<BlockId> last;
+  for (const VariableUse &use : context.model.variablesOf(facts.program)) {
+    if (last == use.block)
+      continue;
+    last = use.block;
+    for (const ExpressionId id : expressionsOf(facts.file, use.block))
+      if (isSelector(tree, id, isResult))
+        return true;
+  }
+  return false;
+}
+
 void checkCut(const Cut &cut, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const BinaryOperation &operation = *cutIn(context.tree, cut.argument);
   Formulas formulas(facts);
@@ -75,7 +124,7 @@ void checkCut(const Cut &cut, const FlowFacts &facts, const FileContext &context
   const auto shown = argument ? findShown(formulas, cut, *argument) : std::nullopt;
   const bool isUnknown =
       !argument && operation.op == OperatorKind::Divide && !isWhole(facts, operation.right) && facts.valueOf(cut.id);
-  if (!shown && !isUnknown)
+  if (!shown && !(isUnknown && selects(cut, facts, context)))
     return;
   const Span span = context.tree.expressions[cut.id].span;
   const std::string text = context.quoted(span);

@@ -60,7 +60,50 @@ std::string effectOn(const Read &read, const FileContext &context) {
                                    : "it has whatever value an earlier program or the operator left there";
 }
 
+/// Some file of the run sets the variable, or one whose number is computed.
+bool isSetInRun(const FlowFacts &facts, std::uint32_t variable) {
+  for (std::size_t i = 0; i < facts.programs.size(); ++i)
+    if (std::ranges::any_of(facts.programs.file(FileId(i)).model->variables, [&](const VariableUse &use) {
+          return use.write && (!use.number || use.number == variable);
+        }))
+      return true;
+  return false;
+}
+
+/// A program that the operator starts, or one that a program of the run calls.
+bool isStartKnown(const FlowFacts &facts) {
+  const ProgramFile &file = facts.file;
+  return facts.programs.callGraph().isCalled({file.file, facts.program}) ||
+         (!file.model->programs[facts.program].within && !file.model->programs[facts.program].returns);
+}
+
+/// Numbered parameters of LinuxCNC are 0 until something sets them, and the next program finds them as they are.
+void checkParameters(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  constexpr std::uint32_t kLastParameter = 5000;
+  if (!isStartKnown(facts) || setsUnseen(facts, context))
+    return;
+  std::vector<std::uint32_t> done;
+  for (const Read &read : readsOf(facts)) {
+    if (!read.number || *read.number > kLastParameter || !commonKind(context, *read.number) ||
+        std::ranges::find(done, *read.number) != done.end())
+      continue;
+    done.push_back(*read.number);
+    if (isPromised(facts, context, *read.number) || isSetInRun(facts, *read.number) || !reachedNode(facts, read.block))
+      continue;
+    const Span span = context.tree.expressions[read.expression].span;
+    reporter.report({.message = fmt::format("{} is used here, but no checked program sets it", context.quoted(span)),
+                     .span = span,
+                     .notes = {"it is 0, or what an earlier program or the parameter file left there",
+                               "set it before its first use, or correct the parameter number"}},
+                    isTested(facts.file, facts.program, *read.number) ? Severity::Info : Severity::Warning);
+  }
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.grammar.oWords) {
+    checkParameters(facts, context, reporter);
+    return;
+  }
   if (!isMainProgram(facts))
     return;
   const bool unseen = setsUnseen(facts, context);

@@ -29,6 +29,8 @@ public:
     if (!first_.node() || isToldOtherwise(*first_.node(), context))
       return;
     const bool isMain = startedBy(context, view_.program()) == StartedBy::Operator;
+    if (isMain && context.dialect.behaviour.endRestoresModes) // it starts in G90: the start and every end see to it
+      return;
     const Word &word = *view_.axisWords(*first_.node()).front();
     const auto sets = [&](NodeId node) { return view_.sets(node, ModalKind::Distance); };
     Diagnostic diagnostic{.message =
@@ -61,8 +63,6 @@ private:
   }
   /// Some program of the folder has G91: it may be in force when this one starts.
   static bool mayBeLeftIncremental(const FileContext &context) {
-    if (context.dialect.behaviour.endRestoresModes)
-      return false;
     const auto folder = std::filesystem::path(context.source.path()).parent_path();
     for (std::size_t i = 0; i < context.programs->size(); ++i) {
       const ProgramFile &file = context.programs->file(FileId(i));

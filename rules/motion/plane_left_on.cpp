@@ -5,6 +5,8 @@ namespace feedhold::rules::plane_left_on {
 namespace {
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.machine == MachineKind::Turning) // where G18 is the plane of every program
+    return;
   reportLeftOn({.kind = ModalKind::Plane,
                 .actions = {CodeAction::PlaneZX, CodeAction::PlaneYZ},
                 .atProgramEnd = std::nullopt,

@@ -16,7 +16,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     Diagnostic diagnostic{.message = "this `IF` has no `ENDIF`",
                           .span = context.tree.statements[lines.head].span,
-                          .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}};
+                          .notes = {fmt::format("{} takes `THEN` at the end of a block for the start of an `IF` over "
+                                                "several lines; if the program is for another control, name it with "
+                                                "`--dialect`",
+                                                context.dialect.id),
+                                    fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::IfFormat))}};
     if (!lines.parts.empty())
       diagnostic.labels.push_back({context.tree.statements[lines.parts.back()].span, "its last branch begins here"});
     reporter.report(std::move(diagnostic));

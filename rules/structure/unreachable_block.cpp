@@ -43,11 +43,40 @@ void reportAlarm(BlockId block, BlockId ender, const FileContext &context, const
                   Severity::Warning);
 }
 
+/// The code of a machine builder, or a program that is not there: how it ends is not known.
+bool callsUnseen(BlockId block, const FileContext &context) {
+  const auto calls = context.model.callsIn(block, block.next());
+  if (!calls.empty())
+    return std::ranges::any_of(calls, [&](const Call &call) { return !context.callGraph.callee(context.file, call); });
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    const auto tenths = word.address() == 'G' ? word.tenths() : std::nullopt;
+    return tenths && !findGCode(context.dialect, *tenths);
+  });
+}
+
+/// `G229 T910` and `N910` in the run: the program that is called may return there, by `M99 P#20`.
+bool isNamedToUnseen(const DeadBlocks::Run &run, ProgramId program, const FileContext &context) {
+  std::vector<Decimal> numbers;
+  for (BlockId block = run.first; block <= run.last; block = block.next())
+    if (const Word *number = findWord(context.tree, block, 'N'); number && number->isNumber())
+      numbers.push_back(number->number());
+  if (numbers.empty())
+    return false;
+  const Program &whole = context.model.programs[program];
+  for (BlockId block = whole.first; block < whole.last; block = block.next())
+    if (callsUnseen(block, context))
+      for (const Word &word : context.tree.wordsOf(block))
+        if (!word.isCode() && word.address() != 'N' && word.isNumber() &&
+            std::ranges::find(numbers, word.number()) != numbers.end())
+          return true;
+  return false;
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
     const auto start = firstUnintended(run, context);
-    if (!start || context.model.programOf(*start) != program)
+    if (!start || context.model.programOf(*start) != program || isNamedToUnseen(run, program, context))
       continue;
     if (isAlarm(*start, context) && findWord(context.tree, *start, 'N')) {
       reportAlarm(*start, run.ender, context, reporter);

@@ -25,8 +25,12 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
 
 extern const Rule unknownGCode;
 const Rule unknownGCode{
-    .info = {"unknown-g-code", Category::Word, Severity::Info,
-             "Reports a G code that the control does not have and that `feedhold.toml` does not list as a call."},
+    .info = {"unknown-g-code",
+             Category::Word,
+             Severity::Info,
+             "Reports a G code that the control does not have and that `feedhold.toml` does not list as a call.",
+             {},
+             CauseScope::OneFolder},
     .hooks = {.word = check, .wordAddresses = "G"}};
 
 } // namespace feedhold::rules::unknown_g_code

@@ -36,6 +36,12 @@ enum class Category {
 };
 std::string_view nameOf(Category category);
 
+/// What findings of a rule that say the same have in common.
+enum class CauseScope : std::uint8_t {
+  SameText,  // the same file, or the same text of the line
+  OneFolder, // what the folder lacks: a program, a code of the machine
+};
+
 struct RuleInfo {
   std::string_view name; // kebab-case, reads well after "allow"
   Category category;
@@ -43,6 +49,7 @@ struct RuleInfo {
   std::string_view summary; // one sentence, the first of the page
   /// Suppressions and settings may still use it: programs that are released do not change with a name.
   std::string_view formerName = {};
+  CauseScope cause = CauseScope::SameText;
 };
 bool hasName(const RuleInfo &rule, std::string_view name);
 

@@ -431,10 +431,14 @@ struct LanguageHint {
 };
 
 /// A language that is recognised and refused.
+/// Whether programs of a foreign language may look exactly like ones that are read.
+enum class Resemblance : std::uint8_t { None, MacroB };
+
 struct ForeignLanguage {
   std::string_view name; // "Heidenhain Klartext"
   std::string_view way;  // what the reader can do
   std::span<const LanguageHint> hints;
+  Resemblance resemblance = Resemblance::None;
 };
 
 struct Dialect {

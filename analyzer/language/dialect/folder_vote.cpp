@@ -9,6 +9,7 @@ constexpr int kMostOfOneFile = 20; // one file does not outvote all others
 constexpr int kMostOfFolder = 10;  // as much as two or three marks in the text of the file
 
 constexpr std::size_t kFewestSpeakers = 3;
+constexpr std::size_t kFewestOf = 8; // one program of so many, and more than speak for any control that is read
 
 /// What the text says, `#100` or `IF`, is said for the controls of several makers.
 bool fitsSeveral(const LanguageGuess &guess) {
@@ -32,6 +33,7 @@ void FolderVote::add(const LanguageGuess &file) {
   }
   if (file.basis == GuessBasis::Text)
     ++speakers_[file.dialect];
+  distinct_ += file.basis == GuessBasis::Text && file.kin == nullptr && !fitsSeveral(file) ? 1U : 0U;
   sums_.resize(file.scores.size());
   const int best = *std::max_element(file.scores.begin(), file.scores.end());
   for (std::size_t i = 0; i < sums_.size(); ++i)
@@ -47,11 +49,15 @@ bool FolderVote::isClear() const {
   return (all >= kFewestSpeakers && most * 3 >= all * 2) || commonForeign() != nullptr;
 }
 
-/// The language of more than half of the programs.
+/// The language of more than half of the programs.  Where it looks like Macro B, programs that fit several controls do
+/// not speak against it.
 const ForeignLanguage *FolderVote::commonForeign() const {
-  for (const auto &[name, votes] : foreign_)
-    if (votes.second * 2 > programs_)
-      return votes.first;
+  for (const auto &[name, votes] : foreign_) {
+    const auto &[language, files] = votes;
+    const bool isMacroB = language->resemblance == Resemblance::MacroB;
+    if (files * 2 > programs_ || (isMacroB && files * kFewestOf >= programs_ && files > distinct_))
+      return language;
+  }
   return nullptr;
 }
 

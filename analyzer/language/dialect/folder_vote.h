@@ -27,6 +27,7 @@ private:
   const DialectRegistry *registry_;
   std::vector<int> sums_; // by dialect, of what each file scores below its best
   std::size_t programs_ = 0;
+  std::size_t distinct_ = 0;                        // programs that fit a few dialects only, and no foreign language
   std::map<const Dialect *, std::size_t> speakers_; // programs whose text speaks for a dialect
   std::map<std::string_view, std::pair<const ForeignLanguage *, std::size_t>> foreign_; // by name
 };

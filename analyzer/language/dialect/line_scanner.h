@@ -128,6 +128,7 @@ private:
   bool hasSignal_ = false;
   bool hasHash_ = false;
   bool hasIf_ = false;
+  bool hasCondition_ = false; // IF or WHILE
   bool endsWithThen_ = false;
   bool hasOWord_ = false;
   bool hasG65_ = false;
@@ -138,12 +139,15 @@ private:
   bool hasG92_ = false;
   bool hasG96_ = false;
   bool hasCode_ = false; // a G or M code
+  bool hasG4_ = false;
   bool hasG15_ = false;
+  bool hasG31_ = false;
   bool hasG90_ = false;
   bool hasG91_ = false;
   std::uint32_t codes_ = 0;   // G codes
   bool hasHome_ = false;      // G28, G30, G53, G92: no cut
   bool hasVariableP_ = false; // `P#100`
+  bool hasNegativeP_ = false; // `P-1`
   bool hasM82_ = false;
   bool hasM84_ = false;
   bool hasG64_ = false;

@@ -56,10 +56,13 @@ void LineScanner::scanMark(char c) {
   const bool isComparison = (c == '=' || c == '!' || c == '>') && next == '=';
   const bool isJunction = (c == '&' || c == '|') && next == c;
   const bool isAssignment = c == ':' && next == '=';
+  const bool isAngle = c == '>' && hasHash_ && hasCondition_;
   if (isComparison || isJunction || isAssignment) {
     ++at_;
     if (hasHash_)
       count(isAssignment ? TextSignal::ColonAssignment : TextSignal::CLikeOperator);
+  } else if (isAngle) {
+    count(TextSignal::CLikeOperator);
   } else if (static_cast<unsigned char>(c) >= 0x20 && c != '=') {
     hasUnknown_ = true; // blanks of other kinds and tape leader bytes are nothing
   }
@@ -197,6 +200,7 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
     count(keyword.signal);
   if (keyword.spelling == "IF" || keyword.spelling == "WHILE") {
     hasIf_ = hasIf_ || keyword.spelling == "IF";
+    hasCondition_ = true;
     scanCondition();
   } else if (keyword.spelling == "THEN") {
     endsWithThen_ = true;
@@ -233,6 +237,7 @@ void LineScanner::scanWord(char letter) {
     ++at_;
   const char next = peek();
   letters_ |= 1U << (letter - 'A');
+  hasNegativeP_ = hasNegativeP_ || (letter == 'P' && isDigit(next) && line_[at_ - 1] == '-');
   if (isDigit(next) || next == '.') {
     hasWord_ = true;
     numbered_ |= 1U << (letter - 'A');
@@ -284,6 +289,8 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
     count(TextSignal::ProgramNumber);
     if (number.digits == 5 && number.whole < 10000)
       count(TextSignal::HaasProgramNumber);
+    else if (number.digits == 8 && number.whole / 1000 == 10000)
+      count(TextSignal::DdcsTitle);
     return;
   case 'T':
     if (number.digits == 4)
@@ -331,10 +338,12 @@ void LineScanner::scanGCode(const Number &number) {
     return;
   }
   switch (number.whole) {
+  case 4: hasG4_ = true; return;
   case 15: hasG15_ = true; return;
   case 28:
   case 30:
   case 53: hasHome_ = true; return;
+  case 31: hasG31_ = true; return;
   case 43: count(TextSignal::LengthOffset); return;
   case 50: hasG50_ = true; return;
   case 92: hasG92_ = hasHome_ = true; return;
@@ -374,6 +383,19 @@ void LineScanner::scanMCode(const Number &number) {
   }
 }
 
+namespace {
+
+/// `-5000(text`: the number of a message and, at once, its text.
+bool isNumberBeforeText(std::string_view value) {
+  value = trimmed(value);
+  if (!value.empty() && value.front() == '-')
+    value.remove_prefix(1);
+  const std::size_t end = value.find_first_not_of("0123456789");
+  return end != 0 && end != std::string_view::npos && value[end] == '(';
+}
+
+} // namespace
+
 void LineScanner::scanHash() {
   const bool isBracketed = at_ > 0 && line_[at_ - 1] == '[';
   ++at_;
@@ -392,6 +414,8 @@ void LineScanner::scanHash() {
     at_ = end == std::string_view::npos ? line_.size() : end + 1;
   } else if (next == '[' || next == '#') {
     hasWord_ = true;
+    if (beginsUpper(rest(), "[805+") && rest().find("#578") != std::string_view::npos)
+      count(TextSignal::DdcsOffset);
   } else if (next == '_' && isBracketed) {
     count(TextSignal::FanucNamedVariable);
     hasWord_ = true;
@@ -424,12 +448,18 @@ void LineScanner::scanVariable(const Number &number) {
     count(TextSignal::MitsubishiParameterRead);
   else if (n >= 98000 && n <= 199999)
     count(TextSignal::FanucLargeVariable);
+  if (n >= 1920 && n <= 1929)
+    count(TextSignal::DdcsVariable);
+  else if ((n >= 790 && n <= 794) || (n >= 880 && n <= 884))
+    count(TextSignal::DdcsPosition);
   skipBlanks();
   if (peek() != '=' || peek(1) == '=')
     return;
   if (n == 3000)
     count(TextSignal::MacroAlarm);
-  else if (n >= 1500 && n <= 1519) // no control that is read has variables there
+  else if ((n == 1503 || n == 1505 || n == 2070) && isNumberBeforeText(rest().substr(1)))
+    count(TextSignal::DdcsMessage);
+  else if (n >= 1500 && n <= 1519) // no Macro B control has variables there
     count(TextSignal::DdcsVariable);
 }
 
@@ -448,7 +478,10 @@ void LineScanner::scanAngle() {
   const bool isName = !name.empty() && name.size() <= 32 && isLetter(name[0]) &&
                       name.find_first_not_of(kNameCharacters) == std::string_view::npos;
   if (!isName) {
-    hasUnknown_ = true;
+    if (hasHash_ && hasCondition_)
+      count(TextSignal::CLikeOperator);
+    else
+      hasUnknown_ = true;
     ++at_;
     return;
   }
@@ -477,6 +510,8 @@ void LineScanner::countCombinations() {
     count(TextSignal::MacroA);
   if (hasG15_ && hasLetter('H'))
     count(TextSignal::OkumaWorkOffset);
+  if ((hasG4_ && hasNegativeP_) || (hasG31_ && hasLetter('L') && hasLetter('Q')))
+    count(TextSignal::DdcsWord);
   if (hasM82_ && hasM84_)
     count(TextSignal::ErosionSwitch);
   if (hasM97_ && hasLetter('P'))

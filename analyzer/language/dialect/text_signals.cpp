@@ -89,8 +89,16 @@ void scanNameParts(std::string_view path, TextScan &scan) {
   }
 }
 
+/// Programs that a control starts by their names.
+constexpr std::string_view kDdcsFiles[] = {"SLIB-", "FNDZERO.NC", "EXTKEY"};
+
 void scanName(std::string_view path, TextScan &scan) {
   scanNameParts(path, scan);
+  const std::size_t slash = path.find_last_of("/\\");
+  const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
+  for (const std::string_view begin : kDdcsFiles)
+    if (beginsUpper(name, begin))
+      scan.counts[static_cast<std::size_t>(TextSignal::DdcsFile)] = 1;
   const std::string extension = extensionOf(path);
   for (const NamedSignal &named : kExtensions)
     if (extension == named.extension)

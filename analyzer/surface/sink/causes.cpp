@@ -65,6 +65,11 @@ bool isNextRow(const FoundPlace &row, const FoundPlace &next) {
          shapeOf(row) == shapeOf(next);
 }
 
+std::string_view folderOf(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  return slash == std::string_view::npos ? "" : path.substr(0, slash);
+}
+
 /// Findings of other rules may stand between the rows of a table.
 void joinTables(const std::vector<FoundPlace> &places, Groups &groups) {
   std::map<std::pair<const CheckedFile *, const RuleInfo *>, std::vector<std::size_t>> byRule;
@@ -99,6 +104,8 @@ std::vector<Cause> causesOf(const Report &report) {
                ? fmt::format("line {}\n{}", trimmed(file.source.text(file.source.lineSpan(lineOf(places[i])))), saying)
                : "language " + saying,
            i);
+    if (places[i].finding->rule->cause == CauseScope::OneFolder)
+      joinBy(fmt::format("folder {}\n{}", folderOf(file.path), saying), i);
   }
   joinTables(places, groups);
   std::map<std::size_t, Cause> causes;

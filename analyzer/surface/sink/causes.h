@@ -21,6 +21,7 @@ struct Cause {
 ///  - of one file,
 ///  - of lines with the same text, in whatever files: a copied block, a common header,
 ///  - of files in one foreign language,
+///  - of files in one folder, if the rule reports what a folder lacks (CauseScope),
 /// and rows of a table: kTableRows findings or more of one rule in neighbouring lines, whose messages differ only in
 /// the quoted code.
 std::vector<Cause> causesOf(const Report &report);

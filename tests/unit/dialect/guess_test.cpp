@@ -106,10 +106,49 @@ TEST(Guess, LanguagesThatAreRefused) {
   EXPECT_EQ(guessed("(P1=5)\n(CALL 3)\nG1 X10\n(RET)\n"), "Fagor 8055");
   EXPECT_EQ(guessed("$IF V.P.COUNT > 3\nG1 X10\n$ENDIF\nM30\n"), "ISG or Fagor 8060 (`$IF`)");
   EXPECT_EQ(guessed("#V10 = 5\n#IF V10 > 3 THEN GOTO :NEXT\n#PRINT \"A\"\n#:NEXT\nM30\n"), "Fadal macro");
-  EXPECT_EQ(guessed("#1505 = -5000(wait)\nIF #1 == 2 GOTO1\nIF #3 != 0 GOTO2\nN1\nN2 M30\n"),
-            "a macro language with C operators (DDCS, Centroid, Eding)");
+  EXPECT_EQ(guessed("#50=1\nIF #50 == 2 && #51 > 3 GOTO1\nIF #3 != 0 GOTO2\nN1\nN2 M30\n"),
+            "a macro language with C operators (Centroid, Eding)");
   EXPECT_EQ(guessed("$INCLUDE COMMON\n@SPEED 100\n@FEED 101\nO9000\n#1=5\nM99\n"), "macro compiler source");
   EXPECT_EQ(guessed("%wait\n%X0=posx, Y0=posy\nG21\nM5\n"), "sender macro (CNCjs)");
+}
+
+TEST(Guess, DdcsByAnyOfItsOwnMarks) {
+  constexpr std::string_view kDdcs = "a macro for DDCS";
+  EXPECT_EQ(guessed("#1505 = -5000(wait)\nIF #1 == 2 GOTO1\nIF #3 != 0 GOTO2\nN1\nN2 M30\n"), kDdcs);
+  EXPECT_EQ(guessed("O501\nIF[#1EQ1]GOTO1\n#1503=1(no sensor)\nN1M99\n"), kDdcs);
+  EXPECT_EQ(guessed("#2070=60(plate thickness)\n#61=#60*2\nG91G0Z#61\nM30\n"), kDdcs);
+  EXPECT_EQ(guessed("#10=#880\n#[805+[#578-1]*5]=#10\nM30\n"), kDdcs);
+  EXPECT_EQ(guessed("G91 G31 Z-50 F100 P3 L0 K0 Q1\nIF #1922<2 GOTO9\n#60=#882\nN9 M30\n"), kDdcs);
+  EXPECT_EQ(guessed("WHILE #60<5 DO1\n#60=#60+1\nG4 P-1\nEND1\nM30\n"), kDdcs);
+  EXPECT_EQ(guessed("O10000010\nM3\nG4P-1\nM99\n", "slib-m.nc"), kDdcs);
+}
+
+TEST(Guess, DdcsIsNotSeenInMacrosOfOthers) {
+  EXPECT_EQ(guessed("O1\n#2070=0.1\n#2071=0.2\n#880=#5021\n#790=#881+#882\nG31 Z-10. F50\nM99\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\n#2070=#2070+#24 (WEAR)\nG4 P1000\nIF[#500GT3]GOTO10\nN10 M99\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O10000601\n#1=1\nIF[#1GT3]GOTO10\nN10 M30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("#1500=1\no100 if [#1500 gt 1]\no200 call [#1500]\no100 endif\nm2\n"), "linuxcnc");
+}
+
+TEST(Guess, DdcsTakesItsFolderAlong) {
+  const auto guessOf = [](std::string_view text) { return guessLanguage(text, "", allDialects()); };
+  const LanguageGuess ddcs = guessOf("#1505=1(probe now)\nG31Z-50F100P3L0K0Q1\nM30\n");
+  const LanguageGuess neutral = guessOf("O600\n#50=#50+1\nIF #50 > 3 GOTO1\nG0X#50\nN1M99\n");
+  const LanguageGuess plain = guessOf("G0 X1 Y2\nM30\n");
+  const LanguageGuess haas = guessOf("O00012\nM97 P1\nG103 P1\nM97 P2\nG0 X1. Y2.\nG154 P3\nG43 H1 Z1.\nM30\n");
+  FolderVote vote(allDialects());
+  vote.add(ddcs);
+  for (int i = 0; i < 3; ++i)
+    vote.add(neutral);
+  vote.add(plain);
+  ASSERT_EQ(ddcs.foreign->name, "a macro for DDCS");
+  EXPECT_TRUE(vote.isClear());
+  EXPECT_EQ(vote.decide(neutral).foreign, ddcs.foreign);
+  EXPECT_EQ(vote.decide(plain).foreign, ddcs.foreign);
+  EXPECT_EQ(vote.decide(haas).foreign, nullptr);
+
+  vote.add(haas);
+  EXPECT_EQ(vote.decide(plain).foreign, nullptr) << "programs of another control lie in the folder";
 }
 
 TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {

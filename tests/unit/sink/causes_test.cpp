@@ -9,6 +9,8 @@ namespace feedhold {
 namespace {
 
 constexpr RuleInfo kUnset{"never-set-variable", Category::Variable, Severity::Warning, "Reports a variable."};
+constexpr RuleInfo kLack{"unknown-g-code",     Category::Word, Severity::Info, "Reports a code.", {},
+                         CauseScope::OneFolder};
 constexpr RuleInfo kText{"unexpected-text", Category::Syntax, Severity::Error, "Reports text."};
 
 Finding finding(const RuleInfo &rule, const SourceFile &source, std::uint32_t line, std::string message) {
@@ -50,6 +52,15 @@ TEST_F(Causes, OneMessageInOneFile) {
   ASSERT_EQ(causes().size(), 2U);
   EXPECT_EQ(otherPlaces(causes()[0]), "the same in 1 more place: line 3");
   EXPECT_EQ(otherPlaces(causes()[1]), "");
+}
+
+TEST_F(Causes, OneThingThatAFolderLacks) {
+  result_.files = {file("d/a.nc", "G229 X1.\n"), file("d/b.nc", "G21\nG229 X2.\n"), file("e/c.nc", "G229 X3.\n")};
+  add(0, kLack, 1, "fanuc-30i does not have `G229`");
+  add(1, kLack, 2, "fanuc-30i does not have `G229`");
+  add(2, kLack, 1, "fanuc-30i does not have `G229`");
+  ASSERT_EQ(causes().size(), 2U) << "another folder is another machine";
+  EXPECT_EQ(otherPlaces(causes()[0]), "the same in 1 more place: d/b.nc:2");
 }
 
 TEST_F(Causes, OneLineInManyFiles) {
