@@ -29,6 +29,17 @@ bool maySupersede(const Code &code, const Dialect &dialect) {
   return code.action == CodeAction::CycleOff && rapid && rapid->group == code.group;
 }
 
+/// `G90 G00 X50.` on a lathe: in G code systems B and C, G90 is no cycle but absolute programming.
+bool isOfOtherSystem(const Word &first, const Word &second, const Dialect &dialect) {
+  constexpr std::uint16_t kG90 = 900;
+  const auto isMotion = [&](const Word &word) {
+    const Code *code = codeOf(word, dialect);
+    return code && (code->role == CodeRole::Motion || code->role == CodeRole::Arc);
+  };
+  return dialect.machine == MachineKind::Turning &&
+         ((first.tenths() == kG90 && isMotion(second)) || (second.tenths() == kG90 && isMotion(first)));
+}
+
 const Word *findActive(BlockId block, const FileContext &context, CodeRole role) {
   const Word *word = findCode(context.tree, block, context.dialect, role);
   return word && !word->has(Word::kAfterSkip) ? word : nullptr;
@@ -69,7 +80,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
     if (!code || code->group == 0 || maySupersede(*code, context.dialect))
       continue;
     const Word *&first = ofGroup[code->group];
-    if (first && first->tenths() != word.tenths())
+    if (first && first->tenths() != word.tenths() && !isOfOtherSystem(*first, word, context.dialect))
       reportPair(*first, word, context, reporter);
     first = &word;
   }
