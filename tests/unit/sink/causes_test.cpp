@@ -9,7 +9,7 @@ namespace feedhold {
 namespace {
 
 constexpr RuleInfo kUnset{"never-set-variable", Category::Variable, Severity::Warning, "Reports a variable."};
-constexpr RuleInfo kLack{"unknown-g-code",     Category::Word, Severity::Info, "Reports a code.", {},
+constexpr RuleInfo kLack{"unknown-g-code",     Category::Word, Severity::Warning, "Reports a code.", {},
                          CauseScope::OneFolder};
 constexpr RuleInfo kText{"unexpected-text", Category::Syntax, Severity::Error, "Reports text."};
 
