@@ -74,7 +74,7 @@ void trim(const fs::path &folder) {
 std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
-  const auto &[only, budget, steps, guards, arithmetic, contractsOf] = options;
+  const auto &[only, budget, steps, guards, arithmetic, missing, contractsOf] = options;
   static_cast<void>(contractsOf);
   const auto &[search, z3, cvc5] = budget;
   Material material;
@@ -87,7 +87,8 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
   for (const prove::ObligationKind kind : only)
     material.add(prove::nameOf(kind));
   for (const std::uint64_t number :
-       {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards), static_cast<std::uint64_t>(arithmetic)})
+       {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards), static_cast<std::uint64_t>(arithmetic),
+        static_cast<std::uint64_t>(missing)})
     material.add(number);
   material.add(program.index());
   addFiles(material, programs);

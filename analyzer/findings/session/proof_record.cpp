@@ -117,6 +117,9 @@ void write(Writer &writer, const prove::Witness &witness) {
       writer.real(coordinate);
     writer.real(gouge.depth);
   });
+  writer.number(witness.returning.size());
+  for (const std::string &name : witness.returning)
+    writer.text(name);
 }
 
 prove::Witness readWitness(Reader &reader) {
@@ -135,6 +138,8 @@ prove::Witness readWitness(Reader &reader) {
     gouge.depth = reader.real();
     witness.gouge = gouge;
   }
+  for (std::uint64_t left = reader.count(); left > 0; --left)
+    witness.returning.emplace_back(reader.text());
   return witness;
 }
 
@@ -254,7 +259,7 @@ prove::Verdict readVerdict(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance] = obligation;
+  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -266,6 +271,9 @@ void write(Writer &writer, const Obligation &obligation) {
   verdict.visit([&](const auto &alternative) { write(writer, alternative); });
   writer.number(effort);
   writer.optional(tolerance, [&](double value) { writer.real(value); });
+  writer.number(returning.size());
+  for (const std::string &name : returning)
+    writer.text(name);
 }
 
 Obligation readObligation(Reader &reader) {
@@ -280,6 +288,8 @@ Obligation readObligation(Reader &reader) {
   obligation.effort = reader.number();
   if (reader.isPresent())
     obligation.tolerance = reader.real();
+  for (std::uint64_t left = reader.count(); left > 0; --left)
+    obligation.returning.emplace_back(reader.text());
   return obligation;
 }
 

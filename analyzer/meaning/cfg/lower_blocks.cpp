@@ -10,17 +10,26 @@ namespace feedhold {
 
 namespace {
 
-/// A control that tolerates a stray `)` reads the tail of a comment as words of the block, which may change any of
-/// them.
-constexpr std::uint16_t kUnread = Block::kBroken | Block::kCommentTail;
+constexpr std::uint16_t kUnreadInPart = Block::kBroken | Block::kCommentTail;
 
 } // namespace
+
+/// A control that tolerates a stray `)` reads the tail of a comment as words of the block, which may change any of
+/// them; where the tail is nothing but the `)`, it reads the block as it is written.
+bool Lowering::isUnread(BlockId id) const {
+  const Block &block = tree_.blocks[id];
+  const std::span<const Statement> statements = tree_.statementsOf(id);
+  return block.has(Block::kBroken) ||
+         (block.has(Block::kCommentTail) && std::ranges::any_of(statements, [&](const Statement &each) {
+            return std::holds_alternative<BrokenStatement>(each.node) && !isStrayParenthesis(each);
+          }));
+}
 
 void Lowering::block(BlockId id) {
   cfg_.blockNode[id.index()] = end();
   const Block &block = tree_.blocks[id];
   const bool tapeMark = block.has(Block::kPercent) && tree_.wordsOf(id).empty();
-  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && (block.flags & kUnread) == 0))
+  if (block.has(Block::kLeader) || tapeMark || (isEmpty(tree_, id) && (block.flags & kUnreadInPart) == 0))
     return;
   block_ = id;
   if (isPlain(id))
@@ -61,7 +70,7 @@ bool Lowering::isPlain(BlockId id) {
   while (nextJump_ < model_.jumps.size() && model_.jumps[nextJump_].block < id)
     ++nextJump_;
   const Block &block = tree_.blocks[id];
-  constexpr std::uint16_t kSpecial = Block::kSkip | kUnread | Block::kSkipInside;
+  constexpr std::uint16_t kSpecial = Block::kSkip | kUnreadInPart | Block::kSkipInside;
   if ((block.flags & kSpecial) != 0 || block.firstStatement != tree_.blocks[id.next()].firstStatement)
     return false;
   if (nextCall_ < model_.calls.size() && model_.calls[CallId(nextCall_)].block == id)
@@ -83,7 +92,7 @@ void Lowering::wholeBlock(BlockId id) {
   std::optional<NodeId> skip;
   if (head.has(Block::kSkip))
     skip = emit(BlockSkip{head.skipLevel, end()});
-  if ((head.flags & kUnread) != 0) {
+  if (isUnread(id)) {
     brokenBlock(blockWords);
   } else {
     words(blockWords);

@@ -66,7 +66,16 @@ void Lowering::statement(StatementId id) {
       [&](const NameVariables &) { emit(Pass{}); },
       [&](const ConditionalWords &words) { wordsUnderCondition(words.condition); },
       [&](const Print &) { emit(Pass{}); }, [&](const OWord &oWord) { oWordStatement(id, oWord); },
-      [&](const BrokenStatement &) { emit(Havoc{"a statement that could not be read"}); });
+      [&](const BrokenStatement &) {
+        if (!isStrayParenthesis(statement))
+          emit(Havoc{"a statement that could not be read"});
+      });
+}
+
+/// Nothing but `)`.  A control stops there, or reads on: it says nothing by itself.
+bool Lowering::isStrayParenthesis(const Statement &statement) const {
+  return std::holds_alternative<BrokenStatement>(statement.node) &&
+         source_.text().substr(statement.span.begin, statement.span.size()).find_first_not_of(") \t") == std::string_view::npos;
 }
 
 const Jump *Lowering::jumpOf(const Statement &statement) const {
@@ -126,7 +135,7 @@ void Lowering::ifStatement(const If &statement) {
       emit(HavocVariables{"an IF without a statement"}); // it stops; else it is that of another control
     ifLines(statement);
     return;
-  case IfAction::Nothing: emit(HavocVariables{"an IF without a statement"}); return;
+  case IfAction::Nothing: emitTest(statement.condition); return; // it stops, or there is nothing to decide
   }
 }
 

@@ -56,6 +56,8 @@ private:
   void statement(StatementId id);
   void gotoStatement(const Statement &statement);
   const Jump *jumpOf(const Statement &statement) const;
+  bool isStrayParenthesis(const Statement &statement) const;
+  bool isUnread(BlockId id) const;
   void goTo(const Jump &jump);
   std::optional<AlarmKind> alarmOf(const Jump &jump) const;
   void ifStatement(const If &statement);

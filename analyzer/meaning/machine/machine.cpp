@@ -222,7 +222,7 @@ private:
     }
     if (!request.callee && file().model->calls[call.call].kind == CallKind::External)
       return giveUp("a program on an external device");
-    if (!request.callee && startsInside(call.call))
+    if (!request.callee && options_.missing != MissingPrograms::Return && startsInside(call.call))
       return giveUp("a call that starts at a sequence number");
     return enter(request, std::nullopt) ? std::nullopt : std::optional(here.next);
   }
@@ -247,11 +247,23 @@ private:
     return !interpretation_.stopped() && enter(request, modal);
   }
 
+  /// Of the program that the block calls, or that the modal call does.
+  std::string nameOfCallee(std::optional<std::size_t> modal) const {
+    const auto *called = std::get_if<CallProgram>(&node().instruction);
+    const FileId from = modal ? FileId(state_.modalCalls[*modal].file) : at_.file;
+    const CallId call = modal ? CallId(state_.modalCalls[*modal].call) : called->call;
+    return toString(programs_.file(from).model->calls[call].callee);
+  }
+
   /// Whether the run goes on in the program: not after an alarm, nor with L0.
   bool enter(const CallRequest<ConcreteInterpretation> &request, std::optional<std::size_t> modal) {
     if (!request.callee && !request.possible.empty()) {
       giveUp("a program number that several programs have");
       return true;
+    }
+    if (!request.callee && !callsNothing(request.repeats.number) && options_.missing == MissingPrograms::Return) {
+      result_.skipped.insert(nameOfCallee(modal));
+      return false;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {
       interpretation_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "meaning/machine/concrete_interpretation.h"
+#include "meaning/semantics/frames.h"
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ struct RunOptions {
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   WordRounding words = WordRounding::Increment;
   NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
+  MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// Called before each instruction; null: nobody looks on.
   std::function<void(const RunMoment &)> trace = nullptr;
 };
@@ -87,6 +90,7 @@ struct RunResult {
   MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes; // what was not followed, each once for a place
+  std::set<std::string> skipped; // names of missing programs that were called, and taken to return
 };
 
 /// Starts at `entry` as if called with the given local variables.

@@ -57,6 +57,14 @@ inline std::optional<AlarmKind> nestingAlarm(const Limits &limits, CallDepth dep
 /// modal call itself makes only those that were in force before its own.
 template <typename R>
 std::optional<std::size_t> modalCallOf(const MachineState<R> &state, std::optional<std::size_t> modalLimit);
+/// What a call does whose program is in none of the files.
+enum class MissingPrograms : std::uint8_t {
+  Stop,       // the control stops with an alarm: it does not have the program either
+  Return,     // the control has the program, which returns behind its call without an alarm, starts no modal call and
+              // ends none; a run takes it to change nothing, a proof lets it change all that a called program can
+  DoAnything, // the control may stop, the program may stop it, or never return
+};
+
 /// Some modal call is or may be in force in a program.
 template <typename R>
 typename R::Truth mayCallModally(R &interpretation, const MachineState<R> &state,

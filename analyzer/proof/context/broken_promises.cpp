@@ -39,6 +39,7 @@ const BrokenPromises::Broken *BrokenPromises::broken(const GivenVariables &given
 std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables &given) const {
   const ProveOptions options{.guards = InferGuards::No,
                              .arithmetic = subject_.options.arithmetic,
+                             .missing = subject_.options.missing,
                              .contractsOf = subject_.options.contractsOf};
   const ProofSubject subject{subject_.programs, subject_.program, subject_.contracts, options};
   ProofStart start(subject, &given);

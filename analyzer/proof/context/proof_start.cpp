@@ -151,6 +151,7 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
 /// Hints are tried, never believed: an invariant has to hold before each iteration, a ranking function has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
+  options.missing = subject.options.missing;
   const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
   options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };
   const Contract *contract = subject.contract();

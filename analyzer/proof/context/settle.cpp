@@ -81,7 +81,9 @@ private:
 WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::vector<smt::TermId> demands) {
   WitnessSearch runs(start.interpretation(), subject.programs, subject.program, std::move(demands),
                      subject.constants());
-  runs.startFrom(start.runStart(), start.place());
+  RunOptions options = start.runStart();
+  options.missing = subject.options.missing;
+  runs.startFrom(std::move(options), start.place());
   runs.sample();
   return runs;
 }

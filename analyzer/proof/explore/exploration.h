@@ -44,6 +44,9 @@ struct LoopInstance {
   std::vector<smt::TermId> arrival;        // conditions of the path that reached it
   std::vector<smt::TermId> variables = {}; // of the parts of the state of which no closed form is known
   std::vector<smt::TermId> facts = {};     // that hold before each iteration
+  /// Of `variables` and `iterations`: those on which it depends whether an iteration is made, directly or through what
+  /// iterations make of others.  The rest has no part in why the loop ends.
+  std::set<smt::TermId> deciding = {};
   std::vector<Transition> transitions = {};
   smt::Substitution first = {};               // from `iterations` and all that goes with them to what the arrival found
   std::vector<smt::TermId> rankingHints = {}; // ranking functions that the contract suggests (@VARIANT)
@@ -66,6 +69,8 @@ struct LoopInstance {
   bool isConstant(const SymbolicInterpretation &interpretation, const smt::TermStore &store, smt::TermId term) const;
   /// The term is over the state before an iteration alone: fixed values, and those that the iterations change.
   bool isOfState(const SymbolicInterpretation &interpretation, const smt::TermStore &store, smt::TermId term) const;
+  /// Of the transitions as they are now.
+  void findDeciding(const smt::TermStore &store);
 };
 
 enum class ExitKind : std::uint8_t { Returns, Ends };
@@ -115,12 +120,14 @@ struct Unmodelled {
   Span span;
 };
 
-/// A call that is not modelled: the run may stop in it with any alarm, after any move, or never return.
+/// A call that is not modelled: the run may stop in it with any alarm, after any move, or never return; or it is taken
+/// to return (MissingPrograms::Return), after any move.
 struct UnmodelledCall {
   Place own;                           // of the block of the started program
   std::vector<smt::TermId> conditions; // of the path to it
   std::vector<std::size_t> loops;      // that the call is in: their instances
   std::string why;                     // `O9723 was not supplied`
+  std::string returning = {};          // the name of the program that is taken to return; empty: it need not
 };
 
 /// One symbolic iteration from an inductive invariant stands for all iterations of a loop; or the loop is unrolled,
@@ -147,6 +154,8 @@ struct Exploration {
   std::size_t steps = 0;
   std::uint64_t work = 0; // of all questions on paths
 
+  /// The first call that need not return; null: there is none.
+  const UnmodelledCall *callWithoutReturn() const;
   /// What is not modelled in a block, by its name.
   std::optional<std::string> unmodelledAt(Place place) const;
 };
@@ -170,6 +179,8 @@ struct ExploreOptions {
   bool mayEnclose = false;
   LoopHints invariants = {};                        // tried with those that are guessed
   LoopHints rankingHints = {};                      // kept for LoopInstance::rankingHints
+  MissingPrograms missing = MissingPrograms::DoAnything;
+  bool missingChangeNothing = false;                // those that return: for single runs
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept
   /// Whether the program may have been called where it ends with `M99 P`, which then returns; a started one goes on at
   /// that number of its own.  False: for single runs of a started program.

@@ -38,6 +38,11 @@ std::optional<std::string> Exploration::unmodelledAt(Place place) const {
   return std::nullopt;
 }
 
+const UnmodelledCall *Exploration::callWithoutReturn() const {
+  const auto found = std::ranges::find_if(unmodelledCalls, [](const auto &call) { return call.returning.empty(); });
+  return found == unmodelledCalls.end() ? nullptr : &*found;
+}
+
 // ---- Path ----
 
 bool Path::says(const smt::TermStore &store, TermId condition) const {
@@ -95,6 +100,22 @@ bool LoopInstance::isOfState(const SymbolicInterpretation &interpretation, const
   });
 }
 
+void LoopInstance::findDeciding(const smt::TermStore &store) {
+  deciding.clear();
+  std::vector<TermId> open = rankingHints;
+  for (const Transition &transition : transitions)
+    open.insert(open.end(), transition.conditions.begin(), transition.conditions.end());
+  while (!open.empty()) {
+    const TermId term = open.back();
+    open.pop_back();
+    for (const TermId variable : smt::variablesOf(store, term))
+      if (deciding.insert(variable).second)
+        for (const Transition &transition : transitions)
+          if (const auto next = transition.next.find(variable); next != transition.next.end())
+            open.push_back(next->second);
+  }
+}
+
 // ---- Explorer ----
 
 Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
@@ -136,8 +157,11 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   }
   for (std::size_t call = 0; call < result_.unmodelledCalls.size(); ++call)
     for (const std::size_t loop : result_.unmodelledCalls[call].loops)
-      result_.loops[loop].unmodelledCall = call;
+      if (auto &known = result_.loops[loop].unmodelledCall; !known || result_.unmodelledCalls[call].returning.empty())
+        known = call;
   std::erase_if(result_.loops, [](const LoopInstance &loop) { return !loop.isRecorded; });
+  for (LoopInstance &loop : result_.loops)
+    loop.findDeciding(store_);
   result_.facts = interpretation_.facts();
   result_.work = entails_.work();
   interpretation_.usePath(nullptr);
@@ -434,6 +458,8 @@ std::vector<Path> Explorer::branch(Path path, Condition condition, NodeId taken)
   const NodeId next = nodeOf(path).next;
   if (!takeStops(path))
     return paths;
+  if (next == taken)
+    return {to(std::move(path), next)};
   const TermId opposite = store_.logicalNot(condition.term);
   if (isPossible(path, opposite)) {
     smt::spend(stepsOf(path));

@@ -60,6 +60,9 @@ private:
   std::vector<Path> modalCall(Path path, Condition moves);
   std::vector<Path> unknownCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                 std::optional<std::size_t> modal, std::string_view reason, std::string why);
+  std::vector<Path> missingCall(Path path, const CallRequest<SymbolicInterpretation> &request,
+                                std::optional<std::size_t> modal, const std::string &name);
+  void recordUnmodelledCall(const Path &path, UnmodelledCall call);
   /// Of the program that the block calls, or that the modal call does; empty where its number is computed.
   std::string nameOfCallee(const Path &path, std::optional<std::size_t> modal) const;
   bool mayReach(const CallRequest<SymbolicInterpretation> &request, const Callee &program) const;

@@ -71,12 +71,7 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInt
                                         std::optional<std::size_t> modal, std::string_view reason, std::string why) {
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
     giveUp("an unmodelled call may re-enter this program");
-  if (purpose_ == Purpose::Record) {
-    UnmodelledCall &call =
-        result_.unmodelledCalls.emplace_back(UnmodelledCall{ownPlace(path), path.conditions, {}, std::move(why)});
-    for (const OpenLoop &loop : path.loops)
-      call.loops.push_back(loop.instance);
-  }
+  recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, std::move(why)});
   recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);
   havocCall(context, request, reason);
@@ -88,6 +83,32 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInt
   if (!takeStops(path))
     return {};
   return {to(std::move(path), next)};
+}
+
+/// Of a program that is taken to return behind the call.  The modal calls that were active still are; its movements may
+/// have made them, so that their variables hold anything.
+std::vector<Path> Explorer::missingCall(Path path, const CallRequest<SymbolicInterpretation> &request,
+                                        std::optional<std::size_t> modal, const std::string &name) {
+  const NodeId next = nodeOf(path).next;
+  if (options_.missingChangeNothing)
+    return {to(std::move(path), next)};
+  recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, fmt::format("{} was not supplied", name), name});
+  recordUnmodelledEntries(path, request, modal);
+  auto context = contextOf(path);
+  const Condition unknown = path.state.modalCallsUnknown;
+  havocCall(context, request, "a program that was not supplied");
+  path.state.modalCallsUnknown = unknown;
+  if (!takeStops(path))
+    return {};
+  return {to(std::move(path), next)};
+}
+
+void Explorer::recordUnmodelledCall(const Path &path, UnmodelledCall call) {
+  if (purpose_ != Purpose::Record)
+    return;
+  for (const OpenLoop &loop : path.loops)
+    call.loops.push_back(loop.instance);
+  result_.unmodelledCalls.push_back(std::move(call));
 }
 
 std::string Explorer::nameOfCallee(const Path &path, std::optional<std::size_t> modal) const {
@@ -166,8 +187,14 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
                                   std::optional<std::size_t> modal) {
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
-    stopsWhen(path, interpretation_.unknownTruth(), AlarmKind::ProgramNotFound);
     const std::string name = nameOfCallee(path, modal);
+    if (request.possible.empty() && options_.missing == MissingPrograms::Return)
+      return missingCall(std::move(path), request, modal, name.empty() ? "the called program" : name);
+    const bool isCertain = request.possible.empty() && options_.missing == MissingPrograms::Stop;
+    stopsWhen(path, isCertain ? interpretation_.truth(true) : interpretation_.unknownTruth(),
+              AlarmKind::ProgramNotFound);
+    if (isCertain)
+      return takeStops(path), std::vector<Path>{};
     return unknownCall(std::move(path), request, modal, "a program that was not supplied",
                        name.empty()               ? "the number of the called program is unknown"
                        : request.possible.empty() ? fmt::format("{} was not supplied", name)

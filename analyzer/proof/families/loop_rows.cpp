@@ -42,8 +42,10 @@ Verdict endOfAll(const ProofContext &context, const Instances &instances, std::u
   Proof proof;
   std::optional<Verdict> open;
   for (const LoopInstance *instance : instances) {
-    if (instance->unmodelledCall) {
-      open = Verdict::unknown(mayNotReturn(context.found.unmodelledCalls[*instance->unmodelledCall]), instance->head);
+    const UnmodelledCall *call =
+        instance->unmodelledCall ? &context.found.unmodelledCalls[*instance->unmodelledCall] : nullptr;
+    if (call && call->returning.empty()) {
+      open = Verdict::unknown(mayNotReturn(*call), instance->head);
       continue;
     }
     const Termination &end = endOf(context, *instance);
@@ -173,9 +175,8 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
   Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
   row.id = fmt::format("{}.program-ends", subject.name());
   settleLoop(context, row, instances, comesBack);
-  if (!context.found.unmodelledCalls.empty() && row.verdict.kind() != Verdict::Refuted)
-    row.verdict = Verdict::unknown(mayNotReturn(context.found.unmodelledCalls.front()),
-                                   context.found.unmodelledCalls.front().own);
+  if (const auto *call = context.found.callWithoutReturn(); call && row.verdict.kind() != Verdict::Refuted)
+    row.verdict = Verdict::unknown(mayNotReturn(*call), call->own);
   else if (row.verdict == Verdict::Unreachable)
     row.verdict = verdict::Proved{.proof = {.method = "no loops"}};
   return row;

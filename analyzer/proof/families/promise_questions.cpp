@@ -181,8 +181,9 @@ Questions alarmQuestions(const ExploredProgram &program) {
         if (isIff)
           question.goals.push_back({&instance.conditions, store.implies(isThis, condition), instance.stops});
       }
-    for (const UnmodelledCall &call : found.unmodelledCalls) // which may end with any alarm
-      question.goals.push_back({&call.conditions, isIff ? store.no() : store.logicalNot(condition)});
+    for (const UnmodelledCall &call : found.unmodelledCalls)
+      if (call.returning.empty()) // it may end with any alarm
+        question.goals.push_back({&call.conditions, isIff ? store.no() : store.logicalNot(condition)});
     questions.push_back(std::move(question));
   }
   return questions;

@@ -25,6 +25,8 @@ struct Obligation {
   Verdict verdict = {};
   std::uint64_t effort = 0;             // units spent on it, of all kinds together
   std::optional<double> tolerance = {}; // of a claim about space: how far the tool may pass what it says
+  /// Missing programs that are taken to return (MissingPrograms::Return), of a verdict that holds if they do.
+  std::vector<std::string> returning = {};
 };
 
 /// Of one program, from different stages of its proof.

@@ -56,6 +56,12 @@ const Guard *Verdict::guard() const {
   return refuted() ? at(refuted()->guard) : nullptr;
 }
 
+void Verdict::setReturning(const std::set<std::string> &programs) {
+  if (auto *refuted = std::get_if<verdict::Refuted>(&what_))
+    if (auto *witness = std::get_if<Witness>(&refuted->shownBy))
+      witness->returning.assign(programs.begin(), programs.end());
+}
+
 void Verdict::setGuard(Guard guard) {
   if (auto *refuted = std::get_if<verdict::Refuted>(&what_))
     refuted->guard = std::move(guard);

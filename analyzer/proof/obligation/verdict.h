@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -30,6 +31,7 @@ struct Witness {
   RunEnd end;
   std::string happened;              // what the run did, in words for the machinist
   std::optional<GougeAt> gouge = {}; // of a claim about space
+  std::vector<std::string> returning = {}; // missing programs that the run takes to return and to change nothing
 };
 
 /// How `happened` ends where the claim holds in exact numbers.
@@ -115,6 +117,8 @@ public:
   const Witness *witness() const { return refuted() ? std::get_if<Witness>(&refuted()->shownBy) : nullptr; }
   const Guard *guard() const;
   void setGuard(Guard guard);
+  /// Of a witness.
+  void setReturning(const std::set<std::string> &programs);
 
 private:
   std::variant<verdict::Proved, verdict::Refuted, verdict::Unknown, verdict::Unreachable> what_;

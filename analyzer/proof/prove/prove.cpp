@@ -56,6 +56,7 @@ public:
     }
     if (subject_.options.guards == InferGuards::Yes && subject_.options.arithmetic == Arithmetic::Exact)
       addGuards(contextOf(*stage_), stage_->settled.open, rows);
+    nameReturning(rows);
     putInOrder(rows);
     std::vector<Contradiction> contradictions = judge(contextOf(*stage_), stage_->settled.denials, rows);
     if (subject_.contract() && !subject_.contract()->isSound)
@@ -103,6 +104,21 @@ private:
   }
 
   void followIterations();
+
+  /// Which missing programs a verdict takes to return: for all runs, or in the run of the witness.
+  void nameReturning(std::vector<Obligation> &rows) const {
+    std::set<std::string> names;
+    for (const UnmodelledCall &call : stage_->found.unmodelledCalls)
+      if (!call.returning.empty())
+        names.insert(call.returning);
+    if (names.empty())
+      return;
+    for (Obligation &row : rows)
+      if (row.verdict.holds())
+        row.returning.assign(names.begin(), names.end());
+      else if (const Witness *witness = row.verdict.witness())
+        row.verdict.setReturning(witnesses_->runOf(witness->variables).skipped);
+  }
 
   /// A contract that no call satisfies would make everything true.
   void requireSomeCall(std::vector<Obligation> &rows) const {
@@ -163,7 +179,7 @@ void Work::followIterations() {
   const Exploration &found = stage_->found;
   const std::vector<Obligation> &before = stage_->settled.rows;
   const bool hasLoops = !found.loops.empty() || found.incomplete;
-  if (!hasLoops || !found.unmodelledCalls.empty() || std::none_of(before.begin(), before.end(), isOpen))
+  if (!hasLoops || found.callWithoutReturn() || std::none_of(before.begin(), before.end(), isOpen))
     return;
   ExploreOptions options = start_.exploreOptions(subject_);
   options.loops = LoopTreatment::EachIteration;
@@ -173,7 +189,7 @@ void Work::followIterations() {
   options.mostTerms = 100'000;
   auto each = std::make_unique<Stage>();
   each->found = explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
-  if (each->found.incomplete || !each->found.unmodelledCalls.empty())
+  if (each->found.incomplete || each->found.callWithoutReturn())
     return;
   settleStage(*each);
   keepDecided(before, each->settled.rows);

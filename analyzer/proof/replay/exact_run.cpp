@@ -13,6 +13,7 @@ ExploreOptions exactOptions() {
   options.loops = LoopTreatment::EachIteration;
   options.mayEnclose = true;
   options.mayBeCalled = false;
+  options.missingChangeNothing = true;
   options.mostSteps = 6'000;
   options.mostPaths = 20;
   options.mostWork = 1'000'000;
@@ -69,7 +70,9 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   startExactly(interpretation, given);
   const ModalTable modes(dialect);
   interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
-  const Exploration found = explore(interpretation, programs_, entry_, symbolicEntry(interpretation), exactOptions());
+  ExploreOptions options = exactOptions();
+  options.missing = missing_;
+  const Exploration found = explore(interpretation, programs_, entry_, symbolicEntry(interpretation), options);
   Ends ends;
   ends.repeats = !found.repeats.empty();
   ends.isIncomplete = found.incomplete.has_value();

@@ -32,6 +32,8 @@ InputsKey keyOf(const GivenVariables &given);
 class ExactRuns {
 public:
   ExactRuns(const ProgramSet &programs, Callee entry) : programs_(programs), entry_(entry) {}
+  /// As in the runs of the machine.
+  void treatMissing(MissingPrograms missing) { missing_ = missing; }
   /// Whether the run on these inputs also ends in exact numbers as the machine's run ended.
   Agreement agrees(const GivenVariables &given, const RunResult &run);
 
@@ -48,6 +50,7 @@ private:
 
   const ProgramSet &programs_;
   Callee entry_;
+  MissingPrograms missing_ = MissingPrograms::Stop;
   std::map<InputsKey, Ends> known_;
 };
 

@@ -43,6 +43,7 @@ public:
   void startFrom(RunOptions start, std::map<Axis, smt::TermId> place) {
     start_ = std::move(start);
     place_ = std::move(place);
+    exactRuns_->treatMissing(start_.missing);
   }
   RunOptions runOptions(const GivenVariables &given) const;
   RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;

@@ -1,6 +1,7 @@
 // Results as the control rounds them: to the nearest double, or within the errors of shorter mantissas; words to the
 // least increment (docs/arithmetic.md).
 #include "base/support/mantissa32.h"
+#include "proof/smt/exact_angles.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
 #include <cmath>
@@ -28,6 +29,9 @@ bool isShort(const Number &number) {
   const double mantissa = std::ldexp(std::frexp(value, &exponent), 31);
   return std::floor(mantissa) == mantissa && Number::fromDouble(value) == number;
 }
+
+/// Far above what the cosine is off by.
+constexpr double kLeastCosineOfTangent = 1e-6;
 
 } // namespace
 
@@ -107,10 +111,21 @@ SymbolicValue SymbolicInterpretation::inShortMantissa(Operation operation, TermI
   return anyNumber();
 }
 
-/// TAN is a quotient of which no error is known: the cosine may be as small as its own.
+/// "TAN performs SIN/COS" (16i operator's manual, 15.3): no error is known where the cosine may be as small as its own.
+SymbolicValue SymbolicInterpretation::tangentInShortMantissa(const Value &argument) {
+  const TermId angle = argument.number;
+  if (!store_.isNumber(angle))
+    return anyNumber();
+  const smt::Enclosure cosine = smt::encloseSine(Number(90) - store_[angle].number);
+  const Number least = Number::fromTyped(kLeastCosineOfTangent);
+  if (cosine.low < least && Number(0) - least < cosine.high)
+    return anyNumber();
+  return divide(function(FunctionKind::Sin, argument), function(FunctionKind::Cos, argument));
+}
+
 SymbolicValue SymbolicInterpretation::functionInShortMantissa(FunctionKind kind, TermId exact, const Value &argument) {
   if (kind == FunctionKind::Tan)
-    return anyNumber();
+    return tangentInShortMantissa(argument);
   const bool isOfAngle = kind == FunctionKind::Sin || kind == FunctionKind::Cos;
   const bool isAngle = kind == FunctionKind::Asin || kind == FunctionKind::Acos || kind == FunctionKind::Atan;
   const mantissa32::Error error = kind == FunctionKind::Sqrt ? mantissa32::kErrorOfRoot

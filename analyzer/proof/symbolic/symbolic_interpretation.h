@@ -232,6 +232,7 @@ private:
   Value result(Operation operation, smt::TermId exact, const Value &a, const Value &b);
   Value inShortMantissa(Operation operation, smt::TermId exact, const Value &a, const Value &b);
   Value functionInShortMantissa(FunctionKind kind, smt::TermId exact, const Value &argument);
+  Value tangentInShortMantissa(const Value &argument);
   bool hasShortMantissas() const;
   smt::TermId sizeOf(smt::TermId number);
   Value resultOf(FunctionKind kind, smt::TermId exact, const Value &argument);

@@ -98,7 +98,7 @@ bool EventualInvariants::holds(Trial &trial, std::span<const TermId> conditions,
   if (goal == store_.yes())
     return true;
   Outcome outcome =
-      discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, goal), kEffortOfInvariant);
+      discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, goal), kEffortOfInvariant);
   trial.work += outcome.effort + 100;
   const bool proved = outcome.proved();
   if (proved)
@@ -118,7 +118,7 @@ bool EventualInvariants::isOfTheLoop(TermId term) const {
 std::vector<TermId> EventualInvariants::numbers() const {
   std::vector<TermId> numbers;
   for (const TermId variable : loop_.variables)
-    if (store_.sort(variable) != Sort::Bool && numbers.size() < kMostBounded)
+    if (store_.sort(variable) != Sort::Bool && loop_.deciding.contains(variable) && numbers.size() < kMostBounded)
       numbers.push_back(variable);
   return numbers;
 }

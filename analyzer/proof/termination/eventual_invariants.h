@@ -5,7 +5,7 @@
 // holds before every iteration.
 #pragma once
 
-#include "proof/decide/discharge.h"
+#include "proof/decide/entails.h"
 #include "proof/explore/exploration.h"
 
 #include <set>
@@ -16,7 +16,9 @@ namespace feedhold::prove {
 class EventualInvariants {
 public:
   EventualInvariants(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop)
-      : interpretation_(interpretation), store_(store), loop_(loop) {}
+      : interpretation_(interpretation), store_(store), loop_(loop), index_(store) {
+    index_.add(interpretation.facts());
+  }
 
   struct Found {
     std::vector<smt::TermId> facts;
@@ -54,6 +56,7 @@ private:
   const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
+  FactIndex index_;
 };
 
 } // namespace feedhold::prove

@@ -134,7 +134,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation,
                                    std::span<const TermId> more)
     : interpretation_(interpretation), store_(store), loop_(loop), iterations_(iterations.begin(), iterations.end()) {
   for (const auto &[variable, next] : loop.transitions.front().next)
-    if (store.sort(variable) != Sort::Bool)
+    if (store.sort(variable) != Sort::Bool && loop.deciding.contains(variable))
       variables_.push_back(variable);
   const TermId zero = store.number(Number(0));
   std::vector<TermId> formulas; // of all iterations: one number for one application

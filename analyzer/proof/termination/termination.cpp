@@ -32,7 +32,9 @@ constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
 class RankingSearch {
 public:
   RankingSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop)
-      : interpretation_(interpretation), store_(store), loop_(loop) {}
+      : interpretation_(interpretation), store_(store), loop_(loop), index_(store) {
+    index_.add(interpretation.facts());
+  }
 
   Termination run() {
     std::vector<std::size_t> all;
@@ -276,7 +278,7 @@ private:
       return false;
     std::vector<TermId> conditions = loop_.transitions[iteration].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
-    Outcome outcome = discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, goal), effort_);
+    Outcome outcome = discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, goal), effort_);
     const bool proved = outcome.proved();
     work_ += outcome.effort;
     if (proved)
@@ -315,7 +317,7 @@ private:
       for (const TermId condition : transition.conditions)
         offerSides(condition, offer);
     for (const TermId variable : loop_.variables)
-      if (store_.sort(variable) != smt::Sort::Bool) {
+      if (store_.sort(variable) != smt::Sort::Bool && loop_.deciding.contains(variable)) {
         offer(variable);
         offer(store_.negate(variable));
       }
@@ -337,7 +339,9 @@ private:
             found.insert(ranking);
       }
     std::vector<TermId> numbers = loop_.variables;
-    std::erase_if(numbers, [&](TermId each) { return store_.sort(each) == smt::Sort::Bool; });
+    std::erase_if(numbers, [&](TermId each) {
+      return store_.sort(each) == smt::Sort::Bool || !loop_.deciding.contains(each);
+    });
     for (const TermId each : numbers)
       found.insert(store_.absolute(each));
     for (const TermId a : numbers)
@@ -426,7 +430,7 @@ private:
     }
     const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
     Outcome outcome =
-        discharge(store_, relevantQuery(store_, interpretation_.facts(), conditions, impossible), Budget::quick());
+        discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, impossible), Budget::quick());
     work_ += outcome.effort;
     if (!outcome.proved())
       return true;
@@ -437,6 +441,7 @@ private:
   const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
+  FactIndex index_;
   std::vector<TermId> candidates_;
   std::vector<TermId> phases_;                  // hold from some iteration on
   std::vector<std::vector<smt::Model>> models_; // by iteration: states before it

@@ -37,6 +37,7 @@ void keepEvidence(ProofOptions &options) {
   options.steps = KeepSteps::Yes;
   options.prove.guards = prove::InferGuards::No;
   options.prove.arithmetic = prove::Arithmetic::Exact;
+  options.prove.missing = MissingPrograms::DoAnything;
 }
 
 std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view mark) {

@@ -8,7 +8,7 @@
 namespace feedhold {
 
 /// What a proof must be told for a bundle: all steps, no search for guards, which are no part of one, and exact
-/// arithmetic, which the bundle says.
+/// arithmetic, which the bundle says.  Nothing is assumed of missing programs.
 void keepEvidence(ProofOptions &options);
 
 /// A folder is only taken when it is new, empty, or holds what it will hold again, which has a file `mark`.  Absent: it

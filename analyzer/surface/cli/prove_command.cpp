@@ -33,6 +33,7 @@ struct ProveArguments {
   ControlArguments control;
   ConfigArguments config;
   std::string arithmetic = "control";
+  std::string missing = "return";
   std::string certificate;
   CacheArguments cache;
   std::string format = "text";
@@ -58,6 +59,12 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   app.add_option("--arithmetic", arguments.arithmetic,
                  "prove in the rounded numbers of the control, or in exact numbers as on paper (faster)")
       ->check(CLI::IsMember({"control", "exact"}))
+      ->capture_default_str()
+      ->excludes(certificate);
+  app.add_option("--missing", arguments.missing,
+                 "what a call of a program that is in none of the files does: the program returns and may change common "
+                 "variables, modal codes and the position; the control stops; or anything (havoc)")
+      ->check(CLI::IsMember({"return", "stop", "havoc"}))
       ->capture_default_str()
       ->excludes(certificate);
   addFormat(app, arguments.format, {"text", "json", "sarif"});
@@ -94,6 +101,9 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   options.prove.only = kindsFrom(arguments.only);
   if (arguments.arithmetic == "exact")
     options.prove.arithmetic = prove::Arithmetic::Exact;
+  options.prove.missing = arguments.missing == "stop"    ? MissingPrograms::Stop
+                          : arguments.missing == "havoc" ? MissingPrograms::DoAnything
+                                                         : MissingPrograms::Return;
   if (!arguments.certificate.empty())
     keepEvidence(options);
   return options;

@@ -137,6 +137,11 @@ void addRunInput(CLI::App &app, RunInput &input) {
                  "numbers of the control: binary64 (doubles) or mantissa32 (default: those of the dialect)")
       ->type_name("MODEL")
       ->check(CLI::IsMember({nameOf(NumberModel::Binary64), nameOf(NumberModel::Mantissa32)}));
+  app.add_option("--missing", input.missing,
+                 "what a call of a program that is in none of the files does: the control stops with an alarm, or the "
+                 "program returns and changes nothing")
+      ->check(CLI::IsMember({"stop", "return"}))
+      ->capture_default_str();
   addControl(app, input.control);
   addConfiguration(app, input.config);
 }
@@ -161,7 +166,8 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
                      .start = position.value(),
                      .fuel = input.fuel,
                      .blockSkip = input.blockSkip ? BlockSkipSwitch::On : BlockSkipSwitch::Off,
-                     .numbers = numbersFor(input, *programs.file(start->file).dialect)};
+                     .numbers = numbersFor(input, *programs.file(start->file).dialect),
+                     .missing = input.missing == "return" ? MissingPrograms::Return : MissingPrograms::Stop};
   options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
   if (!input.start.empty()) // it has the last word on the place
     options.start = position.value();

@@ -23,6 +23,7 @@ struct RunInput {
   std::uint64_t fuel = RunOptions{}.fuel;
   ControlArguments control;
   std::string numbers; // empty: those of the dialect
+  std::string missing = "stop";
   ConfigArguments config;
   bool blockSkip = false;
 };

@@ -63,6 +63,7 @@ private:
             {"method", orNull(verdict.method())},
             {"reason", orNull(verdict.reason())},
             {"exactOnly", verdict.exactOnly()},
+            {"ifReturning", obligation.returning},
             {"bound", orNull(verdict.bound())},
             {"margin", verdict.margin() ? Json(*verdict.margin()) : Json()},
             {"tolerance", obligation.tolerance ? Json(*obligation.tolerance) : Json()},
@@ -89,6 +90,7 @@ private:
             {"run", call.run()},
             {"end", feedhold::nameOf(witness.end)},
             {"happened", happenedIn(witness, obligation, file_.project->dialect())},
+            {"ifReturning", witness.returning},
             {"gouge", witness.gouge ? gougeToJson(*witness.gouge) : Json()}};
   }
   Json gougeToJson(const prove::GougeAt &gouge) const {

@@ -38,6 +38,14 @@ std::optional<char> letterFor(const Dialect &dialect, std::uint32_t variable) {
   return std::nullopt;
 }
 
+/// `O9810`, `O9810 and O9811`, `O9810, O9811 and O9832`
+std::string listOf(const std::vector<std::string> &names) {
+  std::string text = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+    text += (i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
 std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
   const auto number = alarmNumber(dialect, kind);
   return number ? fmt::format("{} ({})", *number, meaningOf(kind)) : std::string(meaningOf(kind));
@@ -96,6 +104,8 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
+  if (!witness.returning.empty())
+    result.options += " --missing return";
   result.options += report.readingOptions;
   if (name.number)
     result.call = fmt::format("G65 P{}{}", *name.number, letters);
@@ -115,8 +125,20 @@ std::string claimOf(const Obligation &obligation, const Dialect &dialect) {
 }
 
 std::string happenedIn(const prove::Witness &witness, const Obligation &obligation, const Dialect &dialect) {
-  return obligation.alarm && witness.end == RunEnd::Alarm ? "stops with " + controlAlarm(dialect, *obligation.alarm)
-                                                          : witness.happened;
+  const std::string happened = obligation.alarm && witness.end == RunEnd::Alarm
+                                   ? "stops with " + controlAlarm(dialect, *obligation.alarm)
+                                   : witness.happened;
+  const std::size_t programs = witness.returning.size();
+  return programs == 0 ? happened
+                       : fmt::format("{}, if {} {}", happened, listOf(witness.returning),
+                                     programs == 1 ? "returns and changes nothing" : "return and change nothing");
+}
+
+std::string returningIn(const Obligation &obligation) {
+  return obligation.returning.empty() ? std::string()
+                                      : fmt::format("if {} {}, which {} not in the files", listOf(obligation.returning),
+                                                    obligation.returning.size() == 1 ? "returns" : "return",
+                                                    obligation.returning.size() == 1 ? "is" : "are");
 }
 
 std::string remedyOf(const prove::Guard &guard) {

@@ -41,7 +41,10 @@ protected:
       transition.next.emplace(each, each);
     loop.transitions.push_back(std::move(transition));
   }
-  bool ends() { return provesEnd(interpretation, store, loop).proved; }
+  bool ends() {
+    loop.findDeciding(store);
+    return provesEnd(interpretation, store, loop).proved;
+  }
 
   TermStore store;
   SymbolicInterpretation interpretation{store, *findDialect(allDialects(), "fanuc-30i")};
