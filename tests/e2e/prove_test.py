@@ -32,6 +32,11 @@ N10 WHILE[#1000EQ0]DO1
 END1
 M30
 """
+MISSING = """O5
+G65P9832X10.
+#10=#21/#22
+M30
+"""
 ENDLESS = """O4
 N10 #2=1
 IF[#500GT3]GOTO10
@@ -211,6 +216,28 @@ class Prove(Scratch):
         witness = self.one("O4.loop-ends.N10", "O4.nc")["witness"]
         self.assertGreater(witness["variables"]["500"], 3)
         self.assertEqual((witness["call"], witness["end"]), ("G65 P4", "endless"))
+        self.assertReplays(witness)
+
+    # ---- missing programs ----
+
+    def test_missing_program_returns_or_stops_or_does_anything(self):
+        self.write("O5.nc", MISSING)
+        ends = {missing: self.one("O5.program-ends", "--missing", missing, "O5.nc")
+                for missing in ("return", "stop", "havoc")}
+        self.assertEqual({missing: (row["verdict"], row["ifReturning"]) for missing, row in ends.items()},
+                         {"return": ("proved", ["O9832"]), "stop": ("proved", []), "havoc": ("unknown", [])})
+        self.assertEqual(self.one("O5.program-ends", "O5.nc"), ends["return"])
+        self.assertIn("if O9832 returns, which is not in the files", self.prove("O5.nc").stdout)
+        called = [row["verdict"] for row in self.obligations("--missing", "stop", "O5.nc") if row["line"] == 2]
+        self.assertIn("refuted", called)
+        self.assertFalse([row for row in self.obligations("O5.nc") if row["line"] == 2])
+
+    def test_witness_behind_a_missing_program(self):
+        self.write("O5.nc", MISSING)
+        witness = self.one("O5.no-control-alarm.L3", "O5.nc")["witness"]
+        self.assertEqual(witness["ifReturning"], ["O9832"])
+        self.assertIn("if O9832 returns and changes nothing", witness["happened"])
+        self.assertIn("--missing return", witness["run"])
         self.assertReplays(witness)
 
     def assertReplays(self, witness):

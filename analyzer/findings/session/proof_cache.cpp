@@ -86,9 +86,8 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
   material.add(only.size());
   for (const prove::ObligationKind kind : only)
     material.add(prove::nameOf(kind));
-  for (const std::uint64_t number :
-       {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards), static_cast<std::uint64_t>(arithmetic),
-        static_cast<std::uint64_t>(missing)})
+  for (const std::uint64_t number : {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards),
+                                     static_cast<std::uint64_t>(arithmetic), static_cast<std::uint64_t>(missing)})
     material.add(number);
   material.add(program.index());
   addFiles(material, programs);

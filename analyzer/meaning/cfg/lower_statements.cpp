@@ -75,7 +75,8 @@ void Lowering::statement(StatementId id) {
 /// Nothing but `)`.  A control stops there, or reads on: it says nothing by itself.
 bool Lowering::isStrayParenthesis(const Statement &statement) const {
   return std::holds_alternative<BrokenStatement>(statement.node) &&
-         source_.text().substr(statement.span.begin, statement.span.size()).find_first_not_of(") \t") == std::string_view::npos;
+         source_.text().substr(statement.span.begin, statement.span.size()).find_first_not_of(") \t") ==
+             std::string_view::npos;
 }
 
 const Jump *Lowering::jumpOf(const Statement &statement) const {

@@ -32,7 +32,7 @@ struct RunOptions {
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   WordRounding words = WordRounding::Increment;
-  NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
+  NumberModel numbers = NumberModel::Binary64;     // in which expressions are computed; Either: doubles
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// Called before each instruction; null: nobody looks on.
   std::function<void(const RunMoment &)> trace = nullptr;
@@ -89,7 +89,7 @@ struct RunResult {
   std::uint64_t steps = 0;           // instructions executed
   MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves;
-  std::vector<RunNote> notes; // what was not followed, each once for a place
+  std::vector<RunNote> notes;    // what was not followed, each once for a place
   std::set<std::string> skipped; // names of missing programs that were called, and taken to return
 };
 

@@ -14,7 +14,7 @@ struct ProveOptions {
   Budget budget = {};
   std::uint64_t steps = kStepsOfProgram; // of all that is done for the program (smt/steps.h)
   InferGuards guards = InferGuards::Yes;
-  Arithmetic arithmetic = Arithmetic::Exact;           // in which claims have to hold
+  Arithmetic arithmetic = Arithmetic::Exact; // in which claims have to hold
   MissingPrograms missing = MissingPrograms::DoAnything;
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };

@@ -177,8 +177,8 @@ struct ExploreOptions {
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;
-  LoopHints invariants = {};                        // tried with those that are guessed
-  LoopHints rankingHints = {};                      // kept for LoopInstance::rankingHints
+  LoopHints invariants = {};   // tried with those that are guessed
+  LoopHints rankingHints = {}; // kept for LoopInstance::rankingHints
   MissingPrograms missing = MissingPrograms::DoAnything;
   bool missingChangeNothing = false;                // those that return: for single runs
   std::function<bool(const Callee &)> demands = {}; // has a contract that calls must satisfy; empty: calls are not kept

@@ -29,8 +29,8 @@ struct GougeAt {
 struct Witness {
   GivenVariables variables; // all others are vacant
   RunEnd end;
-  std::string happened;              // what the run did, in words for the machinist
-  std::optional<GougeAt> gouge = {}; // of a claim about space
+  std::string happened;                    // what the run did, in words for the machinist
+  std::optional<GougeAt> gouge = {};       // of a claim about space
   std::vector<std::string> returning = {}; // missing programs that the run takes to return and to change nothing
 };
 

@@ -278,7 +278,8 @@ private:
       return false;
     std::vector<TermId> conditions = loop_.transitions[iteration].conditions;
     conditions.insert(conditions.end(), phases_.begin(), phases_.end());
-    Outcome outcome = discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, goal), effort_);
+    Outcome outcome =
+        discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, goal), effort_);
     const bool proved = outcome.proved();
     work_ += outcome.effort;
     if (proved)
@@ -339,9 +340,8 @@ private:
             found.insert(ranking);
       }
     std::vector<TermId> numbers = loop_.variables;
-    std::erase_if(numbers, [&](TermId each) {
-      return store_.sort(each) == smt::Sort::Bool || !loop_.deciding.contains(each);
-    });
+    std::erase_if(numbers,
+                  [&](TermId each) { return store_.sort(each) == smt::Sort::Bool || !loop_.deciding.contains(each); });
     for (const TermId each : numbers)
       found.insert(store_.absolute(each));
     for (const TermId a : numbers)
@@ -429,8 +429,8 @@ private:
       goals.push_back(smt::substitute(store_, condition, next));
     }
     const TermId impossible = store_.logicalNot(store_.logicalAnd(goals));
-    Outcome outcome =
-        discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, impossible), Budget::quick());
+    Outcome outcome = discharge(store_, relevantQuery(store_, index_, interpretation_.facts(), conditions, impossible),
+                                Budget::quick());
     work_ += outcome.effort;
     if (!outcome.proved())
       return true;

@@ -61,9 +61,10 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
       ->check(CLI::IsMember({"control", "exact"}))
       ->capture_default_str()
       ->excludes(certificate);
-  app.add_option("--missing", arguments.missing,
-                 "what a call of a program that is in none of the files does: the program returns and may change common "
-                 "variables, modal codes and the position; the control stops; or anything (havoc)")
+  app.add_option(
+         "--missing", arguments.missing,
+         "what a call of a program that is in none of the files does: the program returns and may change common "
+         "variables, modal codes and the position; the control stops; or anything (havoc)")
       ->check(CLI::IsMember({"return", "stop", "havoc"}))
       ->capture_default_str()
       ->excludes(certificate);

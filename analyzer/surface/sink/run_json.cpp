@@ -105,6 +105,7 @@ std::string writeRunJson(const RunReport &report) {
            row.update(placeOf(report, note.place));
            return row;
          }));
+  member("skipped", json::compactText(result.skipped));
   member("moves", listOf(result.moves, [&](const RecordedMove &move) { return moveToJson(report, move, axes); }));
   if (!report.trace.empty())
     member("trace", listOf(report.trace, [&](const TracedBlock &block) {

@@ -40,6 +40,8 @@ public:
       text_ += fmt::format("{} = {}\n", name, value.vacant ? "vacant" : number(value.number, kDecimalsOfValue));
     if (text_.size() != before)
       text_ += '\n';
+    for (const std::string &program : result_.skipped)
+      text_ += fmt::format("{} is in none of the files: the run takes it to return and to change nothing\n", program);
     for (const RunNote &note : result_.notes)
       text_ += fmt::format("not modelled: {}, {}\n", note.reason, where(note.place));
     return std::move(text_) + ending();
