@@ -19,23 +19,6 @@ std::vector<double> missingOf(const FlowFacts &facts, const AbstractValue &targe
   return missing;
 }
 
-// Beyond it no test has set a bound.
-constexpr double kAnyNumber = 1e6;
-
-/// `IF[#1GT3]GOTO90`, `GOTO#1`: the argument has an upper bound, and neither a lower one nor a test for vacant.
-std::optional<std::uint32_t> checkedAboveOnly(const FlowFacts &facts, const FileContext &context, NodeId node,
-                                              ExpressionId target, const AbstractValue &value) {
-  if (!value.mayBeNumber() || value.number().interval().hi > kAnyNumber || value.number().interval().lo > -kAnyNumber)
-    return std::nullopt;
-  const auto reads = readsIn(facts.file, target, facts.node(node).block);
-  const auto variable = reads.size() == 1 ? reads.front().number : std::nullopt;
-  const auto argument = variable && isParameter(facts, *variable) ? argumentBehind(facts, *variable) : std::nullopt;
-  const bool isOpen = argument && argument == variable && !isTestedForVacancy(facts.file, facts.program, *argument) &&
-                      !isMainProgram(facts) && !mayHoldCallersValue(facts, *argument) &&
-                      passedFor(*argument, facts, context).zero != PassedZero::Never;
-  return isOpen ? argument : std::nullopt;
-}
-
 void reportUnchecked(std::uint32_t argument, ExpressionId target, const FlowFacts &facts, const FileContext &context,
                      const Reporter &reporter) {
   const Span span = context.tree.expressions[target].span;

@@ -1,9 +1,12 @@
 // index-outside-table: `#[5221+[#23-54]*20]` in the branch for negative `#23`.
+#include "rules/flow/definitions.h"
+#include "rules/flow/passed_values.h"
 #include "rules/flow/system_variables.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <set>
 
 namespace feedhold::rules::index_outside_table {
 namespace {
@@ -48,7 +51,7 @@ std::optional<Outside> outsideAt(const FlowFacts &facts, const FileContext &cont
 }
 
 /// One finding for consecutive blocks: X, Y and Z of one offset.
-void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+void checkTables(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<Outside> all;
   for (const VariableUse &use : context.model.variablesOf(facts.program))
     if (const auto outside = outsideAt(facts, context, use))
@@ -71,12 +74,61 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   }
 }
 
+/// On each path to the node a test of the variable leads to an alarm: its range is checked.
+bool isRangeChecked(const FlowFacts &facts, std::uint32_t variable, NodeId at) {
+  return std::ranges::any_of(testsBefore(facts, at), [&](const PassedTest &test) {
+    const BlockId block = facts.node(test.node).block;
+    return leadsToAlarm(facts, block) && std::ranges::any_of(readsOf(facts.file, block), [&](const Read &read) {
+             return read.number == variable && read.use == ReadUse::Ordering;
+           });
+  });
+}
+
+/// `IF[#1GT20]GOTO90`, then `#[500+#1]`: the argument that is checked above only.
+std::optional<std::uint32_t> unboundedIndex(const FlowFacts &facts, const FileContext &context,
+                                            const VariableUse &use) {
+  const auto *indirect = as<IndirectVariable>(context.tree, use.expression);
+  const AbstractValue *index = indirect ? facts.valueOf(indirect->index) : nullptr;
+  if (!index || index->number().interval().hi < 0)
+    return std::nullopt;
+  const bool hasBase = std::ranges::any_of(subexpressions(context.tree, indirect->index), [&](ExpressionId part) {
+    const auto base = literalValue(context.tree, part);
+    return base && *base > Decimal(kLocalVariables, 0);
+  });
+  const auto node = hasBase ? nodeOf(facts, use.block, use.expression) : std::nullopt;
+  const auto argument = node ? checkedAboveOnly(facts, context, *node, indirect->index, *index) : std::nullopt;
+  return argument && isRangeChecked(facts, *argument, *node) ? argument : std::nullopt;
+}
+
+void checkLowerBounds(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  std::set<std::uint32_t> done;
+  for (const VariableUse &use : context.model.variablesOf(facts.program)) {
+    const auto argument = unboundedIndex(facts, context, use);
+    if (!argument || !done.insert(*argument).second)
+      continue;
+    const Span span = context.tree.expressions[use.expression].span;
+    Diagnostic diagnostic{
+        .message = fmt::format("nothing checks the lower bound of {}: {} may be a variable before the table",
+                               describeVariable(context.dialect, *argument), context.quoted(span)),
+        .span = span,
+        .notes = {"if it is negative or not passed, the control uses another variable, without an alarm",
+                  "check the lower bound as well, and that the argument was passed"}};
+    addPassed(diagnostic, passedFor(*argument, facts, context), facts);
+    reporter.report(std::move(diagnostic));
+  }
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  checkTables(facts, context, reporter);
+  checkLowerBounds(facts, context, reporter);
+}
+
 } // namespace
 
 extern const Rule indexOutsideTable;
 const Rule indexOutsideTable{
     .info = {"index-outside-table", Category::Flow, Severity::Warning,
-             "Reports a computed number of a system variable that always lies outside of the table."},
+             "Reports a computed variable number that lies outside of its table, or has no lower bound."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::index_outside_table

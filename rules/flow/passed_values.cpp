@@ -94,12 +94,28 @@ private:
   const FileContext &context_;
 };
 
+// Beyond it no test has set a bound.
+constexpr double kAnyNumber = 1e6;
+
 } // namespace
 
 PassedValues passedFor(std::uint32_t argument, const FlowFacts &facts, const FileContext &context) {
   if (argument > kLocalVariables)
     return {PassedZero::Unknown};
   return PassedLookUp(facts.programs, context).look(argument, {facts.file.file, facts.program}, 0);
+}
+
+std::optional<std::uint32_t> checkedAboveOnly(const FlowFacts &facts, const FileContext &context, NodeId node,
+                                              ExpressionId expression, const AbstractValue &value) {
+  if (!value.mayBeNumber() || value.number().interval().hi > kAnyNumber || value.number().interval().lo > -kAnyNumber)
+    return std::nullopt;
+  const auto reads = readsIn(facts.file, expression, facts.node(node).block);
+  const auto variable = reads.size() == 1 ? reads.front().number : std::nullopt;
+  const auto argument = variable && isParameter(facts, *variable) ? argumentBehind(facts, *variable) : std::nullopt;
+  const bool isOpen = argument && argument == variable && !isTestedForVacancy(facts.file, facts.program, *argument) &&
+                      !isMainProgram(facts) && !mayHoldCallersValue(facts, *argument) &&
+                      passedFor(*argument, facts, context).zero != PassedZero::Never;
+  return isOpen ? argument : std::nullopt;
 }
 
 void addPassed(Diagnostic &diagnostic, const PassedValues &passed, const FlowFacts &facts) {

@@ -20,6 +20,11 @@ struct PassedValues {
 /// An argument that a caller passes on as it was passed to it is looked up in the calls of that caller.
 PassedValues passedFor(std::uint32_t argument, const FlowFacts &facts, const FileContext &context);
 
+/// `IF[#1GT3]GOTO90`, `GOTO#1`: an expression of one argument that has an upper bound, and neither a lower one nor a
+/// test for vacant.
+std::optional<std::uint32_t> checkedAboveOnly(const FlowFacts &facts, const FileContext &context, NodeId node,
+                                              ExpressionId expression, const AbstractValue &value);
+
 /// Adds to a finding about an unchecked argument where it comes from.
 void addPassed(Diagnostic &diagnostic, const PassedValues &passed, const FlowFacts &facts);
 
