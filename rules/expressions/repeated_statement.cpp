@@ -67,7 +67,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 
 extern const Rule repeatedStatement;
 const Rule repeatedStatement{
-    .info = {"repeated-statement", Category::Expression, Severity::Info,
+    .info = {"repeated-statement", Category::Expression, Severity::Warning,
              "Reports a macro statement that repeats the one directly before it without any effect."},
     .hooks = {.block = check}};
 
