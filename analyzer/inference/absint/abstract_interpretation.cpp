@@ -3,7 +3,6 @@
 #include "inference/absint/abstract_state.h"
 #include "inference/absint/comparison_error.h"
 
-#include <bit>
 #include <cmath>
 
 namespace feedhold {
@@ -269,11 +268,7 @@ Truth AbstractInterpretation::isOneOf(ModalCode code, CodeMask mask) const {
   return truthOfOutcomes((code.codes() & mask) != 0, (code.codes() & ~mask) != 0);
 }
 
-std::optional<std::uint8_t> AbstractInterpretation::onlyCode(ModalCode code) const {
-  if (!code.isSingle() || code.codes() == 0)
-    return std::nullopt;
-  return static_cast<std::uint8_t>(std::countr_zero(code.codes()));
-}
+std::optional<std::uint8_t> AbstractInterpretation::onlyCode(ModalCode code) const { return code.only(); }
 
 CodeSet AbstractInterpretation::selectCode(Truth truth, ModalCode first, ModalCode second) const {
   if (truth == Truth::True)

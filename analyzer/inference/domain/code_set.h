@@ -3,8 +3,10 @@
 
 #include "base/support/check.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace feedhold {
 
@@ -27,6 +29,11 @@ public:
   constexpr bool isOnly(std::size_t index) const { return !mayBeAtEntry() && codes_ == bitOf(index); }
   /// One code set on all paths.
   constexpr bool isSingle() const { return !mayBeAtEntry() && (codes_ & (codes_ - 1)) == 0; }
+  /// That one; absent: there may be several, or none.
+  constexpr std::optional<std::uint8_t> only() const {
+    return isSingle() && codes_ != 0 ? std::optional(static_cast<std::uint8_t>(std::countr_zero(codes_)))
+                                     : std::nullopt;
+  }
   /// The codes set on some path, as bits.
   constexpr std::uint64_t codes() const { return codes_; }
 

@@ -31,6 +31,7 @@ Command addModelCommand(CLI::App &parent);
 Command addCfgCommand(CLI::App &parent);
 Command addRangesCommand(CLI::App &parent);
 Command addProveCommand(CLI::App &parent);
+Command addDraftCommand(CLI::App &parent);
 Command addCertifyCommand(CLI::App &parent);
 Command addRecheckCommand(CLI::App &parent);
 Command addCompletionsCommand(CLI::App &parent);
