@@ -165,8 +165,8 @@ private:
   bool isSignal(ExpressionId id) const {
     const auto number = variableNumber(tree_, unwrapped(tree_, id));
     const VariableRange *range = number ? findVariable(*facts_.file.dialect, *number) : nullptr;
-    return range && range->role == VariableRole::Volatile && range->access == VariableAccess::ReadOnly &&
-           range->name != "_UIL" && range->meaning.find("input") != std::string_view::npos;
+    return range && isVolatile(range->role) && range->access == VariableAccess::ReadOnly && range->name != "_UIL" &&
+           range->meaning.find("input") != std::string_view::npos;
   }
 
   /// The text without blanks and outer brackets.

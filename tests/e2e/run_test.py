@@ -65,6 +65,17 @@ class Run(Scratch):
         self.assertEqual(self.report("both.nc", "--program", "O2", "--arg", "B=2")["end"], "M99")
         self.assertExit(self.run_program("both.nc", "--program", "O9"), 2)
 
+    def test_inputs(self):
+        self.write("wait.nc", "O7\n#1=0\nN10#1=#1+1\nIF[#1000EQ0]GOTO10\nM30\n")
+        for given, passes in (("#1000=0,0,1", 3), ("1000=1", 1), ("#1000 = 0, 1", 2)):
+            with self.subTest(given=given):
+                self.assertEqual(self.report("wait.nc", "--input", given)["variables"], {"1": passes})
+        self.assertEqual(self.report("wait.nc", "--input", "#1000=0", "--fuel", "100")["end"], "fuel")
+        self.assertEqual(self.report("wait.nc", "--var", "1000=1")["variables"], {"1": 1, "1000": 1})
+        for given in ("#100=1", "#1000", "#1000=", "#1000=0,,1", "#1000=x", "nothing=1"):
+            with self.subTest(given=given):
+                self.assertExit(self.run_program("wait.nc", "--input", given), 2)
+
     def test_what_is_refused(self):
         for words in (["--arg", "G=1"], ["--arg", "A"], ["--arg", "A=x"], ["--var", "nothing=1"], ["--start", "Q1"],
                       ["--start", "X"], ["--fuel", "-1"], ["--fuel", "many"], ["--format", "xml"]):

@@ -19,6 +19,15 @@ struct Wish {
   bool trace = false;
 };
 
+/// `0,0,1`
+std::vector<double> numbersOf(const std::string &text) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');)
+    numbers.push_back(std::strtod(part.c_str(), nullptr));
+  return numbers;
+}
+
 /// Takes down one word of what follows the name of the stage; false when it means nothing.
 bool take(const std::string &word, const Dialect &dialect, Wish &options) {
   const std::size_t equals = word.find('=');
@@ -33,6 +42,9 @@ bool take(const std::string &word, const Dialect &dialect, Wish &options) {
     options.options.numbers = NumberModel::Binary64;
   else if (word.starts_with("fuel="))
     options.options.fuel = static_cast<std::uint64_t>(value);
+  else if (word.starts_with('#') && word.find(',') != std::string::npos)
+    options.options.variables.readings.set(static_cast<std::uint32_t>(std::atoi(word.c_str() + 1)),
+                                           numbersOf(word.substr(equals + 1)));
   else if (word.starts_with('#'))
     options.options.variables.set(static_cast<std::uint32_t>(std::atoi(word.c_str() + 1)), ConcreteValue::of(value));
   else if (equals == 1 && isLetter(word.front()))

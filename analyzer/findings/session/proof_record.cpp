@@ -109,6 +109,13 @@ void write(Writer &writer, const prove::Witness &witness) {
     writer.number(value.vacant ? 1 : 0);
     writer.real(value.number);
   }
+  writer.number(witness.variables.readings.entries().size());
+  for (const auto &[variable, script] : witness.variables.readings.entries()) {
+    writer.number(variable);
+    writer.number(script.size());
+    for (const double reading : script)
+      writer.real(reading);
+  }
   writer.number(static_cast<std::uint64_t>(witness.end));
   writer.text(witness.happened);
   writer.optional(witness.gouge, [&](const prove::GougeAt &gouge) {
@@ -128,6 +135,13 @@ prove::Witness readWitness(Reader &reader) {
     const auto variable = static_cast<std::uint32_t>(reader.number());
     const bool vacant = reader.isPresent();
     witness.variables.set(variable, {vacant, reader.real()});
+  }
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const auto variable = static_cast<std::uint32_t>(reader.number());
+    std::vector<double> script;
+    for (std::uint64_t readings = reader.count(); readings > 0; --readings)
+      script.push_back(reader.real());
+    witness.variables.readings.set(variable, std::move(script));
   }
   witness.end = reader.upTo(RunEnd::Unmodelled);
   witness.happened = reader.text();

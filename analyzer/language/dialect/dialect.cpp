@@ -5,6 +5,7 @@
 #include "base/support/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
 
@@ -101,6 +102,24 @@ std::vector<std::uint32_t> perhapsSameAs(const Dialect &dialect, std::uint32_t c
           others.push_back(cellOf(dialect, number));
   }
   return others;
+}
+
+bool isVolatile(VariableRole role) {
+  return role == VariableRole::Volatile || role == VariableRole::Signal || role == VariableRole::SignalWord ||
+         role == VariableRole::Clock;
+}
+
+/// States of the control without a row of their own are not known to change in a run.
+bool mayRead(const VariableRange &range, std::span<const double> readings) {
+  constexpr double kMostOfWord = 2147483647; // 31 bits: what the last of 32 counts for, manuals tell in two ways
+  const auto all = [&](auto holds) { return std::all_of(readings.begin(), readings.end(), holds); };
+  if (range.role == VariableRole::Signal)
+    return all([](double number) { return number == 0 || number == 1; });
+  if (range.role == VariableRole::SignalWord)
+    return all([](double number) { return number >= 0 && number <= kMostOfWord && std::floor(number) == number; });
+  if (range.role == VariableRole::Clock)
+    return all([](double number) { return number >= 0; }) && std::is_sorted(readings.begin(), readings.end());
+  return range.role == VariableRole::Volatile && all([&](double number) { return number == readings.front(); });
 }
 
 const BitWord *findBitWord(const Dialect &dialect, std::uint32_t number) {

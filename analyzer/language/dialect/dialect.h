@@ -181,7 +181,10 @@ enum class VariableOption : std::uint8_t { Always, Optional };
 enum class VariableRole : std::uint8_t {
   Plain,            // local and common variables: keeps what was written
   Stored,           // a cell of the control that keeps what was written (offsets, #3003)
-  Volatile,         // may change between any two reads: inputs, clocks, positions in motion
+  Volatile,         // may change between any two reads: positions in motion, states of the control
+  Signal,           // the same, and 0 or 1: one input
+  SignalWord,       // the same, and a whole number: several inputs as its bits
+  Clock,            // the same, and never less than before, unless the program sets it
   Alarm,            // writing stops the program
   MessageStop,      // writing stops until cycle start
   ModalCode,        // first + group - 1: G code in force of a modal group
@@ -489,6 +492,10 @@ const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
 std::uint32_t cellOf(const Dialect &dialect, std::uint32_t number);
 /// Cells that may be the same one as this, or not.
 std::vector<std::uint32_t> perhapsSameAs(const Dialect &dialect, std::uint32_t cell);
+/// Inputs, clocks and the like: two reads may find two numbers.
+bool isVolatile(VariableRole role);
+/// Whether reads of a volatile variable may give these numbers, one after another; not asked whether a program sets it.
+bool mayRead(const VariableRange &range, std::span<const double> readings);
 const BitWord *findBitWord(const Dialect &dialect, std::uint32_t number);
 struct VariableSpan {
   std::uint32_t first;

@@ -3,6 +3,7 @@
 #include "base/support/mantissa32.h"
 #include "meaning/semantics/parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,11 +157,17 @@ ConcreteValue ConcreteInterpretation::given(std::uint32_t variable) const {
 
 GivenVariables ConcreteInterpretation::byCell(const Dialect &dialect, const GivenVariables &given,
                                               NumberModel numbers) {
+  const auto held = [&](double number) {
+    return numbers == NumberModel::Mantissa32 ? mantissa32::nearest(number) : number;
+  };
   GivenVariables cells;
   for (const auto &[variable, value] : given.entries())
-    cells.set(cellOf(dialect, variable), numbers == NumberModel::Mantissa32
-                                             ? ConcreteValue{value.vacant, mantissa32::nearest(value.number)}
-                                             : value);
+    cells.set(cellOf(dialect, variable), {value.vacant, held(value.number)});
+  for (const auto &[variable, script] : given.readings.entries()) {
+    std::vector<double> readings = script;
+    std::ranges::transform(readings, readings.begin(), held);
+    cells.readings.set(cellOf(dialect, variable), std::move(readings));
+  }
   return cells;
 }
 
@@ -171,7 +178,15 @@ bool ConcreteInterpretation::isLocal(std::uint32_t variable) const {
 
 ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
   sawVolatile_ = true;
-  return asNumber(given(variable));
+  if (source_)
+    return Value::of(source_(variable));
+  const std::vector<double> *script = given_.readings.find(variable);
+  if (!script)
+    return asNumber(given(variable));
+  const std::size_t *before = reads_.find(variable);
+  const std::size_t taken = before ? *before : 0;
+  reads_.set(variable, taken + 1);
+  return Value::of((*script)[std::min(taken, script->size() - 1)]);
 }
 
 /// The offset tables are the operator's: without one the tool has no length.

@@ -7,6 +7,7 @@
 
 #include "meaning/semantics/step.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +21,17 @@ struct ConcreteValue {
   friend bool operator==(const ConcreteValue &, const ConcreteValue &) = default;
 };
 
+/// What the reads of an input give, in order; the last number stays.  None is empty.
+using InputReadings = VariableMap<std::vector<double>>;
+
 /// What a run starts from and what it reads from outside: by number; others are vacant, or 0 for cells of the control.
-using GivenVariables = VariableMap<ConcreteValue>;
+struct GivenVariables : VariableMap<ConcreteValue> {
+  InputReadings readings = {};
+  friend bool operator==(const GivenVariables &, const GivenVariables &) = default;
+};
+
+/// What one read of an input gives; asked at each.
+using InputSource = std::function<double(std::uint32_t variable)>;
 
 /// Something that was not followed, and where.
 struct MachineNote {
@@ -44,6 +54,9 @@ public:
   ConcreteInterpretation(const Dialect &dialect, const GivenVariables &given,
                          WordRounding rounding = WordRounding::Increment, NumberModel numbers = NumberModel::Binary64)
       : dialect_(&dialect), given_(byCell(dialect, given, numbers)), rounding_(rounding), numbers_(numbers) {}
+
+  /// In place of the readings that are given.
+  void readInputsFrom(InputSource source) { source_ = std::move(source); }
 
   // ---- what happened, for the machine ----
   enum class Stop : std::uint8_t { None, ControlAlarm, UserAlarm };
@@ -148,6 +161,8 @@ private:
 
   const Dialect *dialect_;
   GivenVariables given_;
+  InputSource source_;             // empty: the readings that are given
+  VariableMap<std::size_t> reads_; // so many of each input
   WordRounding rounding_;
   NumberModel numbers_;
   Stopped stopped_;

@@ -27,6 +27,8 @@ public:
       if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))
         state_.variables.set(*variable, ConcreteValue::of(0));
     entry_ = state_;
+    if (options_.inputs)
+      interpretation_.readInputsFrom([this](std::uint32_t variable) { return options_.inputs(at_, variable); });
   }
 
   RunResult run() {

@@ -34,6 +34,8 @@ struct RunOptions {
   WordRounding words = WordRounding::Increment;
   NumberModel numbers = NumberModel::Binary64;     // in which expressions are computed; Either: doubles
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
+  /// What the read of an input in an instruction gives, in place of `variables.readings`; null: those.
+  std::function<double(Place, std::uint32_t variable)> inputs = nullptr;
   /// Called before each instruction; null: nobody looks on.
   std::function<void(const RunMoment &)> trace = nullptr;
 };

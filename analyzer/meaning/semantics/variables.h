@@ -85,6 +85,9 @@ typename R::Value readSystem(StepContext<R> &context, const VariableRange &range
   case VariableRole::SecondReference:
   case VariableRole::SkipPosition: return storedValue(context, number);
   case VariableRole::Volatile:
+  case VariableRole::Signal:
+  case VariableRole::SignalWord:
+  case VariableRole::Clock:
   case VariableRole::Alarm:
   case VariableRole::MessageStop: return interpretation.volatileRead(number);
   case VariableRole::ModalCode: {
@@ -165,10 +168,10 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
     return writeWorkOffset(context, cell, value);
   if (range.role == VariableRole::AdditionalWorkOffset)
     changeAdditionalOffset(context, place);
-  if (range.role != VariableRole::MessageStop && range.role != VariableRole::Volatile)
+  if (range.role != VariableRole::MessageStop && !isVolatile(range.role))
     context.state.variables.set(cell, std::move(value));
   else if constexpr (requires { interpretation.writesUnkept(cell); })
-    if (range.role == VariableRole::Volatile)
+    if (isVolatile(range.role))
       interpretation.writesUnkept(cell);
 }
 

@@ -31,11 +31,11 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
          endsInside(subject.programs, subject.program, loop.head, run);
 }
 
-/// With these inputs the loop never ends.
+/// With these inputs the loop never ends.  Signals are taken to stay 0, so that given readings are not looked at.
 bool goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
-  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
-                        context.witnesses.modelOf(given))
-      .has_value();
+  return given.readings.entries().empty() && recurrenceFrom(context.start.interpretation(), context.start.store(),
+                                                            context.found, loop, context.witnesses.modelOf(given))
+                                                 .has_value();
 }
 
 /// Inputs of a sampled run that did not come out of the loop, with which it never ends; as few as possible.
@@ -44,7 +44,7 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
   const WitnessSearch &witnesses = context.witnesses;
   std::vector<WitnessSearch::Sample> runs;
   for (const WitnessSearch::Sample &sample : witnesses.samples())
-    if (staysIn(context.subject, loop, sample.result))
+    if (sample.given.readings.entries().empty() && staysIn(context.subject, loop, sample.result))
       runs.push_back(sample);
   std::stable_sort(runs.begin(), runs.end(),
                    [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });

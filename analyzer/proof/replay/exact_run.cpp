@@ -36,12 +36,20 @@ void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &
                                  ? interpretation.vacant()
                                  : SymbolicValue{store.no(), store.number(inputNumber(interpretation, value.number))});
   interpretation.startFrom(std::move(values));
+  if (given.readings.entries().empty())
+    return;
+  std::map<std::uint32_t, std::vector<smt::TermId>> readings;
+  for (const auto &[variable, script] : given.readings.entries())
+    for (const double reading : script)
+      readings[variable].push_back(store.number(inputNumber(interpretation, reading)));
+  interpretation.readInputs(std::move(readings));
 }
 
 InputsKey keyOf(const GivenVariables &given) {
   InputsKey key;
   for (const auto &[variable, value] : given.entries())
-    key.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+    key.first.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+  key.second = given.readings.entries();
   return key;
 }
 
@@ -80,6 +88,11 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
     ends.stops.emplace_back(stop.place, stop.alarm);
   for (const PathExit &exit : found.exits)
     ends.exits.push_back(exit.place);
+  const bool isOnePath = ends.stops.size() + ends.exits.size() + found.repeats.size() <= 1;
+  if (!isOnePath && !given.readings.entries().empty()) { // which path takes which reading is not known
+    ends = Ends();
+    ends.isIncomplete = true;
+  }
   return ends;
 }
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
-#include <random>
 
 namespace feedhold::prove {
 
@@ -29,6 +29,9 @@ GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
   for (const auto &[variable, value] : given.entries())
     if (!value.vacant)
       near.set(variable, ConcreteValue::of(whole(value.number * 1000) / 1000));
+  for (auto &[variable, script] : near.readings.entries())
+    for (double &reading : script)
+      reading = whole(reading * 1000) / 1000;
   return near;
 }
 
@@ -78,13 +81,38 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   return model;
 }
 
-bool WitnessSearch::allowed(const GivenVariables &given) const {
+bool WitnessSearch::isAllowed(const GivenVariables &given) const {
   const smt::Model model = modelOf(given);
   const auto holds = [&](smt::TermId condition) { return smt::isTrue(interpretation_.store(), condition, model); };
   return std::ranges::all_of(demands_, holds) &&
          std::ranges::all_of(interpretation_.entryValues(), [&](const auto &entry) {
            return std::ranges::all_of(interpretation_.typedInput(entry.first, entry.second.number), holds);
          });
+}
+
+/// What is said of an input holds of each reading.
+bool WitnessSearch::allowed(const GivenVariables &given) const {
+  const Dialect &dialect = *programs_.file(entry_.file).dialect;
+  GivenVariables first = given;
+  for (const auto &[variable, script] : given.readings.entries()) {
+    const VariableRange *range = findVariable(dialect, variable);
+    if (!range || !mayRead(*range, script))
+      return false;
+    first.set(variable, ConcreteValue::of(script.front()));
+  }
+  if (!isAllowed(first))
+    return false;
+  for (const auto &[variable, script] : given.readings.entries()) {
+    if (!interpretation_.entryValues().contains(variable))
+      continue;
+    for (const double reading : std::set<double>(script.begin(), script.end())) {
+      GivenVariables other = first;
+      other.set(variable, ConcreteValue::of(reading));
+      if (!isAllowed(other))
+        return false;
+    }
+  }
+  return true;
 }
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {
@@ -212,7 +240,37 @@ void WitnessSearch::sampleDecimals(const std::vector<InputEnds> &ends) {
   }
 }
 
+std::set<std::uint32_t> WitnessSearch::inputsRead() const {
+  std::set<std::uint32_t> read;
+  for (const InputRead &each : interpretation_.inputReads())
+    read.insert(each.variable);
+  return read;
+}
+
+/// Of inputs that the program reads, in every second sample.
+void WitnessSearch::addReadings(GivenVariables &given) {
+  constexpr std::size_t kMostReadings = 4;
+  if (samples_.size() % 2 == 0)
+    return;
+  const std::vector<double> pool = plainNumbers();
+  for (const std::uint32_t variable : inputsRead()) {
+    const VariableRange *range = findVariable(*programs_.file(entry_.file).dialect, variable);
+    if (!range)
+      continue;
+    std::vector<double> script(1 + readings_() % kMostReadings);
+    for (double &reading : script)
+      reading = range->role == VariableRole::Signal ? static_cast<double>(readings_() % 2)
+                                                    : std::fabs(pool[readings_() % pool.size()]);
+    if (range->role == VariableRole::Clock)
+      std::ranges::sort(script);
+    if (!mayRead(*range, script))
+      script = {std::floor(script.front())};
+    given.readings.set(variable, std::move(script));
+  }
+}
+
 void WitnessSearch::keepSample(GivenVariables given) {
+  addReadings(given);
   if (smt::areStepsUsedUp() || !allowed(given))
     return;
   throwIfCancelled();
@@ -323,11 +381,44 @@ GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
   return given;
 }
 
+/// The model says what the reads of a path give, by their places; which read of the run that is, the run tells.  A read
+/// of which the model says no more gives what the last one gave.
+InputReadings WitnessSearch::readingsOf(const smt::Model &model, const GivenVariables &given) const {
+  constexpr std::size_t kMostReadings = 64;
+  const smt::TermStore &store = interpretation_.store();
+  std::map<std::pair<std::optional<Place>, std::uint32_t>, std::deque<double>> said;
+  for (const InputRead &read : interpretation_.inputReads())
+    if (const auto number = model.find(store[read.number].name); number != model.end())
+      if (const double value = std::get<smt::Number>(number->second).toDouble(); std::isfinite(value))
+        said[{read.place, read.variable}].push_back(value);
+  InputReadings readings;
+  if (said.empty())
+    return readings;
+  RunOptions options = runOptions(given);
+  options.fuel = kSampleFuel;
+  options.inputs = [&](Place place, std::uint32_t variable) {
+    const std::vector<double> *before = readings.find(variable);
+    std::vector<double> script = before ? *before : std::vector<double>();
+    std::deque<double> &next = said[{place, variable}];
+    const double reading = !next.empty() ? next.front() : script.empty() ? 0 : script.back();
+    if (!next.empty())
+      next.pop_front();
+    if (script.size() < kMostReadings) {
+      script.push_back(reading);
+      readings.set(variable, std::move(script));
+    }
+    return reading;
+  };
+  smt::spend(kStepsOfInstruction * run(programs_, entry_, options).steps);
+  return readings;
+}
+
 std::optional<Witness> WitnessSearch::fromModel(const smt::Model &model, const Violation &violation,
                                                 std::uint64_t fuel) const {
   smt::Model whole = model;
   whole.insert(others_.begin(), others_.end());
-  const GivenVariables given = inputsOf(whole);
+  GivenVariables given = inputsOf(whole);
+  given.readings = readingsOf(model, given);
   for (const GivenVariables &each : {given, shortened(given, std::floor), shortened(given, std::ceil)})
     if (const auto found = tried(each, violation, fuel))
       return plainest(*found, violation, fuel);
@@ -338,7 +429,8 @@ std::string WitnessSearch::whyNotShown(const smt::Model &model) const {
   constexpr std::string_view kNot = "the solver's counterexample did not reproduce on the machine";
   smt::Model whole = model;
   whole.insert(others_.begin(), others_.end());
-  const GivenVariables given = inputsOf(whole);
+  GivenVariables given = inputsOf(whole);
+  given.readings = readingsOf(model, given);
   if (!allowed(given))
     return fmt::format("{}: rounded to its numbers, the inputs violate the contract", kNot);
   if (smt::areStepsUsedUp())
@@ -370,6 +462,41 @@ Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std
         witness = std::move(*found);
         break;
       }
+  }
+  return withPlainReadings(std::move(witness), violation, fuel);
+}
+
+/// Each input in turn: without readings, that is 0; else as few numbers as will do, and 0 or 1 in place of others.
+Witness WitnessSearch::withPlainReadings(Witness witness, const Violation &violation, std::uint64_t fuel) const {
+  const auto taken = [&](std::uint32_t variable, const std::vector<double> &script) {
+    GivenVariables given = witness.variables;
+    given.readings.erase(variable);
+    if (!script.empty())
+      given.readings.set(variable, script);
+    auto found = tried(given, violation, fuel);
+    if (found)
+      witness = *std::move(found);
+    return found.has_value();
+  };
+  const InputReadings readings = witness.variables.readings;
+  for (const auto &[variable, all] : readings.entries()) {
+    if (taken(variable, {}))
+      continue;
+    std::vector<double> script = all;
+    for (std::size_t size = 1; size < script.size(); ++size)
+      if (taken(variable, {script.begin(), script.begin() + static_cast<std::ptrdiff_t>(size)})) {
+        script.resize(size);
+        break;
+      }
+    for (double &reading : script) {
+      const double before = reading;
+      for (const double plain : {0.0, 1.0, rounded(before, 1)}) {
+        reading = plain;
+        if (plain == before || taken(variable, script))
+          break;
+        reading = before;
+      }
+    }
   }
   return witness;
 }

@@ -9,6 +9,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <random>
+#include <set>
 #include <type_traits>
 #include <vector>
 
@@ -95,6 +97,10 @@ private:
   std::vector<std::uint32_t> inputs() const;
   std::vector<double> plainNumbers() const;
   GivenVariables inputsOf(const smt::Model &model) const;
+  std::set<std::uint32_t> inputsRead() const;
+  InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
+  bool isAllowed(const GivenVariables &given) const;
+  void addReadings(GivenVariables &given);
   void keepSample(GivenVariables given);
   /// Absent: there is none, or none that is a number.
   std::optional<double> endIn(const GivenVariables &given, const std::optional<smt::TermId> &end) const;
@@ -102,6 +108,7 @@ private:
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
+  Witness withPlainReadings(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
   SymbolicInterpretation &interpretation_;
   const ProgramSet &programs_;
@@ -111,6 +118,7 @@ private:
   RunOptions start_;
   std::map<Axis, smt::TermId> place_;
   std::vector<Sample> samples_;
+  std::mt19937 readings_{1};             // of samples
   std::size_t firstDecimal_ = 0;         // of samples_
   std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same

@@ -59,6 +59,13 @@ using SymbolicState = MachineState<SymbolicInterpretation>;
 /// No system variable is vacant, and nothing is typed into one.
 bool isSystemVariable(const Dialect &dialect, std::uint32_t variable);
 
+/// One read of an input by the program, which may give any number.
+struct InputRead {
+  std::optional<Place> place; // of the instruction; absent: of no single one
+  std::uint32_t variable;
+  smt::TermId number;
+};
+
 /// Something that stops the run where the condition holds.
 struct PossibleStop {
   Condition when;
@@ -115,6 +122,12 @@ public:
   }
   /// The variables have these values at the start of the run, and the others that programs own are vacant.
   void startFrom(std::map<std::uint32_t, Value> values) { given_ = std::move(values); }
+  /// The reads of inputs give these in order, and then the last; those of others 0.  For single paths.
+  void readInputs(std::map<std::uint32_t, std::vector<smt::TermId>> readings) { readings_ = std::move(readings); }
+  /// The reads of inputs, in the order in which paths were followed.
+  const std::vector<InputRead> &inputReads() const { return inputReads_; }
+  /// Whether a clause of a contract is read, not the program.  Returns what it was.
+  bool readContract(bool isContract) { return std::exchange(isContract_, isContract); }
   /// What is said of inputs.
   void assumeInputs(std::map<std::uint32_t, WrittenInput> written) { written_ = std::move(written); }
   /// What a proof assumes of the number that a variable of the programs holds at the start: that it can be typed.
@@ -273,6 +286,10 @@ private:
   std::map<std::uint32_t, WrittenInput> written_;
   std::set<smt::TermId> entry_;
   std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from
+  std::optional<std::map<std::uint32_t, std::vector<smt::TermId>>> readings_;
+  std::map<std::uint32_t, std::size_t> taken_; // readings
+  std::vector<InputRead> inputReads_;
+  bool isContract_ = false;
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;
   bool tooLarge_ = false;
@@ -285,18 +302,20 @@ public:
   explicit ContractArithmetic(SymbolicInterpretation &interpretation)
       : interpretation_(interpretation),
         before_(interpretation.roundResults(SymbolicInterpretation::Rounds::AsDoubles)),
-        exact_(interpretation.takeExactResults()) {}
+        exact_(interpretation.takeExactResults()), wasContract_(interpretation.readContract(true)) {}
   ContractArithmetic(const ContractArithmetic &) = delete;
   ContractArithmetic &operator=(const ContractArithmetic &) = delete;
   ~ContractArithmetic() {
     interpretation_.roundResults(before_);
     interpretation_.restoreExactResults(std::move(exact_));
+    interpretation_.readContract(wasContract_);
   }
 
 private:
   SymbolicInterpretation &interpretation_;
   SymbolicInterpretation::Rounds before_;
   std::vector<TakenAsSmall> exact_;
+  bool wasContract_;
 };
 
 /// Results are rounded while it lives: those of the instruction at the place.

@@ -1,6 +1,7 @@
 // Operations on whole states: the arbitrary start, havoc, the union of two states.
 #include "proof/symbolic/symbolic_interpretation.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -67,7 +68,15 @@ SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_
 }
 
 SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
-  return of(fresh(fmt::format("read of #{}", variable), Sort::Real));
+  if (readings_ && !isContract_) {
+    const std::vector<TermId> &script = (*readings_)[variable];
+    const std::size_t taken = taken_[variable]++;
+    return of(script.empty() ? store_.number(Number(0)) : script[std::min(taken, script.size() - 1)]);
+  }
+  const TermId number = fresh(fmt::format("read of #{}", variable), Sort::Real);
+  if (!isContract_)
+    inputReads_.push_back({place_, variable, number});
+  return of(number);
 }
 SymbolicValue SymbolicInterpretation::toolLength(const State &, const Value &) { return anyNumber(); }
 

@@ -60,6 +60,36 @@ std::optional<std::uint32_t> variableFrom(const ProgramSet &programs, std::strin
   return isNumber && number > 0 && number < kFirstNamedVariable ? std::optional(number) : std::nullopt;
 }
 
+/// The machine or the clock changes it: a program that reads it twice may find two numbers.
+bool isInput(const Dialect &dialect, std::uint32_t variable) {
+  const VariableRange *range = findVariable(dialect, cellOf(dialect, variable));
+  return range && range->kind == VariableKind::System && isVolatile(range->role) &&
+         range->access != VariableAccess::WriteOnly;
+}
+
+/// `#1000=0,0,1`
+std::optional<Error> addReadings(const std::string &text, const Project &programs, GivenVariables &given) {
+  const std::size_t equals = text.find('=');
+  std::vector<double> script;
+  for (std::size_t at = equals; at < text.size();) {
+    const std::size_t comma = text.find(',', at + 1);
+    const auto number = numberFrom(trimmed(std::string_view(text).substr(at + 1, comma - at - 1)));
+    if (!number)
+      return Error{fmt::format("--input: `{}` is not of the form #1000=0,0,1", text)};
+    script.push_back(*number);
+    at = comma;
+  }
+  if (script.empty())
+    return Error{fmt::format("--input: `{}` is not of the form #1000=0,0,1", text)};
+  const std::string_view name = trimmed(std::string_view(text).substr(0, equals));
+  const auto variable = variableFrom(*programs.set, name);
+  if (!variable || *variable >= kFirstNamedVariable || !isInput(programs.dialect(), *variable))
+    return Error{
+        fmt::format("--input: `{}` is not an input or a clock of this control; use --var to set any variable", name)};
+  given.readings.set(*variable, std::move(script));
+  return std::nullopt;
+}
+
 Result<GivenVariables> givenVariables(const RunInput &input, const Project &programs) {
   GivenVariables given;
   for (const std::string &text : input.arguments) {
@@ -81,6 +111,9 @@ Result<GivenVariables> givenVariables(const RunInput &input, const Project &prog
       return Error{fmt::format("--var: no program has a variable `{}`", setting.value().name)};
     given.set(*variable, ConcreteValue::of(setting.value().value));
   }
+  for (const std::string &text : input.readings)
+    if (auto complaint = addReadings(text, programs, given))
+      return *std::move(complaint);
   return given;
 }
 
@@ -126,6 +159,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
       ->allow_extra_args(false);
   app.add_option("--var", input.variables, "set a variable at the start: 500=3 or <depth>=2.5 (may be repeated)")
       ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--input", input.readings,
+                 "numbers that the reads of an input give in order; the last stays: \"#1000=0,0,1\" (may be repeated)")
+      ->type_name("NAME=VALUES")
       ->allow_extra_args(false);
   app.add_option("--start", input.start, "position of the tool at the start: X0 Y0 Z5")->type_name("POSITION");
   app.add_option("--fuel", input.fuel,

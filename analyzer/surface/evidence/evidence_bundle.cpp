@@ -116,7 +116,10 @@ private:
     for (const auto &[variable, value] : witness.variables.entries())
       if (!value.vacant)
         variables[file.project->set->nameOfVariable(variable).substr(1)] = value.number;
-    return {{"variables", std::move(variables)}, {"happened", witness.happened}};
+    Json readings = Json::object();
+    for (const auto &[variable, script] : witness.variables.readings.entries())
+      readings[file.project->set->nameOfVariable(variable).substr(1)] = script;
+    return {{"variables", std::move(variables)}, {"inputs", std::move(readings)}, {"happened", witness.happened}};
   }
   Json evidenceToJson(const prove::Proved &proved, const std::string &name) {
     return match(

@@ -85,8 +85,12 @@ private:
     Json variables = Json::object();
     for (const auto &[name, value] : call.variables)
       variables[name] = value;
+    Json readings = Json::object();
+    for (const auto &[name, script] : call.readings)
+      readings[name] = script;
     return {{"call", call.call ? Json(*call.call) : Json()},
             {"variables", std::move(variables)},
+            {"inputs", std::move(readings)},
             {"run", call.run()},
             {"end", feedhold::nameOf(witness.end)},
             {"happened", happenedIn(witness, obligation, file_.project->dialect())},

@@ -104,6 +104,14 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.variables.emplace_back(shown.substr(1), value.number);
     result.options += " --var " + quotedWord(shown.substr(1) + "=" + shortest(value.number));
   }
+  for (const auto &[variable, script] : witness.variables.readings.entries()) {
+    const std::string shown = file.project->set->nameOfVariable(variable);
+    std::string numbers;
+    for (const double reading : script)
+      numbers += (numbers.empty() ? "" : ",") + shortest(reading);
+    result.readings.emplace_back(shown.substr(1), script);
+    result.options += " --input " + quotedWord(shown + "=" + numbers);
+  }
   if (!witness.returning.empty())
     result.options += " --missing return";
   result.options += report.readingOptions;
@@ -114,8 +122,18 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
 
 std::string textOf(const TypedWitness &witness) {
   std::string text = witness.call.value_or("a run of this program");
-  for (std::size_t i = 0; i < witness.others.size(); ++i)
-    text += fmt::format("{}{}={}", i == 0 ? " with " : ", ", witness.others[i].first, witness.others[i].second);
+  std::string_view before = " with ";
+  for (const auto &[name, value] : witness.others) {
+    text += fmt::format("{}{}={}", before, name, value);
+    before = ", ";
+  }
+  for (const auto &[name, readings] : witness.readings) {
+    std::string numbers;
+    for (const double reading : readings)
+      numbers += (numbers.empty() ? "" : ", then ") + shortest(reading);
+    text += fmt::format("{}#{} read as {}", before, name, numbers);
+    before = ", ";
+  }
   return text;
 }
 

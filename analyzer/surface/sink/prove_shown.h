@@ -29,10 +29,11 @@ std::string quotedWord(const std::string &word);
 
 /// A witness as a machinist types it.
 struct TypedWitness {
-  std::optional<std::string> call;                         // `G65 P9100 D6. U12.`; absent: it has no number
-  std::vector<std::pair<std::string, std::string>> others; // `#500`, `-3.5`: what no letter of the call sets
-  std::vector<std::pair<std::string, double>> variables;   // the same, by name without `#`
-  std::string options;                                     // of a command that runs the program on it
+  std::optional<std::string> call;                                   // `G65 P9100 D6. U12.`; absent: it has no number
+  std::vector<std::pair<std::string, std::string>> others;           // `#500`, `-3.5`: what no letter of the call sets
+  std::vector<std::pair<std::string, double>> variables;             // the same, by name without `#`
+  std::vector<std::pair<std::string, std::vector<double>>> readings; // what the reads of inputs give, likewise
+  std::string options;                                               // of a command that runs the program on it
   std::string run() const { return "feedhold run " + options; }
   std::string plot() const { return "feedhold plot " + options; }
 };

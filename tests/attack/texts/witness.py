@@ -16,6 +16,8 @@ from .switches import Switches, every_way
 def start_of(command: str, text):
     """What the words of the command and the contract say of the start; None when they are not understood."""
     words = shlex.split(command)
+    if "--input" in words: # these interpreters read 0
+        return None
     start = Start(skip="--block-skip" in words)
     for _, clause in text.clauses():
         if clause.startswith("@MODAL"):
