@@ -4,6 +4,7 @@
 #include "proof/termination/recurrence.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace feedhold::prove {
 
@@ -32,10 +33,26 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
 }
 
 /// With these inputs the loop never ends.  Signals are taken to stay 0, so that given readings are not looked at.
-bool goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
-  return given.readings.entries().empty() && recurrenceFrom(context.start.interpretation(), context.start.store(),
-                                                            context.found, loop, context.witnesses.modelOf(given))
-                                                 .has_value();
+std::optional<Recurrence> goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
+  if (!given.readings.entries().empty())
+    return std::nullopt;
+  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
+                        context.witnesses.modelOf(given));
+}
+
+/// Because iterations read all of these as 0 for ever.
+std::string neverEnds(const std::set<std::uint32_t> &signals) {
+  if (signals.empty())
+    return "each iteration leads to another one: the loop never ends";
+  std::string names;
+  for (const std::uint32_t signal : signals)
+    names += fmt::format("{}#{}", names.empty() ? "" : ", ", signal);
+  return signals.size() == 1
+             ? fmt::format("while {} reads 0, each iteration leads to another one: the loop ends only if it changes",
+                           names)
+             : fmt::format("while {} read 0, each iteration leads to another one: the loop ends only if one of them "
+                           "changes",
+                           names);
 }
 
 /// Inputs of a sampled run that did not come out of the loop, with which it never ends; as few as possible.
@@ -48,15 +65,21 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
       runs.push_back(sample);
   std::stable_sort(runs.begin(), runs.end(),
                    [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
+  std::set<std::uint32_t> signals; // of the last inputs with which the loop was found to be endless
   const auto isEndless = [&](const GivenVariables &given) {
     throwIfCancelled();
-    return witnesses.allowed(given) && staysIn(context.subject, loop, witnesses.runOf(given)) &&
-           goesOn(context, loop, given);
+    if (!witnesses.allowed(given) || !staysIn(context.subject, loop, witnesses.runOf(given)))
+      return false;
+    auto found = goesOn(context, loop, given);
+    if (found)
+      signals = std::move(found->signals);
+    return found.has_value();
   };
   for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
-    if (isEndless(runs[i].given))
-      return Witness{fewest(runs[i].given, isEndless), runs[i].result.end,
-                     "each iteration leads to another one: the loop never ends"};
+    if (isEndless(runs[i].given)) {
+      GivenVariables given = fewest(runs[i].given, isEndless);
+      return Witness{std::move(given), runs[i].result.end, neverEnds(signals)};
+    }
   return std::nullopt;
 }
 

@@ -30,13 +30,13 @@ bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whol
   return prefix.size() <= whole.size() && std::equal(prefix.begin(), prefix.end(), whole.begin());
 }
 
-/// Of an interface input, which the world may hold as it is.
-bool isSignal(const smt::Term &variable) {
+/// The interface input, which the world may hold as it is, of which the variable is a read.
+std::optional<std::uint32_t> signalRead(const smt::Term &variable) {
   constexpr std::string_view kRead = "read of #";
   if (variable.kind != TermKind::Variable || !variable.name.starts_with(kRead))
-    return false;
+    return std::nullopt;
   const int number = std::atoi(variable.name.c_str() + kRead.size());
-  return number >= 1000 && number <= 1035;
+  return number >= 1000 && number <= 1035 ? std::optional(static_cast<std::uint32_t>(number)) : std::nullopt;
 }
 
 class RecurrenceSearch {
@@ -98,9 +98,11 @@ private:
       }
     }
     for (const std::vector<TermId> *path : paths_)
-      for (const TermId condition : *path)
-        for (const TermId variable : smt::variablesOf(store_, condition))
-          if (isSignal(store_[variable])) {
+      for (std::size_t i = 0; i < path->size(); ++i)
+        for (const TermId variable : smt::variablesOf(store_, (*path)[i]))
+          if (const auto signal = signalRead(store_[variable])) {
+            if (i >= loop_.arrival.size())
+              result_.signals.insert(*signal);
             fixed_.emplace(variable, store_.number(Number(0)));
             inputs_.emplace(store_[variable].name, Number(0));
           }

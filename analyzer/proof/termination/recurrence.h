@@ -12,6 +12,7 @@
 #include "proof/smt/model.h"
 
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace feedhold::prove {
@@ -20,6 +21,7 @@ struct Recurrence {
   std::vector<smt::TermId> facts; // of the set, over the variables of the loop
   std::size_t stem = 0;           // iterations before the state is in the set
   std::vector<Outcome> evidence;
+  std::set<std::uint32_t> signals; // that iterations read, and that are taken to stay 0
 };
 
 /// `inputs`: of every variable of programs whose first value is used.  Signals that the program reads are taken to stay
