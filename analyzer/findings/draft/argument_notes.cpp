@@ -66,12 +66,14 @@ std::string unitIn(const std::vector<std::string> &words) {
 /// Absent: the text is no description but a formula or a condition.
 std::optional<ArgumentNote> noteIn(std::string_view text) {
   text = trimmed(text);
-  const std::string_view clause = text.substr(0, text.find_first_of(",;.(["));
+  const std::string_view clause = text.substr(0, text.find_first_of(",;(["));
   if (text.empty() || !isLetter(text.front()) || clause.find_first_of("#<>=*+") != std::string_view::npos)
     return std::nullopt;
   ArgumentNote note{.name = {}, .unit = unitIn(wordsOf(text))};
   std::size_t count = 0;
   for (const std::string &word : wordsOf(clause)) {
+    if (word == "IF" || word == "WHEN") // a condition follows
+      break;
     const bool isName = isLetter(word.front()) && !isOneOf(kFillers, word) && !isOneOf(kReserved, word) &&
                         word.find('/') == std::string::npos;
     if (!isName || (word.size() < 2 && note.name.empty()))
@@ -188,8 +190,7 @@ PassedArgument passedIn(const Project &project, ProgramId program, std::uint32_t
       passed.isComputedSomewhere = true;
   }
   std::ranges::sort(passed.values);
-  const auto same = std::ranges::unique(passed.values);
-  passed.values.erase(same.begin(), same.end());
+  passed.values.erase(std::unique(passed.values.begin(), passed.values.end()), passed.values.end());
   return passed;
 }
 

@@ -46,6 +46,8 @@ public:
       promises = promisesOf(facts);
       proof = proveWith(promises, prove::InferGuards::Yes);
     }
+    if (trySuggested(promises, scoreOf(proof)))
+      proof = proveWith(promises, prove::InferGuards::Yes);
     addGuesses(proof);
     keepPromises(promises, draft_.guesses == 0 ? proof : proveWith(promises, prove::InferGuards::No));
     draft_.after = scoreBesidePromises(trial_.prove(linesOf(draft_.clauses)));
@@ -115,6 +117,21 @@ private:
         draft_.clauses.push_back(*best);
         ++draft_.promises;
       }
+  }
+
+  /// A mode that is only suggested becomes a clause where more is proved with it.
+  bool trySuggested(const std::vector<DraftClauses> &promises, const Score &score) {
+    bool isBetter = false;
+    for (DraftClause &clause : draft_.clauses) {
+      if (clause.ground != Ground::Hint)
+        continue;
+      clause.ground = Ground::Guess;
+      const bool helps = trial_.areSound(linesOf(draft_.clauses)) &&
+                         scoreOf(proveWith(promises, prove::InferGuards::No)).holds > score.holds;
+      clause.ground = helps ? Ground::Guess : Ground::Hint;
+      isBetter = isBetter || helps;
+    }
+    return isBetter;
   }
 
   // ---- conditions that the prover asks for ----

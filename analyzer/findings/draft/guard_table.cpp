@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 namespace feedhold::draft {
 
@@ -278,12 +277,11 @@ void simplify(std::vector<Guard> &guards) {
   }
   std::vector<Guard> kept;
   for (std::size_t i = 0; i < guards.size(); ++i) {
-    const auto asksAsMuch = [&](std::size_t other) {
-      return other != i && asksNoMore(guards[i].needs, guards[other].needs) &&
-             (other < i || !asksNoMore(guards[other].needs, guards[i].needs));
-    };
-    const auto all = std::views::iota(std::size_t{0}, guards.size());
-    if (std::ranges::none_of(all, asksAsMuch))
+    bool isNew = true;
+    for (std::size_t other = 0; other < guards.size(); ++other)
+      if (other != i && asksNoMore(guards[i].needs, guards[other].needs))
+        isNew = isNew && other > i && asksNoMore(guards[other].needs, guards[i].needs);
+    if (isNew)
       kept.push_back(guards[i]);
   }
   guards = std::move(kept);

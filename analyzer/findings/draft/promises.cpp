@@ -31,7 +31,8 @@ public:
       positions();
       computed();
     }
-    assigns();
+    if (program_.returns || facts_.programs.callGraph().isCalled({facts_.file.file, facts_.program}))
+      assigns(); // of what the operator starts nobody asks it
     return std::move(groups_);
   }
 
