@@ -73,6 +73,11 @@ class Draft(Scratch):
         self.draft("O9105.nc")
         self.assertIn("@GUARDED", self.clauses("O9105.contract"))
 
+    def test_order_with_a_vacant_variable(self):
+        self.write("O9106.nc", "O9106\nIF[#7LT#0]GOTO9\nG90G01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n")
+        self.draft("O9106.nc")
+        self.assertIn("@PARAM #7 0.. OPTIONAL", self.clauses("O9106.contract"))
+
     def test_polling_is_no_guard(self):
         self.write("O9102.nc", POLLING)
         self.draft("O9102.nc")

@@ -182,6 +182,11 @@ std::optional<Comparison> EntryValues::comparisonOf(const BinaryOperation &opera
   Comparison comparison{*leftText, isTurned ? row->turned : operation.op, *rightText};
   comparison.constant = literalValue(tree, right);
   comparison.isVacancy = variableNumber(tree, right) == kVacantVariable;
+  const bool tellsVacancy = row->relation == OperatorKind::Equal || row->relation == OperatorKind::NotEqual;
+  if (comparison.isVacancy && !tellsVacancy) { // a vacant variable counts as 0
+    comparison.isVacancy = false;
+    comparison.constant = Decimal();
+  }
   if (comparison.constant)
     comparison.right = comparison.constant->toString();
   if (variableNumber(tree, left))
