@@ -150,6 +150,9 @@ struct Exploration {
   std::set<Place> inexact;               // results that were taken as exact, and may be too large for that
   std::optional<std::string> incomplete; // why paths are missing; then nothing is proved
   bool isTooLarge = false;               // there were too many paths; merged, they may be few enough
+  /// Merged paths have forgotten conditions (PathMerging::Forget): they stand for all runs, and for others that are
+  /// none.
+  bool forgets = false;
   std::size_t paths = 0;
   std::size_t steps = 0;
   std::uint64_t work = 0; // of all questions on paths
@@ -161,7 +164,11 @@ struct Exploration {
 };
 
 /// Whether paths that meet continue as one (merging.h): fewer paths, and less precise ones.
-enum class PathMerging : std::uint8_t { No, Yes };
+enum class PathMerging : std::uint8_t {
+  No,
+  Yes,
+  Forget, // what they do not have in common is forgotten where it grows: one path for each place
+};
 
 /// Whether movements are kept, and how deep the tool has cut where it stands.
 enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };

@@ -22,6 +22,7 @@ constexpr std::string_view kTooLarge = "gave up: following the paths of the prog
 /// Of a question where results are rounded: many are not decided, and more does not decide them.
 constexpr Budget kLittle{.search = 10'000, .z3 = 0, .cvc5 = 0};
 constexpr std::uint32_t kLongestPath = 20'000; // instructions
+constexpr std::uint64_t kStepsOfForgetting = 400'000'000;
 constexpr std::string_view kValueTooLarge = "a value whose formula is too large, and which is taken as any number";
 
 /// Of going one instruction further, and of the copy of a state.
@@ -142,7 +143,9 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     path.state.variables.set(kBesidePath, interpretation_.number(0));
     takeMoves(path);
   }
-  const bool isWithin = smt::within(options_.mostWork * kStepsOfWork, [&] {
+  // One path for each place: what that takes grows with the program alone.
+  const std::uint64_t share = merging_ == PathMerging::Forget ? kStepsOfForgetting : options_.mostWork * kStepsOfWork;
+  const bool isWithin = smt::within(share, [&] {
                           bool possible = true;
                           for (const TermId assumption : options_.assumptions)
                             possible = possible && path.assume(store_, assumption);
@@ -163,6 +166,7 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   for (LoopInstance &loop : result_.loops)
     loop.findDeciding(store_);
   result_.facts = interpretation_.facts();
+  result_.forgets = merging_ == PathMerging::Forget;
   result_.work = entails_.work();
   interpretation_.usePath(nullptr);
   return std::move(result_);
@@ -259,7 +263,8 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
 }
 
 bool Explorer::isTooMuch(std::size_t waiting) {
-  return ++result_.steps > options_.mostSteps || waiting > options_.mostPaths || entails_.work() >= options_.mostWork ||
+  const bool isAllAsked = merging_ != PathMerging::Forget && entails_.work() >= options_.mostWork;
+  return ++result_.steps > options_.mostSteps || waiting > options_.mostPaths || isAllAsked ||
          store_.size() - termsBefore_ > options_.mostTerms;
 }
 
@@ -282,6 +287,8 @@ std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) 
     const auto same = std::find_if(left.begin(), left.end(), [&](const Path &other) { return canMerge(other, path); });
     if (same == left.end())
       left.push_back(std::move(path));
+    else if (merging_ == PathMerging::Forget)
+      mergeAndForget(interpretation_, *same, std::move(path));
     else
       mergeInto(interpretation_, *same, std::move(path));
   }
@@ -549,7 +556,10 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
   Exploration found = Explorer(interpretation, programs, first, PathMerging::No).run(entry, start);
   if (!found.isTooLarge)
     return found;
-  return Explorer(interpretation, programs, options, PathMerging::Yes).run(entry, start);
+  Exploration merged = Explorer(interpretation, programs, options, PathMerging::Yes).run(entry, start);
+  if (!merged.isTooLarge)
+    return merged;
+  return Explorer(interpretation, programs, options, PathMerging::Forget).run(entry, start);
 }
 
 } // namespace

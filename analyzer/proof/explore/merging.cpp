@@ -18,6 +18,28 @@ std::vector<TermId> without(const std::vector<TermId> &first, const std::vector<
   return rest;
 }
 
+/// Of a value (smt::TermShape): a few choices between sums.
+constexpr std::uint32_t kLargestValue = 60;
+
+void forgetLarge(SymbolicInterpretation &interpretation, SymbolicState &state) {
+  const smt::TermStore &store = interpretation.store();
+  const auto isLarge = [&](TermId term) { return store.shape(term).size > kLargestValue; };
+  forEachPart(Overloaded{[&](PartId, SymbolicValue &value) {
+                           if (isLarge(value.vacant) || isLarge(value.number))
+                             value =
+                                 value.vacant == store.no() ? interpretation.anyNumber() : interpretation.anything();
+                         },
+                         [&](PartId, SymbolicCode &code) {
+                           if (isLarge(code.index))
+                             code = interpretation.unknownCode();
+                         },
+                         [&](PartId, Condition &truth) {
+                           if (isLarge(truth.term))
+                             truth = interpretation.unknownTruth();
+                         }},
+              state);
+}
+
 /// True on the second path and false on the first.
 TermId selectorOf(SymbolicInterpretation &interpretation, const std::vector<TermId> &onlyFirst,
                   const std::vector<TermId> &onlySecond) {
@@ -52,6 +74,14 @@ void mergeInto(SymbolicInterpretation &interpretation, Path &path, Path other) {
   interpretation.join(path.state, {second}, other.state);
   path.moved = store.ite(second, other.moved, path.moved);
   path.steps = std::max(path.steps, other.steps);
+}
+
+void mergeAndForget(SymbolicInterpretation &interpretation, Path &path, Path other) {
+  const std::vector<TermId> onlyFirst = without(path.conditions, other.conditions);
+  std::vector<TermId> common = without(path.conditions, onlyFirst);
+  mergeInto(interpretation, path, std::move(other));
+  path.conditions = std::move(common);
+  forgetLarge(interpretation, path.state);
 }
 
 // ---- Worklist ----

@@ -16,6 +16,9 @@ namespace feedhold::prove {
 bool canMerge(const Path &a, const Path &b);
 /// Of paths that can be merged.
 void mergeInto(SymbolicInterpretation &interpretation, Path &path, Path other);
+/// The same, without the conditions that one of them lacks and with new variables for values that have become large:
+/// the merged path stands for more runs.
+void mergeAndForget(SymbolicInterpretation &interpretation, Path &path, Path other);
 
 /// The paths that are still to be followed, those that others may meet later first.
 class Worklist {

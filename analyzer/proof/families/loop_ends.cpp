@@ -108,12 +108,15 @@ std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopI
 }
 
 Termination foundEnd(const ProofContext &context, const LoopInstance &loop) {
+  // That an iteration is always followed by another one cannot be seen where conditions have been forgotten.
+  const bool mayRecur = !context.found.forgets;
   Termination end;
-  end.endless = endless(context, loop);
+  if (mayRecur)
+    end.endless = endless(context, loop);
   if (end.endless)
     return end;
   end = provesEnd(context.start.interpretation(), context.start.store(), loop);
-  if (!end.proved)
+  if (!end.proved && mayRecur)
     end.endless = endlessFromStart(context, loop);
   return end;
 }

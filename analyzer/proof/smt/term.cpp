@@ -87,7 +87,7 @@ TermId TermStore::intern(Term term) {
 
 TermShape TermStore::shapeOf(const Term &term) const {
   constexpr std::uint32_t kMost = 1'000'000;
-  TermShape shape{term.kind == TermKind::Add ? 0U : 1U, 0, 0, static_cast<std::uint32_t>(term.number.words())};
+  TermShape shape{term.kind == TermKind::Add ? 0U : 1U, 0, 0, static_cast<std::uint32_t>(term.number.words()), 1};
   const auto capped = [](std::uint64_t size) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, kMost));
   };
@@ -95,6 +95,7 @@ TermShape TermStore::shapeOf(const Term &term) const {
     const TermShape &inner = shapes_[argument.index()];
     shape.depth = std::max(shape.depth, inner.depth);
     shape.words = std::max(shape.words, inner.words);
+    shape.size = capped(std::uint64_t{shape.size} + inner.size);
     if (term.kind == TermKind::Add) {
       shape.monomials = capped(std::uint64_t{shape.monomials} + inner.monomials);
       shape.degree = std::max(shape.degree, inner.degree);

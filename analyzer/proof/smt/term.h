@@ -77,6 +77,7 @@ struct TermShape {
   std::uint32_t degree;
   std::uint32_t depth; ///< of quotients, functions and choices within one another
   std::uint32_t words; ///< of the largest number in it
+  std::uint32_t size;  ///< terms in it, those that occur twice counted twice; a million stands for more
 };
 
 /// constant + the sum of factor * term; the terms are no sums, differ, and ascend; no factor is 0.

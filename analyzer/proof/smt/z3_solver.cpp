@@ -86,6 +86,10 @@ std::string solve(const std::string &smtlib, Arithmetic arithmetic, std::uint64_
   }
 }
 
+/// Bytes of a question that is put in this process.  The simplex of Z3 does not count what its numbers cost: with many
+/// rows it may go on for minutes within its budget.
+constexpr std::size_t kLargestHere = 8'000;
+
 NoAnswer noAnswer(const std::string &reason) { return {"Z3 gave no answer: " + reason}; }
 
 Answer readAnswer(const std::string &text) {
@@ -117,7 +121,7 @@ Answer readAnswer(const std::string &text) {
 } // namespace
 
 Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t resources) {
-  if (arithmetic == Arithmetic::Linear) {
+  if (arithmetic == Arithmetic::Linear && smtlib.size() < kLargestHere) {
     std::shared_lock shared(gate());
     return readAnswer(solve(smtlib, arithmetic, resources));
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostArguments = 64;
 // Behind these, no certificate can speak of the value (check/problem.cpp), and each further operation makes it larger.
-constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64}; // 4096 bits
+constexpr smt::TermShape kLargest{.monomials = 2'000, .degree = 16, .depth = 64, .words = 64, .size = 0}; // 4096 bits
 
 std::optional<Function> functionOf(FunctionKind kind) {
   if (kind == FunctionKind::Sin)

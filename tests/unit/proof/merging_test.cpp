@@ -52,6 +52,57 @@ TEST_F(MergingTest, PathsThatShareNoConditionMayBothBeMeant) {
   EXPECT_FALSE(follows(merged, holds(merged, 2)));
 }
 
+TEST_F(MergingTest, ForgettingKeepsWhatBothPathsHold) {
+  const TermId both = store.variable("both", smt::Sort::Bool);
+  const TermId first = store.variable("a", smt::Sort::Bool);
+  Path merged = path(both, 1);
+  merged.conditions.push_back(first);
+  Path other = path(both, 2);
+  other.conditions.push_back(store.logicalNot(first));
+  mergeAndForget(program.start.interpretation(), merged, std::move(other));
+  EXPECT_EQ(merged.conditions, std::vector{both});
+  EXPECT_TRUE(follows(merged, store.logicalOr(holds(merged, 1), holds(merged, 2))));
+  EXPECT_FALSE(follows(merged, holds(merged, 1)));
+}
+
+TEST_F(MergingTest, ForgettingMakesLargeValuesUnknown) {
+  SymbolicValue large = program.start.interpretation().number(0);
+  for (int i = 0; i < 40; ++i)
+    large.number =
+        store.ite(store.variable("c" + std::to_string(i), smt::Sort::Bool), store.number(smt::Number(i)), large.number);
+  Path merged = path(store.yes(), 1);
+  merged.state.variables.set(500, large);
+  Path other = merged;
+  mergeAndForget(program.start.interpretation(), merged, std::move(other));
+  EXPECT_NE(merged.state.variables.find(500)->number, large.number);
+  EXPECT_EQ(merged.state.variables.find(500)->vacant, store.no());
+  EXPECT_FALSE(
+      follows(merged, store.lessOrEqual(merged.state.variables.find(500)->number, store.number(smt::Number(40)))));
+}
+
+/// Each way round goes past an exit.  What leads there is forgotten where the ways meet.
+constexpr std::string_view kLongLoop = "O1\n"
+                                       "#1=0\n"
+                                       "N1IF[#2GT0]GOTO2\n"
+                                       "IF[#1GT100000]GOTO9\n"
+                                       "GOTO3\n"
+                                       "N2IF[#1GT100001]GOTO9\n"
+                                       "N3#1=#1+1\n"
+                                       "GOTO1\n"
+                                       "N9M30\n";
+
+TEST(Forgetting, FollowsEveryProgramToItsEnd) {
+  const Explored program(kLongLoop, {.mostWork = 1});
+  EXPECT_FALSE(program.found.incomplete);
+  EXPECT_TRUE(program.found.forgets);
+}
+
+TEST(Forgetting, IsNoReasonForALoopWithoutEnd) {
+  Explored program(kLongLoop, {.mostWork = 1});
+  ASSERT_EQ(program.found.loops.size(), 1U);
+  EXPECT_FALSE(loopRow(program.context(), program.found.loops.front().head).verdict == Verdict::Refuted);
+}
+
 TEST_F(MergingTest, OnlyPathsAtOnePlaceInOneCallAreMerged) {
   const Path here = path(store.yes(), 1);
   Path elsewhere = here;
