@@ -232,6 +232,11 @@ class Prove(Scratch):
         self.assertIn("refuted", called)
         self.assertFalse([row for row in self.obligations("O5.nc") if row["line"] == 2])
 
+    def test_missing_program_that_may_not_be_called_at_all(self):
+        self.write("O5.nc", MISSING.replace("X10.", "L#1"))
+        divides = self.one("O5.no-control-alarm.L3", "--missing", "stop", "O5.nc")
+        self.assertIn(divides["verdict"], {"unknown", "refuted"})
+
     def test_witness_behind_a_missing_program(self):
         self.write("O5.nc", MISSING)
         witness = self.one("O5.no-control-alarm.L3", "O5.nc")["witness"]

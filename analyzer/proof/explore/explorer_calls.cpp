@@ -190,7 +190,9 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
     const std::string name = nameOfCallee(path, modal);
     if (request.possible.empty() && options_.missing == MissingPrograms::Return)
       return missingCall(std::move(path), request, modal, name.empty() ? "the called program" : name);
-    const bool isCertain = request.possible.empty() && options_.missing == MissingPrograms::Stop;
+    const auto times = repeatsOf(interpretation_, request);
+    const bool isCertain = request.possible.empty() && options_.missing == MissingPrograms::Stop && times &&
+                           !callsNothing(*times); // with L0 nothing is looked for
     stopsWhen(path, isCertain ? interpretation_.truth(true) : interpretation_.unknownTruth(),
               AlarmKind::ProgramNotFound);
     if (isCertain)
