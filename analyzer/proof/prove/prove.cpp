@@ -68,6 +68,7 @@ public:
   void hold(const GivenVariables &given, ProgramProof &proof) {
     const WitnessSearch::Sample run{given, witnesses_->runOf(given)};
     refute(contextOf(*stage_), stage_->settled.denials, run, proof.obligations);
+    nameReturning(proof.obligations);
     std::ranges::move(judgeRun(contextOf(*stage_), stage_->settled.denials, run, proof.obligations),
                       std::back_inserter(proof.contradictions));
   }
