@@ -1,4 +1,5 @@
 // call-in-wrong-mode: `G91` and then `G65P9100`, whose contract takes G90 for granted.
+#include "language/dialect/code_name.h"
 #include "rules/contract/contract_view.h"
 #include "rules/motion/motion_view.h"
 
@@ -105,10 +106,7 @@ private:
   std::string nameOf(ProgramRef program) const {
     return toString(context_.callGraph.model(program.file).programs[program.program].name);
   }
-  static std::string spelled(std::uint16_t tenths) {
-    return tenths % 10 == 0 ? fmt::format("`G{:02}`", tenths / 10)
-                            : fmt::format("`G{:02}.{}`", tenths / 10, tenths % 10);
-  }
+  static std::string spelled(std::uint16_t tenths) { return fmt::format("`{}`", codeName('G', tenths)); }
   std::string namesOf(CodeMask codes, std::uint8_t group) const {
     std::string names;
     const auto &rows = view_.modes().group(group).codes;

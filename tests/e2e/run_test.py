@@ -76,8 +76,17 @@ class Run(Scratch):
             with self.subTest(given=given):
                 self.assertExit(self.run_program("wait.nc", "--input", given), 2)
 
+    def test_start(self):
+        self.write("arc.nc", "O8\n#1=#4002\n#2=#4120\n#3=#5041\nG3X10.Y0I5.J0F100\nM30\n")
+        self.assertEqual(self.report("arc.nc")["end"], "M30")
+        report = self.report("arc.nc", "--modal", "G19", "--modal", "T5", "--start", "X2", "--start", "Y1")
+        self.assertEqual((report["end"], report["variables"]), ("alarm", {"1": 19, "2": 5, "3": 2}))
+        self.assertEqual(self.report("arc.nc", "--modal", "G18 t5")["variables"]["2"], 5)
+
     def test_what_is_refused(self):
         for words in (["--arg", "G=1"], ["--arg", "A"], ["--arg", "A=x"], ["--var", "nothing=1"], ["--start", "Q1"],
+                      ["--modal", "G68"], ["--modal", "G43"], ["--modal", "G4"], ["--modal", "G999"], ["--modal", "M3"],
+                      ["--modal", "T"],
                       ["--start", "X"], ["--fuel", "-1"], ["--fuel", "many"], ["--format", "xml"]):
             with self.subTest(words=words):
                 self.assertExit(self.run_program("O1.nc", *words), 2)

@@ -102,6 +102,41 @@ private:
   bool failed_ = false;
 };
 
+void write(Writer &writer, const GivenStart &start) {
+  writer.number(start.codes.size());
+  for (const auto &[group, code] : start.codes) {
+    writer.number(group);
+    writer.number(code);
+  }
+  writer.number(start.words.size());
+  for (const auto &[letter, number] : start.words) {
+    writer.number(indexOfModalWord(letter));
+    writer.real(number);
+  }
+  writer.number(start.place.size());
+  for (const auto &[axis, coordinate] : start.place) {
+    writer.number(indexOf(axis));
+    writer.real(coordinate);
+  }
+}
+
+GivenStart readStart(Reader &reader) {
+  GivenStart start;
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const auto group = static_cast<std::uint8_t>(reader.numberUpTo(kModalGroups - 1));
+    start.codes.emplace_back(group, static_cast<std::uint8_t>(reader.numberUpTo(63)));
+  }
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const char letter = kModalWords[reader.numberUpTo(kModalWords.size() - 1)];
+    start.words.emplace_back(letter, reader.real());
+  }
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const Axis axis = kAllAxes[reader.numberUpTo(kAxisCount - 1)];
+    start.place.emplace_back(axis, reader.real());
+  }
+  return start;
+}
+
 void write(Writer &writer, const prove::Witness &witness) {
   writer.number(witness.variables.entries().size());
   for (const auto &[variable, value] : witness.variables.entries()) {
@@ -116,6 +151,7 @@ void write(Writer &writer, const prove::Witness &witness) {
     for (const double reading : script)
       writer.real(reading);
   }
+  write(writer, witness.variables.start);
   writer.number(static_cast<std::uint64_t>(witness.end));
   writer.text(witness.happened);
   writer.optional(witness.gouge, [&](const prove::GougeAt &gouge) {
@@ -143,6 +179,7 @@ prove::Witness readWitness(Reader &reader) {
       script.push_back(reader.real());
     witness.variables.readings.set(variable, std::move(script));
   }
+  witness.variables.start = readStart(reader);
   witness.end = reader.upTo(RunEnd::Unmodelled);
   witness.happened = reader.text();
   if (reader.isPresent()) {

@@ -240,4 +240,13 @@ MachineState<ConcreteInterpretation> startState(const ConcreteInterpretation &in
   return state;
 }
 
+void putInForce(const GivenStart &start, MachineState<ConcreteInterpretation> &state) {
+  for (const auto &[group, code] : start.codes)
+    state.codes[group] = code;
+  for (const auto &[letter, number] : start.words)
+    state.word(letter) = ConcreteValue::of(number);
+  for (const auto &[axis, coordinate] : start.place)
+    state.at(axis) = ConcreteValue::of(coordinate);
+}
+
 } // namespace feedhold

@@ -24,9 +24,19 @@ struct ConcreteValue {
 /// What the reads of an input give, in order; the last number stays.  None is empty.
 using InputReadings = VariableMap<std::vector<double>>;
 
+/// What a run finds in force in place of what power-on or a contract says; nothing else is listed.
+struct GivenStart {
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group, and index in it; sorted
+  std::vector<std::pair<char, double>> words = {};               // of kModalWords, in their order
+  std::vector<std::pair<Axis, double>> place = {};               // in their order
+  bool isEmpty() const { return codes.empty() && words.empty() && place.empty(); }
+  friend auto operator<=>(const GivenStart &, const GivenStart &) = default;
+};
+
 /// What a run starts from and what it reads from outside: by number; others are vacant, or 0 for cells of the control.
 struct GivenVariables : VariableMap<ConcreteValue> {
   InputReadings readings = {};
+  GivenStart start = {};
   friend bool operator==(const GivenVariables &, const GivenVariables &) = default;
 };
 
@@ -109,6 +119,7 @@ public:
   bool negation(bool a) const { return !a; }
   bool mayBe(bool a) const { return a; }
   bool unknownTruth() const { return true; }
+  bool answer(ControlQuestion) const { return true; }
 
   // ---- modal codes ----
   ModalCode code(std::uint8_t index) const { return index; }
@@ -174,5 +185,6 @@ private:
 /// The state in which a run starts: power-on codes, all variables as given, the tool at `start`.
 MachineState<ConcreteInterpretation> startState(const ConcreteInterpretation &interpretation, const ModalTable &modes,
                                                 const std::array<double, kAxisCount> &start);
+void putInForce(const GivenStart &start, MachineState<ConcreteInterpretation> &state);
 
 } // namespace feedhold

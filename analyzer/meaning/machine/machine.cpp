@@ -22,6 +22,7 @@ public:
                                                                                                          entry.entry} {
     for (const auto &[group, code] : options.codes)
       state_.codes[group] = code;
+    putInForce(options.variables.start, state_);
     frames_.push_back({.callee = entry, .call = at_});
     for (const std::string_view name : {"_value", "_value_returned"}) // before any call has returned one
       if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))

@@ -72,6 +72,11 @@ concept HasArithmetic = requires(R interpretation, const typename R::Value value
   { interpretation.bitwise(OperatorKind::And, value, value) } -> std::same_as<typename R::Value>;
 };
 
+/// What a control does where no manual says so: always the same.
+enum class ControlQuestion : std::uint8_t {
+  DropsNegatedVacantWord, // whether `X-#1` counts as not written while #1 is vacant, as `X#1` does
+};
+
 template <typename R>
 concept HasTruths = requires(R interpretation, const typename R::Value value, const typename R::Truth truth) {
   { interpretation.truth(true) } -> std::same_as<typename R::Truth>;
@@ -81,6 +86,7 @@ concept HasTruths = requires(R interpretation, const typename R::Value value, co
   { interpretation.mayBe(truth) } -> std::same_as<bool>;
   /// Either of the two, undetermined.
   { interpretation.unknownTruth() } -> std::same_as<typename R::Truth>;
+  { interpretation.answer(ControlQuestion{}) } -> std::same_as<typename R::Truth>;
 };
 
 /// Modal codes of one group.

@@ -40,6 +40,11 @@ template <typename R> struct ExecutedWords {
     entries.clear();
     slots.fill(kNone);
   }
+  /// Whether the word of the letter is written, and not left out for want of a value.
+  typename R::Truth present(R &interpretation, char letter) const {
+    const Entry *entry = find(letter);
+    return entry ? entry->present : interpretation.truth(false);
+  }
   const Entry *find(char letter) const {
     const std::uint8_t slot = slots[static_cast<std::size_t>(letter - 'A')];
     return slot == kNone ? nullptr : &entries[slot];
@@ -86,7 +91,8 @@ typename R::Truth isWordPresent(StepContext<R> &context, ExpressionId expression
   if (const auto *negated = std::get_if<Negation>(&context.tree().expressions[expression].node)) {
     const auto operandVacant = interpretation.isVacant(evaluate(context, negated->operand));
     if (interpretation.mayBe(operandVacant))
-      return interpretation.negation(interpretation.both(operandVacant, interpretation.unknownTruth()));
+      return interpretation.negation(
+          interpretation.both(operandVacant, interpretation.answer(ControlQuestion::DropsNegatedVacantWord)));
   }
   return interpretation.negation(interpretation.isVacant(value));
 }

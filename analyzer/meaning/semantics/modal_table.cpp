@@ -45,6 +45,23 @@ constexpr std::array kPowerOnTurning = {CodeAction::PlaneZX, CodeAction::FeedPer
 
 std::string_view nameOf(ModalKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
 
+bool isWholeMode(CodeAction action) {
+  constexpr std::array kWhole = {
+      CodeAction::Rapid,           CodeAction::Linear,
+      CodeAction::ArcClockwise,    CodeAction::ArcCounterclockwise,
+      CodeAction::PlaneXY,         CodeAction::PlaneZX,
+      CodeAction::PlaneYZ,         CodeAction::Absolute,
+      CodeAction::Incremental,     CodeAction::ArcAbsolute,
+      CodeAction::ArcIncremental,  CodeAction::Inch,
+      CodeAction::Metric,          CodeAction::FeedInverse,
+      CodeAction::FeedPerMinute,   CodeAction::FeedPerRevolution,
+      CodeAction::CompensationOff, CodeAction::CycleOff,
+      CodeAction::ReturnToInitial, CodeAction::ReturnToR,
+      CodeAction::WorkOffset,
+  };
+  return std::find(kWhole.begin(), kWhole.end(), action) != kWhole.end();
+}
+
 ModalTable::ModalTable(const Dialect &dialect) {
   for (const Code &code : dialect.gCodes) {
     if (code.group == 0 || code.group >= kModalGroups || groups_[code.group].codes.size() >= 64)
@@ -86,6 +103,13 @@ void ModalTable::findPowerOn(const Dialect &dialect) {
   if (dialect.machine == MachineKind::Turning)
     for (const CodeAction action : kPowerOnTurning)
       take(action, true);
+}
+
+bool ModalTable::isNeverWithout(std::size_t group) const {
+  constexpr std::array kAlwaysOne = {ModalKind::Plane, ModalKind::Distance,    ModalKind::FeedMode,
+                                     ModalKind::Units, ModalKind::ReturnLevel, ModalKind::WorkOffset};
+  return powerOn_[group] &&
+         std::any_of(kAlwaysOne.begin(), kAlwaysOne.end(), [&](ModalKind kind) { return groupOf(kind) == group; });
 }
 
 std::optional<std::uint8_t> ModalTable::indexOf(const Code &code) const {

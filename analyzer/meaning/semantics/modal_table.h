@@ -44,6 +44,9 @@ enum class ModalKind : std::uint8_t {
 inline constexpr std::size_t kModalKinds = 17;
 std::string_view nameOf(ModalKind kind);
 
+/// The code is all that there is to the mode: a run may start in it.  Others come with words, offsets or mappings.
+bool isWholeMode(CodeAction action);
+
 class ModalTable {
 public:
   explicit ModalTable(const Dialect &dialect);
@@ -62,6 +65,9 @@ public:
   std::optional<std::uint8_t> indexOf(const Code &code) const;
   /// What is in force at power-on, for a group of which nothing else is known; absent: no code.
   std::optional<std::uint8_t> powerOn(std::size_t group) const { return powerOn_[group]; }
+  /// One of the codes that are listed is active at all times: nothing ends all modes of the group, and machine builders
+  /// add none.
+  bool isNeverWithout(std::size_t group) const;
 
 private:
   void findMasks();

@@ -1,7 +1,7 @@
 // Motion: where the axis words of a block lead: lines, arcs, skip, machine coordinates, reference return, shifts.
 #pragma once
 
-#include "meaning/semantics/arc_radii.h"
+#include "meaning/semantics/arcs.h"
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
 #include "meaning/semantics/offsets.h"
@@ -163,6 +163,7 @@ private:
       any = context_.either(any, present(letterOf(axis)));
     return context_.dialect().machine == MachineKind::Turning ? context_.either(any, present('H')) : any;
   }
+  Truth present(char letter) const { return words_.present(interpretation_, letter); }
   /// An arc whose end point is not written ends where it starts.
   Truth isFullCircle() {
     const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
@@ -174,14 +175,6 @@ private:
     if (interpretation_.mayBe(interpretation_.both(arc, interpretation_.negation(inPlane))))
       interpretation_.unmodelled("a centre word outside the plane of the arc", context_.place());
     return interpretation_.both(arc, context_.either(inPlane, context_.maybeNot()));
-  }
-  /// A distance to the centre on the axis that is not of the plane: a control may refuse it, or pass over it.
-  Truth centreBeside(const Plane &plane) const {
-    Truth beside = interpretation_.truth(false);
-    for (const char letter : {'I', 'J', 'K'})
-      if (letter != plane.firstCentre && letter != plane.secondCentre)
-        beside = context_.either(beside, present(letter));
-    return beside;
   }
   Truth cycleActive() {
     const Truth none = interpretation_.truth(false);
@@ -206,7 +199,7 @@ private:
     if (context_.certain(arc) && isLineForWantOfCentre())
       return tell(context_, hasOtherWay() ? MoveKind::Unmodelled : MoveKind::Feed, start);
     if (interpretation_.mayBe(arc))
-      followArc(start, arc, interpretation_.both(arc, holds));
+      Arcs<R>(context_, words_, hasOtherWay()).follow(start, arc, interpretation_.both(arc, holds));
     if (!context_.certain(arc) && interpretation_.wantsMoves())
       tellLine(start);
     if (interpretation_.mayBe(turning))
@@ -246,241 +239,6 @@ private:
       if (word.has(Word::kComma) && (letters.empty() || letters.find(word.address()) != std::string_view::npos))
         return true;
     return false;
-  }
-
-  // ---- arcs ----
-
-  struct Arc {
-    Plane plane;
-    Value first, second; // centre
-    Truth byRadius;
-    Truth unknown; // only a distance beside the plane
-  };
-  void followArc(const Point &start, Truth arc, Truth follows) {
-    const std::optional<Plane> plane = planeOf(context_);
-    if (!plane || interpretation_.mayBe(otherGeometry(context_))) { // only the end point is known
-      alarmsOfUnknownPlane(follows);
-      if (context_.certain(arc))
-        tell(context_, MoveKind::Unmodelled, start);
-      return;
-    }
-    closeCircle(*plane, start);
-    const Truth byRadius = present('R');
-    const Truth byCentre = context_.either(present(plane->firstCentre), present(plane->secondCentre));
-    const Truth without = interpretation_.negation(context_.either(byRadius, byCentre));
-    const Truth beside = centreBeside(*plane);
-    interpretation_.alarm(interpretation_.both(interpretation_.both(follows, without),
-                                               context_.either(interpretation_.negation(beside), context_.maybeNot())),
-                          {AlarmKind::ArcWithoutCentre, context_.place()});
-    const auto [first, second] = centreOf(*plane, start);
-    const CircleMapping<R> mapping = circleMappingOf(context_, *plane);
-    alarmsOfRadius(*plane, start, mapping, interpretation_.both(follows, byRadius));
-    const Truth differs = radiiDiffer(*plane, start, first, second);
-    const Truth isCircle = interpretation_.both(interpretation_.both(mapping.staysCircle, byCentre),
-                                                interpretation_.truth(turnsOf().has_value()));
-    const Truth mayDiffer =
-        context_.either(interpretation_.both(isCircle, differs),
-                        interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
-    interpretation_.alarm(
-        interpretation_.both(interpretation_.both(follows, interpretation_.negation(byRadius)), mayDiffer),
-        {AlarmKind::ArcRadius, context_.place()});
-    if (interpretation_.wantsMoves() && context_.certain(arc))
-      tellArc(start, {*plane, first, second, byRadius, interpretation_.both(without, beside)}, mapping);
-  }
-  /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
-  /// parameter of most, and one that is accepted makes half a circle.
-  void alarmsOfRadius(const Plane &plane, const Point &start, const CircleMapping<R> &mapping, Truth follows) {
-    const auto *entry = words_.find('R');
-    if (!entry || !interpretation_.mayBe(follows))
-      return;
-    const Value radius =
-        interpretation_.function(FunctionKind::Abs, interpretation_.multiply(entry->value, mapping.scale));
-    const auto [a, b] = chordOf(plane, start);
-    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
-    const Value halfSquare = interpretation_.divide(chordSquare, interpretation_.number(4));
-    const auto isTooShort = [&](const Value &length) {
-      return interpretation_.compare(Relation::Greater, halfSquare, interpretation_.multiply(length, length));
-    };
-    const Switches &switches = context_.dialect().switches;
-    const Truth isShort =
-        interpretation_.both(isTooShort(radius), context_.either(isTooShort(interpretation_.add(radius, tolerance())),
-                                                                 context_.isOn(switches.shortArcStops)));
-    const Truth isPoint = interpretation_.both(interpretation_.compare(Relation::Equal, chordSquare, context_.zero()),
-                                               context_.isOn(switches.pointArcStops));
-    const Truth asMapped = context_.either(mapping.staysCircle, context_.maybeNot());
-    interpretation_.alarm(interpretation_.both(follows, interpretation_.both(asMapped, isShort)),
-                          {AlarmKind::ArcTooShort, context_.place()});
-    interpretation_.alarm(interpretation_.both(follows, isPoint), {AlarmKind::ArcWithoutLength, context_.place()});
-  }
-  /// From start to end, as radii are counted.
-  std::pair<Value, Value> chordOf(const Plane &plane, const Point &start) {
-    const auto along = [&](Axis axis) {
-      return asRadius(axis, interpretation_.subtract(state_.at(axis), start[indexOf(axis)]));
-    };
-    return {along(plane.first), along(plane.second)};
-  }
-  /// Through the mappings and back a coordinate comes out a rounding error away, and a full circle would be none.
-  void closeCircle(const Plane &plane, const Point &start) {
-    constexpr double kSame = 1e-9;
-    const auto isBack = [&](Axis axis) {
-      const auto before = interpretation_.constantOf(start[indexOf(axis)]);
-      const auto after = interpretation_.constantOf(state_.at(axis));
-      return before && after && std::abs(*before - *after) < kSame;
-    };
-    if (!interpretation_.mayBe(state_.transformed) || !isBack(plane.first) || !isBack(plane.second))
-      return;
-    state_.at(plane.first) = start[indexOf(plane.first)];
-    state_.at(plane.second) = start[indexOf(plane.second)];
-  }
-  void alarmsOfUnknownPlane(Truth arc) {
-    const Truth byCentre = interpretation_.both(arc, interpretation_.negation(present('R')));
-    const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
-    const Truth without = context_.either(interpretation_.negation(anyDistance), context_.maybeNot());
-    interpretation_.alarm(interpretation_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
-    const auto mayStop = [&](Truth when, AlarmKind kind) {
-      interpretation_.alarm(interpretation_.both(when, context_.maybeNot()), {kind, context_.place()});
-    };
-    mayStop(byCentre, AlarmKind::ArcRadius);
-    const Truth byRadius = interpretation_.both(arc, present('R'));
-    mayStop(byRadius, AlarmKind::ArcTooShort);
-    if (context_.dialect().switches.pointArcStops != Switch::Off)
-      mayStop(byRadius, AlarmKind::ArcWithoutLength);
-  }
-  Truth present(char letter) const {
-    const auto *entry = words_.find(letter);
-    return entry ? entry->present : interpretation_.truth(false);
-  }
-  /// I, J, K are distances from the start point, mapped like those of the axes; absolute only where the control has
-  /// that mode.
-  std::pair<Value, Value> centreOf(const Plane &plane, const Point &start) {
-    Point distance;
-    distance.fill(context_.zero());
-    distance[indexOf(plane.first)] = asCoordinate(plane.first, distanceWord(plane.firstCentre));
-    distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(plane.secondCentre));
-    const Point mapped = toWorkDistance(context_, distance);
-    const auto centreOn = [&](Axis axis, char letter) {
-      const Value fromStart = interpretation_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
-      if (!context_.behaviour().arcDistanceModes)
-        return fromStart;
-      const Truth absolute =
-          context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, interpretation_.truth(false));
-      return interpretation_.select(absolute, distanceWord(letter), fromStart);
-    };
-    return {centreOn(plane.first, plane.firstCentre), centreOn(plane.second, plane.secondCentre)};
-  }
-  Value distanceWord(char letter) {
-    const auto *entry = words_.find(letter);
-    return entry ? interpretation_.select(entry->present, entry->value, context_.zero()) : context_.zero();
-  }
-  /// On a lathe X is a diameter, I a radius.
-  Value asCoordinate(Axis axis, const Value &length) {
-    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
-               ? interpretation_.multiply(length, interpretation_.number(2))
-               : length;
-  }
-  Value asRadius(Axis axis, const Value &length) {
-    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
-               ? interpretation_.divide(length, interpretation_.number(2))
-               : length;
-  }
-  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
-    const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
-      return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
-              asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
-    };
-    return lengthsDiffer(interpretation_, spoke(start), spoke(state_.position), tolerance());
-  }
-  Value tolerance() {
-    const Value metric = interpretation_.number(context_.behaviour().arcTolerance);
-    return interpretation_.select(isMetric(context_), metric,
-                                  interpretation_.number(context_.behaviour().arcTolerance / 25.4));
-  }
-
-  void tellArc(const Point &start, const Arc &arc, const CircleMapping<R> &mapping) {
-    const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
-    const std::optional<std::uint32_t> turns = turnsOf();
-    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) || interpretation_.mayBe(arc.unknown) ||
-        hasOtherWay()) {
-      if (!context_.certain(mapping.staysCircle))
-        interpretation_.unmodelled("an arc whose axes are scaled by different factors", context_.place());
-      else if (!clockwise)
-        interpretation_.unmodelled("an arc in an unknown direction", context_.place());
-      else if (!turns)
-        interpretation_.unmodelled("an arc with words for a spiral or for full turns", context_.place());
-      return tell(context_, MoveKind::Unmodelled, start);
-    }
-    Move<Value> move;
-    move.kind = *clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
-    move.start = start;
-    move.end = state_.position;
-    move.plane = arc.plane;
-    const auto byRadius = centreFromRadius(arc.plane, start, *clockwise, mapping.scale);
-    move.firstCentre = interpretation_.select(arc.byRadius, byRadius.first, arc.first);
-    move.secondCentre = interpretation_.select(arc.byRadius, byRadius.second, arc.second);
-    move.turns = *turns;
-    move.feed = state_.word('F');
-    if (context_.certain(arc.byRadius) && sameInPlane(arc.plane, start))
-      move.kind = MoveKind::Feed; // no arc at all: 0 degrees
-    tell(context_, std::move(move));
-  }
-  /// Seen in work coordinates; absent when it can be either.
-  std::optional<bool> turnsClockwise(Truth turnsOver) {
-    const Truth none = interpretation_.truth(false);
-    const bool clockwise = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, none));
-    const bool counter = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcCounterclockwise}, none));
-    const bool over = context_.certain(turnsOver);
-    if (clockwise == counter || (!over && interpretation_.mayBe(turnsOver)))
-      return std::nullopt;
-    return clockwise != over;
-  }
-  /// P turns of controls that count them; absent: not known, or the block has words of a spiral or of a cone.
-  std::optional<std::uint32_t> turnsOf() {
-    if (!context_.behaviour().arcDistanceModes) {
-      const bool isOther = words_.find('L') || words_.find('Q') || words_.find('P');
-      return isOther ? std::nullopt : std::optional<std::uint32_t>(1);
-    }
-    const auto *entry = words_.find('P');
-    if (!entry)
-      return 1;
-    const std::optional<double> turns = interpretation_.constantOf(entry->value);
-    if (!turns || *turns >= 1e6 || !context_.certain(entry->present))
-      return std::nullopt;
-    return *turns >= 1 ? static_cast<std::uint32_t>(*turns) : 1;
-  }
-  bool sameInPlane(const Plane &plane, const Point &start) {
-    const auto same = [&](Axis axis) {
-      return context_.certain(interpretation_.compare(Relation::Equal, start[indexOf(axis)], state_.at(axis)));
-    };
-    return same(plane.first) && same(plane.second);
-  }
-  /// The centre lies on the perpendicular through the middle of the chord; the sign of R chooses the longer arc.
-  std::pair<Value, Value> centreFromRadius(const Plane &plane, const Point &start, bool clockwise, const Value &scale) {
-    const Value zero = context_.zero();
-    const auto *entry = words_.find('R');
-    if (!entry)
-      return {zero, zero};
-    const Value radius = interpretation_.multiply(entry->value, scale);
-    const Value two = interpretation_.number(2);
-    const auto [a, b] = chordOf(plane, start);
-    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
-    const Value heightSquare = interpretation_.subtract(interpretation_.multiply(radius, radius),
-                                                        interpretation_.divide(chordSquare, interpretation_.number(4)));
-    const Truth negative = interpretation_.compare(Relation::Less, heightSquare, zero);
-    const Value height =
-        interpretation_.function(FunctionKind::Sqrt, interpretation_.select(negative, zero, heightSquare));
-    const Truth noChord = interpretation_.compare(Relation::Equal, chordSquare, zero);
-    const Value chord = interpretation_.function(
-        FunctionKind::Sqrt, interpretation_.select(noChord, interpretation_.number(1), chordSquare));
-    const Truth longArc = interpretation_.compare(Relation::Less, entry->value, zero);
-    const Value side = interpretation_.select(longArc, interpretation_.number(clockwise ? 1 : -1),
-                                              interpretation_.number(clockwise ? -1 : 1));
-    const Value ratio = interpretation_.multiply(side, interpretation_.divide(height, chord));
-    const auto from = [&](Axis axis, const Value &length) {
-      return interpretation_.add(start[indexOf(axis)], asCoordinate(axis, length));
-    };
-    return {
-        from(plane.first, interpretation_.subtract(interpretation_.divide(a, two), interpretation_.multiply(ratio, b))),
-        from(plane.second, interpretation_.add(interpretation_.divide(b, two), interpretation_.multiply(ratio, a)))};
   }
 
   // ---- codes that are not modal ----

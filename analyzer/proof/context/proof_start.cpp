@@ -3,6 +3,7 @@
 #include "meaning/semantics/mappings.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
+#include "proof/replay/start_inputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -76,6 +77,8 @@ ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
   if (given)
     startExactly(interpretation_, *given);
   entry_ = symbolicEntry(interpretation_);
+  if (given)
+    setStart(interpretation_, entry_, given->start);
   keepPolar(subject.dialect());
   anyEntry_ = entry_;
   codes_ = entry_.codes;
@@ -133,6 +136,8 @@ std::map<Axis, TermId> ProofStart::place() const {
       place.emplace(axis, at);
   return place;
 }
+
+StartInputs ProofStart::openStart(const Dialect &dialect) const { return {store_, dialect, entry_, place()}; }
 
 Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
   const std::vector<TermId> &facts = interpretation_.facts();

@@ -3,6 +3,7 @@
 
 #include "proof/context/prove_options.h"
 #include "proof/decide/entails.h"
+#include "proof/replay/start_inputs.h"
 #include "proof/space/space_claims.h"
 #include "proof/symbolic/contract_terms.h"
 
@@ -64,6 +65,8 @@ public:
   /// Codes and place of the runs of the machine, as the contract says; no place of an axis that it leaves open.
   RunOptions runStart() const;
   std::map<Axis, smt::TermId> place() const;
+  /// What neither says.
+  StartInputs openStart(const Dialect &dialect) const;
 
   /// All conditions of a path, and what is known of the variables in them.
   Query onPath(const std::vector<smt::TermId> &conditions, smt::TermId goal);

@@ -83,7 +83,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
                      subject.constants());
   RunOptions options = start.runStart();
   options.missing = subject.options.missing;
-  runs.startFrom(std::move(options), start.place());
+  runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
   runs.sample();
   return runs;
 }

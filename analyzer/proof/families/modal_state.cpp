@@ -1,5 +1,6 @@
 #include "proof/families/modal_state.h"
 
+#include "language/dialect/code_name.h"
 #include "language/model/block_facts.h"
 #include "meaning/cfg/reached_programs.h"
 #include "meaning/semantics/parts.h"
@@ -166,8 +167,7 @@ std::optional<std::string> modeNotTold(const ExploredProgram &program) {
   const Code *code = modeSetBy(program.subject);
   if (!code)
     return std::nullopt;
-  return code->tenths % 10 == 0 ? fmt::format("the mode set by G{:02}", code->tenths / 10)
-                                : fmt::format("the mode set by G{:02}.{}", code->tenths / 10, code->tenths % 10);
+  return "the mode set by " + codeName('G', code->tenths);
 }
 
 TermId modalStateKept(const ExploredProgram &program, const ModalPreserved &clause, const SymbolicState &state) {

@@ -1,6 +1,7 @@
 // Searches conditions on the inputs under which an open or refuted claim is proved.
 #include "proof/guards/guard_inference.h"
 
+#include "language/dialect/code_name.h"
 #include "meaning/cfg/wto.h"
 #include "proof/families/families.h"
 #include "proof/guards/guard_candidates.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace feedhold::prove {
 
@@ -86,6 +88,18 @@ std::string clauseOf(const std::vector<GuardAtom> &atoms) {
   return "@REQUIRE " + text;
 }
 
+/// `@MODAL G17 G90`
+Guard modalGuard(const ModalTable &modes, const std::map<std::uint8_t, std::uint8_t> &codes) {
+  Guard guard;
+  guard.clause = "@MODAL";
+  for (const auto &[group, code] : codes) {
+    const std::string name = codeName('G', modes.group(group).codes[code]->tenths);
+    guard.conditions.push_back(name + " at the start");
+    guard.clause += " " + name;
+  }
+  return guard;
+}
+
 /// What became of a claim under one more assumption.
 struct Trial {
   bool holds = false;
@@ -113,6 +127,8 @@ private:
   std::optional<Atoms> atomsOfEnd(const Obligation &claim, const GuardSubject &subject);
   GuardSubject subjectOf(const Obligation &claim);
   Guard guardOf(const Obligation &claim, const Atoms &atoms) const;
+  std::optional<Guard> modalGuardFor(const Obligation &claim, const GuardSubject &subject);
+  TermId inModes(const std::map<std::uint8_t, std::uint8_t> &codes);
   std::optional<Atoms> atomsFor(const Obligation &claim, const GuardSubject &subject);
   void showSamples(GuardSearch &search, const Obligation &claim) const;
   void show(GuardSearch &search, SampleKind kind, const smt::Model &inputs) const;
@@ -145,6 +161,10 @@ void GuardInference::addTo(std::vector<Obligation> &rows) {
     if (claim.verdict.holds() || !mayBeGuarded(claim))
       continue;
     const GuardSubject subject = subjectOf(claim);
+    if (auto guard = modalGuardFor(claim, subject)) {
+      claim.verdict.setGuard(*std::move(guard));
+      continue;
+    }
     const auto atoms =
         claim.kind == ObligationKind::ProgramEnds ? atomsOfEnd(claim, subject) : atomsFor(claim, subject);
     if (claim.kind == ObligationKind::LoopEnds) {
@@ -157,6 +177,38 @@ void GuardInference::addTo(std::vector<Obligation> &rows) {
     if (atoms)
       claim.verdict.setGuard(guardOf(claim, *atoms));
   }
+}
+
+TermId GuardInference::inModes(const std::map<std::uint8_t, std::uint8_t> &codes) {
+  std::vector<TermId> holds;
+  for (const auto &[group, code] : codes)
+    holds.push_back(
+        store_.equal(start_.entry().codes[group].index, store_.number(smt::Number(static_cast<int>(code)))));
+  return store_.logicalAnd(holds);
+}
+
+/// The claim is broken from a start in other modes than those of power-on: whether it holds in those.
+std::optional<Guard> GuardInference::modalGuardFor(const Obligation &claim, const GuardSubject &subject) {
+  constexpr int kMostModes = 4;
+  const Witness *first = claim.verdict.witness();
+  std::optional<GivenStart> broken = first ? std::optional(first->variables.start) : std::nullopt;
+  const ModalTable modes(context_.subject.dialect());
+  std::map<std::uint8_t, std::uint8_t> wanted;
+  for (int step = 0; step < kMostModes && broken && !broken->codes.empty() && proofsLeft_ > 0; ++step) {
+    const std::size_t before = wanted.size();
+    for (const auto &[group, code] : broken->codes)
+      if (const auto usual = modes.powerOn(group))
+        wanted.emplace(group, *usual);
+    if (wanted.size() == before)
+      break;
+    --proofsLeft_;
+    const TermId condition = inModes(wanted);
+    const Trial trial = provedWith(claim, subject, condition);
+    if (trial.holds && isPossible(condition))
+      return modalGuard(modes, wanted);
+    broken = trial.witness ? std::optional(trial.witness->variables.start) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 /// The program ends where each loop does.

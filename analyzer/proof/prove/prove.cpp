@@ -41,8 +41,10 @@ public:
     witnesses_.emplace(sampledRuns(subject, start_, start_.demands()));
     if (subject.contract())
       sampleContract();
-    else
+    else {
+      witnesses_->sampleOtherModes();
       witnesses_->sampleDecimals({});
+    }
   }
 
   ProgramProof run() {
@@ -85,6 +87,7 @@ private:
       witnesses_->sampleAround(*model);
     const std::vector<InputEnds> ends = start_.terms().inputEnds(*subject_.contract(), start_.entry());
     witnesses_->sampleEnds(ends);
+    witnesses_->sampleOtherModes();
     witnesses_->sampleDecimals(ends);
   }
 

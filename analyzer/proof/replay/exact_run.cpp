@@ -2,6 +2,7 @@
 
 #include "base/support/mantissa32.h"
 #include "proof/explore/exploration.h"
+#include "proof/replay/start_inputs.h"
 
 #include <algorithm>
 
@@ -48,8 +49,9 @@ void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &
 InputsKey keyOf(const GivenVariables &given) {
   InputsKey key;
   for (const auto &[variable, value] : given.entries())
-    key.first.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
-  key.second = given.readings.entries();
+    key.inputs.emplace_back(variable, value.vacant ? std::nullopt : std::optional(value.number));
+  key.readings = given.readings.entries();
+  key.start = given.start;
   return key;
 }
 
@@ -80,7 +82,9 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
   interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
   ExploreOptions options = exactOptions();
   options.missing = missing_;
-  const Exploration found = explore(interpretation, programs_, entry_, symbolicEntry(interpretation), options);
+  SymbolicState entry = symbolicEntry(interpretation);
+  setStart(interpretation, entry, given.start);
+  const Exploration found = explore(interpretation, programs_, entry_, entry, options);
   Ends ends;
   ends.repeats = !found.repeats.empty();
   ends.isIncomplete = found.incomplete.has_value();

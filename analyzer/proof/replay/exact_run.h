@@ -24,9 +24,13 @@ smt::Number inputNumber(const SymbolicInterpretation &interpretation, double val
 /// The interpretation starts from these inputs.
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given);
 
-/// Each input by its number; no value: vacant.  Then the readings.
-using InputsKey = std::pair<std::vector<std::pair<std::uint32_t, std::optional<double>>>,
-                            std::vector<std::pair<std::uint32_t, std::vector<double>>>>;
+/// Each input by its number; no value: vacant.  Then the readings, and the start.
+struct InputsKey {
+  std::vector<std::pair<std::uint32_t, std::optional<double>>> inputs;
+  std::vector<std::pair<std::uint32_t, std::vector<double>>> readings;
+  GivenStart start;
+  friend auto operator<=>(const InputsKey &, const InputsKey &) = default;
+};
 InputsKey keyOf(const GivenVariables &given);
 
 /// The exact runs of one program, each followed once.

@@ -50,6 +50,11 @@ std::string howItEnded(const RunResult &run) {
   FEEDHOLD_UNREACHABLE("the switch names every end");
 }
 
+/// Of several outcomes, a run takes the usual one; the counterexample may take another.
+bool dependsOnControl(const smt::Model &model) {
+  return std::ranges::any_of(model, [](const auto &named) { return named.first.starts_with(kUnknownTruth); });
+}
+
 /// To a multiple of 1 / scale.
 double rounded(double value, double scale) { return std::round(value * scale) / scale + 0.0; } // no -0
 
@@ -71,6 +76,7 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   smt::Model model;
   const smt::TermStore &store = interpretation_.store();
   smt::spend(kStepsOfInput * interpretation_.entryValues().size());
+  open_.addTo(store, model, given.start);
   for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
@@ -117,7 +123,7 @@ bool WitnessSearch::allowed(const GivenVariables &given) const {
 
 WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt::Model> &inputs) const {
   WitnessSearch narrowed(interpretation_, programs_, entry_, demands_, constants_);
-  narrowed.startFrom(start_, place_);
+  narrowed.startFrom(start_, place_, open_);
   narrowed.others_ = others_;
   narrowed.exactRuns_ = exactRuns_;
   narrowed.replays_ = replays_;
@@ -167,6 +173,17 @@ void WitnessSearch::sample() {
     }
     keepSample(std::move(given));
   }
+}
+
+void WitnessSearch::sampleOtherModes() {
+  constexpr std::size_t kSamplesOfMode = 12;
+  const std::size_t known = std::min(samples_.size(), kSamplesOfMode);
+  for (const GivenStart &start : open_.otherModes())
+    for (std::size_t i = 0; i < known; ++i) {
+      GivenVariables given = samples_[i].given;
+      given.start = start;
+      keepSample(std::move(given));
+    }
 }
 
 void WitnessSearch::sampleAround(const smt::Model &allowed) {
@@ -378,6 +395,7 @@ GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
     else if (vacant != model.end())
       given.set(variable, ConcreteValue::of(0));
   }
+  given.start = open_.startOf(store, model);
   return given;
 }
 
@@ -437,7 +455,10 @@ std::string WitnessSearch::whyNotShown(const smt::Model &model) const {
     return std::string(kNot);
   const RunResult result = runOf(given);
   smt::spend(kStepsOfInstruction * result.steps);
-  return fmt::format("{}: {}", kNot, howItEnded(result));
+  return dependsOnControl(model)
+             ? fmt::format("{}, and may depend on a parameter of the control or on what no manual says: {}", kNot,
+                           howItEnded(result))
+             : fmt::format("{}: {}", kNot, howItEnded(result));
 }
 
 /// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.
@@ -463,7 +484,28 @@ Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std
         break;
       }
   }
-  return withPlainReadings(std::move(witness), violation, fuel);
+  return withPlainReadings(withPlainStart(std::move(witness), violation, fuel), violation, fuel);
+}
+
+/// As after power-on if that will do; else in as few other codes, words and coordinates as will do.
+Witness WitnessSearch::withPlainStart(Witness witness, const Violation &violation, std::uint64_t fuel) const {
+  constexpr int kMostSteps = 12;
+  const auto plainer = [&]() -> std::optional<Witness> {
+    for (const GivenStart &start : plainerStarts(witness.variables.start)) {
+      GivenVariables given = witness.variables;
+      given.start = start;
+      if (auto found = tried(given, violation, fuel))
+        return found;
+    }
+    return std::nullopt;
+  };
+  for (int step = 0; step < kMostSteps; ++step) {
+    auto found = plainer();
+    if (!found)
+      break;
+    witness = *std::move(found);
+  }
+  return witness;
 }
 
 /// Each input in turn: without readings, that is 0; else as few numbers as will do, and 0 or 1 in place of others.

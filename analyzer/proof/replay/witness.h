@@ -3,6 +3,7 @@
 
 #include "proof/obligation/obligation.h"
 #include "proof/replay/exact_run.h"
+#include "proof/replay/start_inputs.h"
 #include "proof/symbolic/contract_terms.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
@@ -41,16 +42,19 @@ public:
                 std::vector<smt::TermId> demands, std::vector<double> constants);
 
   /// The codes in which runs start, if not those of power-on, and the place: terms over the inputs; an axis without
-  /// one starts at 0.
-  void startFrom(RunOptions start, std::map<Axis, smt::TermId> place) {
+  /// one starts at 0.  `open`: what else a witness may say of the start.
+  void startFrom(RunOptions start, std::map<Axis, smt::TermId> place, StartInputs open) {
     start_ = std::move(start);
     place_ = std::move(place);
+    open_ = std::move(open);
     exactRuns_->treatMissing(start_.missing);
   }
   RunOptions runOptions(const GivenVariables &given) const;
   RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
   /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
+  /// The same inputs as some of these runs, from starts in other modes.
+  void sampleOtherModes();
   /// Where plain numbers seldom satisfy what they have to: the same, around inputs that do.  A model that names some
   /// inputs is completed by these.
   void sampleAround(const smt::Model &allowed);
@@ -108,6 +112,7 @@ private:
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
+  Witness withPlainStart(Witness witness, const Violation &violation, std::uint64_t fuel) const;
   Witness withPlainReadings(Witness witness, const Violation &violation, std::uint64_t fuel) const;
 
   SymbolicInterpretation &interpretation_;
@@ -117,6 +122,7 @@ private:
   std::vector<double> constants_; // that the program and its contract write
   RunOptions start_;
   std::map<Axis, smt::TermId> place_;
+  StartInputs open_;
   std::vector<Sample> samples_;
   std::mt19937 readings_{1};             // of samples
   std::size_t firstDecimal_ = 0;         // of samples_

@@ -18,6 +18,7 @@ public:
         interpretation_(*file_.dialect, run.variables), state_(startState(interpretation_, modes_, run.start)) {
     for (const auto &[group, code] : run.codes)
       state_.codes[group] = code;
+    putInForce(run.variables.start, state_);
     for (const Axis axis : kAllAxes) {
       state_.variables.set(positionVariable(letterOf(axis)), state_.at(axis));
       state_.variables.set(entryVariable(letterOf(axis)), state_.at(axis));

@@ -56,6 +56,11 @@ TermId SymbolicInterpretation::fresh(std::string_view what, Sort sort) {
   return store_.variable(fmt::format("{} {}", what, nextFresh_++), sort);
 }
 
+Condition SymbolicInterpretation::answer(ControlQuestion question) {
+  const auto known = answers_.find(question);
+  return {known != answers_.end() ? known->second : answers_.emplace(question, unknownTruth().term).first->second};
+}
+
 SymbolicValue SymbolicInterpretation::named(const std::string &name, MayBeVacant mayBeVacant) {
   const auto known = named_.find(name);
   if (known != named_.end())
@@ -300,9 +305,25 @@ SymbolicValue SymbolicInterpretation::numberOfCode(ModalCode code, const ModalTa
   if (only && *only < modes.group(group).codes.size())
     return literal(Decimal(modes.group(group).codes[*only]->tenths, 1));
   const Value number = named(fmt::format("number of code {} of group {}", code.index.index(), group), MayBeVacant::No);
-  codeNumbers_.insert_or_assign(number.number, std::pair{group, code});
+  if (codeNumbers_.insert_or_assign(number.number, std::pair{group, code}).second)
+    tieToCode(number.number, code, modes, group);
   return number;
 }
+
+/// The number is that of the code.  Of the groups that a control resets to one of their codes (FANUC parameter 3402)
+/// one of those that the dialect lists is always active.
+void SymbolicInterpretation::tieToCode(TermId number, ModalCode code, const ModalTable &modes, std::uint8_t group) {
+  std::vector<TermId> cases;
+  for (std::size_t i = 0; i < modes.group(group).codes.size(); ++i) {
+    const TermId isInForce = store_.equal(code.index, store_.number(Number(static_cast<int>(i))));
+    const TermId itsNumber = literal(Decimal(modes.group(group).codes[i]->tenths, 1)).number;
+    facts_.push_back(store_.implies(isInForce, store_.equal(number, itsNumber)));
+    cases.push_back(isInForce);
+  }
+  if (modes.isNeverWithout(group))
+    facts_.push_back(store_.logicalOr(cases));
+}
+
 std::optional<std::pair<std::uint8_t, SymbolicCode>> SymbolicInterpretation::codeFrom(const Value &value,
                                                                                       const ModalTable &) const {
   const auto known = codeNumbers_.find(value.number);

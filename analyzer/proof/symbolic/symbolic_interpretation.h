@@ -39,6 +39,9 @@ struct SymbolicCode {
 /// Exact reals, as in mathematics; or doubles, of which each operation gives the nearest to its exact result.
 enum class Arithmetic : std::uint8_t { Exact, Doubles };
 
+/// How the names of variables begin that stand for what is not known of a control.
+inline constexpr std::string_view kUnknownTruth = "either";
+
 /// What a contract says of an input; nothing without a clause.
 struct WrittenInput {
   bool isWhole = false;
@@ -205,7 +208,8 @@ public:
   Truth both(Truth a, Truth b) { return {store_.logicalAnd(a.term, b.term)}; }
   Truth negation(Truth a) { return {store_.logicalNot(a.term)}; }
   bool mayBe(Truth a);
-  Truth unknownTruth() { return {fresh("either", smt::Sort::Bool)}; }
+  Truth unknownTruth() { return {fresh(kUnknownTruth, smt::Sort::Bool)}; }
+  Truth answer(ControlQuestion question);
 
   // ---- modal codes ----
   ModalCode code(std::uint8_t index) { return {store_.number(smt::Number(static_cast<int>(index)))}; }
@@ -241,6 +245,7 @@ public:
 
 private:
   Value of(smt::TermId number);
+  void tieToCode(smt::TermId number, ModalCode code, const ModalTable &modes, std::uint8_t group);
   enum class Operation : std::uint8_t { Sum, Product, Quotient };
   Value result(Operation operation, smt::TermId exact, const Value &a, const Value &b);
   Value inShortMantissa(Operation operation, smt::TermId exact, const Value &a, const Value &b);
@@ -281,6 +286,7 @@ private:
   std::vector<smt::TermId> facts_;
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
   std::map<smt::TermId, bool> neverNegative_;
+  std::map<ControlQuestion, smt::TermId> answers_;
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
   std::map<std::uint32_t, WrittenInput> written_;

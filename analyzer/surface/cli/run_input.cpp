@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace feedhold {
@@ -117,17 +119,54 @@ Result<GivenVariables> givenVariables(const RunInput &input, const Project &prog
   return given;
 }
 
-Result<std::array<double, kAxisCount>> startPosition(const RunInput &input) {
-  std::array<double, kAxisCount> start{};
-  std::istringstream words(fmt::format("{}", fmt::join(input.start, " "))); // `--start X0 Y0` and `--start "X0 Y0"`
-  for (std::string word; words >> word;) {
+/// The words of all uses of an option: `--start X0 Y0` and `--start "X0 Y0"`.
+std::vector<std::string> wordsOf(const std::vector<std::string> &texts) {
+  std::istringstream words(fmt::format("{}", fmt::join(texts, " ")));
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::optional<Error> addPlace(const RunInput &input, GivenStart &start) {
+  for (const std::string &word : wordsOf(input.start)) {
     const auto axis = axisOf(toUpper(word.front()));
     const auto value = axis ? numberFrom(std::string_view(word).substr(1)) : std::nullopt;
     if (!value)
       return Error{fmt::format("--start: `{}` is not a coordinate such as X10.5", word)};
-    start[indexOf(*axis)] = *value;
+    start.place.emplace_back(*axis, *value);
   }
-  return start;
+  return std::nullopt;
+}
+
+/// `G18` or `T5`
+std::optional<Error> addModal(const std::string &word, const Dialect &dialect, GivenStart &start) {
+  const char letter = toUpper(word.front());
+  const auto number = numberFrom(std::string_view(word).substr(1));
+  const bool isWord = std::find(kModalWords.begin(), kModalWords.end(), letter) != kModalWords.end();
+  if (number && isWord) {
+    start.words.emplace_back(letter, *number);
+    return std::nullopt;
+  }
+  const double tenths = number ? *number * 10 : 0;
+  const bool isCode =
+      number && letter == 'G' && tenths >= 0 && tenths < 10'000 && std::fabs(tenths - std::round(tenths)) < 1e-6;
+  const Code *code = isCode ? findGCode(dialect, static_cast<std::uint16_t>(std::round(tenths))) : nullptr;
+  const ModalTable modes(dialect);
+  const auto index = code && isWholeMode(code->action) ? modes.indexOf(*code) : std::nullopt;
+  if (!index)
+    return Error{
+        fmt::format("--modal: `{}` cannot be in force at the start: use modal codes without words of their own, "
+                    "such as G18 or G91, and T, D, H, F or S with a number",
+                    word)};
+  start.codes.emplace_back(code->group, *index);
+  return std::nullopt;
+}
+
+std::optional<Error> addStart(const RunInput &input, const Dialect &dialect, GivenStart &start) {
+  if (auto complaint = addPlace(input, start))
+    return complaint;
+  for (const std::string &word : wordsOf(input.modal))
+    if (auto complaint = addModal(word, dialect, start))
+      return complaint;
+  return std::nullopt;
 }
 
 NumberModel numbersFor(const RunInput &input, const Dialect &dialect) {
@@ -165,6 +204,7 @@ void addRunInput(CLI::App &app, RunInput &input) {
       ->type_name("NAME=VALUES")
       ->allow_extra_args(false);
   app.add_option("--start", input.start, "position of the tool at the start: X0 Y0 Z5")->type_name("POSITION");
+  app.add_option("--modal", input.modal, "modal codes and words in force at the start: G18 G91 T5")->type_name("WORDS");
   app.add_option("--fuel", input.fuel,
                  fmt::format("stop after this many instructions (default: {})", RunOptions{}.fuel))
       ->type_name("N")
@@ -196,18 +236,15 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
   Result<GivenVariables> variables = givenVariables(input, programs);
   if (!variables)
     return variables.error();
-  const auto position = startPosition(input);
-  if (!position)
-    return position.error();
-  RunOptions options{.variables = variables.take(),
-                     .start = position.value(),
+  GivenVariables given = variables.take();
+  if (const auto complaint = addStart(input, *programs.file(start->file).dialect, given.start))
+    return *complaint;
+  RunOptions options{.variables = std::move(given),
                      .fuel = input.fuel,
                      .blockSkip = input.blockSkip ? BlockSkipSwitch::On : BlockSkipSwitch::Off,
                      .numbers = numbersFor(input, *programs.file(start->file).dialect),
                      .missing = input.missing == "return" ? MissingPrograms::Return : MissingPrograms::Stop};
   options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
-  if (!input.start.empty()) // it has the last word on the place
-    options.start = position.value();
   return PreparedRun{loaded.take(), *start, std::move(options)};
 }
 

@@ -119,7 +119,14 @@ private:
     Json readings = Json::object();
     for (const auto &[variable, script] : witness.variables.readings.entries())
       readings[file.project->set->nameOfVariable(variable).substr(1)] = script;
-    return {{"variables", std::move(variables)}, {"inputs", std::move(readings)}, {"happened", witness.happened}};
+    const GivenStart &start = witness.variables.start;
+    std::vector<std::pair<char, double>> place;
+    for (const auto &[axis, coordinate] : start.place)
+      place.emplace_back(letterOf(axis), coordinate);
+    return {{"variables", std::move(variables)},
+            {"inputs", std::move(readings)},
+            {"start", json::startToJson(modalWords(start, file.project->dialect()), place)},
+            {"happened", witness.happened}};
   }
   Json evidenceToJson(const prove::Proved &proved, const std::string &name) {
     return match(

@@ -18,6 +18,13 @@ std::string documentText(const Json &document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place) {
+  Json position = Json::object();
+  for (const auto &[axis, coordinate] : place)
+    position[std::string(1, axis)] = coordinate;
+  return {{"modal", modal}, {"position", std::move(position)}};
+}
+
 Json fixToJson(const FixIt &fix, const SourceFile &source) {
   Json edits = Json::array();
   for (const Edit &edit : fix.edits) {

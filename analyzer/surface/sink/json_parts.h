@@ -6,6 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace feedhold::json {
 
 using Json = nlohmann::ordered_json;
@@ -15,6 +19,9 @@ Json placeOf(const SourceFile &source, Span span);
 /// The whole on one line, and over several lines with a line end behind it.  Bytes that are not UTF-8 become U+FFFD.
 std::string compactText(const Json &value);
 std::string documentText(const Json &document);
+
+/// What of the start of a run is not as after power-on: modal codes and words, and coordinates by axis.
+Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place);
 
 Json fixToJson(const FixIt &fix, const SourceFile &source);
 

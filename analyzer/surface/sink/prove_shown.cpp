@@ -1,5 +1,7 @@
 #include "surface/sink/prove_shown.h"
 
+#include "language/dialect/code_name.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,12 +48,36 @@ std::string listOf(const std::vector<std::string> &names) {
   return text;
 }
 
+/// What of the start is not as after power-on: `in G18 at X5.`; empty: nothing.
+std::string startOf(const TypedWitness &witness) {
+  std::string text;
+  for (const std::string &word : witness.modal)
+    text += (text.empty() ? "in " : " ") + word;
+  std::string_view before = text.empty() ? "at " : " at ";
+  for (const auto &[axis, coordinate] : witness.place) {
+    text += fmt::format("{}{}{}", before, axis, withPoint(coordinate));
+    before = " ";
+  }
+  return text;
+}
+
 std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
   const auto number = alarmNumber(dialect, kind);
   return number ? fmt::format("{} ({})", *number, meaningOf(kind)) : std::string(meaningOf(kind));
 }
 
 } // namespace
+
+std::vector<std::string> modalWords(const GivenStart &start, const Dialect &dialect) {
+  const ModalTable modes(dialect);
+  std::vector<std::string> words;
+  for (const auto &[group, code] : start.codes)
+    if (const auto &codes = modes.group(group).codes; code < codes.size())
+      words.push_back(codeName('G', codes[code]->tenths));
+  for (const auto &[letter, number] : start.words)
+    words.push_back(letter + shortest(number));
+  return words;
+}
 
 void VerdictCounts::add(const prove::ProgramProof &proof) {
   for (const Obligation &obligation : proof.obligations)
@@ -112,6 +138,13 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.readings.emplace_back(shown.substr(1), script);
     result.options += " --input " + quotedWord(shown + "=" + numbers);
   }
+  result.modal = modalWords(witness.variables.start, file.project->dialect());
+  for (const std::string &word : result.modal)
+    result.options += " --modal " + word;
+  for (const auto &[axis, coordinate] : witness.variables.start.place) {
+    result.place.emplace_back(letterOf(axis), coordinate);
+    result.options += fmt::format(" --start {}{}", letterOf(axis), shortest(coordinate));
+  }
   if (!witness.returning.empty())
     result.options += " --missing return";
   result.options += report.readingOptions;
@@ -134,7 +167,8 @@ std::string textOf(const TypedWitness &witness) {
     text += fmt::format("{}#{} read as {}", before, name, numbers);
     before = ", ";
   }
-  return text;
+  const std::string start = startOf(witness);
+  return start.empty() ? text : fmt::format("{}, started {}", text, start);
 }
 
 std::string claimOf(const Obligation &obligation, const Dialect &dialect) {

@@ -27,12 +27,17 @@ std::string programName(const ProvedFile &file, const ProvedProgram &program);
 /// As a shell takes it for one word.
 std::string quotedWord(const std::string &word);
 
+/// What is in force at a start in place of power-on's: `G18`, `T5`.
+std::vector<std::string> modalWords(const GivenStart &start, const Dialect &dialect);
+
 /// A witness as a machinist types it.
 struct TypedWitness {
   std::optional<std::string> call;                                   // `G65 P9100 D6. U12.`; absent: it has no number
   std::vector<std::pair<std::string, std::string>> others;           // `#500`, `-3.5`: what no letter of the call sets
   std::vector<std::pair<std::string, double>> variables;             // the same, by name without `#`
   std::vector<std::pair<std::string, std::vector<double>>> readings; // what the reads of inputs give, likewise
+  std::vector<std::string> modal;                                    // `G18`, `T5`: in force at the start
+  std::vector<std::pair<char, double>> place;                        // at the start: axis and coordinate
   std::string options;                                               // of a command that runs the program on it
   std::string run() const { return "feedhold run " + options; }
   std::string plot() const { return "feedhold plot " + options; }

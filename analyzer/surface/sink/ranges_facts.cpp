@@ -1,5 +1,7 @@
 #include "surface/sink/ranges_facts.h"
 
+#include "language/dialect/code_name.h"
+
 #include "inference/absint/describe.h"
 
 #include <fmt/format.h>
@@ -24,11 +26,6 @@ constexpr std::initializer_list<CodeAction> kCycles = {
     CodeAction::CycleTap,      CodeAction::CycleTapLeft,    CodeAction::CycleBore,      CodeAction::CycleBoreStop,
     CodeAction::CycleBackBore, CodeAction::CycleBoreManual, CodeAction::CycleBoreDwell, CodeAction::CycleFineBore,
     CodeAction::SideCycle};
-
-std::string codeName(char letter, unsigned tenths) {
-  return tenths % 10 == 0 ? fmt::format("{}{:02}", letter, tenths / 10)
-                          : fmt::format("{}{:02}.{}", letter, tenths / 10, tenths % 10);
-}
 
 class FactWriter {
 public:

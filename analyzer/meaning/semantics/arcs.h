@@ -1,0 +1,354 @@
+// Arcs: the circle that a block with G02 or G03 describes, what stops the control, and the movement.
+#pragma once
+
+#include "meaning/semantics/arc_radii.h"
+#include "meaning/semantics/coordinates.h"
+#include "meaning/semantics/executed_words.h"
+#include "meaning/semantics/targets.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace feedhold::detail {
+
+template <ValueAlgebra R> class Arcs {
+public:
+  using Value = typename R::Value;
+  using Truth = typename R::Truth;
+  using Point = std::array<Value, kAxisCount>;
+
+  /// `hasOtherWay`: the block has words with which its path is not the plain arc.
+  Arcs(StepContext<R> &context, const ExecutedWords<R> &words, bool hasOtherWay)
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words),
+        hasOtherWay_(hasOtherWay) {}
+
+  /// `arc`: whether one is in force; `follows`: and the block makes it.
+  void follow(const Point &start, Truth arc, Truth follows) {
+    const bool isOther = interpretation_.mayBe(otherGeometry(context_));
+    const std::optional<Plane> plane = planeOf(context_);
+    if (isOther || !plane) { // only the end point is known
+      if (isOther)
+        alarmsOfOtherGeometry(follows);
+      else if (interpretation_.mayBe(follows))
+        alarmsInAnyPlane(start, follows);
+      if (context_.certain(arc))
+        tell(context_, MoveKind::Unmodelled, start);
+      return;
+    }
+    closeCircle(*plane, start);
+    const Circle circle = circleIn(*plane, start);
+    raise(alarmsOf(circle, start), follows);
+    if (interpretation_.wantsMoves() && context_.certain(arc))
+      tellArc(start, circle);
+  }
+
+private:
+  static constexpr std::array kPlanes = {std::pair(CodeAction::PlaneXY, kPlaneXY),
+                                         std::pair(CodeAction::PlaneZX, kPlaneZX),
+                                         std::pair(CodeAction::PlaneYZ, kPlaneYZ)};
+
+  /// The circle that the words of the block describe in one plane.
+  struct Circle {
+    Plane plane;
+    Value first, second; // centre
+    Truth byRadius;
+    Truth byCentre;
+    Truth beside; // there is a distance to the centre on the axis that is not of the plane
+    CircleMapping<R> mapping;
+  };
+  /// What stops the control.
+  struct Alarms {
+    Truth withoutCentre, tooShort, withoutLength, radius;
+  };
+
+  Circle circleIn(const Plane &plane, const Point &start) {
+    const auto [first, second] = centreOf(plane, start);
+    return {plane,
+            first,
+            second,
+            present('R'),
+            context_.either(present(plane.firstCentre), present(plane.secondCentre)),
+            centreBeside(plane),
+            circleMappingOf(context_, plane)};
+  }
+  /// A distance to the centre on the axis that is not of the plane: a control may refuse it, or pass over it.
+  Truth centreBeside(const Plane &plane) const {
+    Truth beside = interpretation_.truth(false);
+    for (const char letter : {'I', 'J', 'K'})
+      if (letter != plane.firstCentre && letter != plane.secondCentre)
+        beside = context_.either(beside, present(letter));
+    return beside;
+  }
+  Truth without(const Circle &circle) {
+    return interpretation_.negation(context_.either(circle.byRadius, circle.byCentre));
+  }
+  Alarms alarmsOf(const Circle &circle, const Point &start) {
+    Alarms alarms = alarmsOfRadius(circle, start);
+    alarms.withoutCentre = interpretation_.both(
+        without(circle), context_.either(interpretation_.negation(circle.beside), context_.maybeNot()));
+    const Truth differs = radiiDiffer(circle.plane, start, circle.first, circle.second);
+    const Truth isCircle = interpretation_.both(interpretation_.both(circle.mapping.staysCircle, circle.byCentre),
+                                                interpretation_.truth(turnsOf().has_value()));
+    const Truth mayDiffer =
+        context_.either(interpretation_.both(isCircle, differs),
+                        interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
+    alarms.radius = interpretation_.both(interpretation_.negation(circle.byRadius), mayDiffer);
+    return alarms;
+  }
+  void raise(const Alarms &alarms, Truth follows) {
+    const auto stop = [&](Truth when, AlarmKind kind) {
+      interpretation_.alarm(interpretation_.both(follows, when), {kind, context_.place()});
+    };
+    stop(alarms.withoutCentre, AlarmKind::ArcWithoutCentre);
+    stop(alarms.tooShort, AlarmKind::ArcTooShort);
+    stop(alarms.withoutLength, AlarmKind::ArcWithoutLength);
+    stop(alarms.radius, AlarmKind::ArcRadius);
+  }
+
+  /// In whichever plane is in force: one of the codes of their group always is.
+  void alarmsInAnyPlane(const Point &start, Truth follows) {
+    struct Case {
+      Truth inForce;
+      Alarms alarms;
+    };
+    std::vector<Case> cases;
+    for (const auto &[action, plane] : kPlanes)
+      if (const Truth inForce = context_.inForce(ModalKind::Plane, {action}, interpretation_.truth(false));
+          interpretation_.mayBe(inForce))
+        cases.push_back({inForce, alarmsOf(circleIn(plane, start), start)});
+    const Truth other = inOtherPlane();
+    const bool areAll = !cases.empty() && !interpretation_.mayBe(other);
+    const auto inCase = [&](Truth Alarms::*alarm) {
+      Truth inSome = interpretation_.truth(false);
+      Truth inAll = interpretation_.truth(areAll); // said, too, since not every interpretation sees it
+      for (const Case &each : cases) {
+        inSome = context_.either(inSome, interpretation_.both(each.inForce, each.alarms.*alarm));
+        inAll = interpretation_.both(inAll, each.alarms.*alarm);
+      }
+      return context_.either(inSome, inAll);
+    };
+    raise({inCase(&Alarms::withoutCentre), inCase(&Alarms::tooShort), inCase(&Alarms::withoutLength),
+           inCase(&Alarms::radius)},
+          follows);
+    if (interpretation_.mayBe(other))
+      alarmsOfOtherGeometry(interpretation_.both(follows, other));
+  }
+  /// A code of their group that is none of the three planes: of axes beside X, Y and Z, on a cylinder, a tilted one.
+  Truth inOtherPlane() {
+    const auto group = context_.modes.groupOf(ModalKind::Plane);
+    if (!group)
+      return interpretation_.truth(false);
+    const auto &codes = context_.modes.group(*group).codes;
+    CodeMask others = 0;
+    for (std::size_t i = 0; i < codes.size(); ++i)
+      if (std::ranges::none_of(kPlanes, [&](const auto &plane) { return plane.first == codes[i]->action; }))
+        others |= CodeMask{1} << i;
+    return interpretation_.isOneOf(state_.codes[*group], others);
+  }
+  /// No circle of that radius goes through both ends.  All controls stop; how much too small the radius may be is a
+  /// parameter of most, and one that is accepted makes half a circle.
+  Alarms alarmsOfRadius(const Circle &circle, const Point &start) {
+    const Truth none = interpretation_.truth(false);
+    Alarms alarms{none, none, none, none};
+    const auto *entry = words_.find('R');
+    if (!entry || !interpretation_.mayBe(circle.byRadius))
+      return alarms;
+    const Value radius =
+        interpretation_.function(FunctionKind::Abs, interpretation_.multiply(entry->value, circle.mapping.scale));
+    const auto [a, b] = chordOf(circle.plane, start);
+    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
+    const Value halfSquare = interpretation_.divide(chordSquare, interpretation_.number(4));
+    const auto isTooShort = [&](const Value &length) {
+      return interpretation_.compare(Relation::Greater, halfSquare, interpretation_.multiply(length, length));
+    };
+    const Switches &switches = context_.dialect().switches;
+    const Truth isShort =
+        interpretation_.both(isTooShort(radius), context_.either(isTooShort(interpretation_.add(radius, tolerance())),
+                                                                 context_.isOn(switches.shortArcStops)));
+    const Truth isPoint = interpretation_.both(interpretation_.compare(Relation::Equal, chordSquare, context_.zero()),
+                                               context_.isOn(switches.pointArcStops));
+    const Truth asMapped = context_.either(circle.mapping.staysCircle, context_.maybeNot());
+    alarms.tooShort = interpretation_.both(circle.byRadius, interpretation_.both(asMapped, isShort));
+    alarms.withoutLength = interpretation_.both(circle.byRadius, isPoint);
+    return alarms;
+  }
+  /// From start to end, as radii are counted.
+  std::pair<Value, Value> chordOf(const Plane &plane, const Point &start) {
+    const auto along = [&](Axis axis) {
+      return asRadius(axis, interpretation_.subtract(state_.at(axis), start[indexOf(axis)]));
+    };
+    return {along(plane.first), along(plane.second)};
+  }
+  /// Through the mappings and back a coordinate comes out a rounding error away, and a full circle would be none.
+  void closeCircle(const Plane &plane, const Point &start) {
+    constexpr double kSame = 1e-9;
+    const auto isBack = [&](Axis axis) {
+      const auto before = interpretation_.constantOf(start[indexOf(axis)]);
+      const auto after = interpretation_.constantOf(state_.at(axis));
+      return before && after && std::abs(*before - *after) < kSame;
+    };
+    if (!interpretation_.mayBe(state_.transformed) || !isBack(plane.first) || !isBack(plane.second))
+      return;
+    state_.at(plane.first) = start[indexOf(plane.first)];
+    state_.at(plane.second) = start[indexOf(plane.second)];
+  }
+  /// Where a mode that is not followed gives the words another meaning.
+  void alarmsOfOtherGeometry(Truth arc) {
+    const Truth byCentre = interpretation_.both(arc, interpretation_.negation(present('R')));
+    const Truth anyDistance = context_.either(present('I'), context_.either(present('J'), present('K')));
+    const Truth without = context_.either(interpretation_.negation(anyDistance), context_.maybeNot());
+    interpretation_.alarm(interpretation_.both(byCentre, without), {AlarmKind::ArcWithoutCentre, context_.place()});
+    const auto mayStop = [&](Truth when, AlarmKind kind) {
+      interpretation_.alarm(interpretation_.both(when, context_.maybeNot()), {kind, context_.place()});
+    };
+    mayStop(byCentre, AlarmKind::ArcRadius);
+    const Truth byRadius = interpretation_.both(arc, present('R'));
+    mayStop(byRadius, AlarmKind::ArcTooShort);
+    if (context_.dialect().switches.pointArcStops != Switch::Off)
+      mayStop(byRadius, AlarmKind::ArcWithoutLength);
+  }
+  Truth present(char letter) const { return words_.present(interpretation_, letter); }
+  /// I, J, K are distances from the start point, mapped like those of the axes; absolute only where the control has
+  /// that mode.
+  std::pair<Value, Value> centreOf(const Plane &plane, const Point &start) {
+    Point distance;
+    distance.fill(context_.zero());
+    distance[indexOf(plane.first)] = asCoordinate(plane.first, distanceWord(plane.firstCentre));
+    distance[indexOf(plane.second)] = asCoordinate(plane.second, distanceWord(plane.secondCentre));
+    const Point mapped = toWorkDistance(context_, distance);
+    const auto centreOn = [&](Axis axis, char letter) {
+      const Value fromStart = interpretation_.add(start[indexOf(axis)], mapped[indexOf(axis)]);
+      if (!context_.behaviour().arcDistanceModes)
+        return fromStart;
+      const Truth absolute =
+          context_.inForce(ModalKind::ArcDistance, {CodeAction::ArcAbsolute}, interpretation_.truth(false));
+      return interpretation_.select(absolute, distanceWord(letter), fromStart);
+    };
+    return {centreOn(plane.first, plane.firstCentre), centreOn(plane.second, plane.secondCentre)};
+  }
+  Value distanceWord(char letter) {
+    const auto *entry = words_.find(letter);
+    return entry ? interpretation_.select(entry->present, entry->value, context_.zero()) : context_.zero();
+  }
+  /// On a lathe X is a diameter, I a radius.
+  Value asCoordinate(Axis axis, const Value &length) {
+    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
+               ? interpretation_.multiply(length, interpretation_.number(2))
+               : length;
+  }
+  Value asRadius(Axis axis, const Value &length) {
+    return axis == Axis::X && context_.dialect().machine == MachineKind::Turning
+               ? interpretation_.divide(length, interpretation_.number(2))
+               : length;
+  }
+  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
+    const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
+      return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
+              asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
+    };
+    return lengthsDiffer(interpretation_, spoke(start), spoke(state_.position), tolerance());
+  }
+  Value tolerance() {
+    const Value metric = interpretation_.number(context_.behaviour().arcTolerance);
+    return interpretation_.select(isMetric(context_), metric,
+                                  interpretation_.number(context_.behaviour().arcTolerance / 25.4));
+  }
+
+  void tellArc(const Point &start, const Circle &arc) {
+    const CircleMapping<R> &mapping = arc.mapping;
+    const std::optional<bool> clockwise = turnsClockwise(mapping.turnsOver);
+    const std::optional<std::uint32_t> turns = turnsOf();
+    if (!clockwise || !turns || !context_.certain(mapping.staysCircle) ||
+        interpretation_.mayBe(interpretation_.both(without(arc), arc.beside)) || hasOtherWay_) {
+      if (!context_.certain(mapping.staysCircle))
+        interpretation_.unmodelled("an arc whose axes are scaled by different factors", context_.place());
+      else if (!clockwise)
+        interpretation_.unmodelled("an arc in an unknown direction", context_.place());
+      else if (!turns)
+        interpretation_.unmodelled("an arc with words for a spiral or for full turns", context_.place());
+      return tell(context_, MoveKind::Unmodelled, start);
+    }
+    Move<Value> move;
+    move.kind = *clockwise ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
+    move.start = start;
+    move.end = state_.position;
+    move.plane = arc.plane;
+    const auto byRadius = centreFromRadius(arc.plane, start, *clockwise, mapping.scale);
+    move.firstCentre = interpretation_.select(arc.byRadius, byRadius.first, arc.first);
+    move.secondCentre = interpretation_.select(arc.byRadius, byRadius.second, arc.second);
+    move.turns = *turns;
+    move.feed = state_.word('F');
+    if (context_.certain(arc.byRadius) && sameInPlane(arc.plane, start))
+      move.kind = MoveKind::Feed; // no arc at all: 0 degrees
+    tell(context_, std::move(move));
+  }
+  /// Seen in work coordinates; absent when it can be either.
+  std::optional<bool> turnsClockwise(Truth turnsOver) {
+    const Truth none = interpretation_.truth(false);
+    const bool clockwise = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise}, none));
+    const bool counter = context_.certain(context_.inForce(ModalKind::Motion, {CodeAction::ArcCounterclockwise}, none));
+    const bool over = context_.certain(turnsOver);
+    if (clockwise == counter || (!over && interpretation_.mayBe(turnsOver)))
+      return std::nullopt;
+    return clockwise != over;
+  }
+  /// P turns of controls that count them; absent: not known, or the block has words of a spiral or of a cone.
+  std::optional<std::uint32_t> turnsOf() {
+    if (!context_.behaviour().arcDistanceModes) {
+      const bool isOther = words_.find('L') || words_.find('Q') || words_.find('P');
+      return isOther ? std::nullopt : std::optional<std::uint32_t>(1);
+    }
+    const auto *entry = words_.find('P');
+    if (!entry)
+      return 1;
+    const std::optional<double> turns = interpretation_.constantOf(entry->value);
+    if (!turns || *turns >= 1e6 || !context_.certain(entry->present))
+      return std::nullopt;
+    return *turns >= 1 ? static_cast<std::uint32_t>(*turns) : 1;
+  }
+  bool sameInPlane(const Plane &plane, const Point &start) {
+    const auto same = [&](Axis axis) {
+      return context_.certain(interpretation_.compare(Relation::Equal, start[indexOf(axis)], state_.at(axis)));
+    };
+    return same(plane.first) && same(plane.second);
+  }
+  /// The centre lies on the perpendicular through the middle of the chord; the sign of R chooses the longer arc.
+  std::pair<Value, Value> centreFromRadius(const Plane &plane, const Point &start, bool clockwise, const Value &scale) {
+    const Value zero = context_.zero();
+    const auto *entry = words_.find('R');
+    if (!entry)
+      return {zero, zero};
+    const Value radius = interpretation_.multiply(entry->value, scale);
+    const Value two = interpretation_.number(2);
+    const auto [a, b] = chordOf(plane, start);
+    const Value chordSquare = interpretation_.add(interpretation_.multiply(a, a), interpretation_.multiply(b, b));
+    const Value heightSquare = interpretation_.subtract(interpretation_.multiply(radius, radius),
+                                                        interpretation_.divide(chordSquare, interpretation_.number(4)));
+    const Truth negative = interpretation_.compare(Relation::Less, heightSquare, zero);
+    const Value height =
+        interpretation_.function(FunctionKind::Sqrt, interpretation_.select(negative, zero, heightSquare));
+    const Truth noChord = interpretation_.compare(Relation::Equal, chordSquare, zero);
+    const Value chord = interpretation_.function(
+        FunctionKind::Sqrt, interpretation_.select(noChord, interpretation_.number(1), chordSquare));
+    const Truth longArc = interpretation_.compare(Relation::Less, entry->value, zero);
+    const Value side = interpretation_.select(longArc, interpretation_.number(clockwise ? 1 : -1),
+                                              interpretation_.number(clockwise ? -1 : 1));
+    const Value ratio = interpretation_.multiply(side, interpretation_.divide(height, chord));
+    const auto from = [&](Axis axis, const Value &length) {
+      return interpretation_.add(start[indexOf(axis)], asCoordinate(axis, length));
+    };
+    return {
+        from(plane.first, interpretation_.subtract(interpretation_.divide(a, two), interpretation_.multiply(ratio, b))),
+        from(plane.second, interpretation_.add(interpretation_.divide(b, two), interpretation_.multiply(ratio, a)))};
+  }
+
+  StepContext<R> &context_;
+  R &interpretation_;
+  MachineState<R> &state_;
+  const ExecutedWords<R> &words_;
+  bool hasOtherWay_;
+};
+
+} // namespace feedhold::detail
