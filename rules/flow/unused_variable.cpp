@@ -82,8 +82,8 @@ bool callsUnseen(const FlowFacts &facts, const FileContext &context) {
            (!context.callGraph.callee(context.file, call) || context.callGraph.reachesEncrypted(context.file, call));
   };
   const auto isUnknown = [&](const Word &word) {
-    const auto tenths = word.address() == 'G' ? word.tenths() : std::nullopt;
-    return tenths && !findGCode(context.dialect, *tenths);
+    const auto tenths = word.isCode() ? word.tenths() : std::nullopt;
+    return tenths && mayDoAnything(context.dialect, word.address(), *tenths);
   };
   return std::ranges::any_of(context.model.calls, isUnseen) ||
          std::ranges::any_of(blocksOf(facts.file, facts.program), [&](BlockId block) {

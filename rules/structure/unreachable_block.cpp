@@ -49,8 +49,8 @@ bool callsUnseen(BlockId block, const FileContext &context) {
   if (!calls.empty())
     return std::ranges::any_of(calls, [&](const Call &call) { return !context.callGraph.callee(context.file, call); });
   return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
-    const auto tenths = word.address() == 'G' ? word.tenths() : std::nullopt;
-    return tenths && !findGCode(context.dialect, *tenths);
+    const auto tenths = word.isCode() ? word.tenths() : std::nullopt;
+    return tenths && mayDoAnything(context.dialect, word.address(), *tenths);
   });
 }
 

@@ -34,8 +34,7 @@ std::string withoutBlanks(std::string_view text) {
 
 bool isNoCode(const Word &word, const Dialect &dialect) {
   const auto tenths = word.tenths();
-  return word.address() == 'G' && word.isCode() &&
-         !(tenths && (findGCode(dialect, *tenths) || findCodeCall(dialect, 'G', *tenths)));
+  return word.address() == 'G' && word.isCode() && !(tenths && hasGCode(dialect, *tenths));
 }
 
 void check(const Word &word, BlockId, const FileContext &context, const Reporter &reporter) {

@@ -10,15 +10,17 @@ void check(const Word &word, BlockId, const FileContext &context, const Reporter
   if (!word.isNumber() || loneNumberIn(word, context))
     return;
   const auto tenths = word.tenths();
-  if (tenths && (findGCode(context.dialect, *tenths) || findCodeCall(context.dialect, 'G', *tenths)))
+  if (tenths && hasGCode(context.dialect, *tenths))
     return;
   reporter.report(
       {.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(word.span())),
        .span = word.span(),
-       .notes = {fmt::format("the control {}, unless {} makes the code a call",
-                             stopsWith(context.dialect, AlarmKind::GCodeNotUsable),
-                             context.dialect.grammar.oWords ? "a `REMAP=` of the .ini file" : "a parameter"),
-                 "if the code calls a program, list it under `[[code-calls]]` in feedhold.toml"}});
+       .notes = {
+           fmt::format("the control {}, unless {} makes the code a call",
+                       stopsWith(context.dialect, AlarmKind::GCodeNotUsable),
+                       context.dialect.grammar.oWords ? "a `REMAP=` of the .ini file" : "a parameter"),
+           "if the code calls a program, list it under `[[code-calls]]` in feedhold.toml; if the machine's builder "
+           "has defined it, under `builders-codes`"}});
 }
 
 } // namespace
@@ -28,7 +30,7 @@ const Rule unknownGCode{
     .info = {"unknown-g-code",
              Category::Word,
              Severity::Info,
-             "Reports a G code that the control does not have and that `feedhold.toml` does not list as a call.",
+             "Reports a G code that the control does not have and that `feedhold.toml` does not list.",
              {},
              CauseScope::OneFolder},
     .hooks = {.word = check, .wordAddresses = "G"}};

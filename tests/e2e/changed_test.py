@@ -107,6 +107,14 @@ class Changed(Scratch):
         self.write("other/feedhold.toml", "[switches]\nnat = true\n")
         self.assertEqual(self.since(), ["other/O2.nc"])
 
+    def test_remaps(self):
+        self.write("other/part.ngc", "o<part> sub\nG0 X1\no<part> endsub\nM2\n")
+        self.commit()
+        self.write("other/mill.ini", "[RS274NGC]\nREMAP=M462 ngc=probe\n")
+        report = self.feedhold("prove", "--dialect", "linuxcnc", "--format", "json", "--changed-since", "HEAD").stdout
+        self.assertEqual([file["path"] for file in json.loads(report)["files"]], ["other/O2.nc", "other/part.ngc"])
+        self.assertEqual(self.since(), [])  # another control does not read it
+
     def test_call_that_is_only_known_in_a_run(self):
         self.write("nc/O5.nc", "O5\n#2=#500\nM98 P#2\nM30\n")
         self.commit()

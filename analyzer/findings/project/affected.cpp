@@ -2,6 +2,7 @@
 
 #include "findings/project/discovery.h"
 #include "findings/project/project.h"
+#include "findings/project/remaps.h"
 
 #include <fmt/format.h>
 
@@ -76,6 +77,8 @@ public:
     for (const fs::path &path : changed_) {
       if (config.source == ConfigSource::Nearest && isConfigName(path))
         configFolders_.push_back(path.parent_path());
+      if (config.source != ConfigSource::None && isRemapFileName(path))
+        remapFolders_.push_back(path.parent_path());
       if (kindOfFileName(path.filename().generic_string()) && !fs::exists(path, ignored))
         gone_.insert(path.parent_path());
     }
@@ -86,8 +89,11 @@ public:
     const fs::path path = absoluteOf(item.path);
     if (everything_ || changed_.contains(path))
       return true;
-    const bool isConfigured = std::any_of(configFolders_.begin(), configFolders_.end(),
-                                          [&](const fs::path &folder) { return isBelow(path, folder); });
+    const auto isBelowOneOf = [&](const std::vector<fs::path> &folders) {
+      return std::any_of(folders.begin(), folders.end(), [&](const fs::path &folder) { return isBelow(path, folder); });
+    };
+    const bool isConfigured =
+        isBelowOneOf(configFolders_) || (item.profile->dialect.grammar.oWords && isBelowOneOf(remapFolders_));
     // A program that is gone was perhaps what a call without a goal has meant.
     if (isConfigured || (gone_.contains(path.parent_path()) && callers.callsSomethingMissing(index)))
       return true;
@@ -98,7 +104,7 @@ public:
 
 private:
   std::set<fs::path> changed_;
-  std::vector<fs::path> configFolders_;
+  std::vector<fs::path> configFolders_, remapFolders_;
   std::set<fs::path> gone_; // folders that have lost a program
   bool everything_ = false;
 };
@@ -135,7 +141,7 @@ Affected affectedByNamed(const std::vector<std::string> &named, const CheckOptio
     // A text file that is named by chance counts as the walk through its folder sees it.
     const bool isByChance =
         fs::exists(path, ignored) && kindOfFileName(fs::path(path).filename().generic_string()) == FoundBy::Content;
-    if (isFolder || (!isSidecarName(path) && !isConfigName(path) && !isByChance))
+    if (isFolder || (!isSidecarName(path) && !isConfigName(path) && !isRemapFileName(path) && !isByChance))
       among.paths.push_back(path);
     if (!isFolder)
       folders.insert(folder.empty() ? "." : folder.generic_string());

@@ -73,10 +73,10 @@ public:
 
 private:
   void readRoot(const toml::table &root) {
-    static constexpr std::array<std::string_view, 13> kKeys = {
-        "dialect", "increment-system", "select", "ignore",   "min-severity", "error-on",
-        "include", "exclude",          "files",  "switches", "code-calls",   "builders-variables",
-        "severity"};
+    static constexpr std::array<std::string_view, 14> kKeys = {
+        "dialect",        "increment-system", "select", "ignore",   "min-severity", "error-on",
+        "include",        "exclude",          "files",  "switches", "code-calls",   "builders-variables",
+        "builders-codes", "severity"};
     Config &config = result_.config;
     for (const auto &[key, node] : root) {
       if (key == "dialect")
@@ -103,6 +103,8 @@ private:
         config.codeCalls = tables<CodeCall>(node, [this](const toml::table &table) { return codeCall(table); });
       else if (key == "builders-variables")
         config.buildersVariables = variables(node);
+      else if (key == "builders-codes")
+        config.buildersCodes = buildersCodes(node);
       else if (key == "severity")
         config.severities = severities(node);
       else
@@ -154,24 +156,13 @@ private:
 
   /// "G100", "G54.1", "M06"
   void readCode(const toml::node &node, CodeCall &call) {
-    const std::string text = toUpper(string(node));
-    const std::string_view digits = std::string_view(text).substr(std::min<std::size_t>(1, text.size()));
-    const std::size_t point = digits.find('.');
-    const std::string_view whole = digits.substr(0, point);
-    const std::string_view tenths = point == std::string_view::npos ? "0" : digits.substr(point + 1);
-    const bool isNumber = !whole.empty() && whole.size() <= 4 && std::all_of(whole.begin(), whole.end(), isDigit) &&
-                          tenths.size() == 1 && isDigit(tenths.front());
-    if (text.empty() || std::string_view("GMT").find(text.front()) == std::string_view::npos || !isNumber) {
+    const std::optional<CodeName> name = codeNamed(string(node), "GMT");
+    if (name) {
+      call.address = name->address;
+      call.tenths = name->tenths;
+    } else {
       addError(node.source(), "`code` must be a G, M or T code, such as \"G100\" or \"M6\"");
-      return;
     }
-    std::uint32_t number = 0;
-    for (const char c : whole)
-      number = number * 10 + static_cast<std::uint32_t>(c - '0');
-    call.address = text.front();
-    call.tenths = static_cast<std::uint16_t>(number * 10 + static_cast<std::uint32_t>(tenths.front() - '0'));
-    if (number > 6553)
-      addError(node.source(), "the number of `code` is larger than any G, M or T code");
   }
 
   std::uint32_t programNumber(const toml::node &node) {
@@ -202,6 +193,23 @@ private:
     for (const std::uint32_t number : numbers)
       rows.push_back(buildersVariable(number, number));
     return rows;
+  }
+
+  /// Sorted, each once.
+  std::vector<CodeName> buildersCodes(const toml::node &node) {
+    const toml::array *array = node.as_array();
+    if (!array)
+      addError(node.source(),
+               "`builders-codes` must be a list of G and M codes in quotes, such as [\"G229\", \"M462\"]");
+    std::set<CodeName> codes;
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+      const toml::node &element = *array->get(i);
+      if (const std::optional<CodeName> code = codeNamed(element.value_exact<std::string>().value_or(""), "GM"))
+        codes.insert(*code);
+      else
+        addError(element.source(), "a code of the machine builder is a G or M code in quotes, such as \"G68.2\"");
+    }
+    return {codes.begin(), codes.end()};
   }
 
   std::vector<SwitchSetting> switches(const toml::node &node) {
@@ -359,6 +367,8 @@ std::string textOf(const Switches &switches) {
     text += fmt::format("{}{}={}{} ", call.address, call.tenths, call.isMacro ? "macro " : "", call.program);
   for (const VariableRange &range : switches.buildersVariables)
     text += fmt::format("builders-variables={}-{} ", range.first, range.last);
+  for (const CodeName &code : switches.buildersCodes)
+    text += fmt::format("builders-codes={} ", textOf(code));
   text += fmt::format("increment-system={} ", nameOf(switches.incrementSystem));
   return text;
 }

@@ -46,6 +46,7 @@ struct Config {
   std::optional<IncrementSystem> incrementSystem = std::nullopt;
   std::vector<CodeCall> codeCalls = {};
   std::vector<VariableRange> buildersVariables = {};
+  std::vector<CodeName> buildersCodes = {}; // sorted, each once
   std::vector<SeveritySetting> severities = {};
 };
 

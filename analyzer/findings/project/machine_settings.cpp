@@ -1,5 +1,6 @@
 #include "findings/project/machine_settings.h"
 
+#include "base/support/text.h"
 #include "findings/project/config.h"
 #include "language/model/word_habits.h"
 
@@ -22,6 +23,8 @@ constexpr Decimal kLongest(1000, 0);       // mm: a machinist who means least in
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kFewestFiles = 2;
 constexpr std::uint32_t kFirstSystemVariable = 1000;
+constexpr std::size_t kProvenPrograms = 10;    // a control stops at a slip in the first run: so many do not keep it
+constexpr std::uint16_t kLastShortCode = 9999; // in tenths; `G1543` may be two codes without the letter between them
 
 /// How often, and in how many files.
 struct Uses {
@@ -128,6 +131,90 @@ std::optional<Found> inferVariables(const Machine &machine, Switches &switches) 
                fmt::format("{} programs use variables that only this machine can have", files.size())};
 }
 
+/// The block and the one before as they are written: words but N and O, and statements.
+std::string surroundingsOf(const ProjectFile &file, BlockId block) {
+  std::string text;
+  const auto add = [&](BlockId id) {
+    for (const Word &word : file.tree.wordsOf(id))
+      if (word.address() != 'N' && word.address() != 'O')
+        text += toUpper(file.source.text(word.span())) + ' ';
+    for (const Statement &statement : file.tree.statementsOf(id))
+      text += toUpper(file.source.text(statement.span)) + ' ';
+    text += '\n';
+  };
+  if (block.index() > 0)
+    add(BlockId(block.index() - 1));
+  add(block);
+  return text;
+}
+
+/// The G codes of a machine: those that the control has, and the others with the places where they stand.
+struct WrittenCodes {
+  struct Foreign {
+    Uses uses;
+    std::set<std::string> surroundings;
+  };
+  std::set<std::string> known; // `G01`
+  std::map<CodeName, Foreign> foreign;
+};
+
+/// With two digits at least, so that `G9` and `G90` are as near as they look.
+std::string twoDigitName(std::uint16_t tenths) {
+  std::string name = textOf(CodeName{'G', tenths});
+  return tenths < 100 ? name.insert(1, "0") : name;
+}
+
+WrittenCodes codesOf(const Machine &machine) {
+  WrittenCodes codes;
+  forEachBlock(machine, [&](const ProjectFile &file, BlockId block) {
+    for (const Word &word : file.tree.wordsOf(block)) {
+      const auto tenths = word.address() == 'G' && word.isCode() ? word.tenths() : std::nullopt;
+      if (!tenths)
+        continue;
+      if (hasGCode(*file.dialect, *tenths)) {
+        codes.known.insert(twoDigitName(*tenths));
+      } else if (*tenths <= kLastShortCode &&
+                 file.source.text(word.span()).find_first_of(" \t") == std::string_view::npos) {
+        WrittenCodes::Foreign &code = codes.foreign[{'G', *tenths}];
+        code.uses.add(file);
+        if (code.surroundings.size() < 2) // more tell no more
+          code.surroundings.insert(surroundingsOf(file, block));
+      }
+    }
+  });
+  return codes;
+}
+
+/// `G900` where G90 is used.  Where the code stands in copies of one place only, any code of the control may be meant.
+bool mayBeSlip(const CodeName &name, const WrittenCodes &codes, const Dialect &dialect) {
+  std::set<std::string> meant = codes.known;
+  if (codes.foreign.at(name).surroundings.size() == 1)
+    for (const Code &code : dialect.gCodes)
+      meant.insert(twoDigitName(code.tenths));
+  const std::vector<std::string_view> candidates(meant.begin(), meant.end());
+  return nearestWord(twoDigitName(name.tenths), candidates).has_value();
+}
+
+std::optional<Found> inferCodes(const Machine &machine, Switches &switches) {
+  if (!switches.buildersCodes.empty())
+    return std::nullopt;
+  const WrittenCodes codes = codesOf(machine);
+  std::vector<std::string> names;
+  std::set<const ProjectFile *> files;
+  for (const auto &[name, code] : codes.foreign) {
+    const auto &users = code.uses.files;
+    if (!code.uses.isHabit() || (users.size() < kProvenPrograms && mayBeSlip(name, codes, machine.dialect())))
+      continue;
+    switches.buildersCodes.push_back(name);
+    names.push_back(fmt::format("\"{}\"", textOf(name)));
+    files.insert(users.begin(), users.end());
+  }
+  if (names.empty())
+    return std::nullopt;
+  return Found{"", fmt::format("builders-codes = [{}]", fmt::join(names, ", ")),
+               fmt::format("{} programs use G codes that only this machine can have", files.size())};
+}
+
 std::vector<Machine> machinesOf(std::span<const std::shared_ptr<ProjectFile>> files) {
   std::map<std::tuple<std::string, std::string_view, std::string>, Machine> machines;
   for (const auto &file : files) {
@@ -152,7 +239,7 @@ std::vector<InferredSetting> inferMachineSettings(std::span<const std::shared_pt
   for (const Machine &machine : machinesOf(files)) {
     Switches switches = machine.dialect().switches;
     const std::size_t before = all.size();
-    for (const auto infer : {inferDpi, inferCir, inferM3b, inferVariables})
+    for (const auto infer : {inferDpi, inferCir, inferM3b, inferVariables, inferCodes})
       if (std::optional<Found> found = infer(machine, switches))
         all.push_back({machine.folder, machine.dialect().id, std::move(found->table), std::move(found->line),
                        std::move(found->evidence)});

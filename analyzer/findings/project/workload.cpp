@@ -4,12 +4,14 @@
 #include "base/support/parallel.h"
 #include "findings/project/content.h"
 #include "findings/project/discovery.h"
+#include "findings/project/remaps.h"
 #include "findings/project/selection.h"
 #include "language/dialect/folder_vote.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -31,6 +33,7 @@ struct Settings {
   std::vector<const FilePattern *> patterns; // of the configuration, those that match
   const Dialect *dialect = nullptr;
   DialectChoice choice = DialectChoice::Fallback;
+  std::vector<CodeName> remapped = {}; // by the `.ini` files of the machine
 };
 
 void look(Candidate &candidate, const KnownNames &known) {
@@ -72,11 +75,31 @@ DialectChoice choiceOf(GuessBasis basis) {
   FEEDHOLD_UNREACHABLE("what a guess rests on");
 }
 
+std::filesystem::path folderOf(const std::filesystem::path &file) {
+  return std::filesystem::absolute(file).lexically_normal().parent_path();
+}
+
+/// The folder of a file and those above it, up to the one that was named.
+std::vector<std::filesystem::path> foldersAbove(const std::filesystem::path &file, const CheckOptions &options) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> folders = {folderOf(file)};
+  for (const std::string &path : options.paths) {
+    const fs::path root = fs::absolute(path).lexically_normal() / "";
+    const fs::path below = folders.front().lexically_relative(root.parent_path());
+    if (below.empty() || below.generic_string().starts_with(".."))
+      continue;
+    while (folders.back() != root.parent_path() && folders.back().has_relative_path())
+      folders.push_back(folders.back().parent_path());
+    break;
+  }
+  return folders;
+}
+
 class Settler {
 public:
   Settler(const CheckOptions &options, const KnownNames &known) : options_(options), known_(known) {}
 
-  Settings settle(const Candidate &candidate) const {
+  Settings settle(const Candidate &candidate) {
     Settings settings;
     settings.patterns = matchingPatterns(candidate.found);
     const auto choose = [&](std::string_view id, DialectChoice choice) {
@@ -93,12 +116,16 @@ public:
         choose(*pattern->dialect, DialectChoice::FilePattern);
     if (options_.control.dialect)
       choose(*options_.control.dialect, DialectChoice::Option);
+    if (settings.dialect->grammar.oWords && options_.config.source != ConfigSource::None)
+      settings.remapped = remaps_.inFolders(foldersAbove(
+          candidate.found.path.empty() ? std::filesystem::path(candidate.found.shown) : candidate.found.path,
+          options_));
     return settings;
   }
 
   /// The settings of one configuration and one set of patterns are made once: thousands of files share them.
   std::shared_ptr<const Profile> profileFor(const Config &config, const Settings &settings) {
-    const Key key{&config, settings.dialect, settings.patterns};
+    const Key key{&config, settings.dialect, settings.patterns, settings.remapped};
     const auto known = profiles_.find(key);
     if (known != profiles_.end())
       return known->second;
@@ -106,7 +133,7 @@ public:
   }
 
 private:
-  using Key = std::tuple<const Config *, const Dialect *, std::vector<const FilePattern *>>;
+  using Key = std::tuple<const Config *, const Dialect *, std::vector<const FilePattern *>, std::vector<CodeName>>;
 
   Profile makeProfile(const Config &config, const Settings &settings) const {
     using Kind = SelectionStep::Kind;
@@ -123,6 +150,8 @@ private:
     if (!config.codeCalls.empty())
       switches.codeCalls = config.codeCalls;
     switches.buildersVariables = config.buildersVariables;
+    std::set_union(config.buildersCodes.begin(), config.buildersCodes.end(), settings.remapped.begin(),
+                   settings.remapped.end(), std::back_inserter(switches.buildersCodes));
     steps.push_back({Kind::Select, options_.select});
     steps.push_back({Kind::Ignore, options_.ignore});
     profile.rules = selectRules(known_.rules, steps);
@@ -148,6 +177,7 @@ private:
 
   const CheckOptions &options_;
   const KnownNames &known_;
+  RemapFinder remaps_;
   std::map<Key, std::shared_ptr<const Profile>> profiles_;
 };
 
@@ -224,10 +254,6 @@ private:
   Workload result_;
 };
 
-std::filesystem::path folderOf(const std::filesystem::path &file) {
-  return std::filesystem::absolute(file).lexically_normal().parent_path();
-}
-
 /// The other programs of the folders of which only single files were named: they vote, whatever is checked.
 std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, const CheckOptions &options,
                                     const KnownNames &known) {
@@ -245,22 +271,6 @@ std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, co
         voters.push_back({std::move(file)});
   parallelFor(voters.size(), options.jobs, [&](std::size_t i) { open(voters[i], options, known); });
   return voters;
-}
-
-/// The folder of a file and those above it, up to the one that was named.
-std::vector<std::filesystem::path> foldersAbove(const std::filesystem::path &file, const CheckOptions &options) {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> folders = {folderOf(file)};
-  for (const std::string &path : options.paths) {
-    const fs::path root = fs::absolute(path).lexically_normal() / "";
-    const fs::path below = folders.front().lexically_relative(root.parent_path());
-    if (below.empty() || below.generic_string().starts_with(".."))
-      continue;
-    while (folders.back() != root.parent_path() && folders.back().has_relative_path())
-      folders.push_back(folders.back().parent_path());
-    break;
-  }
-  return folders;
 }
 
 /// The files of a folder decide together for which control they were written; where too few of them say the same, those

@@ -25,9 +25,49 @@ const AddressFormat &formatOf(const Dialect &dialect, char address) {
   return isLetter(address) ? dialect.addresses[static_cast<std::size_t>(toUpper(address) - 'A')] : kNone;
 }
 
-const Code *findGCode(const Dialect &dialect, std::uint16_t tenths) { return findCode(dialect.gCodes, tenths); }
+bool isBuildersCode(const Dialect &dialect, char address, std::uint16_t tenths) {
+  const std::vector<CodeName> &codes = dialect.switches.buildersCodes;
+  return !codes.empty() && std::find(codes.begin(), codes.end(), CodeName{address, tenths}) != codes.end();
+}
 
-const Code *findMCode(const Dialect &dialect, std::uint16_t tenths) { return findCode(dialect.mCodes, tenths); }
+const Code *findGCode(const Dialect &dialect, std::uint16_t tenths) {
+  return isBuildersCode(dialect, 'G', tenths) ? nullptr : findCode(dialect.gCodes, tenths);
+}
+
+const Code *findMCode(const Dialect &dialect, std::uint16_t tenths) {
+  return isBuildersCode(dialect, 'M', tenths) ? nullptr : findCode(dialect.mCodes, tenths);
+}
+
+bool hasGCode(const Dialect &dialect, std::uint16_t tenths) {
+  return findGCode(dialect, tenths) || findCodeCall(dialect, 'G', tenths) || isBuildersCode(dialect, 'G', tenths);
+}
+
+bool mayDoAnything(const Dialect &dialect, char address, std::uint16_t tenths) {
+  return (address == 'G' && !findGCode(dialect, tenths)) || (address == 'M' && isBuildersCode(dialect, 'M', tenths));
+}
+
+std::string textOf(const CodeName &name) {
+  const std::string whole = name.address + std::to_string(name.tenths / 10);
+  return name.tenths % 10 == 0 ? whole : whole + "." + std::to_string(name.tenths % 10);
+}
+
+std::optional<CodeName> codeNamed(std::string_view text, std::string_view addresses) {
+  constexpr std::uint32_t kLastNumber = 6000; // as of a word
+  const char address = text.empty() ? ' ' : toUpper(text.front());
+  const std::string_view digits = text.substr(std::min<std::size_t>(1, text.size()));
+  const std::string_view whole = digits.substr(0, digits.find('.'));
+  const std::string_view tenth = whole.size() == digits.size() ? "0" : digits.substr(whole.size() + 1);
+  const bool isNumber = !whole.empty() && whole.size() <= 4 && std::all_of(whole.begin(), whole.end(), isDigit) &&
+                        tenth.size() == 1 && isDigit(tenth.front());
+  if (addresses.find(address) == std::string_view::npos || !isNumber)
+    return std::nullopt;
+  std::uint32_t number = 0;
+  for (const char c : whole)
+    number = number * 10 + static_cast<std::uint32_t>(c - '0');
+  if (number >= kLastNumber)
+    return std::nullopt;
+  return CodeName{address, static_cast<std::uint16_t>(number * 10 + static_cast<std::uint32_t>(tenth.front() - '0'))};
+}
 
 VariableRange buildersVariable(std::uint32_t first, std::uint32_t last) {
   return {.first = first,

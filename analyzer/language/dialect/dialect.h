@@ -7,6 +7,7 @@
 #include "language/dialect/words.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -310,6 +311,17 @@ struct CodeCall {
   bool isMacro;          // true: arguments are passed (as G65); false: subprogram (as M98)
 };
 
+/// A G or M code by its name.
+struct CodeName {
+  char address;
+  std::uint16_t tenths; // ten times the code's number
+  friend auto operator<=>(const CodeName &, const CodeName &) = default;
+};
+/// `G68.2`, `M6`
+std::string textOf(const CodeName &name);
+/// `g68.2`, `M06`, `T1`: the letter as a capital; absent where the text is no such code.
+std::optional<CodeName> codeNamed(std::string_view text, std::string_view addresses);
+
 /// How fine the control counts lengths and angles: parameter 1013 (ISA, ISC); one setting for all axes.
 enum class IncrementSystem : std::uint8_t { A, B, C };
 /// `IS-A`, `IS-B`, `IS-C`.
@@ -346,6 +358,8 @@ struct Switches {
   std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
   /// Of the machine builder, by number: what they hold is not known, and may change at any time.
   std::vector<VariableRange> buildersVariables = {};
+  /// Of the machine builder: what they do is not known.  One that the control has otherwise is replaced.
+  std::vector<CodeName> buildersCodes = {};
 };
 /// A row for Switches::buildersVariables.
 VariableRange buildersVariable(std::uint32_t first, std::uint32_t last);
@@ -485,6 +499,7 @@ NumberModel numbersOf(const Dialect &dialect);
 /// Those that a run takes: doubles where no source says what the control has.
 NumberModel numbersOfRun(const Dialect &dialect);
 const AddressFormat &formatOf(const Dialect &dialect, char address);
+/// Null for a code of the machine builder, whatever the control makes of its number.
 const Code *findGCode(const Dialect &dialect, std::uint16_t tenths);
 const Code *findMCode(const Dialect &dialect, std::uint16_t tenths);
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
@@ -515,6 +530,12 @@ std::optional<std::string_view> alarmNumber(const Dialect &dialect, AlarmKind ki
 /// "stops with PS0112 (divided by zero)", or without a number where it is not known.
 std::string stopsWith(const Dialect &dialect, AlarmKind kind);
 const CodeCall *findCodeCall(const Dialect &dialect, char address, std::uint16_t tenths);
+bool isBuildersCode(const Dialect &dialect, char address, std::uint16_t tenths);
+/// The control or the machine's settings have it; at another one the control stops.
+bool hasGCode(const Dialect &dialect, std::uint16_t tenths);
+/// It may change anything: an unknown G code, or an M code that Switches::buildersCodes lists.  Other unknown M codes
+/// are those of switches and valves.
+bool mayDoAnything(const Dialect &dialect, char address, std::uint16_t tenths);
 /// G65, G66, G66.1, or a code that the machine's parameters make a macro call: the words behind it are arguments.
 bool callsMacro(const Dialect &dialect, char address, std::uint16_t tenths);
 /// The local variable that an address sets by argument assignment I; 0 where it passes nothing.

@@ -152,6 +152,8 @@ private:
     const Code *code = word.address() == 'G' ? findGCode(dialect, *tenths) : findMCode(dialect, *tenths);
     if (code)
       words_.codes.push_back({code, word.address(), word.span()});
+    else if (isBuildersCode(dialect, word.address(), *tenths))
+      buildersCode(word);
     else if (word.address() == 'G')
       unknownCode(word);
   }
@@ -196,10 +198,17 @@ private:
     }
     interpretation_.havoc(context_.state, "a code with a computed number", word.span());
   }
+  /// Before the movement of its block or behind it.
+  void buildersCode(const Word &word) {
+    static constexpr Code kAnything{
+        .role = CodeRole::OwnWords, .action = CodeAction::Anything, .meaning = "a code of the machine builder"};
+    words_.codes.push_back({&kAnything, word.address(), word.span()});
+    interpretation_.havoc(context_.state, kAnything.meaning, word.span());
+  }
   /// Either an alarm, or a macro that the machine's parameters call.
   void unknownCode(const Word &word) {
-    interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
     words_.unmodelled = true;
+    interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
     interpretation_.havoc(context_.state, "a G code that the control does not have", word.span());
   }
 

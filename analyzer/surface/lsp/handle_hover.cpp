@@ -189,7 +189,7 @@ private:
     const CodeCall *calls = tenths ? findCodeCall(programs_.dialect(), word.address(), *tenths) : nullptr;
     if (calls)
       return line("**{}** calls O{} on this machine", name, calls->program);
-    if (!row && word.address() == 'M')
+    if (!row && (word.address() == 'M' || (tenths && isBuildersCode(programs_.dialect(), 'G', *tenths))))
       return line("**{}**: its function is defined by the machine builder", name);
     if (!row)
       return line("**{}**: {} has no such code", name, programs_.dialect().title);

@@ -245,6 +245,29 @@ TEST(Dialect, CodeCallsComeFromTheSwitches) {
   EXPECT_EQ(findCodeCall(dialect, 'G', 60), nullptr);
 }
 
+TEST(Dialect, NamesOfCodes) {
+  EXPECT_EQ(codeNamed("g68.2", "GM"), (CodeName{'G', 682}));
+  EXPECT_EQ(codeNamed("M06", "GM"), (CodeName{'M', 60}));
+  for (const char *text : {"", "G", "T1", "G1.25", "G1.", "G-1", "G6000", "G12345", "G1A"})
+    EXPECT_FALSE(codeNamed(text, "GM")) << text;
+  EXPECT_EQ(textOf(CodeName{'G', 682}), "G68.2");
+  EXPECT_EQ(textOf(CodeName{'M', 60}), "M6");
+}
+
+TEST(Dialect, CodesOfTheBuilderReplaceThoseOfTheControl) {
+  Dialect dialect = dialectNamed("fanuc-30i");
+  EXPECT_FALSE(hasGCode(dialect, 2290));
+  EXPECT_TRUE(mayDoAnything(dialect, 'G', 2290));
+  EXPECT_FALSE(mayDoAnything(dialect, 'M', 4620));
+  dialect.switches.buildersCodes = {{'G', 50}, {'G', 2290}, {'M', 60}, {'M', 4620}};
+  EXPECT_TRUE(hasGCode(dialect, 2290));
+  for (const CodeName &code : dialect.switches.buildersCodes)
+    EXPECT_TRUE(mayDoAnything(dialect, code.address, code.tenths)) << textOf(code);
+  EXPECT_FALSE(findGCode(dialect, 50));
+  EXPECT_FALSE(findMCode(dialect, 60));
+  EXPECT_TRUE(findMCode(dialect, 300));
+}
+
 TEST(Words, AreSpelledAsInPrograms) {
   EXPECT_EQ(spellingOf(FunctionKind::Sqrt), "SQRT");
   EXPECT_EQ(spellingOf(OperatorKind::LessOrEqual), "LE");

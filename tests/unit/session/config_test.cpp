@@ -85,6 +85,24 @@ TEST(Config, IncrementSystem) {
             "1:20 `IS-D` is not an increment system; one of: IS-A, IS-B, IS-C");
 }
 
+TEST(Config, CodesOfTheBuilder) {
+  const ConfigText text = read("builders-codes = [\"M462\", \"g68.2\", \"G229\", \"G68.2\"]\n");
+  EXPECT_TRUE(text.errors.empty());
+  EXPECT_EQ(text.config.buildersCodes, (std::vector<CodeName>{{'G', 682}, {'G', 2290}, {'M', 4620}}));
+  EXPECT_EQ(errorOf("builders-codes = \"G229\"\n"),
+            "1:18 `builders-codes` must be a list of G and M codes in quotes, such as [\"G229\", \"M462\"]");
+  for (const char *code : {"229", "\"T1\"", "\"G68.25\"", "\"\""})
+    EXPECT_EQ(errorOf(fmt::format("builders-codes = [{}]\n", code)),
+              "1:19 a code of the machine builder is a G or M code in quotes, such as \"G68.2\"");
+}
+
+TEST(Config, WhatChangesADialectIsPartOfItsText) {
+  Switches switches;
+  const std::string before = textOf(switches);
+  switches.buildersCodes = {{'M', 4620}};
+  EXPECT_NE(textOf(switches), before);
+}
+
 TEST(Config, AFormerNameOfARuleIsUnderstood) {
   EXPECT_EQ(errorOf("select = [\"loop-counter-clobbered\"]\n[severity]\nloop-counter-clobbered = \"info\"\n"),
             "0 errors");
