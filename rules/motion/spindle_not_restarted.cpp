@@ -1,11 +1,10 @@
 // spindle-not-restarted: `T2 M06`, `S3000`, and a cut; M03 stands only behind the first tool change.
-#include "findings/rule/rule.h"
+#include "rules/motion/tool_sections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <vector>
 
 namespace feedhold::rules::spindle_not_restarted {
@@ -35,29 +34,18 @@ template <typename Actions> bool isOneOf(const Code *code, const Actions &action
 
 class Reader {
 public:
-  Reader(ProgramId program, const FileContext &context)
-      : context_(context), targets_(context.model.jumpTargetsOf(program)) {}
+  Reader(ProgramId program, const FileContext &context) : context_(context), hidden_(program, context) {}
 
-  void read(BlockId block) {
-    const auto words = context_.tree.wordsOf(block);
-    const bool changes = std::ranges::any_of(words, [&](const Word &word) {
-      const Code *code = word.isCode() ? codeOf(word, context_.dialect) : nullptr;
-      return code && code->action == CodeAction::ToolChange;
-    });
-    if (changes)
-      sections_.push_back(
-          {.change = &words.front(), .speed = sections_.empty() ? nullptr : sections_.back().lateSpeed});
-    if (sections_.empty())
-      return;
-    Section &section = sections_.back();
-    const Block &its = context_.tree.blocks[block];
-    if (its.has(Block::kSkip) || its.has(Block::kSkipInside) || its.has(Block::kBroken) || targets_.contains(block) ||
-        !context_.model.callsIn(block, block.next()).empty())
-      section.mayStartUnseen = true;
-    for (const Word &word : words)
-      readWord(word, section);
+  /// `lateSpeed`: what the tool before has left for this one.
+  Section read(const ToolSection &tool, const Word *lateSpeed) const {
+    Section section{.change = tool.change, .speed = lateSpeed};
+    for (BlockId block = tool.first; block < tool.last; block = block.next()) {
+      section.mayStartUnseen = section.mayStartUnseen || hidden_.isIn(block);
+      for (const Word &word : context_.tree.wordsOf(block))
+        readWord(word, section);
+    }
+    return section;
   }
-  const std::vector<Section> &sections() const { return sections_; }
 
 private:
   void readWord(const Word &word, Section &section) const {
@@ -68,9 +56,7 @@ private:
     if (!word.isCode())
       return;
     const Code *code = codeOf(word, context_.dialect);
-    if (code && code->action == CodeAction::ToolChange)
-      section.change = &word;
-    else if (isOneOf(code, kStarting))
+    if (isOneOf(code, kStarting))
       section.start = section.start ? section.start : &word;
     else if (isOneOf(code, kDrilling) || isOneOf(code, kFeeding))
       readCut(word, isOneOf(code, kDrilling), section);
@@ -95,8 +81,7 @@ private:
   static bool isOptionalStop(const Word &word) { return word.isNumber() && word.tenths() == 10; }
 
   const FileContext &context_;
-  std::set<BlockId> targets_;
-  std::vector<Section> sections_;
+  HiddenWork hidden_;
 };
 
 void tellStart(const Section &section, const Section &other, const FileContext &context, const Reporter &reporter) {
@@ -121,11 +106,10 @@ void tellSpeed(const Section &section, const Section &other, const FileContext &
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Milling)
     return;
-  Reader reader(program, context);
-  const Program &its = context.model.programs[program];
-  for (BlockId block = its.first; block < its.last; block = block.next())
-    reader.read(block);
-  const auto &sections = reader.sections();
+  const Reader reader(program, context);
+  std::vector<Section> sections;
+  for (const ToolSection &tool : toolSectionsOf(program, context))
+    sections.push_back(reader.read(tool, sections.empty() ? nullptr : sections.back().lateSpeed));
   const auto starts = [](const Section &section) { return section.start && section.speed && section.cut; };
   const auto like = std::ranges::find_if(sections, starts);
   if (like == sections.end())
