@@ -37,6 +37,21 @@ GOTO1
 N2M99
 N9#3000=31(NO ANSWER)
 """
+STARTED = """O0001(MAIN)
+IF[#501LE0]GOTO91
+IF[#503EQ#0]GOTO92
+IF[#501GT80]GOTO91
+IF[#503GT9]GOTO92
+G90G54G00X0Y0
+M30
+N91#3000=11(DIAMETER)
+N92#3000=12(PASSES)
+"""
+SETTINGS = """O8000(SETTINGS)
+#501=12.(CUTTER DIAMETER, MM)
+#502=0.5(STEP)
+M99
+"""
 
 
 class Draft(Scratch):
@@ -77,6 +92,93 @@ class Draft(Scratch):
         self.write("O9106.nc", "O9106\nIF[#7LT#0]GOTO9\nG90G01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n")
         self.draft("O9106.nc")
         self.assertIn("@PARAM #7 0.. OPTIONAL", self.clauses("O9106.contract"))
+
+    def test_every_clause_from_a_guard_is_needed(self):
+        """Without it the contract allows a call that raises the alarm."""
+        self.write("O9100.nc", MACRO)
+        self.draft("O9100.nc")
+        path = self.folder / "O9100.contract"
+        lines = path.read_text().splitlines(keepends=True)
+        guards = [line for line in lines if "otherwise alarm" in line]
+        self.assertEqual(len(guards), 5)
+        for guard in guards:
+            path.write_text("".join(line for line in lines if line != guard))
+            proved = self.feedhold("prove", "--dialect", "fanuc-30i", "--no-cache", "--only", "alarm-unreachable",
+                                   "O9100.nc")
+            with self.subTest(guard):
+                self.assertExit(proved, 1)
+
+    def test_a_limit_that_a_vacant_variable_fails(self):
+        self.write("O9107.nc", "O9107\n(M - GROOVE POSITION)\nIF[#13LT#0]GOTO9\nIF[#13LE1]GOTO9\nIF[#660EQ#0]GOTO9\n"
+                               "IF[#660LE10]GOTO9\nG90G01Z-#13F#660\nM99\nN9#3000=41\n")
+        self.draft("O9107.nc")
+        clauses = self.clauses("O9107.contract")
+        for clause in ["@PARAM #13 GROOVE-POSITION", "@REQUIRE #13 GT 1", "@REQUIRE #660 GT 10"]:
+            self.assertIn(clause, clauses)
+        self.assertNotIn("@GLOBAL #660", clauses)
+
+    def test_nothing_is_promised_where_no_call_returns(self):
+        self.write("O9108.nc", "O9108\nIF[#7LE0]GOTO9\n#1=1/0\nG90G01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n")
+        self.draft("O9108.nc")
+        for clause in self.clauses("O9108.contract"):
+            self.assertNotRegex(clause, "@ENSURE|@GUARDED")
+
+    def test_names(self):
+        self.write("O9109.nc", "O9109\n(A - TYPE: 0 FACE, 1 POCKET)\n(B - X WIDTH OF RAW STOCK)\n(C - A-SIDE WALL)\n"
+                               "IF[#1LT1]GOTO9\nIF[#2LT2]GOTO9\nIF[#3LT3]GOTO9\nIF[#25LT4]GOTO9\nG90G01X#1Y#25F100\n"
+                               "(Y: BACK TO THE ORIGIN)\nM99\nN9#3000=41\n")
+        self.draft("O9109.nc")
+        self.assertEqual([clause for clause in self.clauses("O9109.contract") if "@PARAM" in clause],
+                         ["@PARAM #1 TYPE 1..", "@PARAM #2 X-WIDTH-RAW-STOCK 2..", "@PARAM #3 A-SIDE-WALL 3..",
+                          "@PARAM #25 4.."])
+
+    # ---- programs that are started ----
+
+    def test_alarms_of_a_program_that_is_started(self):
+        """The order of the guards decides which alarm is raised."""
+        self.write("O0001.nc", STARTED)
+        self.draft("O0001.nc")
+        self.assertEqual(self.clauses("O0001.contract"),
+                         ["@ALARM 11 IFF [#501 LE 0] OR [[#503 NE #0] AND [#501 GT 80]]",
+                          "@ALARM 12 IFF [#501 GT 0] AND [[#503 EQ #0] OR [[#501 LE 80] AND [#503 GT 9]]]"])
+        self.assertExit(self.feedhold("prove", "--dialect", "fanuc-30i", "--no-cache", "O0001.nc"), 0)
+
+    def test_alarms_that_a_contract_excludes(self):
+        self.write("O9100.nc", MACRO)
+        self.write("O0002.nc", STARTED.replace("O0001", "O0002"))
+        self.write("O0003.nc", "O3\nM98P0002\nM30\n")
+        self.draft("O9100.nc", "O0002.nc")
+        for name in ["O9100.contract", "O0002.contract"]:
+            self.assertNotIn("@ALARM", (self.folder / name).read_text())
+
+    # ---- settings and space ----
+
+    def test_settings(self):
+        """A value that a proof needs is a clause; others are suggested."""
+        self.write("O8000.nc", SETTINGS)
+        self.write("O9200.nc", "O9200\n#10=#24\nN1WHILE[#10GT0]DO1\n#10=#10-#502\nG90G01X#10Y#501F200\nEND1\nM99\n")
+        self.draft("O9200.nc")
+        self.assertIn("@GLOBAL #502 STEP IN 0.5", self.clauses("O9200.contract"))
+        self.assertIn("; suggested: @GLOBAL #501 CUTTER-DIAMETER IN 12 MM ; O8000 sets it (line 2)",
+                      (self.folder / "O9200.contract").read_text())
+
+    def test_settings_that_change(self):
+        self.write("O8000.nc", SETTINGS)
+        self.write("O8001.nc", SETTINGS.replace("O8000", "O8001"))
+        self.write("O9201.nc", "O9201\nG90G01X[#501+#502]F200\nM99\n")
+        self.assertNotIn("IN 12", self.draft("--stdout", "O9201.nc").stdout)
+
+    def test_tool_and_region(self):
+        text = "O9300\n(D - CUTTER DIAMETER)\nIF[#7LE0]GOTO9\nG90G00X0Y0\nZ5.\nG01Z-2.F200\nX80.\nM99\nN9#3000=11\n"
+        self.write("O9300.nc", text)
+        drafted = self.draft("--stdout", "O9300.nc").stdout
+        self.assertIn("; suggested: @TOOL FLAT RADIUS [#7/2]", drafted)
+        self.assertIn("; suggested: @KEEPIN CUT BOX X[0-#7/2]..[80+#7/2] Y[0-#7/2]..[0+#7/2] Z-2..", drafted)
+        for other in [text.replace("G01Z", "G01G41D1Z"), text.replace("X80.", "G02X80.R40."), text.replace("X80.", "X#24")]:
+            self.write("O9300.nc", other)
+            self.assertNotIn("@KEEPIN", self.draft("--stdout", "O9300.nc").stdout)
+        self.write("O9300.nc", text.replace("CUTTER DIAMETER", "TOOL OFFSET NUMBER"))
+        self.assertNotIn("@TOOL", self.draft("--stdout", "O9300.nc").stdout)
 
     def test_polling_is_no_guard(self):
         self.write("O9102.nc", POLLING)

@@ -13,12 +13,16 @@ namespace feedhold::draft {
 namespace {
 
 constexpr std::size_t kLongestName = 24;
-constexpr std::size_t kMostWords = 3;
+constexpr std::size_t kMostWords = 4;
 constexpr std::size_t kMostValuesTold = 6;
 constexpr std::array<std::string_view, 14> kFillers = {"THE", "OF", "A",  "AN",  "IS", "TO",   "FOR",
                                                        "IN",  "AS", "AT", "AND", "OR", "THIS", "FROM"};
 constexpr std::array<std::string_view, 10> kReserved = {"IN",  "OPTIONAL", "MM",  "INCH", "DEG",
                                                         "REV", "SEC",      "INT", "RPM",  "IPM"};
+/// What follows says more of what has been named: `LENGTH BETWEEN THE TOP AND THE FIRST ROW`.
+constexpr std::array<std::string_view, 15> kPrepositions = {"OF",   "FROM",  "BETWEEN", "BEFORE", "BEHIND",
+                                                            "FOR",  "IN",    "AT",      "TO",     "ON",
+                                                            "WITH", "AFTER", "ABOVE",   "BELOW",  "UNTIL"};
 /// How people write units, and how contracts do; the longer ones first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kUnits = {{{"MM/MIN", "MM/MIN"},
                                                                                    {"MM/REV", "MM/REV"},
@@ -45,8 +49,10 @@ template <typename List> bool isOneOf(const List &list, std::string_view word) {
 std::vector<std::string> wordsOf(std::string_view text) {
   std::vector<std::string> words;
   bool isInside = false;
-  for (const char c : text) {
-    const bool isPart = isLetter(c) || isDigit(c) || (isInside && c == '/');
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool isHyphen = c == '-' && i + 1 < text.size() && isLetter(text[i + 1]); // `B-AXIS` is one word
+    const bool isPart = isLetter(c) || isDigit(c) || (isInside && (c == '/' || isHyphen));
     if (isPart && !isInside)
       words.emplace_back();
     if (isPart)
@@ -63,25 +69,54 @@ std::string unitIn(const std::vector<std::string> &words) {
   return {};
 }
 
+/// The words of a name, as far as they are told.  `X LOCATION IF GIVEN`: a condition follows.
+std::vector<std::string> wordsOfName(const std::vector<std::string> &words) {
+  std::vector<std::string> named;
+  for (const std::string &word : words) {
+    if (word == "IF" || word == "WHEN")
+      break;
+    const bool isName = isLetter(word.front()) && !isOneOf(kReserved, word) && word.find('/') == std::string::npos;
+    if (isName && (isOneOf(kPrepositions, word) || !isOneOf(kFillers, word)))
+      named.push_back(word);
+  }
+  return named;
+}
+
+/// `X-WIDTH-RAW-STOCK`; where that is too long, the words before the first preposition.
+std::string nameIn(const std::vector<std::string> &words) {
+  const std::vector<std::string> named = wordsOfName(words);
+  const auto isPreposition = [](const std::string &word) { return isOneOf(kPrepositions, word); };
+  const auto joined = [&](auto end) {
+    std::string name;
+    std::size_t count = 0;
+    for (auto word = named.begin(); word != end; ++word) {
+      if (isOneOf(kFillers, *word))
+        continue;
+      if (++count > kMostWords || name.size() + word->size() + 1 > kLongestName)
+        return std::pair(name, false);
+      name += (name.empty() ? "" : "-") + *word;
+    }
+    return std::pair(name, true);
+  };
+  // Letters alone name nothing, `Z-K` neither; one may be the axis of what follows.
+  if (std::ranges::none_of(named, [&](const std::string &word) {
+        return word.size() > 1 && (word[1] != '-' || word.size() > 3) && !isPreposition(word);
+      }))
+    return {};
+  const auto [whole, isWhole] = joined(named.end());
+  if (isWhole)
+    return whole;
+  const auto [head, isHead] = joined(std::ranges::find_if(named, isPreposition));
+  return isHead && !head.empty() ? head : whole;
+}
+
 /// Absent: the text is no description but a formula or a condition.
 std::optional<ArgumentNote> noteIn(std::string_view text) {
   text = trimmed(text);
-  const std::string_view clause = text.substr(0, text.find_first_of(",;(["));
+  const std::string_view clause = text.substr(0, text.find_first_of(",;:|(["));
   if (text.empty() || !isLetter(text.front()) || clause.find_first_of("#<>=*+") != std::string_view::npos)
     return std::nullopt;
-  ArgumentNote note{.name = {}, .unit = unitIn(wordsOf(text))};
-  std::size_t count = 0;
-  for (const std::string &word : wordsOf(clause)) {
-    if (word == "IF" || word == "WHEN") // a condition follows
-      break;
-    const bool isName = isLetter(word.front()) && !isOneOf(kFillers, word) && !isOneOf(kReserved, word) &&
-                        word.find('/') == std::string::npos;
-    if (!isName || (word.size() < 2 && note.name.empty()))
-      continue;
-    if (++count > kMostWords || note.name.size() + word.size() + 1 > kLongestName)
-      break;
-    note.name += (note.name.empty() ? "" : "-") + word;
-  }
+  ArgumentNote note{.name = nameIn(wordsOf(clause)), .unit = unitIn(wordsOf(text))};
   return note.name.empty() ? std::nullopt : std::optional(note);
 }
 
@@ -104,12 +139,15 @@ public:
     const Program &program = own.model.programs[program_];
     const BlockId first = program_ == ProgramId(0) ? BlockId(0) : program.first;
     for (BlockId block = first; block < program.last; block = block.next())
-      if (own.tree.wordsOf(block).empty() && own.tree.statementsOf(block).empty())
+      if (!own.tree.wordsOf(block).empty() || !own.tree.statementsOf(block).empty())
+        before_ = block;
+      else
         for (const Comment &comment : own.tree.commentsOf(block))
           inComment(own, comment);
     for (const auto &file : project_.files)
       for (BlockId block(0); block.index() < file->tree.blockCount(); block = block.next())
         behindAssignment(*file, block);
+    notes_.merge(ofLetters_);
     return std::move(notes_);
   }
 
@@ -125,11 +163,18 @@ private:
     const std::string_view text = inner(file, comment);
     if (text.starts_with('#'))
       return ofVariable(text.substr(1));
-    if (text.empty() || text.front() < 'A' || text.front() > 'Z')
+    if (text.empty() || text.front() < 'A' || text.front() > 'Z' || isOfMove(file, text.front()))
       return;
     const std::uint8_t variable = argumentVariable(*file.dialect, text.front());
     if (const auto said = behindSeparator(text.substr(1)); said && variable != 0)
-      add(variable, *said);
+      addTo(ofLetters_, variable, *said);
+  }
+  /// `G00X#4Y0` with `(Y: ORIGIN)` below it: the comment is about the word.
+  bool isOfMove(const ProjectFile &file, char letter) const {
+    if (!before_)
+      return false;
+    const auto words = file.tree.wordsOf(*before_);
+    return std::ranges::any_of(words, [&](const Word &word) { return word.address() == letter; });
   }
   /// `18: R: RAW STOCK`
   void ofVariable(std::string_view text) {
@@ -157,14 +202,17 @@ private:
     std::string_view text = inner(file, comments.front());
     add(*target, text);
   }
-  void add(std::uint32_t variable, std::string_view text) {
+  void add(std::uint32_t variable, std::string_view text) { addTo(notes_, variable, text); }
+  static void addTo(ArgumentNotes &notes, std::uint32_t variable, std::string_view text) {
     if (const auto note = noteIn(text))
-      notes_.try_emplace(variable, *note); // what is said first
+      notes.try_emplace(variable, *note); // what is said first
   }
 
   const Project &project_;
   ProgramId program_;
-  ArgumentNotes notes_;
+  std::optional<BlockId> before_; // the last block that is more than a comment
+  ArgumentNotes notes_;           // of variables by their number
+  ArgumentNotes ofLetters_;
 };
 
 } // namespace

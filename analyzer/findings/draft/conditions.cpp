@@ -122,6 +122,19 @@ std::optional<std::vector<Alternatives>> either(const std::vector<Alternatives> 
   return isShort ? std::optional(all) : std::nullopt;
 }
 
+bool isInput(const Dialect &dialect, std::uint32_t variable) {
+  const VariableRange *row = findVariable(dialect, variable);
+  return row && (row->kind == VariableKind::Local || row->kind == VariableKind::Common ||
+                 row->kind == VariableKind::Retentive);
+}
+
+bool comesBack(const FlowFacts &facts) {
+  const bool mayReturn = facts.file.model->programs[facts.program].returns;
+  return mayReturn && (!facts.isComplete() || std::ranges::any_of(facts.exits(), [](const ExitFact &exit) {
+           return exit.end == PathEnd::Returns;
+         }));
+}
+
 const Assignment *onlyAssignment(const FlowFacts &facts, std::uint32_t variable) {
   const SyntaxTree &tree = *facts.file.tree;
   const Assignment *found = nullptr;

@@ -58,6 +58,12 @@ private:
 /// The product of two conditions: all alternatives of one with all of the other.  Absent: it is too long.
 std::optional<std::vector<Alternatives>> either(const std::vector<Alternatives> &a, const std::vector<Alternatives> &b);
 
+/// A local or common variable: what `@PARAM` and `@GLOBAL` can name.
+bool isInput(const Dialect &dialect, std::uint32_t variable);
+
+/// Some run comes to an M99 and back to a caller.  An M99 of a part that the program calls itself (M97) is another one.
+bool comesBack(const FlowFacts &facts);
+
 /// The only assignment to the variable in the text of the program; null: there is none, there are several, or one to a
 /// computed number.
 const Assignment *onlyAssignment(const FlowFacts &facts, std::uint32_t variable);

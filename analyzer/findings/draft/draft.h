@@ -6,6 +6,7 @@
 #include "findings/session/proofs.h"
 
 #include <filesystem>
+#include <stop_token>
 
 namespace feedhold {
 
@@ -26,8 +27,13 @@ ProgramDraft draftOf(const Project &project, ProgramId program, const std::strin
 
 struct DraftOptions {
   CheckOptions files; // which, how they are read, and on how many threads
-  prove::ProveOptions prove = {.arithmetic = prove::Arithmetic::Doubles};
-  bool update = false; // contracts that are there are added to, and earlier drafts in them made anew
+  /// A share of the work of `prove`, because each program is proved several times; missing programs as there.
+  prove::ProveOptions prove = {.steps = prove::kStepsOfProgram / 8,
+                               .arithmetic = prove::Arithmetic::Doubles,
+                               .missing = MissingPrograms::Return};
+  bool update = false;       // contracts that are there are added to, and earlier drafts in them made anew
+  std::string program = {};  // the only one that is drafted, `O9100`; empty: all
+  std::stop_token stop = {}; // of editors: nobody wants the result any more
 };
 
 /// One program and the file beside it.
@@ -49,7 +55,10 @@ struct DraftResult {
   std::vector<PathProblem> errors;
 };
 
+/// Nothing is drafted once a stop is requested.
 DraftResult draftAll(const DraftOptions &options, const KnownNames &known);
+/// Where the contract of a program would be written, if `feedhold draft` drafts one for it; absent: it does not.
+std::optional<std::filesystem::path> draftPlace(const Project &project, ProgramId program);
 /// Writes those that are changed.
 std::vector<PathProblem> writeDrafts(const std::vector<DraftedProgram> &drafts);
 

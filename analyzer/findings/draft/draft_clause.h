@@ -20,8 +20,8 @@ struct DraftClause {
   std::string text;   // `@PARAM #18 R 0.1..`
   std::string reason; // `otherwise alarm 121 (line 7)`
   Ground ground;
-  /// Of a Guard: the promise that shows it, `@ALARM 121 IF #18 LT 0.1`; several where the clause has several parts.
-  std::vector<std::string> shownBy = {};
+  /// Of a Guess or a Hint: a clause that asks for less.
+  std::string weaker = {};
 };
 using DraftClauses = std::vector<DraftClause>;
 

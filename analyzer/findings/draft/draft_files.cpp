@@ -4,6 +4,7 @@
 #include "base/source/write_file.h"
 #include "base/support/parallel.h"
 #include "findings/draft/sidecar_text.h"
+#include "proof/decide/cancel.h"
 
 #include <fmt/format.h>
 
@@ -75,10 +76,16 @@ DraftedProgram prepared(const Project &project, ProgramId program, bool update) 
   return drafted;
 }
 
-void draftOne(const DraftJob &job, const prove::ProveOptions &options) {
+void draftOne(const DraftJob &job, const DraftOptions &options) {
+  const prove::StopScope scope(options.stop);
   const std::string kept = draft::withoutDrafts(job.result->before);
-  job.result->draft = draft::draftOf(*job.project, job.program, kept, options);
-  job.result->after = draft::withDrafts(kept, job.result->draft.clauses);
+  try {
+    prove::throwIfCancelled();
+    job.result->draft = draft::draftOf(*job.project, job.program, kept, options.prove);
+    job.result->after = draft::withDrafts(kept, job.result->draft.clauses);
+  } catch (const prove::Cancelled &) {
+    job.result->draft = {}; // draftAll sees it, too
+  }
 }
 
 } // namespace
@@ -102,17 +109,28 @@ DraftResult draftAll(const DraftOptions &options, const KnownNames &known) {
   }
   for (const auto &[project, program] : programs)
     result.programs.push_back(prepared(*project, program, options.update));
+  if (!options.program.empty())
+    for (DraftedProgram &each : result.programs)
+      if (each.program != options.program && each.untouched.empty())
+        each.untouched = "another program is asked for";
   std::vector<DraftJob> jobs;
   for (std::size_t i = 0; i < programs.size(); ++i)
     if (result.programs[i].untouched.empty())
       jobs.push_back({programs[i].first, programs[i].second, &result.programs[i]});
   std::atomic<std::size_t> done{0};
   parallelFor(jobs.size(), options.files.jobs, [&](std::size_t i) {
-    draftOne(jobs[i], options.prove);
+    draftOne(jobs[i], options);
     if (options.files.progress)
       options.files.progress(++done, jobs.size());
   });
+  if (options.stop.stop_requested())
+    result.programs.clear();
   return result;
+}
+
+std::optional<fs::path> draftPlace(const Project &project, ProgramId program) {
+  const DraftedProgram drafted = prepared(project, program, false);
+  return drafted.untouched.empty() ? std::optional(drafted.place) : std::nullopt;
 }
 
 std::vector<PathProblem> writeDrafts(const std::vector<DraftedProgram> &drafts) {

@@ -1,8 +1,11 @@
 // Drafts the contract of one program: collects clauses, proves with them, and keeps those that are of use.
+#include "findings/draft/conditions.h"
 #include "findings/draft/draft.h"
 #include "findings/draft/entry_clauses.h"
+#include "findings/draft/guard_promises.h"
 #include "findings/draft/modal_needs.h"
 #include "findings/draft/promises.h"
+#include "findings/draft/space_suggestions.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +40,11 @@ public:
     const FileContracts contracts = trial_.contractsWith({});
     const FlowFacts facts = collectFacts(*project_.set, FileId(0), program_, {}, &contracts);
     draft_.before = scoreBesidePromises(trial_.prove({}));
-    addEntry(entryClauses(project_, facts, guardTableOf(facts)));
+    GuardTable table = guardTableOf(facts);
+    leaveOutRefuted(table);
+    if (isStarted(facts))
+      addAlarms(table);
+    addEntry(entryClauses(project_, facts, table));
     addEntry(modalNeeds(facts, contracts));
     std::vector<DraftClauses> promises = promisesOf(facts);
     prove::ProgramProof proof = proveWith(promises, prove::InferGuards::Yes);
@@ -51,6 +58,7 @@ public:
     addGuesses(proof);
     keepPromises(promises, draft_.guesses == 0 ? proof : proveWith(promises, prove::InferGuards::No));
     draft_.after = scoreBesidePromises(trial_.prove(linesOf(draft_.clauses)));
+    addSpace(spaceSuggestions(project_, facts, trial_.contractsWith(linesOf(draft_.clauses))));
     return std::move(draft_);
   }
 
@@ -62,30 +70,63 @@ private:
     });
   }
 
-  /// Clauses that can be read beside those that are there, and that no run shows to be wrong.
-  void addEntry(DraftClauses clauses) {
-    const std::set<std::string> refuted = refutedOf(clauses);
-    for (DraftClause &clause : clauses) {
-      const bool isWrong =
-          std::ranges::any_of(clause.shownBy, [&](const std::string &promise) { return refuted.contains(promise); });
-      if (isWrong || (clause.ground != Ground::Hint && !trial_.areSound(with(linesOf(draft_.clauses), clause.text))))
-        continue;
-      draft_.clauses.push_back(std::move(clause));
-    }
+  /// The operator starts it, and nothing in the folder calls it: nobody keeps a contract towards it.
+  bool isStarted(const FlowFacts &facts) const {
+    return !comesBack(facts) && !project_.callGraph.isCalled({FileId(0), program_});
   }
-  std::set<std::string> refutedOf(const DraftClauses &clauses) const {
-    std::set<std::string> promises;
-    for (const DraftClause &clause : clauses)
-      promises.insert(clause.shownBy.begin(), clause.shownBy.end());
+
+  /// Guards that some run gets past, though it should not.
+  void leaveOutRefuted(GuardTable &table) const {
+    std::vector<std::optional<std::string>> refusals;
+    for (const Guard &guard : table.guards)
+      refusals.push_back(refusalOf(table, guard));
+    std::set<std::string> lines;
+    for (const auto &refusal : refusals)
+      if (refusal)
+        lines.insert(*refusal);
+    if (lines.empty())
+      return;
     std::set<std::string> refuted;
-    if (promises.empty())
-      return refuted;
-    const prove::ProgramProof proof =
-        trial_.prove({promises.begin(), promises.end()}, {prove::ObligationKind::AlarmIff});
-    for (const prove::Obligation &claim : proof.obligations)
+    for (const prove::Obligation &claim :
+         trial_.prove({lines.begin(), lines.end()}, {prove::ObligationKind::AlarmIff}).obligations)
       if (claim.verdict == prove::Verdict::Refuted)
         refuted.insert(claim.claim);
-    return refuted;
+    std::vector<Guard> kept;
+    for (std::size_t i = 0; i < table.guards.size(); ++i)
+      if (!refusals[i] || !refuted.contains(*refusals[i]))
+        kept.push_back(std::move(table.guards[i]));
+    table.guards = std::move(kept);
+  }
+
+  /// What an alarm clause says of a program that is started, no entry clause has to say.
+  void addAlarms(GuardTable &table) {
+    const ProjectFile &file = project_.file(FileId(0));
+    for (const AlarmClauses &alarm : alarmClauses(table, file.source, file.tree))
+      for (const DraftClause &clause : alarm.alternatives) {
+        if (!trial_.areSound(with(linesOf(draft_.clauses), clause.text)) ||
+            !isProved(clause,
+                      trial_.prove(with(linesOf(draft_.clauses), clause.text), {prove::ObligationKind::AlarmIff})))
+          continue;
+        draft_.clauses.push_back(clause);
+        ++draft_.promises;
+        std::erase_if(table.guards, [&](const Guard &guard) { return guard.alarm == alarm.alarm; });
+        break;
+      }
+  }
+
+  /// Clauses that can be read beside those that are there.
+  void addEntry(DraftClauses clauses) {
+    for (DraftClause &clause : clauses)
+      if (clause.ground == Ground::Hint || trial_.areSound(with(linesOf(draft_.clauses), clause.text)))
+        draft_.clauses.push_back(std::move(clause));
+  }
+  /// A region is read only behind its tool.
+  void addSpace(DraftClauses clauses) {
+    std::vector<std::string> lines = linesOf(draft_.clauses);
+    for (const DraftClause &clause : clauses)
+      lines.push_back(clause.text);
+    if (trial_.areSound(lines))
+      std::ranges::move(clauses, std::back_inserter(draft_.clauses));
   }
 
   std::vector<DraftClauses> promisesOf(const FlowFacts &facts) const {
@@ -106,32 +147,65 @@ private:
     return trial_.prove(lines, {}, guards);
   }
 
+  static bool isProved(const DraftClause &clause, const prove::ProgramProof &proof) {
+    const auto claim = std::ranges::find(proof.obligations, clause.text, &prove::Obligation::claim);
+    return claim != proof.obligations.end() && claim->verdict == prove::Verdict::Proved && !claim->verdict.exactOnly();
+  }
+  /// Any promise would hold on a return that never comes.
+  static bool neverReturns(const prove::ProgramProof &proof) {
+    return std::ranges::any_of(proof.obligations, [](const prove::Obligation &claim) {
+      return (claim.kind == prove::ObligationKind::Ensures || claim.kind == prove::ObligationKind::ModalPreserved) &&
+             claim.verdict == prove::Verdict::Unreachable;
+    });
+  }
+
   /// The first of each group that is proved.
   void keepPromises(const std::vector<DraftClauses> &promises, const prove::ProgramProof &proof) {
-    const auto isProved = [&](const DraftClause &clause) {
-      const auto claim = std::ranges::find(proof.obligations, clause.text, &prove::Obligation::claim);
-      return claim != proof.obligations.end() && claim->verdict.holds() && !claim->verdict.exactOnly();
-    };
+    if (neverReturns(proof))
+      return;
     for (const DraftClauses &group : promises)
-      if (const auto best = std::ranges::find_if(group, isProved); best != group.end()) {
+      if (const auto best = std::ranges::find_if(group, [&](const DraftClause &each) { return isProved(each, proof); });
+          best != group.end()) {
         draft_.clauses.push_back(*best);
         ++draft_.promises;
       }
   }
 
-  /// A mode that is only suggested becomes a clause where more is proved with it.
+  // ---- which of them are needed ----
+
+  std::size_t proofsWith(const std::vector<DraftClauses> &promises) const {
+    return scoreOf(proveWith(promises, prove::InferGuards::No)).holds;
+  }
+
+  /// What is only suggested becomes a clause where more is proved with it: tried together, then each alone is left out.
   bool trySuggested(const std::vector<DraftClauses> &promises, const Score &score) {
-    bool isBetter = false;
-    for (DraftClause &clause : draft_.clauses) {
-      if (clause.ground != Ground::Hint)
-        continue;
-      clause.ground = Ground::Guess;
-      const bool helps = trial_.areSound(linesOf(draft_.clauses)) &&
-                         scoreOf(proveWith(promises, prove::InferGuards::No)).holds > score.holds;
-      clause.ground = helps ? Ground::Guess : Ground::Hint;
-      isBetter = isBetter || helps;
+    std::vector<DraftClause *> tried;
+    for (DraftClause &clause : draft_.clauses)
+      if (clause.ground == Ground::Hint) {
+        clause.ground = Ground::Guess;
+        if (trial_.areSound(linesOf(draft_.clauses)))
+          tried.push_back(&clause);
+        else
+          clause.ground = Ground::Hint;
+      }
+    const std::size_t best = tried.empty() ? 0 : proofsWith(promises);
+    if (best <= score.holds) {
+      for (DraftClause *clause : tried)
+        clause->ground = Ground::Hint;
+      return false;
     }
-    return isBetter;
+    for (DraftClause *clause : tried)
+      if (tried.size() > 1) {
+        clause->ground = Ground::Hint;
+        clause->ground = proofsWith(promises) < best ? Ground::Guess : Ground::Hint;
+      }
+    for (DraftClause *clause : tried)
+      if (clause->ground == Ground::Guess && !clause->weaker.empty()) {
+        std::swap(clause->text, clause->weaker);
+        if (proofsWith(promises) < best)
+          std::swap(clause->text, clause->weaker);
+      }
+    return true;
   }
 
   // ---- conditions that the prover asks for ----

@@ -1,5 +1,7 @@
 // See the header.
 #include "findings/draft/entry_clauses.h"
+#include "findings/draft/guard_promises.h"
+#include "findings/draft/settings.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +13,7 @@ namespace feedhold::draft {
 
 namespace {
 
-constexpr std::size_t kMostParts = 24; // of one promise
+constexpr std::size_t kMostSettings = 12;
 
 /// What the guards ask of one variable.
 struct Asked {
@@ -24,6 +26,13 @@ struct Asked {
   bool isWhole = false;   // a guard says so
   bool allowsZero = true; // as a vacant one counts in comparisons
   std::optional<Default> value = {};
+};
+
+/// What conditions ask of one variable that no range can say: the ends do not belong to it.
+struct Beyond {
+  std::optional<Decimal> low = {};
+  std::optional<Decimal> high = {};
+  bool allowsZero = true; // as a vacant one counts
 };
 
 bool isVacant(const Comparison &comparison) {
@@ -58,36 +67,66 @@ std::optional<std::uint32_t> wholeIn(const Comparison &comparison) {
 class EntryClauses {
 public:
   EntryClauses(const Project &project, const FlowFacts &facts, const GuardTable &table)
-      : project_(project), facts_(facts), table_(table), notes_(argumentNotes(project, facts.program)) {}
+      : project_(project), facts_(facts), table_(table), notes_(argumentNotes(project, facts.program)) {
+    for (const Setting &setting : settingsOf(project, facts.program))
+      settings_.emplace(setting.variable, setting);
+  }
 
   DraftClauses make() {
     for (const Default &value : table_.defaults)
-      if (isOnlyDefault(value))
-        asked_[value.variable].value = value;
+      asked_[value.variable].value = value;
     for (const Guard &guard : table_.guards)
       take(guard);
+    nameBounded();
     for (const auto &[variable, asked] : asked_)
       writeEntry(variable, asked);
     for (const Guard *guard : conditions_)
-      writeRequirement(*guard);
+      if (!isWithinRange(*guard))
+        writeRequirement(*guard);
+    writeSettings();
     return std::move(clauses_);
   }
 
 private:
   // ---- what the guards ask ----
 
-  bool isInput(std::uint32_t variable) const {
-    const VariableRange *row = findVariable(*facts_.file.dialect, variable);
-    return row && (row->kind == VariableKind::Local || row->kind == VariableKind::Common ||
-                   row->kind == VariableKind::Retentive);
-  }
-  bool isOnlyDefault(const Default &value) const {
-    return isInput(value.variable) && onlyAssignment(facts_, value.variable) != nullptr;
-  }
+  bool isInput(std::uint32_t variable) const { return draft::isInput(*facts_.file.dialect, variable); }
 
   void take(const Guard &guard) {
-    if (!takeWhole(guard) && !takeOfOne(guard))
-      conditions_.push_back(&guard);
+    if (takeWhole(guard) || takeOfOne(guard))
+      return;
+    conditions_.push_back(&guard);
+    noteBeyond(guard);
+  }
+
+  /// `#7 GT 0`: the end does not belong to the range, so that no range says it.
+  void noteBeyond(const Guard &guard) {
+    const Comparison &only = guard.needs.front();
+    const bool isBelow = only.relation == OperatorKind::LessThan;
+    if (guard.needs.size() != 1 || !only.variable || !only.constant || !isInput(*only.variable) ||
+        (!isBelow && only.relation != OperatorKind::GreaterThan))
+      return;
+    Beyond &beyond = beyond_[*only.variable];
+    (isBelow ? beyond.high : beyond.low) = only.constant;
+    const bool allowsZero = isBelow ? zero() < *only.constant : zero() > *only.constant;
+    beyond.allowsZero = beyond.allowsZero && (allowsZero || table_.defaultOf(*only.variable));
+  }
+
+  /// `#400 GT 0` beside `#400 1..`
+  bool isWithinRange(const Guard &guard) const {
+    const Comparison &only = guard.needs.front();
+    const auto asked = only.variable ? asked_.find(*only.variable) : asked_.end();
+    if (guard.needs.size() != 1 || !only.constant || asked == asked_.end())
+      return false;
+    return (only.relation == OperatorKind::GreaterThan && asked->second.low && *asked->second.low > *only.constant) ||
+           (only.relation == OperatorKind::LessThan && asked->second.high && *asked->second.high < *only.constant);
+  }
+
+  /// A condition has no place for a name: `@PARAM #7 DEPTH` beside `@REQUIRE #7 GT 0`, which a vacant one fails.
+  void nameBounded() {
+    for (const auto &[variable, beyond] : beyond_)
+      if (variable <= kLocalVariables && !beyond.allowsZero && notes_.contains(variable))
+        asked_[variable].isGiven = true;
   }
 
   bool takeWhole(const Guard &guard) {
@@ -162,7 +201,7 @@ private:
   std::uint32_t lineOf(BlockId block) const {
     return facts_.file.source->lineOf(facts_.file.tree->blocks[block].begin);
   }
-  std::string refusalOf(const std::vector<const Guard *> &guards) const {
+  std::string alarmTold(const std::vector<const Guard *> &guards) const {
     std::set<std::uint32_t> alarms;
     std::set<std::uint32_t> lines;
     for (const Guard *guard : guards) {
@@ -174,48 +213,27 @@ private:
                        alarms.empty() ? "an alarm" : fmt::format("alarm {}", fmt::join(alarms, " or ")),
                        lines.size() == 1 ? "" : "s", fmt::join(lines, ", "));
   }
-  /// Where a variable has a default, the guard asks of a given one alone.
-  Alternatives needsOf(const Guard &guard) const {
-    Alternatives needs = guard.needs;
-    for (const Comparison &each : guard.needs)
-      for (const std::uint32_t variable : each.reads) {
-        const auto known = asked_.find(variable);
-        const Comparison vacant{
-            fmt::format("#{}", variable), OperatorKind::Equal, "#0", variable, std::nullopt, true, {variable}};
-        if (known != asked_.end() && known->second.value && std::ranges::find(needs, vacant) == needs.end())
-          needs.insert(needs.begin(), vacant);
-      }
-    return needs;
-  }
-  /// What shows that other calls are refused: with this alarm, where no earlier guard raises another one.
-  std::vector<std::string> shownBy(const std::vector<const Guard *> &guards) const {
-    std::vector<std::string> promises;
-    for (const Guard *guard : guards) {
-      if (!guard->alarm)
-        continue;
-      std::vector<std::string> conditions;
-      for (const Comparison &each : needsOf(*guard))
-        conditions.push_back(fmt::format("[{}]", textOf(opposite(each))));
-      for (const Guard &earlier : table_.guards) {
-        if (&earlier == guard)
-          break;
-        if (earlier.alarm != guard->alarm)
-          conditions.push_back(fmt::format("[{}]", textOf(needsOf(earlier))));
-      }
-      if (conditions.size() <= kMostParts)
-        promises.push_back(fmt::format("@ALARM {} IF {}", *guard->alarm, fmt::join(conditions, " AND ")));
-    }
-    return promises;
-  }
 
   /// A vacant variable passes all guards; 0 in their comparisons.
-  bool mayBeVacant(const Asked &asked) const {
-    if (!facts_.file.dialect->behaviour.variablesMayBeVacant || asked.isGiven)
+  bool mayBeVacant(std::uint32_t variable, const Asked &asked) const {
+    if (!facts_.file.dialect->behaviour.variablesMayBeVacant || asked.isGiven || !beyondOf(variable).allowsZero)
       return false;
     return asked.value.has_value() || asked.mayMiss || asked.allowsZero;
   }
 
-  std::string rangeOf(const Asked &asked) const {
+  const Beyond &beyondOf(std::uint32_t variable) const {
+    static const Beyond kNone;
+    const auto found = beyond_.find(variable);
+    return found == beyond_.end() ? kNone : found->second;
+  }
+
+  /// Without an end that a condition says more of.
+  std::string rangeOf(std::uint32_t variable, Asked asked) const {
+    const Beyond &beyond = beyondOf(variable);
+    if (asked.low && beyond.low && *beyond.low >= *asked.low)
+      asked.low.reset();
+    if (asked.high && beyond.high && *beyond.high <= *asked.high)
+      asked.high.reset();
     if (!asked.values.empty()) {
       std::vector<std::string> values;
       for (const Decimal &value : asked.values)
@@ -227,20 +245,51 @@ private:
     return fmt::format(" {}..{}", asked.low ? asked.low->toString() : "", asked.high ? asked.high->toString() : "");
   }
 
-  void writeEntry(std::uint32_t variable, const Asked &asked) {
-    const bool isLocal = variable <= kLocalVariables;
+  const ArgumentNote &noteOf(std::uint32_t variable) const {
     const auto note = notes_.find(variable);
-    const ArgumentNote &told = note == notes_.end() ? kNoNote : note->second;
-    std::string text = fmt::format("{} #{}", isLocal ? "@PARAM" : "@GLOBAL", variable);
-    const std::string range = rangeOf(asked);
-    const std::string unit = asked.isWhole ? "INT" : told.unit;
-    text += told.name.empty() ? "" : " " + told.name;
-    text += range.empty() && told.name.empty() && !unit.empty() ? " VALUE" : ""; // a unit would be taken for a name
-    text += range + (unit.empty() ? "" : " " + unit);
-    text += mayBeVacant(asked) ? " OPTIONAL" : "";
-    clauses_.push_back({std::move(text), reasonOf(variable, asked),
-                        asked.guards.empty() ? Ground::Notes : Ground::Guard, shownBy(asked.guards)});
+    return note == notes_.end() ? kNoNote : note->second;
   }
+  /// `@PARAM #24 LENGTH 5..400 MM`
+  std::string entryText(std::uint32_t variable, const std::string &range, const std::string &unit) const {
+    const std::string &name = noteOf(variable).name;
+    std::string text = fmt::format("{} #{}", variable <= kLocalVariables ? "@PARAM" : "@GLOBAL", variable);
+    text += name.empty() ? "" : " " + name;
+    text += range.empty() && name.empty() && !unit.empty() ? " VALUE" : ""; // a unit would be taken for a name
+    return text + range + (unit.empty() ? "" : " " + unit);
+  }
+
+  void writeEntry(std::uint32_t variable, const Asked &asked) {
+    const std::string range = rangeOf(variable, asked);
+    const std::string unit = asked.isWhole ? "INT" : noteOf(variable).unit;
+    const bool isOptional = mayBeVacant(variable, asked);
+    const std::string text = entryText(variable, range, unit) + (isOptional ? " OPTIONAL" : "");
+    // A condition that a vacant one fails says as much; an argument is named in any case.
+    if (text == fmt::format("@GLOBAL #{}", variable) && excludesZero(text.substr(text.find('#'))))
+      return;
+    clauses_.push_back(
+        {text, reasonOf(variable, asked), asked.guards.empty() && !asked.isGiven ? Ground::Notes : Ground::Guard});
+  }
+
+  /// No guard asks for anything of them.
+  void writeSettings() {
+    std::size_t count = 0;
+    for (const auto &[variable, setting] : settings_) {
+      const bool isAsked = asked_.contains(variable) || beyond_.contains(variable) ||
+                           std::ranges::any_of(conditions_, [&, number = variable](const Guard *guard) {
+                             return std::ranges::any_of(guard->needs, [&](const Comparison &each) {
+                               return std::ranges::find(each.reads, number) != each.reads.end();
+                             });
+                           });
+      if (isAsked || ++count > kMostSettings)
+        continue;
+      const std::string &unit = noteOf(variable).unit;
+      clauses_.push_back({.text = entryText(variable, fmt::format(" IN {}", setting.value.toString()), unit),
+                          .reason = fmt::format("{} sets it (line {})", setting.program, setting.line),
+                          .ground = Ground::Hint,
+                          .weaker = entryText(variable, {}, unit)});
+    }
+  }
+
   std::string reasonOf(std::uint32_t variable, const Asked &asked) const {
     std::string reason;
     const auto add = [&](const std::string &part) { reason += (reason.empty() || part.empty() ? "" : "; ") + part; };
@@ -248,17 +297,36 @@ private:
       if (const auto letter = letterOf(*facts_.file.dialect, variable))
         add(std::string(1, *letter));
     if (!asked.guards.empty())
-      add(refusalOf(asked.guards));
+      add(alarmTold(asked.guards));
     if (asked.value)
       add(fmt::format("{} if it is not {} (line {})", asked.value->value,
                       variable <= kLocalVariables ? "passed" : "set", lineOf(asked.value->block)));
     if (variable <= kLocalVariables)
       add(toldOf(passedIn(project_, facts_.program, variable)));
+    if (const auto setting = settings_.find(variable); setting != settings_.end())
+      add(toldOf(setting->second));
     return reason;
   }
 
+  /// Some guard compares it with a number, and a vacant one, which counts as 0, fails.
+  bool excludesZero(const std::string &left) const {
+    return std::ranges::any_of(table_.guards, [&](const Guard &guard) {
+      const Comparison &only = guard.needs.front();
+      if (guard.needs.size() != 1 || only.left != left || !only.constant)
+        return false;
+      const auto order = zero() <=> *only.constant;
+      return (only.relation == OperatorKind::GreaterThan && order <= 0) ||
+             (only.relation == OperatorKind::GreaterOrEqual && order < 0) ||
+             (only.relation == OperatorKind::LessThan && order >= 0) ||
+             (only.relation == OperatorKind::LessOrEqual && order > 0);
+    });
+  }
+
   void writeRequirement(const Guard &guard) {
-    clauses_.push_back({"@REQUIRE " + textOf(needsOf(guard)), refusalOf({&guard}), Ground::Guard, shownBy({&guard})});
+    const Comparison &first = guard.needs.front();
+    const bool isGiven = guard.needs.size() == 1 && first.isVacancy && first.relation == OperatorKind::NotEqual;
+    if (!isGiven || !excludesZero(first.left))
+      clauses_.push_back({"@REQUIRE " + textOf(needsOf(table_, guard)), alarmTold({&guard}), Ground::Guard});
   }
 
   inline static const ArgumentNote kNoNote{};
@@ -267,7 +335,9 @@ private:
   const FlowFacts &facts_;
   const GuardTable &table_;
   const ArgumentNotes notes_;
+  std::map<std::uint32_t, Setting> settings_;
   std::map<std::uint32_t, Asked> asked_;
+  std::map<std::uint32_t, Beyond> beyond_;
   std::vector<const Guard *> conditions_;
   DraftClauses clauses_;
 };

@@ -289,11 +289,19 @@ void simplify(std::vector<Guard> &guards) {
 
 } // namespace
 
+const Default *GuardTable::defaultOf(std::uint32_t variable) const {
+  const auto found = std::ranges::find(defaults, variable, &Default::variable);
+  return found == defaults.end() ? nullptr : &*found;
+}
+
 GuardTable guardTableOf(const FlowFacts &facts) {
   if (!facts.isComplete() || facts.end().index() - facts.entry().index() > kMostNodes)
     return {};
   GuardTable table = TableWalk(facts).run();
   simplify(table.guards);
+  std::erase_if(table.defaults, [&](const Default &each) {
+    return !isInput(*facts.file.dialect, each.variable) || !onlyAssignment(facts, each.variable);
+  });
   return table;
 }
 

@@ -3,6 +3,10 @@
 // A guard is a test of which one side raises an alarm of the program (`#3000=`) whatever happens.  The table is found
 // on the graph: paths are followed forward from the head; where all that go on meet again, what was asked on the way
 // is forgotten.
+//
+// proof/guards answers another question: which conditions, written nowhere, would make an open claim hold.  It builds
+// terms from the formulas of a proof; a clause of this table has the text and the line of the test in the program, and
+// is there for programs of which nothing can be proved.  So the two share no code.
 #pragma once
 
 #include "findings/draft/conditions.h"
@@ -24,8 +28,11 @@ struct Default {
 };
 
 struct GuardTable {
-  std::vector<Guard> guards;
+  std::vector<Guard> guards; // in the order in which they are come to
   std::vector<Default> defaults;
+
+  /// Null: it has none.
+  const Default *defaultOf(std::uint32_t variable) const;
 };
 
 GuardTable guardTableOf(const FlowFacts &facts);

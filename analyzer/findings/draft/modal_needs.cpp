@@ -1,6 +1,8 @@
 // See the header.
 #include "findings/draft/modal_needs.h"
 
+#include "findings/draft/conditions.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,7 +99,7 @@ CallersCode codeOfCallers(const FlowFacts &facts, std::uint8_t group) {
 
 DraftClauses modalNeeds(const FlowFacts &facts, const FileContracts &contracts) {
   const auto group = facts.modes.groupOf(ModalKind::Distance);
-  if (!group || !facts.isComplete() || !facts.file.model->programs[facts.program].returns)
+  if (!group || !facts.isComplete() || !comesBack(facts))
     return {};
   DistanceWatch watch(facts.file, *group);
   FlowWatch *watches[] = {&watch};
@@ -109,7 +111,8 @@ DraftClauses modalNeeds(const FlowFacts &facts, const FileContracts &contracts) 
   const auto &codes = facts.modes.group(*group).codes;
   if (callers.code && *callers.code < codes.size())
     return {{fmt::format("@MODAL G{}", codes[*callers.code]->tenths / 10),
-             fmt::format("line {} moves in the mode of the caller; it is active at all {} calls", line, callers.calls),
+             fmt::format("line {} moves in the mode of the caller; it is active at {}", line,
+                         callers.calls == 1 ? "the only call" : fmt::format("all {} calls", callers.calls)),
              Ground::Notes}};
   return {{"@MODAL G90", fmt::format("line {} moves in the mode of the caller, G90 or G91", line), Ground::Hint}};
 }

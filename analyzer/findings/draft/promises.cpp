@@ -26,12 +26,13 @@ public:
       : project_(project), facts_(facts), program_(facts.file.model->programs[facts.program]), entry_(facts) {}
 
   std::vector<DraftClauses> make() {
-    if (program_.returns) {
+    const bool returns = comesBack(facts_);
+    if (returns) {
       modal();
       positions();
       computed();
     }
-    if (program_.returns || facts_.programs.callGraph().isCalled({facts_.file.file, facts_.program}))
+    if (returns || facts_.programs.callGraph().isCalled({facts_.file.file, facts_.program}))
       assigns(); // of what the operator starts nobody asks it
     return std::move(groups_);
   }

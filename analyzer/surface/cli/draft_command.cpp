@@ -31,9 +31,6 @@ struct DraftArguments {
   bool quiet = false;
 };
 
-/// A share of what `prove` spends: each program is proved several times.
-constexpr std::uint64_t kShareOfSteps = 8;
-
 void addOptions(CLI::App &app, DraftArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders (default: current folder)")->type_name("PATH");
   app.add_flag("--update", arguments.update,
@@ -59,7 +56,6 @@ DraftOptions draftOptionsOf(const DraftArguments &arguments) {
   options.update = arguments.update;
   if (arguments.arithmetic == "exact")
     options.prove.arithmetic = prove::Arithmetic::Exact;
-  options.prove.steps /= kShareOfSteps;
   return options;
 }
 

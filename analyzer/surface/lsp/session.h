@@ -2,6 +2,7 @@
 // works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.
 #pragma once
 
+#include "findings/draft/draft.h"
 #include "surface/lsp/allowances.h"
 #include "surface/lsp/lane.h"
 #include "surface/lsp/rpc.h"
@@ -87,9 +88,15 @@ private:
   // ---- proofs (session_proofs.cpp) ----
   void startProofs(OpenDocument &document);
   void takeProofs(const std::string &uri, std::uint64_t stamp, const std::shared_ptr<ProofsResult> &result);
-  void beginProgress(const std::string &token, const std::string &uri);
+  /// `work`: of a lane, which the person may cancel.
+  void beginProgress(const std::string &token, const std::string &work, const std::string &title);
   void reportProgress(const std::string &token, std::size_t done, std::size_t all); // from any thread
   void endProgress(const std::string &token, const std::string &message);
+
+  // ---- drafted contracts (session_drafts.cpp) ----
+  void addDraft(OpenDocument &document, Span asked, Json &actions);
+  void startDraft(OpenDocument &document, const std::string &program);
+  void takeDraft(const std::string &program, const DraftResult &result);
 
   // ---- requests about a document (session_requests.cpp) ----
   Json askFeature(const Feature &feature, const Json &params);
@@ -121,10 +128,11 @@ private:
   bool refreshesHints_ = false;
   bool registersWatchers_ = false;
   bool createsFiles_ = false; // as part of an edit
+  bool appliesEdits_ = false; // that the server asks for
   std::uint64_t lastAsked_ = 0;
   std::map<const Rule *, std::string> pages_;   // URIs; empty: it could not be written
   std::set<std::string> complaints_;            // each is shown once
-  std::map<std::string, std::string> progress_; // documents by the token of their proofs
+  std::map<std::string, std::string> progress_; // work of the lane of proofs, by its token
   Lane flowLane_;
   Lane proofLane_;
 };

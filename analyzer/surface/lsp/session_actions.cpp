@@ -15,6 +15,7 @@ namespace feedhold::lsp {
 namespace {
 
 constexpr std::string_view kQuickFix = "quickfix";
+constexpr std::string_view kRefactor = "refactor";
 constexpr std::string_view kFixAll = "source.fixAll.feedhold";
 
 Json textEdits(const std::vector<Edit> &edits, const Places &places) {
@@ -72,6 +73,8 @@ Json ClientSession::codeActions(const Json &params) {
   if (isWanted(context, kQuickFix))
     for (const PublishedDiagnostic *published : diagnosticsAt(places.span(params.at("range")), document))
       addActions(*published, document, places, actions);
+  if (isWanted(context, kRefactor))
+    addDraft(document, places.span(params.at("range")), actions);
   if (isWanted(context, kFixAll) && (hasSafeFix(document.quick) || hasSafeFix(document.flow)))
     if (const std::optional<Edit> edit = fixAll(document))
       actions.push_back(
@@ -167,7 +170,8 @@ Json ClientSession::formatting(const Json &params) {
 Json ClientSession::execute(const Json &params) {
   const auto command = params.at("command").get<std::string>();
   const auto arguments = params.find("arguments");
-  if (command != "feedhold.prove" && command != "feedhold.runWitness")
+  constexpr std::array kCommands = {"feedhold.draft", "feedhold.prove", "feedhold.runWitness"};
+  if (std::find(kCommands.begin(), kCommands.end(), command) == kCommands.end())
     throw RequestError(ErrorCode::InvalidParams, fmt::format("unknown command `{}`", command));
   if (arguments == params.end() || !arguments->is_array() || arguments->empty())
     throw RequestError(ErrorCode::InvalidParams,
@@ -178,6 +182,10 @@ Json ClientSession::execute(const Json &params) {
   if (command == "feedhold.prove") {
     document.verdicts.reset();
     startProofs(document);
+    return nullptr;
+  }
+  if (command == "feedhold.draft") {
+    startDraft(document, argument.is_string() ? std::string() : argument.value("program", std::string()));
     return nullptr;
   }
   return runWitness(document, argument.at("obligation").get<std::string>());

@@ -36,6 +36,7 @@ Json ClientSession::initialize(const Json &params) {
   showsProgress_ = isTrue(client, "/window/workDoneProgress");
   registersWatchers_ = isTrue(client, "/workspace/didChangeWatchedFiles/dynamicRegistration");
   const Json operations = at(client, "/workspace/workspaceEdit/resourceOperations");
+  appliesEdits_ = isTrue(client, "/workspace/applyEdit");
   createsFiles_ = isTrue(client, "/workspace/workspaceEdit/documentChanges") &&
                   std::find(operations.begin(), operations.end(), "create") != operations.end();
   const Json folders = at(params, "/workspaceFolders");
@@ -57,10 +58,10 @@ Json ClientSession::capabilities() const {
   result["positionEncoding"] = workspace_.encoding == PositionEncoding::Utf8 ? "utf-8" : "utf-16";
   constexpr int kIncremental = 2;
   result["textDocumentSync"] = {{"openClose", true}, {"change", kIncremental}, {"save", {{"includeText", false}}}};
-  result["codeActionProvider"] = {{"codeActionKinds", {"quickfix", "source.fixAll.feedhold"}}};
+  result["codeActionProvider"] = {{"codeActionKinds", {"quickfix", "refactor", "source.fixAll.feedhold"}}};
   result["documentFormattingProvider"] = true;
   result["documentRangeFormattingProvider"] = true;
-  result["executeCommandProvider"] = {{"commands", {"feedhold.prove", "feedhold.runWitness"}}};
+  result["executeCommandProvider"] = {{"commands", {"feedhold.draft", "feedhold.prove", "feedhold.runWitness"}}};
   result["colorProvider"] = true; // with no colours: editors paint `#500` otherwise
   result["workspace"]["workspaceFolders"] = {{"supported", true}, {"changeNotifications", true}};
   if (pullsDiagnostics_)

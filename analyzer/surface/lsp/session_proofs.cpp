@@ -42,7 +42,7 @@ void ClientSession::startProofs(OpenDocument &document) {
   ProofOptions options{
       .files = workspace_.optionsFor(document), .cache = options_.cache, .which = ProofOptions::Which::WithContract};
   const std::string token = fmt::format("feedhold/proofs/{}", ++lastAsked_);
-  beginProgress(token, uri);
+  beginProgress(token, uri, fmt::format("proving {}", std::filesystem::path(uri).filename().string()));
   proofLane_.submit(uri, [this, uri, stamp = document.stamp, options, token](const std::stop_token &stop) mutable {
     options.stop = stop;
     options.files.progress = [&](std::size_t done, std::size_t all) { reportProgress(token, done, all); };
@@ -91,16 +91,13 @@ void ClientSession::takeProofs(const std::string &uri, std::uint64_t stamp,
     ask("workspace/codeLens/refresh", nullptr);
 }
 
-void ClientSession::beginProgress(const std::string &token, const std::string &uri) {
+void ClientSession::beginProgress(const std::string &token, const std::string &work, const std::string &title) {
   if (!showsProgress_)
     return;
-  progress_[token] = uri;
+  progress_[token] = work;
   ask("window/workDoneProgress/create", {{"token", token}});
-  const std::string name = std::filesystem::path(uri).filename().string();
-  notify("$/progress",
-         {{"token", token},
-          {"value",
-           {{"kind", "begin"}, {"title", fmt::format("proving {}", name)}, {"cancellable", true}, {"percentage", 0}}}});
+  notify("$/progress", {{"token", token},
+                        {"value", {{"kind", "begin"}, {"title", title}, {"cancellable", true}, {"percentage", 0}}}});
 }
 
 void ClientSession::reportProgress(const std::string &token, std::size_t done, std::size_t all) {
