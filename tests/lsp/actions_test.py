@@ -173,6 +173,62 @@ class Actions(Session):
         self.assertEqual(client.request("textDocument/documentColor", {"textDocument": {"uri": uri}}), [])
 
 
+class Drafts(Session):
+    """`feedhold draft` from the editor: a command, and later an edit that creates the file."""
+    APPLIES = {"window": {"workDoneProgress": True},
+               "workspace": {"applyEdit": True,
+                             "workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]}}}
+    MACRO = "O9105\nIF[#7LE0]GOTO9\nG90G01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n"
+
+    def actions(self, client, uri, line=0):
+        return [a for a in client.request("textDocument/codeAction", {
+            "textDocument": {"uri": uri}, "context": {"diagnostics": [], "only": ["refactor"]},
+            "range": {"start": {"line": line, "character": 0}, "end": {"line": line, "character": 0}}})]
+
+    def test_a_draft(self):
+        self.write("O9105.nc", self.MACRO)
+        client = self.client(options={"proofs": "off"}, capabilities=self.APPLIES)
+        uri = client.open("O9105.nc", self.MACRO)
+        action, = self.actions(client, uri)
+        self.assertEqual(action["title"], "draft a contract for O9105")
+        self.assertEqual(self.actions(client, uri, 2), [])
+        client.request("workspace/executeCommand", {key: action["command"][key] for key in ("command", "arguments")})
+        edit = client.wait(lambda m: m.get("method") == "workspace/applyEdit")["params"]["edit"]
+        create, change = edit["documentChanges"]
+        self.assertEqual((create["kind"], create["uri"]), ("create", client.uri("O9105.contract")))
+        drafted = subprocess.run([FEEDHOLD, "draft", "--stdout", "--quiet", "O9105.nc"], cwd=self.folder,
+                                 capture_output=True, text=True).stdout
+        self.assertIn("@REQUIRE #7 GT 0", change["edits"][0]["newText"])
+        self.assertIn(change["edits"][0]["newText"], drafted)
+        self.assertFalse((self.folder / "O9105.contract").exists())
+
+    def test_only_where_there_is_no_contract(self):
+        self.write("O9105.nc", self.MACRO)
+        self.write("O9105.contract", "@PARAM #7 DEPTH\n")
+        client = self.client(options={"proofs": "off"}, capabilities=self.APPLIES)
+        self.assertEqual(self.actions(client, client.open("O9105.nc", self.MACRO)), [])
+        self.assertEqual(self.actions(client, client.open("new.nc", self.MACRO)), [])  # it has no folder yet
+
+    def test_an_editor_that_cannot(self):
+        self.write("O9105.nc", self.MACRO)
+        client = self.client(options={"proofs": "off"})
+        uri = client.open("O9105.nc", self.MACRO)
+        self.assertEqual(self.actions(client, uri), [])
+        refused = client.request("workspace/executeCommand",
+                                 {"command": "feedhold.draft", "arguments": [{"uri": uri, "program": "O9105"}]})
+        self.assertIn("does not create files", refused["error"]["message"])
+
+    def test_nothing_to_draft(self):
+        text = "O9106\nG65P9999\nM30\n"
+        self.write("O9106.nc", text)
+        client = self.client(options={"proofs": "off"}, capabilities=self.APPLIES)
+        uri = client.open("O9106.nc", text)
+        client.request("workspace/executeCommand",
+                       {"command": "feedhold.draft", "arguments": [{"uri": uri, "program": "O9106"}]})
+        shown = client.wait(lambda m: m.get("method") == "window/showMessage")["params"]["message"]
+        self.assertIn("nothing to draft for O9106", shown)
+
+
 class Formatting(Session):
     OPTIONS = {"tabSize": 2, "insertSpaces": True}
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace feedhold::draft {
 
@@ -129,10 +130,19 @@ bool isInput(const Dialect &dialect, std::uint32_t variable) {
 }
 
 bool comesBack(const FlowFacts &facts) {
-  const bool mayReturn = facts.file.model->programs[facts.program].returns;
-  return mayReturn && (!facts.isComplete() || std::ranges::any_of(facts.exits(), [](const ExitFact &exit) {
-           return exit.end == PathEnd::Returns;
-         }));
+  if (!facts.file.model->programs[facts.program].returns || !facts.isComplete())
+    return facts.file.model->programs[facts.program].returns;
+  std::set<NodeId> reached;
+  std::vector<NodeId> open = {facts.entry()};
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    if (reached.insert(node).second)
+      forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called,
+                       [&](NodeId next) { open.push_back(next); });
+  }
+  return std::ranges::any_of(
+      facts.exits(), [&](const ExitFact &exit) { return exit.end == PathEnd::Returns && reached.contains(exit.node); });
 }
 
 const Assignment *onlyAssignment(const FlowFacts &facts, std::uint32_t variable) {

@@ -96,7 +96,7 @@ private:
   // ---- drafted contracts (session_drafts.cpp) ----
   void addDraft(OpenDocument &document, Span asked, Json &actions);
   void startDraft(OpenDocument &document, const std::string &program);
-  void takeDraft(const std::string &program, const DraftResult &result);
+  void takeDraft(const std::string &subject, const DraftResult &result);
 
   // ---- requests about a document (session_requests.cpp) ----
   Json askFeature(const Feature &feature, const Json &params);

@@ -48,8 +48,9 @@ void ClientSession::startDraft(OpenDocument &document, const std::string &progra
   options.files = workspace_.optionsFor(document);
   options.program = program;
   const std::string token = fmt::format("feedhold/drafts/{}", ++lastAsked_);
-  beginProgress(token, workOf(uri), fmt::format("drafting {}", program));
-  proofLane_.submit(workOf(uri), [this, uri, program, options, token](const std::stop_token &stop) mutable {
+  const std::string subject = program.empty() ? std::filesystem::path(uri).filename().string() : program;
+  beginProgress(token, workOf(uri), fmt::format("drafting contracts of {}", subject));
+  proofLane_.submit(workOf(uri), [this, uri, subject, options, token](const std::stop_token &stop) mutable {
     options.stop = stop;
     options.files.progress = [&](std::size_t done, std::size_t all) { reportProgress(token, done, all); };
     auto result = std::make_shared<DraftResult>();
@@ -61,17 +62,17 @@ void ClientSession::startDraft(OpenDocument &document, const std::string &progra
       failure = error.what();
     }
     const bool isStopped = stop.stop_requested();
-    queue_.push({.task = [this, uri, token, program, result, failure, isStopped] {
+    queue_.push({.task = [this, uri, token, subject, result, failure, isStopped] {
       if (!failure.empty())
         log(fmt::format("{}: {}", uri, failure));
       else if (!isStopped)
-        takeDraft(program, *result);
+        takeDraft(subject, *result);
       endProgress(token, isStopped ? "stopped" : failure);
     }});
   });
 }
 
-void ClientSession::takeDraft(const std::string &program, const DraftResult &result) {
+void ClientSession::takeDraft(const std::string &subject, const DraftResult &result) {
   bool isNew = false;
   for (const DraftedProgram &drafted : result.programs) {
     if (!drafted.isChanged())
@@ -91,7 +92,7 @@ void ClientSession::takeDraft(const std::string &program, const DraftResult &res
   if (!isNew)
     show(Severity::Info, fmt::format("nothing to draft for {}: no guard, comment or promise says anything about its "
                                      "calls",
-                                     program));
+                                     subject));
 }
 
 } // namespace feedhold::lsp
