@@ -88,6 +88,14 @@ class Draft(Scratch):
         self.draft("O9105.nc")
         self.assertIn("@GUARDED", self.clauses("O9105.contract"))
 
+    def test_guarded_but_for_the_modes(self):
+        self.write("O9105.nc", "O9105\nIF[#7LE0]GOTO9\nG01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n")
+        self.write("O0001.nc", "O0001\nG90G54\nG65P9105D5.\nM30\n")
+        self.draft("O9105.nc")
+        clauses = self.clauses("O9105.contract")
+        self.assertIn("@MODAL G90", clauses)
+        self.assertIn("@GUARDED EXCEPT MODAL", clauses)
+
     def test_order_with_a_vacant_variable(self):
         self.write("O9106.nc", "O9106\nIF[#7LT#0]GOTO9\nG90G01Z-#7F100\nM99\nN9#3000=41(DEPTH)\n")
         self.draft("O9106.nc")

@@ -53,8 +53,10 @@ public:
       promises = promisesOf(facts);
       proof = proveWith(promises, prove::InferGuards::Yes);
     }
-    if (trySuggested(promises, scoreOf(proof)))
+    if (trySuggested(promises, scoreOf(proof))) {
+      promises = promisesOf(facts);
       proof = proveWith(promises, prove::InferGuards::Yes);
+    }
     addGuesses(proof);
     keepPromises(promises, draft_.guesses == 0 ? proof : proveWith(promises, prove::InferGuards::No));
     draft_.after = scoreBesidePromises(trial_.prove(linesOf(draft_.clauses)));
@@ -129,10 +131,21 @@ private:
       std::ranges::move(clauses, std::back_inserter(draft_.clauses));
   }
 
+  /// Guards hardly ever ask for the mode.
+  DraftClause guardedClause() const {
+    const bool hasModes = std::ranges::any_of(draft_.clauses, [](const DraftClause &each) {
+      return each.ground != Ground::Hint && each.text.starts_with("@MODAL");
+    });
+    if (hasModes)
+      return {"@GUARDED EXCEPT MODAL", "any other call in these modes raises an alarm before an axis moves",
+              Ground::Promise};
+    return {"@GUARDED", "any other call raises an alarm before an axis moves", Ground::Promise};
+  }
+
   std::vector<DraftClauses> promisesOf(const FlowFacts &facts) const {
     std::vector<DraftClauses> groups = promiseGroups(project_, facts);
     if (std::ranges::any_of(draft_.clauses, [](const DraftClause &each) { return each.ground == Ground::Guard; }))
-      groups.push_back({{"@GUARDED", "any other call raises an alarm before an axis moves", Ground::Promise}});
+      groups.push_back({guardedClause()});
     for (DraftClauses &group : groups)
       std::erase_if(
           group, [&](const DraftClause &each) { return !trial_.areSound(with(linesOf(draft_.clauses), each.text)); });
