@@ -113,6 +113,17 @@ std::optional<Assignment> assignmentTo(const FlowFacts &facts, NodeId node, std:
   return std::nullopt;
 }
 
+std::optional<NodeId> onlyPredecessor(const FlowFacts &facts, NodeId node) {
+  const auto &before = predecessorsOf(facts).of[node.index() - facts.entry().index()];
+  if (node == facts.entry() || before.size() != 1)
+    return std::nullopt;
+  const auto words = facts.file.tree->wordsOf(facts.node(node).block);
+  const bool isLabel = std::ranges::any_of(words, [](const Word &word) { return word.address() == 'N'; });
+  const ProgramModel &model = *facts.file.model;
+  const bool mayReturnHere = !model.callsOf(facts.program).empty() || model.programs[facts.program].returns;
+  return isLabel && mayReturnHere ? std::nullopt : std::optional(before.front());
+}
+
 std::vector<PassedTest> testsBefore(const FlowFacts &facts, NodeId at) {
   std::vector<NodeId> tests;
   walkBack(facts, at, [&](NodeId node) {

@@ -23,6 +23,10 @@ std::optional<Definitions> definitionsOf(const FlowFacts &facts, std::uint32_t v
 /// The value that an assignment of the node gives to the variable; absent where it has none.
 std::optional<Assignment> assignmentTo(const FlowFacts &facts, NodeId node, std::uint32_t variable);
 
+/// The node from which every run of the program comes to this one; absent where there are several, at its head, and at
+/// a label to which a return may lead (`M99 P100`).
+std::optional<NodeId> onlyPredecessor(const FlowFacts &facts, NodeId node);
+
 /// A test that is passed on each path to a place, always to the same side.
 struct PassedTest {
   NodeId node;

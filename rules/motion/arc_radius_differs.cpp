@@ -1,39 +1,146 @@
 // arc-radius-differs: the end of an arc is not on the circle of its start.
-#include "rules/motion/motion_view.h"
+#include "rules/motion/arc_ends.h"
 
+#include <algorithm>
 #include <fmt/format.h>
-
+#include <map>
 #include <set>
 
 namespace feedhold::rules::arc_radius_differs {
 namespace {
 
-/// The analysis has computed both radii; where it cannot tell them apart it is silent.
+/// Where the analysis has not computed both radii, they are compared as the text has them.
 class ArcRadiusDiffers final : public FlowRule {
 public:
+  ArcRadiusDiffers(ProgramId program, const FileContext &context)
+      : view_(program, context), first_(view_.cfg().entryOf(program)) {}
+
   /// Under G68, G51 and G51.1 the start is told in other coordinates than the words.
   void before(NodeId node, const AbstractState &state) override {
+    if (!mayBeArc(node))
+      return;
     if (mayBeTrue(state.transformed) || isHavocked(state))
       mapped_.insert(node);
+    before_ = stateBefore(state);
+  }
+  void after(NodeId node, const AbstractState &state) override {
+    if (!mayBeArc(node) || mapped_.contains(node))
+      return;
+    const std::optional<ArcBlock> block = arcIn(state);
+    if (!block || isPlainlyKnown(node, *block))
+      return refuse(node);
+    const auto [known, isNew] = blocks_.try_emplace(node, *block);
+    if (!isNew && known->second != *block)
+      refuse(node);
   }
 
-  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    for (const AlarmFact &alarm : facts.alarms()) {
-      if (alarm.kind != AlarmKind::ArcRadius || !alarm.always || mapped_.contains(alarm.node))
-        continue;
-      reporter.report({.message = "the end point of this arc is not on the circle through its start point",
-                       .span = alarm.place,
-                       .flow = pathFromEntry(facts, alarm.node),
-                       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ArcRadius)),
-                                 "I, J and K are the distances from the start point to the centre"}});
-    }
+  void report(const FlowFacts &facts, const FileContext &, const Reporter &reporter) override {
+    std::set<NodeId> told;
+    for (const AlarmFact &alarm : facts.alarms())
+      if (alarm.kind == AlarmKind::ArcRadius && alarm.always && !mapped_.contains(alarm.node)) {
+        told.insert(alarm.node);
+        tell(facts, alarm.node, alarm.place, std::nullopt, reporter);
+      }
+    for (const auto &[node, block] : blocks_)
+      if (!told.contains(node) && !isRefused(node))
+        if (const auto radii = apartRadii(view_, facts, node, block))
+          tell(facts, node, view_.blockSpan(node), radii, reporter);
   }
 
 private:
+  struct Before {
+    std::optional<bool> isAbsolute;
+    std::array<std::optional<double>, kAxisCount> position;
+  };
+
+  /// In some state the block is not to be judged.
+  void refuse(NodeId node) {
+    const std::size_t at = node.index() - first_.index();
+    refused_.resize(std::max(refused_.size(), at + 1));
+    refused_[at] = true;
+  }
+  bool isRefused(NodeId node) const {
+    const std::size_t at = node.index() - first_.index();
+    return at < refused_.size() && refused_[at];
+  }
+  bool mayBeArc(NodeId node) const {
+    return view_.mayHave(node, 'I') || view_.mayHave(node, 'J') || view_.mayHave(node, 'K');
+  }
+  Before stateBefore(const AbstractState &state) const {
+    Before before;
+    if (view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+      before.isAbsolute = true;
+    else if (view_.surely(state, ModalKind::Distance, {CodeAction::Incremental}))
+      before.isAbsolute = false;
+    for (const Axis axis : kAllAxes)
+      if (const AbstractValue &coordinate = state.at(axis); coordinate.isNumber())
+        before.position[indexOf(axis)] = coordinate.number().constantValue();
+    return before;
+  }
+  /// Absent where it may be no arc, or its words may mean something else.
+  std::optional<ArcBlock> arcIn(const AbstractState &state) const {
+    const std::optional<Plane> plane = planeIn(state);
+    const bool hasModes = view_.modes().groupOf(ModalKind::Distance).has_value();
+    const bool isAbsolute = !hasModes || view_.surely(state, ModalKind::Distance, {CodeAction::Absolute});
+    const bool isKnown = isAbsolute || view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
+    const bool isFromStart = !view_.context().dialect.behaviour.arcDistanceModes ||
+                             view_.surely(state, ModalKind::ArcDistance, {CodeAction::ArcIncremental});
+    const bool isPlain = !mayBeTrue(state.transformed) && !isHavocked(state) && state.modalCalls.empty() &&
+                         !mayBeTrue(state.modalCallsUnknown) &&
+                         !view_.wasSet(state, ModalKind::Polar, {CodeAction::PolarOn});
+    if (!plane || !isKnown || !isFromStart || !isPlain ||
+        !view_.surely(state, ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}))
+      return std::nullopt;
+    return ArcBlock{*plane,
+                    isAbsolute,
+                    view_.surely(state, ModalKind::Units, {CodeAction::Inch}),
+                    before_.isAbsolute,
+                    {before_.position[indexOf(plane->first)], before_.position[indexOf(plane->second)]}};
+  }
+  /// An arc of a tool path: between two points that are numbers the analysis has compared the radii.
+  bool isPlainlyKnown(NodeId node, const ArcBlock &block) const {
+    const auto words = view_.wordsOf(node);
+    return block.start[0] && block.start[1] &&
+           std::ranges::none_of(words, [](const Word *word) { return word->form() == WordForm::Expression; });
+  }
+  std::optional<Plane> planeIn(const AbstractState &state) const {
+    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}))
+      return kPlaneXY;
+    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneZX}))
+      return kPlaneZX;
+    if (view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ}))
+      return kPlaneYZ;
+    return std::nullopt;
+  }
+
+  void tell(const FlowFacts &facts, NodeId node, Span place, const std::optional<ApartRadii> &radii,
+            const Reporter &reporter) const {
+    std::vector<std::string> notes;
+    if (radii && radii->start.width() < kShown && radii->end.width() < kShown)
+      notes.push_back(fmt::format("the radius is {:.6g} at the start point and {:.6g} at the end point{}",
+                                  radii->start.lo, radii->end.lo,
+                                  radii->dependsOnVariables ? ", whatever numbers the variables hold" : ""));
+    notes.push_back(fmt::format("the control {}", stopsWith(view_.context().dialect, AlarmKind::ArcRadius)));
+    notes.emplace_back("I, J and K are the distances from the start point to the centre");
+    reporter.report({.message = "the end point of this arc is not on the circle through its start point",
+                     .span = place,
+                     .flow = pathFromEntry(facts, node),
+                     .notes = std::move(notes)});
+  }
+
+  static constexpr double kShown = 1e-6; // a bound of a radius, as the place that messages have for it
+
+  MotionView view_;
   std::set<NodeId> mapped_;
+  std::map<NodeId, ArcBlock> blocks_;
+  NodeId first_;
+  std::vector<bool> refused_; // from the first node on; a tool path has a million arcs
+  Before before_;             // the node that is being executed
 };
 
-std::unique_ptr<FlowRule> watch(ProgramId, const FileContext &) { return std::make_unique<ArcRadiusDiffers>(); }
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<ArcRadiusDiffers>(program, context);
+}
 
 } // namespace
 
