@@ -17,6 +17,26 @@ inline constexpr std::array kFanucTurningGCodes = {
 #include "dialects/common/fanuc_turning_g_codes.def"
 };
 #include "dialects/common/rows.h"
+inline constexpr std::array kFanucTurningOfA = {
+#include "dialects/common/fanuc_turning_system_a.def"
+};
+#include "dialects/common/rows.h"
+inline constexpr std::array kFanucTurningOfAB = {
+#include "dialects/common/fanuc_turning_system_ab.def"
+};
+#include "dialects/common/rows.h"
+inline constexpr std::array kFanucTurningOfB = {
+#include "dialects/common/fanuc_turning_system_b.def"
+};
+#include "dialects/common/rows.h"
+inline constexpr std::array kFanucTurningOfBC = {
+#include "dialects/common/fanuc_turning_system_bc.def"
+};
+#include "dialects/common/rows.h"
+inline constexpr std::array kFanucTurningOfC = {
+#include "dialects/common/fanuc_turning_system_c.def"
+};
+#include "dialects/common/rows.h"
 inline constexpr std::array kFanucMCodes = sorted(std::array{
 #include "dialects/common/macro_b_m_codes.def"
 });
@@ -49,6 +69,14 @@ consteval std::array<Code, 1000> manualGuideCodes() {
 }
 inline constexpr std::array kManualGuideCodes = manualGuideCodes();
 
+inline constexpr auto kFanucMillingCodes = merged(kFanucMillingGCodes, kManualGuideCodes);
+inline constexpr auto kFanucTurningCodesA =
+    merged(kFanucTurningGCodes, kFanucTurningOfA, kFanucTurningOfAB, kManualGuideCodes);
+inline constexpr auto kFanucTurningCodesB =
+    merged(kFanucTurningGCodes, kFanucTurningOfAB, kFanucTurningOfB, kFanucTurningOfBC, kManualGuideCodes);
+inline constexpr auto kFanucTurningCodesC =
+    merged(kFanucTurningGCodes, kFanucTurningOfBC, kFanucTurningOfC, kManualGuideCodes);
+
 inline constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
                                                                    LanguageHint{TextSignal::FanucComment, 8},
                                                                    LanguageHint{TextSignal::FanucName, 4},
@@ -59,11 +87,15 @@ inline constexpr std::array kFanucHints = joined(kMacroBHints, std::array{
                                                                    LanguageHint{TextSignal::FanucOffsetGroup, 8},
                                                                });
 
-/// What all series have in common; the tables of codes and variables are the caller's.
+/// What all series have in common; the tables of variables are the caller's.
 inline Dialect makeFanuc(MachineKind machine) {
   Dialect dialect;
   dialect.machine = machine;
   dialect.addresses = addressesOf(machine);
+  if (machine == MachineKind::Turning)
+    dialect.gCodesOfSystem = {kFanucTurningCodesA, kFanucTurningCodesB, kFanucTurningCodesC};
+  dialect.gCodes = machine == MachineKind::Turning ? std::span<const Code>(kFanucTurningCodesA)
+                                                   : std::span<const Code>(kFanucMillingCodes);
   dialect.mCodes = kFanucMCodes;
   dialect.operators = kOperators;
   dialect.bitWords = kOutputWords;

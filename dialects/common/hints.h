@@ -22,7 +22,7 @@ inline constexpr std::array kTurningHints = {
     LanguageHint{TextSignal::LengthOffset, -6},   LanguageHint{TextSignal::ToolChange, -4},
     LanguageHint{TextSignal::DistanceMode, -3}, // in G code system A, `G90` is a cycle and `G91` is none
     LanguageHint{TextSignal::PlaneMove, 1},       LanguageHint{TextSignal::LatheName, 4},
-    LanguageHint{TextSignal::MillName, -4},
+    LanguageHint{TextSignal::MillName, -4},       LanguageHint{TextSignal::SystemBCycle, 3},
 };
 
 } // namespace feedhold

@@ -12,8 +12,6 @@ namespace {
 constexpr std::array kAlarms = {
 #include "dialects/fanuc_0i/alarms.def"
 };
-constexpr auto kMillingGCodes = merged(kFanucMillingGCodes, kManualGuideCodes);
-constexpr auto kTurningGCodes = merged(kFanucTurningGCodes, kManualGuideCodes);
 constexpr auto kMillingVariables = merged(kFanucVariables, kFanucMillingVariables);
 constexpr auto kTurningVariables = merged(kFanucVariables, kFanucTurningVariables);
 
@@ -58,7 +56,6 @@ const Dialect &fanuc0i() {
     Dialect dialect = make(MachineKind::Milling);
     dialect.id = "fanuc-0i";
     dialect.title = "FANUC Series 0i, 16i, 18i, 21i, milling";
-    dialect.gCodes = kMillingGCodes;
     dialect.variables = kMillingVariables;
     dialect.aliases = kFanucMillingAliases;
     dialect.hints = kMillingHints;
@@ -71,8 +68,7 @@ const Dialect &fanuc0iLathe() {
   static const Dialect kDialect = [] {
     Dialect dialect = make(MachineKind::Turning);
     dialect.id = "fanuc-0i-lathe";
-    dialect.title = "FANUC Series 0i, 16i, 18i, 21i, turning (G code system A)";
-    dialect.gCodes = kTurningGCodes;
+    dialect.title = "FANUC Series 0i, 16i, 18i, 21i, turning (G code systems A, B, C)";
     dialect.variables = kTurningVariables;
     dialect.aliases = kFanucTurningAliases;
     dialect.hints = kTurningHints0i;

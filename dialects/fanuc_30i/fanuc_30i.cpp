@@ -16,8 +16,6 @@ constexpr std::array k30iVariables = {
 constexpr std::array kAlarms = {
 #include "dialects/fanuc_30i/alarms.def"
 };
-constexpr auto kMillingGCodes = merged(kFanucMillingGCodes, kManualGuideCodes);
-constexpr auto kTurningGCodes = merged(kFanucTurningGCodes, kManualGuideCodes);
 constexpr auto kMillingVariables = merged(kFanucVariables, kFanucMillingVariables, k30iVariables);
 constexpr auto kTurningVariables = merged(kFanucVariables, kFanucTurningVariables, k30iVariables);
 
@@ -71,7 +69,6 @@ const Dialect &fanuc30i() {
     Dialect dialect = make(MachineKind::Milling);
     dialect.id = "fanuc-30i";
     dialect.title = "FANUC Series 30i, milling";
-    dialect.gCodes = kMillingGCodes;
     dialect.variables = kMillingVariables;
     dialect.aliases = kMillingAliases;
     dialect.hints = kMillingHints;
@@ -84,8 +81,7 @@ const Dialect &fanuc30iLathe() {
   static const Dialect kDialect = [] {
     Dialect dialect = make(MachineKind::Turning);
     dialect.id = "fanuc-30i-lathe";
-    dialect.title = "FANUC Series 30i, turning (G code system A)";
-    dialect.gCodes = kTurningGCodes;
+    dialect.title = "FANUC Series 30i, turning (G code systems A, B, C)";
     dialect.variables = kTurningVariables;
     dialect.aliases = kTurningAliases;
     dialect.hints = kTurningHints30i;

@@ -133,6 +133,19 @@ class Run(Scratch):
             told = self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i", "--format", "json", *options)
             self.assertEqual(json.loads(told.stdout)["variables"]["1"], expected)
 
+    # ---- the G code system of a lathe ----
+
+    def test_g_code_system(self):
+        """71 is a unit in system C alone, and 90 a distance mode in B and C: the option, then the file, then the text."""
+        self.loop("G90\nG71\n#1=#4003\n#2=#4006\nM30")
+        self.write("feedhold.toml", 'g-code-system = "B"\n')
+        for options, unit in (([], 21), (["--g-code-system", "C"], 71), (["--g-code-system", "A"], 21),
+                              (["--isolated"], 71)):  # `G71` alone is no cycle: the text shows system C
+            told = self.feedhold("run", "O3.nc", "--dialect", "fanuc-30i-lathe", "--format", "json", *options)
+            variables = json.loads(told.stdout)["variables"]
+            self.assertEqual((variables["1"] == 90, variables["2"]), ("A" not in options, unit), options)
+        self.assertExit(self.run_program("O3.nc", "--g-code-system", "D"), 2)
+
     def test_an_unknown_increment_system_is_an_error(self):
         result = self.run_program("O1.nc", "--increment-system", "IS-D")
         self.assertExit(result, 2)

@@ -311,9 +311,11 @@ std::uint64_t Random::next() {
 }
 
 Sample macroSample(Random &random) {
-  const std::string_view dialect =
+  std::string_view dialect =
       random.of<std::string_view>({"fanuc-30i", "fanuc-30i", "fanuc-30i", "fanuc-30i", "fanuc-0i", "haas-ngc",
                                    "haas-classic", "mitsubishi-m700", "fanuc-30i-lathe", "linuxcnc", "linuxcnc"});
+  if (dialect == "fanuc-30i-lathe")
+    dialect = random.of<std::string_view>({"fanuc-30i-lathe", "fanuc-30i-lathe/B", "fanuc-30i-lathe/C"});
   return {dialect, dialect == "linuxcnc" ? ngcProgram(random) : Writer(random).run()};
 }
 

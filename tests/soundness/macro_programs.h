@@ -29,8 +29,8 @@ private:
 using ProgramLines = std::vector<std::string>;
 
 struct Sample {
-  std::string_view dialect;
-  ProgramLines lines; // the program that is run first, then those that it may call
+  std::string_view dialect; // its id; `fanuc-30i-lathe/B`: a lathe of another G code system
+  ProgramLines lines;       // the program that is run first, then those that it may call
 };
 /// Of any dialect; the commonest one more often than others.
 Sample macroSample(Random &random);

@@ -3,9 +3,21 @@
 #include "base/support/mantissa32.h"
 #include "dialects/registry.h"
 
+#include <map>
+
 namespace feedhold::soundness {
 
-const Dialect &controlOf(const Sample &sample) { return *findDialect(allDialects(), sample.dialect); }
+const Dialect &controlOf(const Sample &sample) {
+  const std::size_t slash = sample.dialect.find('/');
+  const Dialect &plain = *findDialect(allDialects(), sample.dialect.substr(0, slash));
+  if (slash == std::string_view::npos)
+    return plain;
+  static std::map<std::string_view, Dialect> lathes;
+  const auto [lathe, isNew] = lathes.try_emplace(sample.dialect, plain);
+  if (isNew)
+    chooseGCodeSystem(lathe->second, gCodeSystemNamed(sample.dialect.substr(slash + 1)).value());
+  return lathe->second;
+}
 
 Dialect machineOf(const Sample &sample, Random &random) {
   Dialect dialect = controlOf(sample);

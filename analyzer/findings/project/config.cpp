@@ -73,16 +73,29 @@ public:
 
 private:
   void readRoot(const toml::table &root) {
-    static constexpr std::array<std::string_view, 14> kKeys = {
-        "dialect",        "increment-system", "select", "ignore",   "min-severity", "error-on",
-        "include",        "exclude",          "files",  "switches", "code-calls",   "builders-variables",
-        "builders-codes", "severity"};
+    static constexpr std::array<std::string_view, 15> kKeys = {"dialect",
+                                                               "increment-system",
+                                                               "g-code-system",
+                                                               "select",
+                                                               "ignore",
+                                                               "min-severity",
+                                                               "error-on",
+                                                               "include",
+                                                               "exclude",
+                                                               "files",
+                                                               "switches",
+                                                               "code-calls",
+                                                               "builders-variables",
+                                                               "builders-codes",
+                                                               "severity"};
     Config &config = result_.config;
     for (const auto &[key, node] : root) {
       if (key == "dialect")
         config.dialect = dialect(node);
       else if (key == "increment-system")
         config.incrementSystem = incrementSystem(node);
+      else if (key == "g-code-system")
+        config.gCodeSystem = gCodeSystem(node);
       else if (key == "select")
         config.select = ruleNames(node);
       else if (key == "ignore")
@@ -113,7 +126,7 @@ private:
   }
 
   FilePattern filePattern(const toml::table &table) {
-    static constexpr std::array<std::string_view, 6> kKeys = {"path",   "dialect", "increment-system",
+    static constexpr std::array<std::string_view, 7> kKeys = {"path",   "dialect", "increment-system", "g-code-system",
                                                               "select", "ignore",  "switches"};
     FilePattern pattern;
     for (const auto &[key, node] : table) {
@@ -123,6 +136,8 @@ private:
         pattern.dialect = dialect(node);
       else if (key == "increment-system")
         pattern.incrementSystem = incrementSystem(node);
+      else if (key == "g-code-system")
+        pattern.gCodeSystem = gCodeSystem(node);
       else if (key == "select")
         pattern.select = ruleNames(node);
       else if (key == "ignore")
@@ -265,6 +280,15 @@ private:
     return found;
   }
 
+  std::optional<GCodeSystem> gCodeSystem(const toml::node &node) {
+    const std::string name = string(node);
+    const auto found = gCodeSystemNamed(name);
+    if (!found && !name.empty())
+      addError(node.source(),
+               fmt::format("`{}` is not a G code system; one of: {}", name, fmt::join(gCodeSystemNames(), ", ")));
+    return found;
+  }
+
   std::optional<std::string> dialect(const toml::node &node) {
     const std::string id = string(node);
     if (id.empty())
@@ -370,6 +394,8 @@ std::string textOf(const Switches &switches) {
   for (const CodeName &code : switches.buildersCodes)
     text += fmt::format("builders-codes={} ", textOf(code));
   text += fmt::format("increment-system={} ", nameOf(switches.incrementSystem));
+  if (switches.gCodeSystem != GCodeSystem::A) // most controls have but one
+    text += fmt::format("g-code-system={} ", nameOf(switches.gCodeSystem));
   return text;
 }
 

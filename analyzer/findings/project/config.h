@@ -25,6 +25,7 @@ struct FilePattern {
   std::vector<std::string> ignore = {};
   std::vector<SwitchSetting> switches = {};
   std::optional<IncrementSystem> incrementSystem = std::nullopt;
+  std::optional<GCodeSystem> gCodeSystem = std::nullopt;
 };
 
 struct SeveritySetting {
@@ -44,6 +45,7 @@ struct Config {
   std::vector<FilePattern> files = {};
   std::vector<SwitchSetting> switches = {};
   std::optional<IncrementSystem> incrementSystem = std::nullopt;
+  std::optional<GCodeSystem> gCodeSystem = std::nullopt;
   std::vector<CodeCall> codeCalls = {};
   std::vector<VariableRange> buildersVariables = {};
   std::vector<CodeName> buildersCodes = {}; // sorted, each once

@@ -11,6 +11,7 @@ namespace feedhold {
 struct ControlOptions {
   std::optional<std::string> dialect = std::nullopt; // an id that exists
   std::optional<IncrementSystem> incrementSystem = std::nullopt;
+  std::optional<GCodeSystem> gCodeSystem = std::nullopt; // of lathes that have several
 };
 
 } // namespace feedhold

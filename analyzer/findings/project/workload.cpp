@@ -7,6 +7,7 @@
 #include "findings/project/remaps.h"
 #include "findings/project/selection.h"
 #include "language/dialect/folder_vote.h"
+#include "language/dialect/g_code_system.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,8 @@ struct Settings {
   std::vector<const FilePattern *> patterns; // of the configuration, those that match
   const Dialect *dialect = nullptr;
   DialectChoice choice = DialectChoice::Fallback;
-  std::vector<CodeName> remapped = {}; // by the `.ini` files of the machine
+  std::vector<CodeName> remapped = {};                   // by the `.ini` files of the machine
+  std::optional<GCodeSystem> gCodeSystem = std::nullopt; // as the text shows
 };
 
 void look(Candidate &candidate, const KnownNames &known) {
@@ -120,12 +122,22 @@ public:
       settings.remapped = remaps_.inFolders(foldersAbove(
           candidate.found.path.empty() ? std::filesystem::path(candidate.found.shown) : candidate.found.path,
           options_));
+    if (!settings.dialect->gCodesOfSystem.front().empty())
+      settings.gCodeSystem = candidate.guess.gCodeSystem;
     return settings;
+  }
+
+  /// The G code system that a person has named.
+  std::optional<GCodeSystem> namedSystem(const Config &config, const Settings &settings) const {
+    std::optional<GCodeSystem> system = config.gCodeSystem;
+    for (const FilePattern *pattern : settings.patterns)
+      system = pattern->gCodeSystem ? pattern->gCodeSystem : system;
+    return options_.control.gCodeSystem ? options_.control.gCodeSystem : system;
   }
 
   /// The settings of one configuration and one set of patterns are made once: thousands of files share them.
   std::shared_ptr<const Profile> profileFor(const Config &config, const Settings &settings) {
-    const Key key{&config, settings.dialect, settings.patterns, settings.remapped};
+    const Key key{&config, settings.dialect, settings.patterns, settings.remapped, settings.gCodeSystem};
     const auto known = profiles_.find(key);
     if (known != profiles_.end())
       return known->second;
@@ -133,7 +145,8 @@ public:
   }
 
 private:
-  using Key = std::tuple<const Config *, const Dialect *, std::vector<const FilePattern *>, std::vector<CodeName>>;
+  using Key = std::tuple<const Config *, const Dialect *, std::vector<const FilePattern *>, std::vector<CodeName>,
+                         std::optional<GCodeSystem>>;
 
   Profile makeProfile(const Config &config, const Settings &settings) const {
     using Kind = SelectionStep::Kind;
@@ -147,6 +160,8 @@ private:
       apply(pattern->switches, pattern->incrementSystem, switches);
     }
     apply({}, options_.control.incrementSystem, switches);
+    const auto seen = settings.gCodeSystem.value_or(GCodeSystem::A);
+    chooseGCodeSystem(profile.dialect, namedSystem(config, settings).value_or(seen));
     if (!config.codeCalls.empty())
       switches.codeCalls = config.codeCalls;
     switches.buildersVariables = config.buildersVariables;
@@ -241,6 +256,9 @@ private:
     std::vector<std::string_view> reasons;
     if (settings.choice == DialectChoice::Guess || settings.choice == DialectChoice::FolderVote || foreign != nullptr)
       reasons = candidate.guess.reasons;
+    const GCodeSystem system = profile->dialect.switches.gCodeSystem;
+    if (system != GCodeSystem::A && !settler_.namedSystem(*candidate.found.config, settings))
+      reasons.push_back(marksOf(system));
     result_.items.push_back({candidate.found.shown, candidate.found.path, *candidate.source, std::move(profile),
                              settings.choice, std::move(reasons), foreign});
   }

@@ -222,6 +222,27 @@ std::optional<IncrementSystem> incrementSystemNamed(std::string_view name) {
   return found == names.end() ? std::nullopt : std::optional(static_cast<IncrementSystem>(found - names.begin()));
 }
 
+std::span<const std::string_view> gCodeSystemNames() {
+  static constexpr std::array<std::string_view, kGCodeSystems> kNames = {"A", "B", "C"};
+  return kNames;
+}
+
+std::string_view nameOf(GCodeSystem system) { return gCodeSystemNames()[static_cast<std::size_t>(system)]; }
+
+std::optional<GCodeSystem> gCodeSystemNamed(std::string_view name) {
+  const auto names = gCodeSystemNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::nullopt : std::optional(static_cast<GCodeSystem>(found - names.begin()));
+}
+
+void chooseGCodeSystem(Dialect &dialect, GCodeSystem system) {
+  const std::span<const Code> codes = dialect.gCodesOfSystem[static_cast<std::size_t>(system)];
+  if (codes.empty())
+    return;
+  dialect.switches.gCodeSystem = system;
+  dialect.gCodes = codes;
+}
+
 LeastIncrements leastIncrementsOf(const Dialect &dialect) {
   switch (dialect.switches.incrementSystem) {
   case IncrementSystem::A: return {Decimal(1, 2), Decimal(1, 3)};

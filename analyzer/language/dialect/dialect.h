@@ -329,6 +329,15 @@ std::string_view nameOf(IncrementSystem system);
 std::span<const std::string_view> incrementSystemNames();
 std::optional<IncrementSystem> incrementSystemNamed(std::string_view name);
 
+/// Which codes a FANUC lathe has for cycles, distances and feed modes: parameter 3401#6 and #7 (GSB, GSC).  In A, G90
+/// is a cycle and U and W are distances; in B and C, G90 and G91 choose between coordinates and distances.
+enum class GCodeSystem : std::uint8_t { A, B, C };
+inline constexpr std::size_t kGCodeSystems = 3;
+/// `A`, `B`, `C`.
+std::string_view nameOf(GCodeSystem system);
+std::span<const std::string_view> gCodeSystemNames();
+std::optional<GCodeSystem> gCodeSystemNamed(std::string_view name);
+
 /// The machine parameters that change the language.  Names are those of the parameter manual.
 struct Switches {
   Switch dpi = Switch::Unknown; // 3401#0: a word without a decimal point is in mm, inch, degree (On) or increments
@@ -355,7 +364,8 @@ struct Switches {
   Switch setEndsLocal = Switch::Unknown;    // G92 takes the offset of G52 away from the axes that it names
   Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
   IncrementSystem incrementSystem = IncrementSystem::B;
-  std::vector<CodeCall> codeCalls = {}; // 6050-6059, 6080-6089, 6071-6079, ...
+  GCodeSystem gCodeSystem = GCodeSystem::A; // of lathes that have several; chooseGCodeSystem() sets it
+  std::vector<CodeCall> codeCalls = {};     // 6050-6059, 6080-6089, 6071-6079, ...
   /// Of the machine builder, by number: what they hold is not known, and may change at any time.
   std::vector<VariableRange> buildersVariables = {};
   /// Of the machine builder: what they do is not known.  One that the control has otherwise is replaced.
@@ -464,9 +474,11 @@ struct Dialect {
   std::string_view controls; // "30i, 31i, 32i, 0i-F"
   MachineKind machine = MachineKind::Milling;
   std::array<AddressFormat, 26> addresses{}; // A .. Z
-  std::span<const Code> gCodes;              // sorted by tenths
-  std::span<const Code> mCodes;              // sorted by tenths
-  std::span<const VariableRange> variables;  // sorted, without overlap
+  std::span<const Code> gCodes;              // sorted by tenths; of the G code system in force
+  /// Of each G code system; empty: the control has but one.
+  std::array<std::span<const Code>, kGCodeSystems> gCodesOfSystem{};
+  std::span<const Code> mCodes;             // sorted by tenths
+  std::span<const VariableRange> variables; // sorted, without overlap
   std::span<const CellAlias> aliases;
   std::span<const BitWord> bitWords;
   std::span<const Function> functions;
@@ -493,6 +505,9 @@ struct LeastIncrements {
   Decimal inch;
 };
 LeastIncrements leastIncrementsOf(const Dialect &dialect);
+
+/// The control has the codes of the system from here on; one that has but one system stays as it is.
+void chooseGCodeSystem(Dialect &dialect, GCodeSystem system);
 
 /// The numbers that the control computes with, as its switches say.
 NumberModel numbersOf(const Dialect &dialect);

@@ -31,6 +31,8 @@ void FolderVote::add(const LanguageGuess &file) {
     votes = {file.foreign, votes.second + 1};
     return;
   }
+  if (file.gCodeSystem && file.dialect->machine == MachineKind::Turning)
+    gCodeSystems_.insert(*file.gCodeSystem);
   if (file.basis == GuessBasis::Text)
     ++speakers_[file.dialect];
   distinct_ += file.basis == GuessBasis::Text && file.kin == nullptr && !fitsSeveral(file) ? 1U : 0U;
@@ -65,6 +67,8 @@ LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
   if (!own.looksLikeProgram || own.foreign != nullptr)
     return own;
   LanguageGuess guess = own;
+  if (!guess.gCodeSystem && gCodeSystems_.size() == 1)
+    guess.gCodeSystem = *gCodeSystems_.begin();
   if (const ForeignLanguage *foreign = commonForeign();
       foreign != nullptr && (own.basis == GuessBasis::Nothing || own.kin == foreign || fitsSeveral(own))) {
     guess.dialect = nullptr;

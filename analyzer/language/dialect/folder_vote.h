@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace feedhold {
@@ -30,6 +31,7 @@ private:
   std::size_t distinct_ = 0;                        // programs that fit a few dialects only, and no foreign language
   std::map<const Dialect *, std::size_t> speakers_; // programs whose text speaks for a dialect
   std::map<std::string_view, std::pair<const ForeignLanguage *, std::size_t>> foreign_; // by name
+  std::set<GCodeSystem> gCodeSystems_;
 };
 
 } // namespace feedhold

@@ -6,6 +6,7 @@
 #include "language/dialect/text_keywords.h"
 #include "language/dialect/text_signals.h"
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -51,6 +52,9 @@ private:
     ++scan_.counts[static_cast<std::size_t>(signal)];
     hasSignal_ = true;
   }
+
+  /// A mark that says nothing about the language of the line.
+  void note(TextSignal signal) { ++scan_.counts[static_cast<std::size_t>(signal)]; }
 
   std::string_view takeRun() {
     const std::size_t start = at_;
@@ -111,6 +115,8 @@ private:
   bool isConditionList() const;
   void scanAt();
   void countLatheMarks();
+  void countGCodeSystem();
+  bool hasAnyCode(std::size_t first, std::size_t last) const;
   void countCombinations();
   void sortLine();
 
@@ -144,6 +150,7 @@ private:
   bool hasG31_ = false;
   bool hasG90_ = false;
   bool hasG91_ = false;
+  std::bitset<100> gCodes_;   // whole ones
   std::uint32_t codes_ = 0;   // G codes
   bool hasHome_ = false;      // G28, G30, G53, G92: no cut
   bool hasVariableP_ = false; // `P#100`

@@ -337,6 +337,8 @@ void LineScanner::scanGCode(const Number &number) {
       count(TextSignal::NgcCode);
     return;
   }
+  if (number.whole < gCodes_.size())
+    gCodes_.set(number.whole);
   switch (number.whole) {
   case 4: hasG4_ = true; return;
   case 15: hasG15_ = true; return;
@@ -524,8 +526,10 @@ void LineScanner::countCombinations() {
     count(TextSignal::TurningCycle);
   if (hasG64_ && hasNumber('P'))
     count(TextSignal::NgcCode);
-  if (!hasG65_) // whose letters are arguments
+  if (!hasG65_) { // whose letters are arguments
     countLatheMarks();
+    countGCodeSystem();
+  }
 }
 
 /// What a block says about the kind of machine: axes, and the codes with which they move.

@@ -1,6 +1,7 @@
 // Choosing a dialect: by its id, or by the signals of the text.
 #include "language/dialect/registry.h"
 
+#include "language/dialect/g_code_system.h"
 #include "language/dialect/text_signals.h"
 
 #include <algorithm>
@@ -118,6 +119,7 @@ LanguageGuess guessLanguage(std::string_view text, std::string_view path, const 
     guess.basis = prefers(scores, guess.dialect, registry) ? GuessBasis::Text : GuessBasis::Nothing;
     guess.scores = std::move(scores);
     guess.kin = foreign.row;
+    guess.gCodeSystem = gCodeSystemOf(scan);
   }
   return guess;
 }

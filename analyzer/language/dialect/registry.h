@@ -33,6 +33,7 @@ struct LanguageGuess {
   std::vector<std::string_view> reasons;    // the signals that decided, strongest first
   const ForeignLanguage *kin = nullptr;     // of a program that is read: a language that it may as well be written in
   std::vector<int> scores;                  // of the dialects, in their order; of a program that is read
+  std::optional<GCodeSystem> gCodeSystem = {}; // of a lathe, where the text shows it
 };
 
 /// The first dialect whose score is next to the best: one weak mark does not choose.

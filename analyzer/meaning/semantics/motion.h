@@ -161,7 +161,7 @@ private:
     Truth any = interpretation_.truth(false);
     for (const Axis axis : kAllAxes)
       any = context_.either(any, present(letterOf(axis)));
-    return context_.dialect().machine == MachineKind::Turning ? context_.either(any, present('H')) : any;
+    return incrementsByLetter(context_) ? context_.either(any, present('H')) : any;
   }
   Truth present(char letter) const { return words_.present(interpretation_, letter); }
   /// An arc whose end point is not written ends where it starts.
@@ -294,7 +294,7 @@ private:
       if (const Truth homes = context_.either(present(letterOf(axis)), all); interpretation_.mayBe(homes))
         home(axis, homes, word);
     for (const auto &[letter, axis] : kTurningIncrements)
-      if (const auto *entry = context_.dialect().machine == MachineKind::Turning ? words_.find(letter) : nullptr)
+      if (const auto *entry = incrementsByLetter(context_) ? words_.find(letter) : nullptr)
         home(axis, entry->present, word);
     const bool isKnown =
         word.code->action == CodeAction::ReferenceReturn || referenceRange(VariableRole::SecondReference);

@@ -11,6 +11,11 @@ namespace feedhold {
 inline constexpr std::array<std::pair<char, Axis>, 4> kTurningIncrements = {
     {{'U', Axis::X}, {'V', Axis::Y}, {'W', Axis::Z}, {'H', Axis::C}}};
 
+/// U, V, W and H are distances along X, Y, Z and C: on a lathe that has no G90 and G91 for them.
+template <ValueAlgebra R> bool incrementsByLetter(const StepContext<R> &context) {
+  return context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
+}
+
 /// The end point that the axis words name, in work coordinates; axes without a word stay where they are.
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);
@@ -208,15 +213,14 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   auto target = context.state.position;
   if (isMapped)
     target = toProgrammed(context, std::move(target));
-  const bool incrementsByLetter =
-      context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
+  const bool byLetter = incrementsByLetter(context);
   for (const Axis axis : kAllAxes)
     if (const auto *entry = words.find(letterOf(axis)))
-      if (!incrementsByLetter || (axis != Axis::U && axis != Axis::V && axis != Axis::W))
+      if (!byLetter || (axis != Axis::U && axis != Axis::V && axis != Axis::W))
         target[indexOf(axis)] = detail::openedUp(context, axis, targetOn(context, *entry, target[indexOf(axis)]));
   std::array<bool, kAxisCount> taken{};
   detail::takePending(context, words, target, taken);
-  if (incrementsByLetter)
+  if (byLetter)
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = words.find(letter)) {
         auto &coordinate = target[indexOf(axis)];
@@ -225,7 +229,7 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
   detail::fromPolar(context, words, target);
   if (isMapped)
     target = toWork(context, std::move(target));
-  if (isMapped && !incrementsByLetter)
+  if (isMapped && !byLetter)
     detail::keepUnnamed(context, words, target, taken);
   return target;
 }

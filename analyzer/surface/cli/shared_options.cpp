@@ -13,6 +13,11 @@ void addControl(CLI::App &app, ControlArguments &arguments) {
                  "least increment: IS-A 0.01 mm, IS-B 0.001 mm, IS-C 0.0001 mm (default: feedhold.toml, else IS-B)")
       ->type_name("SYSTEM")
       ->check(CLI::IsMember(std::vector<std::string>(systems.begin(), systems.end())));
+  const auto lists = gCodeSystemNames();
+  app.add_option("--g-code-system", arguments.gCodeSystem,
+                 "G codes of a lathe: system A, B or C (default: feedhold.toml, else detected, else A)")
+      ->type_name("SYSTEM")
+      ->check(CLI::IsMember(std::vector<std::string>(lists.begin(), lists.end())));
 }
 
 std::optional<std::string> complaintAbout(const ControlArguments &arguments) {
@@ -20,7 +25,8 @@ std::optional<std::string> complaintAbout(const ControlArguments &arguments) {
 }
 
 ControlOptions controlFrom(const ControlArguments &arguments) {
-  ControlOptions options{.incrementSystem = incrementSystemNamed(arguments.incrementSystem)};
+  ControlOptions options{.incrementSystem = incrementSystemNamed(arguments.incrementSystem),
+                         .gCodeSystem = gCodeSystemNamed(arguments.gCodeSystem)};
   if (!arguments.dialect.empty())
     options.dialect = arguments.dialect;
   return options;

@@ -12,10 +12,11 @@
 
 namespace feedhold {
 
-/// `--dialect` and `--increment-system`: empty when they are not given.
+/// `--dialect`, `--increment-system` and `--g-code-system`: empty when they are not given.
 struct ControlArguments {
   std::string dialect;
   std::string incrementSystem;
+  std::string gCodeSystem;
 };
 void addControl(CLI::App &app, ControlArguments &arguments);
 /// Why there is no such control; absent when there is.

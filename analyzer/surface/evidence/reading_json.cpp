@@ -14,8 +14,10 @@ Json readingToJson(const BundleReading &reading, const std::filesystem::path &fo
   for (const prove::ObligationKind kind : reading.only)
     only.push_back(prove::nameOf(kind));
   const auto &increments = reading.control.incrementSystem;
+  const auto &codes = reading.control.gCodeSystem;
   return {{"dialect", reading.control.dialect ? Json(*reading.control.dialect) : Json()},
           {"incrementSystem", increments ? Json(nameOf(*increments)) : Json()},
+          {"gCodeSystem", codes ? Json(nameOf(*codes)) : Json()},
           {"isolated", reading.isolated},
           {"config", reading.config ? Json(pathFrom(folder, *reading.config)) : Json()},
           {"only", std::move(only)}};
@@ -27,6 +29,8 @@ BundleReading readingFrom(const Json &reading, const std::filesystem::path &fold
     read.control.dialect = reading.at("dialect").get<std::string>();
   if (const auto increments = reading.find("incrementSystem"); increments != reading.end() && !increments->is_null())
     read.control.incrementSystem = incrementSystemNamed(increments->get<std::string>());
+  if (const auto codes = reading.find("gCodeSystem"); codes != reading.end() && !codes->is_null())
+    read.control.gCodeSystem = gCodeSystemNamed(codes->get<std::string>());
   read.isolated = reading.at("isolated");
   if (!reading.at("config").is_null())
     read.config = (folder / reading.at("config").get<std::string>()).lexically_normal();
@@ -43,6 +47,8 @@ std::string readingOptions(const BundleReading &reading) {
     text += " --dialect " + *reading.control.dialect;
   if (reading.control.incrementSystem)
     text += fmt::format(" --increment-system {}", nameOf(*reading.control.incrementSystem));
+  if (reading.control.gCodeSystem)
+    text += fmt::format(" --g-code-system {}", nameOf(*reading.control.gCodeSystem));
   if (reading.isolated)
     text += " --isolated";
   else if (reading.config)

@@ -1,6 +1,7 @@
 // certificate.json: what was proved of which bytes, under which settings.
 #include "base/support/sha256.h"
 #include "base/support/text.h"
+#include "language/dialect/g_code_system.h"
 #include "surface/evidence/reading_json.h"
 #include "surface/report/report_parts.h"
 
@@ -153,12 +154,12 @@ private:
             {"chosenBy", checked ? Json(feedhold::nameOf(checked->choice)) : Json()},
             {"reasons", std::move(reasons)},
             {"config", config ? Json(relative(*config)) : Json()},
-            {"switches", switchesOf(file.project->dialect())},
+            {"switches", switchesOf(file.project->dialect(), checked)},
             {"programs", std::move(programs)},
             {"findings", checked ? findingsToJson(*checked) : Json::array()}};
   }
   /// `dpi=2`: 0 is off, 1 on, 2 not known.
-  Json switchesOf(const Dialect &dialect) const {
+  Json switchesOf(const Dialect &dialect, const CheckedFile *checked) const {
     const Dialect *plain = findDialect(input_.dialects, dialect.id);
     std::istringstream now(feedhold::textOf(dialect.switches));
     std::istringstream before(plain ? feedhold::textOf(plain->switches) : std::string());
@@ -171,10 +172,16 @@ private:
       const std::string value = word.substr(equals + 1);
       const std::string shown = value == "0" ? "off" : value == "1" ? "on" : value == "2" ? "unknown" : value;
       const std::string name = word.substr(0, equals);
-      const bool isAsked = name == "increment-system" && input_.options.reading.control.incrementSystem;
+      const ControlOptions &asked = input_.options.reading.control;
+      const bool isAsked =
+          (name == "increment-system" && asked.incrementSystem) || (name == "g-code-system" && asked.gCodeSystem);
+      const bool isGuessed =
+          name == "g-code-system" && checked != nullptr &&
+          std::ranges::find(checked->reasons, marksOf(dialect.switches.gCodeSystem)) != checked->reasons.end();
       rows.push_back({{"name", name},
                       {"value", shown},
                       {"chosenBy", isAsked                     ? "option"
+                                   : isGuessed                 ? "guess"
                                    : plainWords.contains(word) ? "dialect"
                                                                : "config"}});
     }

@@ -4,6 +4,7 @@
 #include "language/dialect/text_signals.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -207,6 +208,46 @@ TEST(Guess, FolderDecidesWhereATextFitsSeveralControls) {
   foreign.add(plain);
   ASSERT_NE(foreign.decide(plain).foreign, nullptr);
   EXPECT_EQ(foreign.decide(plain).foreign->name, "Sinumerik");
+}
+
+TEST(Guess, GCodeSystemOfALathe) {
+  const auto systemOf = [](std::string_view blocks) {
+    const std::string text = fmt::format("O1\nT0101\nG96 S180 M03\n{}M30\n", blocks);
+    const LanguageGuess guess = guessLanguage(text, "", allDialects());
+    EXPECT_EQ(guess.dialect->id, "fanuc-30i-lathe") << text;
+    return guess.gCodeSystem ? nameOf(*guess.gCodeSystem) : "none";
+  };
+  EXPECT_EQ(systemOf("G99 G01 X50. Z2. F.2\n"), "A");
+  EXPECT_EQ(systemOf("G90 X48. Z-20. F.2\nX46.\n"), "A");
+  EXPECT_EQ(systemOf("G92 X20. Z-20. F1.5\n"), "A");
+  EXPECT_EQ(systemOf("G0 U-2. W1.\n"), "A");
+  EXPECT_EQ(systemOf("G90 G95 G00 X50. Z2.\nG01 Z-20. F.2\n"), "B");
+  EXPECT_EQ(systemOf("G90 G94\nG00 X50. Z2.\nG01 Z-20. F200.\n"), "B");
+  EXPECT_EQ(systemOf("G95\nG00 X50. Z2.\nG77 X48. Z-20. F.2\n"), "B");
+  EXPECT_EQ(systemOf("G90 G95\nG71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.3\nN10 G00 X20.\nN20 Z-5.\nG98 G83 Z-20. F.1\n"),
+            "B");
+  EXPECT_EQ(systemOf("G71 G90 G95\nG00 X50. Z2.\nG20 X48. Z-20. F.2\n"), "C");
+  EXPECT_EQ(systemOf("G90 G95 G00 X50. Z2.\nG24 X20. Z-1. F.2\n"), "C");
+  // too little, or marks of several
+  EXPECT_EQ(systemOf("G00 X50. Z2.\nG01 Z-20. F.2\n"), "none");
+  EXPECT_EQ(systemOf("G90\nG00 X50. Z2.\n"), "none");
+  EXPECT_EQ(systemOf("G90 X50. Z2.\n"), "none");
+  EXPECT_EQ(systemOf("G90 G95 G00 X50. Z2.\nG01 W-20. F.2\n"), "none");
+  EXPECT_EQ(systemOf("G04 U1.\nG98\n"), "none");
+}
+
+TEST(Guess, TheFolderTellsTheGCodeSystem) {
+  const auto guessOf = [](std::string_view text) { return guessLanguage(text, "", allDialects()); };
+  const LanguageGuess neutral = guessOf("O1\nT0101\nG96 S180\nG00 X50. Z2.\nM99\n");
+  const LanguageGuess b = guessOf("O2\nG92 S2000\nT0101\nG96 S180\nG90 G95 G00 X50. Z2.\nM30\n");
+  const LanguageGuess a = guessOf("O3\nG50 S2000\nT0101\nG96 S180\nG99 G01 X50. Z2. F.2\nM30\n");
+  FolderVote vote(allDialects());
+  vote.add(neutral);
+  vote.add(b);
+  EXPECT_EQ(vote.decide(neutral).gCodeSystem, GCodeSystem::B);
+  EXPECT_EQ(vote.decide(a).gCodeSystem, GCodeSystem::A);
+  vote.add(a);
+  EXPECT_EQ(vote.decide(neutral).gCodeSystem, std::nullopt);
 }
 
 TEST(Guess, OneStrayWordRefusesNothing) {

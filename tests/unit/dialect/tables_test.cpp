@@ -237,6 +237,47 @@ TEST(Dialect, TheLeastIncrementsAreThoseOfTheIncrementSystem) {
   EXPECT_FALSE(incrementSystemNamed("IS-Z"));
 }
 
+TEST(Dialect, TheGCodesAreThoseOfTheGCodeSystem) {
+  Dialect dialect = dialectNamed("fanuc-0i-lathe");
+  const auto actionOf = [&](std::uint16_t code) {
+    const Code *found = findGCode(dialect, static_cast<std::uint16_t>(code * 10));
+    return found ? found->action : CodeAction::Unclassified;
+  };
+  EXPECT_EQ(dialect.switches.gCodeSystem, GCodeSystem::A);
+  EXPECT_EQ(actionOf(90), CodeAction::TurningCycle);
+  EXPECT_EQ(actionOf(20), CodeAction::Inch);
+  EXPECT_EQ(actionOf(50), CodeAction::CoordinateSet);
+  EXPECT_EQ(actionOf(98), CodeAction::FeedPerMinute);
+  chooseGCodeSystem(dialect, gCodeSystemNamed("B").value());
+  EXPECT_EQ(actionOf(90), CodeAction::Absolute);
+  EXPECT_EQ(actionOf(77), CodeAction::TurningCycle);
+  EXPECT_EQ(actionOf(20), CodeAction::Inch);
+  EXPECT_EQ(actionOf(92), CodeAction::CoordinateSet);
+  EXPECT_EQ(actionOf(98), CodeAction::ReturnToInitial);
+  EXPECT_EQ(actionOf(32), CodeAction::Unclassified);
+  chooseGCodeSystem(dialect, gCodeSystemNamed("C").value());
+  EXPECT_EQ(actionOf(90), CodeAction::Absolute);
+  EXPECT_EQ(actionOf(20), CodeAction::TurningCycle);
+  EXPECT_EQ(actionOf(70), CodeAction::Inch);
+  EXPECT_EQ(actionOf(78), CodeAction::TurningCycle);
+  EXPECT_EQ(actionOf(79), CodeAction::Unclassified);
+  EXPECT_FALSE(gCodeSystemNamed("D"));
+
+  Dialect mill = dialectNamed("fanuc-0i");
+  chooseGCodeSystem(mill, GCodeSystem::C);
+  EXPECT_EQ(mill.switches.gCodeSystem, GCodeSystem::A);
+  EXPECT_EQ(findGCode(mill, 200)->action, CodeAction::Inch);
+}
+
+TEST(Dialect, EveryGCodeSystemIsInOrder) {
+  for (const Dialect *dialect : allDialects().dialects)
+    for (const std::span<const Code> codes : dialect->gCodesOfSystem)
+      for (std::size_t i = 0; i < codes.size(); ++i) {
+        EXPECT_NE(codes[i].action, CodeAction::Unclassified) << codes[i].tenths;
+        EXPECT_TRUE(i == 0 || codes[i - 1].tenths < codes[i].tenths) << codes[i].tenths;
+      }
+}
+
 TEST(Dialect, CodeCallsComeFromTheSwitches) {
   Dialect dialect = dialectNamed("fanuc-30i");
   EXPECT_EQ(findCodeCall(dialect, 'M', 60), nullptr);

@@ -103,6 +103,14 @@ TEST(Config, WhatChangesADialectIsPartOfItsText) {
   EXPECT_NE(textOf(switches), before);
 }
 
+TEST(Config, GCodeSystem) {
+  const ConfigText text = read("g-code-system = \"B\"\n[[files]]\npath = \"x\"\ng-code-system = \"C\"\n");
+  EXPECT_TRUE(text.errors.empty());
+  EXPECT_EQ(text.config.gCodeSystem, GCodeSystem::B);
+  EXPECT_EQ(text.config.files[0].gCodeSystem, GCodeSystem::C);
+  EXPECT_EQ(errorOf("g-code-system = \"D\"\n"), "1:17 `D` is not a G code system; one of: A, B, C");
+}
+
 TEST(Config, AFormerNameOfARuleIsUnderstood) {
   EXPECT_EQ(errorOf("select = [\"loop-counter-clobbered\"]\n[severity]\nloop-counter-clobbered = \"info\"\n"),
             "0 errors");
