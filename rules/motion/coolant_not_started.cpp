@@ -94,8 +94,13 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   const Reader reader(program, context);
   std::vector<Tool> with, without;
   bool isOn = false;
+  const ToolSection head{sections.front().change, context.model.programs[program].first, sections.front().first};
+  bool isSwitchedUnseen = reader.read(head, isOn).mayBeSwitchedUnseen;
   for (const ToolSection &section : sections) {
-    const Tool tool = reader.read(section, isOn);
+    Tool tool = reader.read(section, isOn);
+    const bool isHere = tool.mayBeSwitchedUnseen;
+    tool.mayBeSwitchedUnseen = isHere || isSwitchedUnseen;
+    isSwitchedUnseen = isHere || (isSwitchedUnseen && !tool.on && !tool.off);
     if (tool.cut && (tool.on || tool.off))
       (tool.on ? with : without).push_back(tool);
   }

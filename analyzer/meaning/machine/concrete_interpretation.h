@@ -24,10 +24,13 @@ struct ConcreteValue {
 /// What the reads of an input give, in order; the last number stays.  None is empty.
 using InputReadings = VariableMap<std::vector<double>>;
 
+/// The words in force that a run can be given at its start.
+inline constexpr std::string_view kGivenWords = "FSTDH";
+
 /// What a run finds in force in place of what power-on or a contract says; nothing else is listed.
 struct GivenStart {
   std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group, and index in it; sorted
-  std::vector<std::pair<char, double>> words = {};               // of kModalWords, in their order
+  std::vector<std::pair<char, double>> words = {};               // of kGivenWords
   std::vector<std::pair<Axis, double>> place = {};               // in their order
   bool isEmpty() const { return codes.empty() && words.empty() && place.empty(); }
   friend auto operator<=>(const GivenStart &, const GivenStart &) = default;
@@ -80,6 +83,8 @@ public:
   const Stopped &stopped() const { return stopped_; }
   std::vector<Move<Value>> takeMoves() { return std::exchange(moves_, {}); }
   std::vector<std::string_view> takeNotes() { return std::exchange(notes_, {}); }
+  /// What may change anything has been taken to change nothing.
+  bool passedUnmodelled() const { return passedUnmodelled_; }
   /// An input or a clock has been read since the last call.
   bool takeVolatileReads() { return std::exchange(sawVolatile_, false); }
 
@@ -156,7 +161,10 @@ public:
   bool wantsMoves() const { return true; }
   void move(const Move<Value> &move);
   void unmodelled(std::string_view reason, Span) { notes_.push_back(reason); }
-  void havoc(State &, std::string_view reason, Span) { notes_.push_back(reason); }
+  void havoc(State &, std::string_view reason, Span) {
+    notes_.push_back(reason);
+    passedUnmodelled_ = passedUnmodelled_ || !stopped_;
+  }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
   void hold(Value &result, const Expression &expression) {
     if (numbers_ == NumberModel::Mantissa32)
@@ -180,6 +188,7 @@ private:
   std::vector<Move<Value>> moves_;
   std::vector<std::string_view> notes_;
   bool sawVolatile_ = false;
+  bool passedUnmodelled_ = false;
 };
 
 /// The state in which a run starts: power-on codes, all variables as given, the tool at `start`.

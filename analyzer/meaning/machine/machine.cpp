@@ -40,6 +40,7 @@ public:
         one();
     }
     result_.place = at_;
+    result_.passedUnmodelled = interpretation_.passedUnmodelled();
     for (std::size_t i = 1; i < frames_.size(); ++i)
       result_.calls.push_back({frames_[i].call, frames_[i].callee});
     result_.state = std::move(state_);

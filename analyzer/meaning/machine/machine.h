@@ -92,6 +92,7 @@ struct RunResult {
   MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes;    // what was not followed, each once for a place
+  bool passedUnmodelled = false; // what is noted may have changed anything: another run may go on otherwise
   std::set<std::string> skipped; // names of missing programs that were called, and taken to return
 };
 

@@ -84,10 +84,13 @@ private:
   Truth without(const Circle &circle) {
     return interpretation_.negation(context_.either(circle.byRadius, circle.byCentre));
   }
+  Truth withoutCentre(const Circle &circle) {
+    return interpretation_.both(without(circle),
+                                context_.either(interpretation_.negation(circle.beside), context_.maybeNot()));
+  }
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);
-    alarms.withoutCentre = interpretation_.both(
-        without(circle), context_.either(interpretation_.negation(circle.beside), context_.maybeNot()));
+    alarms.withoutCentre = withoutCentre(circle);
     const Truth differs = radiiDiffer(circle.plane, start, circle.first, circle.second);
     const Truth isCircle = interpretation_.both(interpretation_.both(circle.mapping.staysCircle, circle.byCentre),
                                                 interpretation_.truth(turnsOf().has_value()));
@@ -107,6 +110,19 @@ private:
     stop(alarms.radius, AlarmKind::ArcRadius);
   }
 
+  /// Whether the centre is missing is told exactly.  What follows from lengths may happen or not: proofs in several
+  /// planes at once are long, and starts in other planes are run.
+  Alarms someAlarmsOf(const Circle &circle) {
+    const Truth byRadius = interpretation_.both(circle.byRadius, context_.maybeNot());
+    return {withoutCentre(circle), byRadius,
+            context_.dialect().switches.pointArcStops == Switch::Off ? interpretation_.truth(false) : byRadius,
+            interpretation_.both(interpretation_.negation(circle.byRadius), context_.maybeNot())};
+  }
+  bool isUsual(CodeAction plane) const {
+    const auto group = context_.modes.groupOf(ModalKind::Plane);
+    const auto code = group ? context_.modes.powerOn(*group) : std::nullopt;
+    return code && context_.modes.group(*group).codes[*code]->action == plane;
+  }
   /// In whichever plane is in force: one of the codes of their group always is.
   void alarmsInAnyPlane(const Point &start, Truth follows) {
     struct Case {
@@ -117,7 +133,8 @@ private:
     for (const auto &[action, plane] : kPlanes)
       if (const Truth inForce = context_.inForce(ModalKind::Plane, {action}, interpretation_.truth(false));
           interpretation_.mayBe(inForce))
-        cases.push_back({inForce, alarmsOf(circleIn(plane, start), start)});
+        cases.push_back({inForce, isUsual(action) ? alarmsOf(circleIn(plane, start), start)
+                                                  : someAlarmsOf(circleIn(plane, start))});
     const Truth other = inOtherPlane();
     const bool areAll = !cases.empty() && !interpretation_.mayBe(other);
     const auto inCase = [&](Truth Alarms::*alarm) {

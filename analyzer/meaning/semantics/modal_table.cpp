@@ -64,8 +64,6 @@ bool isWholeMode(CodeAction action) {
 
 ModalTable::ModalTable(const Dialect &dialect) {
   for (const Code &code : dialect.gCodes) {
-    if (isBuildersCode(dialect, 'G', code.tenths))
-      continue;
     if (code.group == 0 || code.group >= kModalGroups || groups_[code.group].codes.size() >= 64)
       continue;
     groups_[code.group].codes.push_back(&code);

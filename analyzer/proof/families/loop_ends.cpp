@@ -15,6 +15,7 @@ template <typename Suffices> GivenVariables fewest(GivenVariables given, const S
   for (std::size_t size = given.entries().size(); size > 0; size /= 2)
     for (std::size_t first = 0; first < given.entries().size();) {
       GivenVariables fewer;
+      fewer.start = given.start;
       for (std::size_t i = 0; i < given.entries().size(); ++i)
         if (i < first || i >= first + size)
           fewer.set(given.entries()[i].first, given.entries()[i].second);

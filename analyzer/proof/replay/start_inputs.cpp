@@ -1,5 +1,7 @@
 #include "proof/replay/start_inputs.h"
 
+#include "proof/replay/exact_run.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,26 +24,17 @@ std::optional<double> numberIn(const smt::TermStore &store, const smt::Model &mo
 
 /// The numbers of tools and offsets are whole; all words have at most eight digits.
 bool canBeInForce(char letter, double number) {
-  if (number < 0 || number > 99'999'999)
-    return false;
-  switch (letter) {
-  case 'T':
-  case 'D':
-  case 'H':
-  case 'S': return number == std::floor(number);
-  case 'F': return true;
-  default: return false;
-  }
+  return number >= 0 && number <= 99'999'999 && (letter == 'F' || number == std::floor(number));
 }
 
 /// To the least increment in millimetres, without -0.
 double toIncrement(double coordinate) { return std::round(coordinate * 1000) / 1000 + 0.0; }
 bool canBeReached(double coordinate) { return std::fabs(coordinate) < 100'000; }
 
-CodeMask wholeModes(const ModalGroup &group) {
+CodeMask wholeModes(const Dialect &dialect, const ModalGroup &group) {
   CodeMask mask = 0;
   for (std::size_t i = 0; i < group.codes.size(); ++i)
-    if (isWholeMode(group.codes[i]->action))
+    if (isWholeMode(group.codes[i]->action) && !isBuildersCode(dialect, 'G', group.codes[i]->tenths))
       mask |= CodeMask{1} << i;
   return mask;
 }
@@ -52,10 +45,10 @@ StartInputs::StartInputs(const smt::TermStore &store, const Dialect &dialect, co
                          const std::map<Axis, TermId> &place) {
   const ModalTable modes(dialect);
   for (std::uint8_t group = 1; group < kModalGroups; ++group)
-    if (!modes.group(group).codes.empty() && isVariable(store, entry.codes[group].index))
-      codes_.push_back({group, entry.codes[group].index, modes.powerOn(group), wholeModes(modes.group(group)),
+    if (modes.powerOn(group) && isVariable(store, entry.codes[group].index))
+      codes_.push_back({group, entry.codes[group].index, *modes.powerOn(group), wholeModes(dialect, modes.group(group)),
                         group == modes.groupOf(ModalKind::Plane) || group == modes.groupOf(ModalKind::Distance)});
-  for (const char letter : kModalWords)
+  for (const char letter : kGivenWords)
     if (const SymbolicValue &word = entry.word(letter); isVariable(store, word.number))
       words_.emplace_back(letter, word);
   for (const Axis axis : kAllAxes)
@@ -96,27 +89,28 @@ std::vector<GivenStart> StartInputs::otherModes() const {
   return starts;
 }
 
-void StartInputs::addTo(const smt::TermStore &store, smt::Model &model, const GivenStart &start) const {
+void StartInputs::addTo(SymbolicInterpretation &interpretation, smt::Model &model, const GivenStart &start) const {
+  const smt::TermStore &store = interpretation.store();
   const auto found = [](const auto &list, auto key) {
     const auto at = std::ranges::find(list, key, [](const auto &entry) { return entry.first; });
     return at == list.end() ? std::nullopt : std::optional(at->second);
   };
   for (const Code &code : codes_)
-    if (const auto given = found(start.codes, code.group); given || code.powerOn)
-      model[store[code.index].name] = smt::Number(static_cast<int>(given.value_or(code.powerOn.value_or(0))));
+    model[store[code.index].name] =
+        smt::Number(static_cast<int>(found(start.codes, code.group).value_or(code.powerOn)));
   for (const auto &[letter, word] : words_) {
     const auto given = found(start.words, letter);
-    model[store[word.number].name] = smt::Number::fromTyped(given.value_or(0));
+    model[store[word.number].name] = inputNumber(interpretation, given.value_or(0));
     if (isVariable(store, word.vacant))
       model[store[word.vacant].name] = !given;
   }
   for (const auto &[axis, at] : place_)
-    model[store[at].name] = smt::Number::fromTyped(found(start.place, axis).value_or(0));
+    model[store[at].name] = inputNumber(interpretation, found(start.place, axis).value_or(0));
 }
 
 void setStart(SymbolicInterpretation &interpretation, SymbolicState &entry, const GivenStart &start) {
   smt::TermStore &store = interpretation.store();
-  const auto typed = [&](double number) { return store.number(smt::Number::fromTyped(number)); };
+  const auto typed = [&](double number) { return store.number(inputNumber(interpretation, number)); };
   for (const auto &[group, code] : start.codes)
     entry.codes[group] = interpretation.code(code);
   for (const auto &[letter, number] : start.words)

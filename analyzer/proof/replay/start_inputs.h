@@ -22,13 +22,13 @@ public:
   /// With one other code than that of power-on, of the planes and the distance modes: what callers leave in force.
   std::vector<GivenStart> otherModes() const;
   /// Adds the numbers of a start; of what it does not list, those of power-on.
-  void addTo(const smt::TermStore &store, smt::Model &model, const GivenStart &start) const;
+  void addTo(SymbolicInterpretation &interpretation, smt::Model &model, const GivenStart &start) const;
 
 private:
   struct Code {
     std::uint8_t group;
     smt::TermId index;
-    std::optional<std::uint8_t> powerOn;
+    std::uint8_t powerOn;
     CodeMask whole; // the codes that are all that there is to their mode
     bool isSampled; // by otherModes()
   };

@@ -76,7 +76,7 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   smt::Model model;
   const smt::TermStore &store = interpretation_.store();
   smt::spend(kStepsOfInput * interpretation_.entryValues().size());
-  open_.addTo(store, model, given.start);
+  open_.addTo(interpretation_, model, given.start);
   for (const auto &[variable, value] : interpretation_.entryValues()) {
     const ConcreteValue *held = given.find(variable);
     const bool vacant = !held || held->vacant;
@@ -298,13 +298,17 @@ void WitnessSearch::keepSample(GivenVariables given) {
   samples_.push_back({std::move(given), std::move(result)});
 }
 
+std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violation &violation) {
+  return run.result.passedUnmodelled ? std::nullopt : violation.happened(run.result, run.given);
+}
+
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
   int inexact = 0;
   for (const Sample &sample : samples_) {
     if (smt::areStepsUsedUp())
       return std::nullopt;
     smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
-    const auto happened = violation.happened(sample.result, sample.given);
+    const auto happened = broken(sample, violation);
     if (!happened)
       continue;
     if (isExact(sample.given, sample.result, violation))
@@ -333,7 +337,7 @@ std::optional<Witness> WitnessSearch::amongDecimals(const Violation &violation) 
 }
 
 std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &violation) const {
-  const auto happened = violation.happened(run.result, run.given);
+  const auto happened = broken(run, violation);
   if (!happened || !allowed(run.given) || !isExact(run.given, run.result, violation))
     return std::nullopt;
   return Witness{run.given, run.result.end, *happened};
@@ -343,7 +347,7 @@ std::optional<Witness> WitnessSearch::shown(const Sample &run, const Violation &
 std::optional<Witness> WitnessSearch::shownByRounding(const Sample &run, const Violation &violation) const {
   if (violation.breaksExactly)
     return std::nullopt;
-  auto happened = violation.happened(run.result, run.given);
+  auto happened = broken(run, violation);
   if (!happened || !allowed(run.given) || agreesExactly(run.given, run.result) != Agreement::Different)
     return std::nullopt;
   return Witness{run.given, run.result.end, *happened + std::string(kByRounding)};
@@ -455,6 +459,8 @@ std::string WitnessSearch::whyNotShown(const smt::Model &model) const {
     return std::string(kNot);
   const RunResult result = runOf(given);
   smt::spend(kStepsOfInstruction * result.steps);
+  if (result.passedUnmodelled)
+    return fmt::format("{}, which passes over {}", kNot, result.notes.front().reason);
   return dependsOnControl(model)
              ? fmt::format("{}, and may depend on a parameter of the control or on what no manual says: {}", kNot,
                            howItEnded(result))

@@ -103,6 +103,8 @@ private:
   GivenVariables inputsOf(const smt::Model &model) const;
   std::set<std::uint32_t> inputsRead() const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
+  /// A run that passes over what may change anything shows nothing: it is one of many.
+  static std::optional<std::string> broken(const Sample &run, const Violation &violation);
   bool isAllowed(const GivenVariables &given) const;
   void addReadings(GivenVariables &given);
   void keepSample(GivenVariables given);

@@ -140,7 +140,7 @@ std::optional<Error> addPlace(const RunInput &input, GivenStart &start) {
 std::optional<Error> addModal(const std::string &word, const Dialect &dialect, GivenStart &start) {
   const char letter = toUpper(word.front());
   const auto number = numberFrom(std::string_view(word).substr(1));
-  const bool isWord = std::find(kModalWords.begin(), kModalWords.end(), letter) != kModalWords.end();
+  const bool isWord = kGivenWords.find(letter) != std::string_view::npos;
   if (number && isWord) {
     start.words.emplace_back(letter, *number);
     return std::nullopt;
