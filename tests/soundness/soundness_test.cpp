@@ -48,6 +48,13 @@ TEST(Soundness, FoundBefore) {
       // A restored code that none was, and one that writes where the signal came.
       {"haas-ngc", {"#32=#4014", "G#32"}},
       {"fanuc-30i-lathe", {"#31=#4001", "N10G#31"}},
+      // M97 with a computed number calls a part of its own program, and may call itself.
+      {"haas-ngc", {"O1", "N20M97P#1"}},
+      {"haas-ngc", {"O1", "/2M97P#1"}},
+      {"haas-classic", {"/2N10M97P#1", "O2"}},
+      {"haas-classic", {"M97P#1", "M30", "N10#1=5", "WHILE[#1GT0]DO1", "N20#1=#1-1", "END1", "M99"}},
+      // What is not followed may have ended the modal call that was known.
+      {"fanuc-0i", {"O1", "G65P#1L2Z#4K#100", "N20G66P4A10I#1J-1Z0", "M98P3", "O3", "G67"}},
       // Named variables belong to a level.
       {"linuxcnc", {"o1 sub", "#<x>=[#<x>+1]", "o1 endsub [#<x>]", "#<x>=1", "o1 call", "#<x>=[#<x>+#<_value>]"}},
       {"linuxcnc", {"#<n5>=-1", "m98 p50", "#1=#<n5>", "m2", "o50", "#<n5>=3", "m99"}},

@@ -6,7 +6,8 @@ namespace feedhold {
 namespace {
 
 constexpr double kMostUnrolled = 4;
-constexpr int kMostWalksAgain = 1000; // of programs that find the same in several calls
+constexpr std::size_t kMostParts = 200; // that a computed M97 may enter: each is gone through to the end
+constexpr int kMostWalksAgain = 1000;   // of programs that find the same in several calls
 
 } // namespace
 
@@ -40,10 +41,12 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
                                                 AbstractState state) {
   if (!request.callee) {
     const Span place = contextAt(node, state).place();
-    interpretation_.alarm(Truth::Maybe, {AlarmKind::ProgramNotFound, place});
+    interpretation_.alarm(Truth::Maybe, {missingAlarm(request), place});
     if (!request.possible.empty())
       interpretation_.alarm(Truth::Maybe,
                             {request.freshLocals ? AlarmKind::MacroNesting : AlarmKind::SubprogramNesting, place});
+    if (request.isLocal && request.possible.size() > kMostParts && !engine_.gaveUp_)
+      engine_.gaveUp_ = "a computed local call may enter too many parts of its program";
     for (const Callee &callee : request.possible)
       engine_.unmodelledEntries_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
     if (!request.possible.empty())

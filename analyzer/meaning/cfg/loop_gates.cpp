@@ -63,16 +63,20 @@ std::vector<LoopsOfNumber> loopsByNumber(const ProgramModel &model, ProgramId pr
   return all;
 }
 
+bool staysInProgram(JumpKind kind) {
+  return kind == JumpKind::Goto || kind == JumpKind::LocalCall || kind == JumpKind::ReturnTo;
+}
+
 /// Blocks from which control may go on at labels that only the run decides.
 struct OpenSources {
-  std::vector<BlockId> computed; // GOTO and M99 P with a computed number: any label
+  std::vector<BlockId> computed; // GOTO, M97 and M99 P with a computed number: any label
   std::vector<BlockId> calls;    // the callee may say where to go on
 };
 
 OpenSources openSources(const ProgramModel &model, ProgramId program) {
   OpenSources sources;
   for (const Jump &jump : model.jumpsOf(program))
-    if (jump.computed && (jump.kind == JumpKind::Goto || jump.kind == JumpKind::ReturnTo))
+    if (jump.computed && staysInProgram(jump.kind))
       sources.computed.push_back(jump.block);
   for (const Call &call : model.callsOf(program))
     sources.calls.push_back(call.block);
@@ -87,10 +91,6 @@ bool someOutside(const std::vector<BlockId> &sortedBlocks, const Loop &loop) {
 
 bool mayReturnTo(const ReturnTargets &returns, std::uint32_t number) {
   return returns.any || std::binary_search(returns.numbers.begin(), returns.numbers.end(), number);
-}
-
-bool staysInProgram(JumpKind kind) {
-  return kind == JumpKind::Goto || kind == JumpKind::LocalCall || kind == JumpKind::ReturnTo;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "base/support/parallel.h"
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold {
 
@@ -158,6 +159,22 @@ std::optional<Callee> ProgramSet::localCallee(FileId id, const Call &call) const
     if (jump.kind == JumpKind::LocalCall && jump.target)
       return Callee{id, arrival(from.cfg, *jump.target, call.block), call.caller};
   return std::nullopt;
+}
+
+std::vector<LabelledPart> ProgramSet::localParts(FileId id, const Call &call) const {
+  const ProgramFile &from = file(id);
+  std::set<std::uint32_t> seen;
+  std::vector<LabelledPart> parts;
+  for (const SequenceNumber &label : from.model->sequenceNumbersOf(call.caller))
+    if (seen.insert(label.number).second)
+      if (const auto place = findLabel(from.cfg, *from.model, call.caller, label.number, call.block))
+        parts.push_back({label.number, {id, *place, call.caller}});
+  return parts;
+}
+
+bool ProgramSet::startsInside(FileId id, const Call &call) const {
+  const std::span<const Jump> jumps = file(id).model->jumpsIn(call.block, call.block.next());
+  return std::any_of(jumps.begin(), jumps.end(), [](const Jump &jump) { return jump.kind == JumpKind::CallAt; });
 }
 
 std::optional<std::uint32_t> ProgramSet::variableOf(FileId id, Span span) const {

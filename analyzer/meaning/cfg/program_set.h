@@ -35,6 +35,12 @@ struct Callee {
   friend bool operator==(const Callee &, const Callee &) = default;
 };
 
+/// What a local call (M97) with a computed number may enter.
+struct LabelledPart {
+  std::uint32_t number;
+  Callee callee;
+};
+
 /// Names of variables that are no numbers (`#<depth>`): from here on in the numbering of variables, so that every
 /// variable is one 32-bit number.
 inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
@@ -54,6 +60,11 @@ public:
   std::optional<Callee> callee(FileId file, CallId call) const;
   /// The programs that a call may enter: several where their number is given twice.
   std::vector<Callee> candidates(FileId file, const Call &call) const;
+  /// The parts of the calling program that M97 may call: one for each sequence number, as the search from the call
+  /// finds it.
+  std::vector<LabelledPart> localParts(FileId file, const Call &call) const;
+  /// The call names the sequence number at which it starts its program (Q of M98).
+  bool startsInside(FileId file, const Call &call) const;
   /// As callee, for a number that is known only when the call is made.
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
   /// Some program that others call, or that returns to a caller, assigns to the variable by its number.

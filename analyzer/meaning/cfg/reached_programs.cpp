@@ -23,7 +23,8 @@ void collectReached(const ProgramSet &programs, ProgramRef from, ReachedPrograms
     for (const Call &call : file.model->callsOf(next.program)) {
       const auto callees = programs.callGraph().candidates(next.file, call);
       open.insert(open.end(), callees.begin(), callees.end());
-      reached.orAny = reached.orAny || (callees.empty() && isComputed(*file.tree, call));
+      reached.orAny =
+          reached.orAny || (callees.empty() && call.kind != CallKind::Local && isComputed(*file.tree, call));
     }
   }
 }

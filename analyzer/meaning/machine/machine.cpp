@@ -226,7 +226,8 @@ private:
     }
     if (!request.callee && file().model->calls[call.call].kind == CallKind::External)
       return giveUp("a program on an external device");
-    if (!request.callee && options_.missing != MissingPrograms::Return && startsInside(call.call))
+    if (!request.callee && options_.missing != MissingPrograms::Return &&
+        programs_.startsInside(at_.file, file().model->calls[call.call]))
       return giveUp("a call that starts at a sequence number");
     return enter(request, std::nullopt) ? std::nullopt : std::optional(here.next);
   }
@@ -234,11 +235,6 @@ private:
     interpretation_.unmodelled(reason, blockSpan());
     end(RunEnd::Unmodelled);
     return std::nullopt;
-  }
-  bool startsInside(CallId call) const {
-    const BlockId block = file().model->calls[call].block;
-    const auto jumps = file().model->jumpsIn(block, block.next());
-    return std::any_of(jumps.begin(), jumps.end(), [](const Jump &jump) { return jump.kind == JumpKind::CallAt; });
   }
 
   /// After a movement: whether the run goes on in a modal call.
@@ -265,12 +261,13 @@ private:
       giveUp("a program number that several programs have");
       return true;
     }
-    if (!request.callee && !callsNothing(request.repeats.number) && options_.missing == MissingPrograms::Return) {
+    if (!request.callee && !request.isLocal && !callsNothing(request.repeats.number) &&
+        options_.missing == MissingPrograms::Return) {
       result_.skipped.insert(nameOfCallee(modal));
       return false;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {
-      interpretation_.alarm(!request.callee, {AlarmKind::ProgramNotFound, blockSpan()});
+      interpretation_.alarm(!request.callee, {missingAlarm(request), blockSpan()});
       return false;
     }
     if (const auto alarm = nestingAlarm(dialect().limits, depthOf(frames_), request.freshLocals)) {

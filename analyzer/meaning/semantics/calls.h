@@ -16,7 +16,8 @@ enum class CallAction : std::uint8_t {
 template <typename R> struct CallRequest {
   CallAction action = CallAction::Enter;
   std::optional<Callee> callee; // absent: in none of the files, or its number is not one constant
-  std::vector<Callee> possible; // without `callee`: the programs of these files that a computed number may name
+  std::vector<Callee> possible; // without `callee`: what a computed number may name in these files
+  bool isLocal = false;         // M97: a part of the calling program, found by its sequence number
   bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
   std::array<typename R::Value, kLocalVariables + 1> locals;
   typename R::Value repeats; // L
@@ -43,6 +44,7 @@ public:
   CallRequest<R> read() {
     CallRequest<R> request;
     request.repeats = interpretation_.number(1);
+    request.isLocal = call_.kind == CallKind::Local;
     switch (call_.kind) {
     case CallKind::ModalCancel: return endModal(std::move(request));
     case CallKind::MacroA: request.action = CallAction::Operation; return request;
@@ -77,9 +79,7 @@ private:
   }
   CallRequest<R> endModal(CallRequest<R> request) {
     request.action = CallAction::EndModal;
-    if (context_.state.modalCalls.empty()) {
-      const auto none =
-          context_.either(interpretation_.negation(context_.state.modalCallsUnknown), context_.maybeNot());
+    if (const auto none = noModalCall(); interpretation_.mayBe(none)) {
       const auto isIgnored = context_.isOn(context_.dialect().switches.g67, true);
       interpretation_.alarm(interpretation_.both(none, interpretation_.negation(isIgnored)),
                             {AlarmKind::NoModalCall, context_.place()});
@@ -87,6 +87,13 @@ private:
     if (!context_.state.modalCalls.empty())
       context_.state.modalCalls.pop_back();
     return request;
+  }
+  /// What is not followed may also have ended the modal calls that were known.
+  typename R::Truth noModalCall() {
+    const auto unknown = context_.state.modalCallsUnknown;
+    if (!context_.state.modalCalls.empty())
+      return interpretation_.mayBe(unknown) ? interpretation_.both(unknown, interpretation_.unknownTruth()) : unknown;
+    return context_.either(interpretation_.negation(unknown), context_.maybeNot());
   }
 
   void passArguments(CallRequest<R> &request) {
@@ -144,22 +151,39 @@ private:
       return known;
     if (!call_.callee.empty())
       possible = context_.programs.candidates(context_.file.file, call_);
-    if (!call_.programWord || !call_.callee.empty())
+    if (!call_.programWord || !call_.callee.empty() || call_.kind == CallKind::External)
       return std::nullopt;
     const Word &word = context_.tree().words[*call_.programWord];
     if (word.form() != WordForm::Expression)
       return std::nullopt;
     const Value value =
         interpretation_.roundTo(interpretation_.asNumber(evaluate(context_, word.expression())), Decimal(1, 0));
+    if (call_.kind == CallKind::Local)
+      return localCallee(value, possible);
     const std::optional<double> number = interpretation_.constantOf(value);
-    if (!number)
+    const bool isStartKnown = !context_.programs.startsInside(context_.file.file, call_);
+    if (!number || !isStartKnown)
       possible = calleesOf(value);
-    if (!number || *number < 0 || *number > 1e9)
+    if (!number || !isStartKnown || *number < 0 || *number > 1e9)
       return std::nullopt;
     const auto found = context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
     if (!found)
       addCandidates(static_cast<std::uint32_t>(*number), possible);
     return found;
+  }
+  std::optional<Callee> localCallee(const Value &value, std::vector<Callee> &possible) {
+    const std::vector<Callee> parts = partsOf(value);
+    if (interpretation_.constantOf(value))
+      return parts.empty() ? std::nullopt : std::optional(parts.front());
+    possible = parts;
+    return std::nullopt;
+  }
+  std::vector<Callee> partsOf(const Value &value) {
+    std::vector<Callee> parts;
+    for (const LabelledPart &part : context_.programs.localParts(context_.file.file, call_))
+      if (interpretation_.mayBe(interpretation_.compare(Relation::Equal, value, interpretation_.number(part.number))))
+        parts.push_back(part.callee);
+    return parts;
   }
   std::vector<Callee> calleesOf(const Value &value) {
     std::vector<Callee> callees;

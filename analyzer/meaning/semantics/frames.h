@@ -65,6 +65,11 @@ enum class MissingPrograms : std::uint8_t {
   DoAnything, // the control may stop, the program may stop it, or never return
 };
 
+/// The alarm of a call that finds nothing.
+template <typename R> AlarmKind missingAlarm(const CallRequest<R> &request) {
+  return request.isLocal ? AlarmKind::SequenceNotFound : AlarmKind::ProgramNotFound;
+}
+
 /// Some modal call is or may be in force in a program.
 template <typename R>
 typename R::Truth mayCallModally(R &interpretation, const MachineState<R> &state,

@@ -188,17 +188,17 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
   const NodeId next = nodeOf(path).next;
   if (!request.callee) {
     const std::string name = nameOfCallee(path, modal);
-    if (request.possible.empty() && options_.missing == MissingPrograms::Return)
+    if (request.possible.empty() && !request.isLocal && options_.missing == MissingPrograms::Return)
       return missingCall(std::move(path), request, modal, name.empty() ? "the called program" : name);
     const auto times = repeatsOf(interpretation_, request);
-    const bool isCertain = request.possible.empty() && options_.missing == MissingPrograms::Stop && times &&
-                           !callsNothing(*times); // with L0 nothing is looked for
-    stopsWhen(path, isCertain ? interpretation_.truth(true) : interpretation_.unknownTruth(),
-              AlarmKind::ProgramNotFound);
+    const bool isCertain = request.possible.empty() && (request.isLocal || options_.missing == MissingPrograms::Stop) &&
+                           times && !callsNothing(*times); // with L0 nothing is looked for
+    stopsWhen(path, isCertain ? interpretation_.truth(true) : interpretation_.unknownTruth(), missingAlarm(request));
     if (isCertain)
       return takeStops(path), std::vector<Path>{};
     return unknownCall(std::move(path), request, modal, "a program that was not supplied",
-                       name.empty()               ? "the number of the called program is unknown"
+                       request.isLocal            ? "the sequence number that is called is unknown"
+                       : name.empty()             ? "the number of the called program is unknown"
                        : request.possible.empty() ? fmt::format("{} was not supplied", name)
                                                   : fmt::format("several programs are named {}", name));
   }
