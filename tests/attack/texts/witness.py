@@ -43,11 +43,16 @@ def start_of(command: str, text):
     for _, clause in text.clauses():
         if clause.startswith("@START"):
             start.place.update(places(clause.split()[1:], reckoner_at(StateOf(start), Switches())))
-    if "--start" in words:
-        for word in words[words.index("--start") + 1:]:
+    for option, word in zip(words, words[1:]):
+        if option == "--start":
             if not re.fullmatch(r"[XYZ]-?[0-9.e-]+", word):
-                break
+                return None
             start.place[word[0]] = F(word[1:])
+        elif option == "--modal":
+            code = re.sub(r"^G0(?=[0-9])", "G", word)
+            if code not in GROUPS:
+                return None
+            start.modes[GROUPS[code]] = code
     return start
 
 

@@ -62,6 +62,8 @@ def witness_inputs(witness: dict) -> Optional[Inputs]:
     """From the call and the command that shows it."""
     inputs = Inputs(skip="--block-skip" in witness["run"])
     words = witness["run"].split()
+    if "--modal" in words:  # this interpreter starts as after power-on, or as the contract says
+        return None
     for option, word in zip(words, words[1:]):
         if option == "--arg":
             letter, value = word.split("=")
@@ -75,11 +77,10 @@ def witness_inputs(witness: dict) -> Optional[Inputs]:
             if controls.is_bit_of_outputs(number):
                 return None
             cells[number if controls.is_local(number) else cell_of(number)] = Fraction(value)
-    if "--start" in words:
-        for word in words[words.index("--start") + 1:]:
+        elif option == "--start":
             match = ARGUMENT.fullmatch(word)
             if not match:
-                break
+                return None
             inputs.place[match[1]] = Fraction(match[2])
     return inputs
 
