@@ -14,14 +14,11 @@ typename R::Truth lengthsDiffer(R &interpretation, const std::array<typename R::
                                 const std::array<typename R::Value, 2> &to, const typename R::Value &tolerance) {
   using Value = typename R::Value;
   const auto sizeOf = [&](const Value &value) { return interpretation.function(FunctionKind::Abs, value); };
-  const auto isZero = [&](const Value &value) { return interpretation.constantOf(value) == 0.0; };
   const auto apart = [&](const Value &a, const Value &b) {
     return sizeOf(interpretation.subtract(sizeOf(a), sizeOf(b)));
   };
   const auto lengthOf = [&](const std::array<Value, 2> &vector) {
     const auto &[a, b] = vector;
-    if (isZero(a) || isZero(b)) // along an axis, as the spokes of quarters and halves are: proofs need no root
-      return sizeOf(isZero(a) ? b : a);
     return interpretation.function(FunctionKind::Sqrt,
                                    interpretation.add(interpretation.multiply(a, a), interpretation.multiply(b, b)));
   };
