@@ -1,6 +1,7 @@
 // StartInputs: modal codes, words in force and coordinates at the start of a program, as inputs that a witness may set.
 #pragma once
 
+#include "meaning/machine/concrete_interpretation.h"
 #include "proof/smt/model.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
