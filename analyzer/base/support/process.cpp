@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
@@ -20,6 +21,8 @@ namespace {
 
 /// What a shell says of a command that it does not find.
 constexpr int kNotFound = 127;
+/// Of a function in a child that ended without its text.
+constexpr int kGaveUp = 1;
 
 std::atomic<std::uint64_t> failures = 0;
 
@@ -50,6 +53,15 @@ void limitChild(const ProcessLimits &limits) {
   setrlimit(RLIMIT_CPU, &processor);
   const rlimit noCore{0, 0};
   setrlimit(RLIMIT_CORE, &noCore);
+}
+
+/// A library that gives up in a copy of the process may print why, and leave by exit(): neither its text nor what this
+/// process has not yet written may come out of the copy.
+void silenceCopy() {
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  std::atexit([] { _exit(kGaveUp); });
 }
 
 /// Reads until the child closes its end or the time is over; then waits for the child, which is killed if it lives on.
@@ -152,10 +164,11 @@ Result<ProcessOutput> runInChild(const std::function<std::string()> &function, c
   if (child == 0) {
     limitChild(limits);
     close(pipe.value().read);
+    silenceCopy();
     try {
       writeAll(pipe.value().write, function());
     } catch (...) {
-      _exit(1); // nothing may leave this copy of the process
+      _exit(kGaveUp); // nothing may leave this copy of the process
     }
     _exit(0);
   }

@@ -31,8 +31,9 @@ struct ProcessOutput {
 Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const std::string &input,
                                  const ProcessLimits &limits);
 
-/// Runs a function in a copy of this process and gives the text that it returns.  No other thread may hold a lock that
-/// the function takes while the copy is made: the caller's gate is held for that moment.
+/// Runs a function in a copy of this process and gives the text that it returns; with another exit code than 0, it
+/// threw or left by exit().  What it prints is lost.  No other thread may hold a lock that the function takes while the
+/// copy is made: the caller's gate is held for that moment.
 Result<ProcessOutput> runInChild(const std::function<std::string()> &function, const ProcessLimits &limits,
                                  std::shared_mutex &gate);
 

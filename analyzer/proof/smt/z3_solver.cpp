@@ -11,10 +11,15 @@
 namespace feedhold::smt {
 namespace {
 
-/// Against a Z3 that ignores its budget: three times what the budget takes, and a second.
+/// Against a Z3 that ignores its budget: many times what the budget takes, so that the load of the machine decides
+/// nothing.
 ProcessLimits limitsFor(std::uint64_t resources) {
-  return {.processorSeconds = 1 + static_cast<std::uint32_t>(3 * resources / 1'000'000), .watchdogSeconds = 60};
+  return {.processorSeconds = 2 + static_cast<std::uint32_t>(15 * resources / 1'000'000), .watchdogSeconds = 120};
 }
+
+/// Z3 does not count what its polynomials and long numbers cost: with them it may go on for minutes within its
+/// resources.  It does count how often it takes memory, about a hundred times within a microsecond of such work.
+constexpr std::uint64_t kAllocationsOfResource = 400;
 
 constexpr int kMegabytes = 800;
 
@@ -46,12 +51,22 @@ std::string modelText(const z3::model &model) {
   return text;
 }
 
-std::uint64_t effortOf(const z3::solver &solver) {
+/// One of the statistics of Z3 that is a count.
+std::uint64_t countOf(const z3::solver &solver, std::string_view name) {
   const z3::stats statistics = solver.statistics();
   for (unsigned index = 0; index < statistics.size(); ++index)
-    if (statistics.key(index) == "rlimit count" && statistics.is_uint(index))
-      return statistics.uint_value(index);
+    if (statistics.key(index) == name)
+      return statistics.is_uint(index) ? statistics.uint_value(index)
+                                       : static_cast<std::uint64_t>(statistics.double_value(index));
   return 0;
+}
+
+/// From here on in this process; no limit when the counter, which starts with the process, would run over.
+void limitAllocations(std::uint64_t most) {
+  z3::context context;
+  const std::uint64_t limit = countOf(z3::solver(context), "num allocs") + most;
+  if (limit <= std::numeric_limits<unsigned>::max())
+    z3::set_param("memory_max_alloc_count", std::to_string(limit).c_str());
 }
 
 z3::solver solverFor(z3::context &context, const std::string &smtlib, Arithmetic arithmetic) {
@@ -74,7 +89,7 @@ std::string solve(const std::string &smtlib, Arithmetic arithmetic, std::uint64_
     solver.set(parameters);
     solver.add(context.parse_string(smtlib.c_str()));
     const z3::check_result result = solver.check();
-    const std::string effort = " " + std::to_string(effortOf(solver));
+    const std::string effort = " " + std::to_string(countOf(solver, "rlimit count"));
     switch (result) {
     case z3::sat: return "(sat" + effort + modelText(solver.get_model()) + ")";
     case z3::unsat: return "(unsat" + effort + ")";
@@ -127,6 +142,7 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
   }
   auto inTheChild = [&] {
     z3::set_param("memory_max_size", kMegabytes);
+    limitAllocations(kAllocationsOfResource * resources);
     return solve(smtlib, arithmetic, resources);
   };
   Result<ProcessOutput> output = runInChild(inTheChild, limitsFor(resources), gate());
@@ -134,6 +150,8 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
     return {noAnswer(output.error().message)};
   if (output.value().end == ProcessOutput::End::Killed)
     return {noAnswer("it did not obey its budget and was stopped"), 3 * resources};
+  if (output.value().exitCode != 0)
+    return {noAnswer("it takes more memory than goes with its budget"), resources};
   return readAnswer(output.value().output);
 }
 

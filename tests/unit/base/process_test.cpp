@@ -1,7 +1,11 @@
 #include "base/support/process.h"
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <memory>
 #include <thread>
 
 namespace feedhold {
@@ -20,6 +24,27 @@ TEST(Process, EndsBeforeItsInput) {
   Result<ProcessOutput> output = runProgram({"false"}, std::string(200'000, 'x'), {});
   ASSERT_TRUE(output.ok());
   EXPECT_EQ(output.value().exitCode, 1);
+}
+
+TEST(Process, ChildThatLeavesPrintsNothing) {
+  const std::string written = testing::TempDir() + "/left_by_exit.txt";
+  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(written.c_str(), "w"), std::fclose);
+  ASSERT_TRUE(file);
+  std::fputs("once", file.get()); // in the buffer, of which the child has a copy
+  std::shared_mutex gate;
+  testing::internal::CaptureStdout();
+  Result<ProcessOutput> output = runInChild(
+      []() -> std::string {
+        std::fputs("why\n", stdout);
+        std::exit(113);
+      },
+      {}, gate);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(output.value().end, ProcessOutput::End::Exited);
+  EXPECT_EQ(output.value().exitCode, 1);
+  file.reset();
+  EXPECT_EQ(std::filesystem::file_size(written), 4U);
 }
 
 TEST(Process, SaysThatAProgramIsMissing) {
