@@ -5,6 +5,7 @@
 
 #include <z3++.h>
 
+#include <algorithm>
 #include <limits>
 #include <shared_mutex>
 
@@ -18,8 +19,8 @@ ProcessLimits limitsFor(std::uint64_t resources) {
 }
 
 /// Z3 does not count what its polynomials and long numbers cost: with them it may go on for minutes within its
-/// resources.  It does count how often it takes memory, about a hundred times within a microsecond of such work.
-constexpr std::uint64_t kAllocationsOfResource = 400;
+/// resources.  It does count how often it takes memory, up to five hundred times within a microsecond of such work.
+constexpr std::uint64_t kAllocationsOfResource = 2'000;
 
 constexpr int kMegabytes = 800;
 
@@ -61,12 +62,13 @@ std::uint64_t countOf(const z3::solver &solver, std::string_view name) {
   return 0;
 }
 
-/// From here on in this process; no limit when the counter, which starts with the process, would run over.
+/// From here on in this process, whose counter cannot go farther than an unsigned number.
 void limitAllocations(std::uint64_t most) {
   z3::context context;
-  const std::uint64_t limit = countOf(z3::solver(context), "num allocs") + most;
-  if (limit <= std::numeric_limits<unsigned>::max())
-    z3::set_param("memory_max_alloc_count", std::to_string(limit).c_str());
+  const std::uint64_t before = countOf(z3::solver(context), "num allocs");
+  const std::uint64_t largest = std::numeric_limits<unsigned>::max();
+  if (before < largest)
+    z3::set_param("memory_max_alloc_count", std::to_string(std::min(before + most, largest)).c_str());
 }
 
 z3::solver solverFor(z3::context &context, const std::string &smtlib, Arithmetic arithmetic) {
