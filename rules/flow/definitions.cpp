@@ -1,10 +1,12 @@
 // Reaching definitions, one question at a time: a program asks few.
 #include "rules/flow/definitions.h"
 
+#include "base/support/dominators.h"
 #include "rules/flow/loop_view.h"
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace feedhold::rules {
 namespace {
@@ -72,20 +74,78 @@ void walkBack(const FlowFacts &facts, NodeId from, const std::function<bool(Node
   }
 }
 
-/// The place is reached from the node without passing the test.
-bool leadsTo(const FlowFacts &facts, NodeId from, NodeId at, NodeId test) {
-  bool found = from == at;
-  if (!found && from != test)
-    walkBack(facts, at, [&](NodeId node) {
-      found = found || node == from;
-      return !found && node != test;
-    });
-  return found;
+/// Who dominates whom: the nodes from the entry on, and behind them the two ways out of each test as nodes of their
+/// own. A test is passed always to one side where that way out dominates.
+class PassedTests {
+public:
+  explicit PassedTests(const FlowFacts &facts)
+      : entry_(facts.entry()), size_(facts.end().index() - facts.entry().index()), dominators_(graphOf(facts)),
+        nearest_(findNearest()) {}
+
+  bool isPassedAlways(NodeId node, NodeId at) const { return dominators_.isDominated(indexOf(at), indexOf(node)); }
+
+  /// The last first.
+  std::vector<PassedTest> before(NodeId at) const {
+    std::vector<PassedTest> passed;
+    for (std::uint32_t way = nearest_[indexOf(at)]; way != kNone; way = nearest_[indexOf(passed.back().node)])
+      passed.push_back(ways_[way]);
+    return passed;
+  }
+
+private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  std::uint32_t indexOf(NodeId node) const { return node.index() - entry_.index(); }
+
+  std::vector<std::vector<std::uint32_t>> graphOf(const FlowFacts &facts) {
+    std::vector<std::vector<std::uint32_t>> successors(size_);
+    const auto &predecessors = predecessorsOf(facts).of;
+    for (std::uint32_t next = 0; next < predecessors.size(); ++next)
+      for (const NodeId node : predecessors[next])
+        successors[indexOf(node)].push_back(next);
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+      if (const auto *test = std::get_if<Test>(&facts.node(node).instruction); test && test->condition)
+        divide(node, indexOf(test->taken), successors);
+    return successors;
+  }
+
+  void divide(NodeId node, std::uint32_t taken, std::vector<std::vector<std::uint32_t>> &successors) {
+    std::vector<std::uint32_t> ways;
+    bool wasTaken = false; // both ways may lead to one node
+    for (const std::uint32_t next : std::exchange(successors[indexOf(node)], {})) {
+      const bool isTaken = next == taken && !std::exchange(wasTaken, true);
+      ways.push_back(size_ + static_cast<std::uint32_t>(ways_.size()));
+      ways_.push_back({node, isTaken});
+      successors.push_back({next});
+    }
+    successors[indexOf(node)] = std::move(ways);
+  }
+
+  /// By node: the nearest way out of a test that dominates it.
+  std::vector<std::uint32_t> findNearest() const {
+    std::vector<std::uint32_t> nearest(size_ + ways_.size(), kNone);
+    for (const std::uint32_t node : dominators_.reached())
+      if (const auto before = dominators_.immediate(node))
+        nearest[node] = *before < size_ ? nearest[*before] : *before - size_;
+    return nearest;
+  }
+
+  NodeId entry_;
+  std::uint32_t size_;
+  std::vector<PassedTest> ways_;
+  Dominators dominators_;
+  std::vector<std::uint32_t> nearest_;
+};
+
+const PassedTests &passedTestsOf(const FlowFacts &facts) {
+  return facts.derived<PassedTests>([&] { return PassedTests(facts); });
 }
 
 } // namespace
 
-bool isPassedAlways(const FlowFacts &facts, NodeId node, NodeId at) { return !leadsTo(facts, facts.entry(), at, node); }
+bool isPassedAlways(const FlowFacts &facts, NodeId node, NodeId at) {
+  return passedTestsOf(facts).isPassedAlways(node, at);
+}
 
 std::optional<Definitions> definitionsOf(const FlowFacts &facts, std::uint32_t variable, NodeId at) {
   if (isTooLarge(facts) || (variable < kFirstNamedVariable && !isPlain(facts.file, variable)))
@@ -124,22 +184,6 @@ std::optional<NodeId> onlyPredecessor(const FlowFacts &facts, NodeId node) {
   return isLabel && mayReturnHere ? std::nullopt : std::optional(before.front());
 }
 
-std::vector<PassedTest> testsBefore(const FlowFacts &facts, NodeId at) {
-  std::vector<NodeId> tests;
-  walkBack(facts, at, [&](NodeId node) {
-    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
-    if (node != at && test && test->condition)
-      tests.push_back(node);
-    return true;
-  });
-  std::vector<PassedTest> passed;
-  for (const NodeId node : tests) {
-    const bool byTaken = leadsTo(facts, std::get<Test>(facts.node(node).instruction).taken, at, node);
-    const bool byNext = leadsTo(facts, facts.node(node).next, at, node);
-    if (byTaken != byNext && isPassedAlways(facts, node, at))
-      passed.push_back({node, byTaken});
-  }
-  return passed;
-}
+std::vector<PassedTest> testsBefore(const FlowFacts &facts, NodeId at) { return passedTestsOf(facts).before(at); }
 
 } // namespace feedhold::rules

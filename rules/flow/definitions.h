@@ -32,6 +32,7 @@ struct PassedTest {
   NodeId node;
   bool isTrue;
 };
+/// The last first.
 std::vector<PassedTest> testsBefore(const FlowFacts &facts, NodeId at);
 /// No path from the head of the program to the place goes round the node.
 bool isPassedAlways(const FlowFacts &facts, NodeId node, NodeId at);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <unordered_set>
 
 namespace feedhold::rules {
 namespace {
@@ -112,13 +113,6 @@ bool mayNameLocal(const SyntaxTree &tree, ExpressionId index) {
   });
 }
 
-bool mayWrite(const ProgramFile &file, const VariableUse &use, std::uint32_t variable) {
-  if (!use.write || use.number)
-    return use.write && use.number == variable;
-  const auto *indirect = as<IndirectVariable>(*file.tree, use.expression);
-  return indirect && (!isLocal(file, variable) || mayNameLocal(*file.tree, indirect->index));
-}
-
 /// Programs that work on the local variables of one: itself and what it reaches by M98.  Absent: that cannot be told.
 std::optional<std::vector<ProgramRef>> sharersOf(const ProgramSet &programs, ProgramRef start) {
   std::vector<ProgramRef> found{start};
@@ -138,11 +132,36 @@ std::optional<std::vector<ProgramRef>> sharersOf(const ProgramSet &programs, Pro
   return found;
 }
 
-/// A block that did not parse speaks of the variable.
-bool isInBroken(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
-  return std::ranges::any_of(file.model->variablesOf(program), [&](const VariableUse &use) {
-    return use.number == variable && file.tree->blocks[use.block].has(Block::kBroken);
-  });
+/// What some programs may set.
+struct Settable {
+  bool all = false;            // that cannot be told
+  bool otherThanLocal = false; // by a computed number
+  bool local = false;          // by a computed number that may be one of a local variable
+  std::unordered_set<std::uint32_t> numbers;
+
+  bool has(const ProgramFile &file, std::uint32_t variable) const {
+    return all || numbers.contains(variable) || (isLocal(file, variable) ? local : otherThanLocal);
+  }
+};
+
+void addSettable(const ProgramFile &file, ProgramId program, Settable &settable) {
+  for (const VariableUse &use : file.model->variablesOf(program)) {
+    const bool isBroken = file.tree->blocks[use.block].has(Block::kBroken); // it did not parse: it may be an assignment
+    if (use.number && (use.write || isBroken))
+      settable.numbers.insert(*use.number);
+    const auto *indirect = use.write && !use.number ? as<IndirectVariable>(*file.tree, use.expression) : nullptr;
+    settable.otherThanLocal = settable.otherThanLocal || indirect;
+    settable.local = settable.local || (indirect && mayNameLocal(*file.tree, indirect->index));
+  }
+}
+
+Settable settableIn(const FlowFacts &facts) {
+  const auto sharers = sharersOf(facts.programs, {facts.file.file, facts.program});
+  Settable settable;
+  settable.all = !sharers;
+  for (const ProgramRef &program : sharers.value_or(std::vector<ProgramRef>{}))
+    addSettable(facts.programs.file(program.file), program.program, settable);
+  return settable;
 }
 
 } // namespace
@@ -225,9 +244,9 @@ bool mayHoldCallersValue(const FlowFacts &facts, std::uint32_t variable) {
     const Call &call = file.model->calls[caller.call];
     if (call.kind != CallKind::Subprogram && call.kind != CallKind::Local && call.kind != CallKind::External)
       return false;
-    return isTested(file, call.caller, variable) ||
-           std::ranges::any_of(file.model->variablesOf(call.caller),
-                               [&](const VariableUse &use) { return mayWrite(file, use, variable); });
+    Settable settable;
+    addSettable(file, call.caller, settable);
+    return settable.has(file, variable) || isTested(file, call.caller, variable);
   });
 }
 
@@ -247,15 +266,7 @@ bool isAlwaysPassed(const FlowFacts &facts, std::uint32_t variable) {
 }
 
 bool maySet(const FlowFacts &facts, std::uint32_t variable) {
-  const auto sharers = sharersOf(facts.programs, {facts.file.file, facts.program});
-  if (!sharers)
-    return true;
-  return std::ranges::any_of(*sharers, [&](const ProgramRef &program) {
-    const ProgramFile &file = facts.programs.file(program.file);
-    return isInBroken(file, program.program, variable) ||
-           std::ranges::any_of(file.model->variablesOf(program.program),
-                               [&](const VariableUse &use) { return mayWrite(file, use, variable); });
-  });
+  return facts.derived<Settable>([&] { return settableIn(facts); }).has(facts.file, variable);
 }
 
 bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable) {

@@ -2,6 +2,8 @@
 #include "rules/flow/formula.h"
 
 #include <fmt/format.h>
+#include <set>
+#include <unordered_set>
 
 namespace feedhold::rules::rounded_quotient {
 namespace {
@@ -68,21 +70,46 @@ FixIt allowance(const Cut &cut, const FileContext &context) {
   return {.title = fmt::format("insert `{}`", text), .edits = {{{end, end}, std::string(text)}}};
 }
 
-bool isNumbered(const SyntaxTree &tree, ExpressionId id, const Decimal &number) {
-  const auto *variable = asInside<NumberedVariable>(tree, id);
-  return variable && variable->number == number;
+/// Where a whole number that is off by one selects something else, and is not one pass more or less: an operand of EQ
+/// or NE, or the index of a variable or a part of it.
+struct Selectors {
+  std::unordered_set<std::size_t> expressions; // by index
+  std::set<Decimal> variables;                 // by number
+};
+
+void addSelector(const SyntaxTree &tree, ExpressionId id, Selectors &selectors) {
+  const ExpressionId inner = unwrapped(tree, id);
+  selectors.expressions.insert(inner.index());
+  if (const auto *variable = as<NumberedVariable>(tree, inner))
+    selectors.variables.insert(variable->number);
 }
 
-/// Where a whole number that is off by one selects something else, and is not one pass more or less.
-bool isSelector(const SyntaxTree &tree, ExpressionId user, const auto &isResult) {
-  if (const auto *operation = as<BinaryOperation>(tree, user))
-    return (operation->op == OperatorKind::Equal || operation->op == OperatorKind::NotEqual) &&
-           (isResult(operation->left) || isResult(operation->right));
+void addSelectorsOf(const SyntaxTree &tree, ExpressionId user, Selectors &selectors) {
+  const auto addOperands = [&](const BinaryOperation &operation) {
+    addSelector(tree, operation.left, selectors);
+    addSelector(tree, operation.right, selectors);
+  };
+  if (const auto *operation = as<BinaryOperation>(tree, user);
+      operation && (operation->op == OperatorKind::Equal || operation->op == OperatorKind::NotEqual))
+    addOperands(*operation);
   if (const auto *variable = as<IndirectVariable>(tree, user)) {
-    const auto *offset = asInside<BinaryOperation>(tree, variable->index);
-    return isResult(variable->index) || (offset && (isResult(offset->left) || isResult(offset->right)));
+    addSelector(tree, variable->index, selectors);
+    if (const auto *offset = asInside<BinaryOperation>(tree, variable->index))
+      addOperands(*offset);
   }
-  return false;
+}
+
+Selectors selectorsIn(const FlowFacts &facts) {
+  Selectors selectors;
+  std::optional<BlockId> last;
+  for (const VariableUse &use : facts.file.model->variablesOf(facts.program)) {
+    if (last == use.block)
+      continue;
+    last = use.block;
+    for (const ExpressionId id : expressionsOf(facts.file, use.block))
+      addSelectorsOf(*facts.file.tree, id, selectors);
+  }
+  return selectors;
 }
 
 /// The variable to which the block assigns the whole number.
@@ -98,23 +125,11 @@ std::optional<Decimal> variableOf(const SyntaxTree &tree, BlockId block, Express
   return std::nullopt;
 }
 
-/// The whole number, or the variable that it is assigned to, is compared by EQ or NE, or is the index of a variable.
+/// The whole number, or the variable that it is assigned to, selects something.
 bool selects(const Cut &cut, const FlowFacts &facts, const FileContext &context) {
-  const SyntaxTree &tree = context.tree;
-  const auto variable = variableOf(tree, facts.file.cfg.nodes[cut.node].block, cut.id);
-  const auto isResult = [&](ExpressionId id) {
-    return unwrapped(tree, id) == cut.id || (variable && isNumbered(tree, id, *variable));
-  };
-  std::optional<BlockId> last;
-  for (const VariableUse &use : context.model.variablesOf(facts.program)) {
-    if (last == use.block)
-      continue;
-    last = use.block;
-    for (const ExpressionId id : expressionsOf(facts.file, use.block))
-      if (isSelector(tree, id, isResult))
-        return true;
-  }
-  return false;
+  const Selectors &selectors = facts.derived<Selectors>([&] { return selectorsIn(facts); });
+  const auto variable = variableOf(context.tree, facts.file.cfg.nodes[cut.node].block, cut.id);
+  return selectors.expressions.contains(cut.id.index()) || (variable && selectors.variables.contains(*variable));
 }
 
 void checkCut(const Cut &cut, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {

@@ -27,9 +27,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
     const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
     const auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
-    if (!argument || !variable || isTested(facts.file, facts.program, *argument) ||
-        isTested(facts.file, facts.program, *variable) || mayHoldCallersValue(facts, *argument) ||
-        std::ranges::find(done, *argument) != done.end())
+    if (!argument || !variable || std::ranges::find(done, *argument) != done.end() ||
+        isTested(facts.file, facts.program, *argument) || isTested(facts.file, facts.program, *variable) ||
+        mayHoldCallersValue(facts, *argument))
       continue;
     done.push_back(*argument);
     const PassedValues passed = passedFor(*argument, facts, context);

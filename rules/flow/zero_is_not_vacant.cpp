@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace feedhold::rules::zero_is_not_vacant {
 namespace {
@@ -46,13 +47,17 @@ Settings settingsOf(const FlowFacts &facts, std::uint32_t variable, const FileCo
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (isTooLarge(facts))
     return;
+  std::map<std::uint32_t, Settings> settingsByVariable;
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     const auto variable =
         test && test->condition && facts.isReached(node) ? askedForVacancy(context, *test->condition) : std::nullopt;
     if (!variable || facts.truthOf(node) != Truth::Maybe)
       continue;
-    const Settings settings = settingsOf(facts, *variable, context);
+    const auto [known, isNew] = settingsByVariable.try_emplace(*variable);
+    if (isNew)
+      known->second = settingsOf(facts, *variable, context);
+    const Settings &settings = known->second;
     const auto sets = [&](NodeId each) { return std::ranges::find(settings.all, each) != settings.all.end(); };
     if (settings.maySetVacant || settings.toZero.empty() || findPath(facts, facts.entry(), node, sets))
       continue;
