@@ -72,7 +72,7 @@ smt::Model modelOf(const smt::TermStore &store, const check::UnsatProblem &claim
 }
 
 bool hasRounding(const smt::TermStore &store, std::span<const TermId> formulas) {
-  return std::ranges::any_of(smt::reachable(store, formulas), [&](TermId id) { return smt::isRounding(store[id]); });
+  return std::ranges::any_of(formulas, [&](TermId formula) { return store.shape(formula).hasRounding; });
 }
 
 class Discharge {

@@ -39,7 +39,8 @@ std::optional<Definition> integerIn(smt::TermStore &store, const LinearSum &sum)
 std::optional<Definition> definitionIn(smt::TermStore &store, TermId formula) {
   if (store[formula].kind != TermKind::Equal)
     return std::nullopt;
-  LinearSum sum = store.linear(store.subtract(store[formula].arguments[0], store[formula].arguments[1]));
+  LinearSum sum = store.linear(store[formula].arguments[0]);
+  sum.constant -= store[store[formula].arguments[1]].number;
   if (auto integer = integerIn(store, sum))
     return integer;
   for (std::size_t at = 0; at < sum.terms.size(); ++at) {
@@ -72,7 +73,8 @@ Eliminated eliminate(smt::TermStore &store, std::vector<TermId> formulas) {
     if (!definition)
       break;
     for (TermId &formula : formulas)
-      formula = smt::substitute(store, formula, {*definition});
+      if (std::ranges::binary_search(store.variablesOf(formula), definition->first))
+        formula = smt::substitute(store, formula, {*definition});
     const TermId whole = store.logicalAnd(formulas);
     formulas = store[whole].kind == TermKind::And ? store[whole].arguments : std::vector{whole};
     result.definitions.push_back(*definition);

@@ -3,6 +3,7 @@
 #include "proof/smt/steps.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace feedhold::prove {
@@ -14,12 +15,12 @@ void FactIndex::add(std::span<const TermId> facts) {
     const std::vector<TermId> &variables = smt::variablesOf(store_, facts[indexed_]);
     smt::spend(5 + 10 * variables.size());
     for (const TermId variable : variables)
-      users_[variable].push_back(indexed_);
+      users_[variable.index()].push_back(indexed_);
   }
 }
 
 const std::vector<std::size_t> *FactIndex::factsOn(TermId variable) const {
-  const auto found = users_.find(variable);
+  const auto found = users_.find(variable.index());
   return found == users_.end() ? nullptr : &found->second;
 }
 
@@ -30,8 +31,12 @@ class Relevant {
 public:
   Relevant(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
            std::span<const TermId> conditions)
-      : store_(store), index_(index), facts_(facts), conditions_(conditions), ofConditions_(store) {
-    ofConditions_.add(conditions);
+      : store_(store), index_(index), facts_(facts), conditions_(conditions), areTaken_(conditions.size()) {
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      for (const TermId variable : smt::variablesOf(store, conditions[i]))
+        ofConditions_.emplace_back(variable, i);
+    smt::spend(5 * (conditions.size() + ofConditions_.size()));
+    std::ranges::sort(ofConditions_);
   }
 
   std::vector<TermId> to(TermId goal) {
@@ -39,12 +44,15 @@ public:
     while (!open_.empty()) {
       const TermId variable = open_.back();
       open_.pop_back();
-      take(index_, variable, facts_, takenFacts_);
-      take(ofConditions_, variable, conditions_, takenConditions_);
+      takeFacts(variable);
+      takeConditions(variable);
     }
     std::vector<TermId> taken;
-    collect(facts_, takenFacts_, taken);
-    collect(conditions_, takenConditions_, taken);
+    for (const std::size_t fact : takenFacts_)
+      taken.push_back(facts_[fact]);
+    for (std::size_t i = 0; i < conditions_.size(); ++i)
+      if (areTaken_[i])
+        taken.push_back(conditions_[i]);
     return taken;
   }
 
@@ -54,27 +62,34 @@ private:
       if (wanted_.insert(variable).second)
         open_.push_back(variable);
   }
-  void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::set<std::size_t> &taken) {
-    const auto *users = index.factsOn(variable);
+  void takeFacts(TermId variable) {
+    const auto *users = index_.factsOn(variable);
     if (!users)
       return;
     smt::spend(5 * users->size());
     for (const std::size_t user : *users)
-      if (user < terms.size() && taken.insert(user).second)
-        want(terms[user]);
+      if (user < facts_.size() && takenFacts_.insert(user).second)
+        want(facts_[user]);
   }
-  static void collect(std::span<const TermId> terms, const std::set<std::size_t> &taken, std::vector<TermId> &into) {
-    for (const std::size_t user : taken)
-      into.push_back(terms[user]);
+  void takeConditions(TermId variable) {
+    const auto users = std::ranges::equal_range(ofConditions_, variable, std::less(), &VariableOf::first);
+    smt::spend(5 * users.size());
+    for (const VariableOf &user : users)
+      if (!areTaken_[user.second]) {
+        areTaken_[user.second] = true;
+        want(conditions_[user.second]);
+      }
   }
+
+  using VariableOf = std::pair<TermId, std::size_t>; // with the place of a condition
 
   const smt::TermStore &store_;
   const FactIndex &index_;
   std::span<const TermId> facts_;
   std::span<const TermId> conditions_;
-  FactIndex ofConditions_;
-  std::set<std::size_t> takenFacts_; // their places: a query takes few of many
-  std::set<std::size_t> takenConditions_;
+  std::vector<VariableOf> ofConditions_; // sorted: there are few, and most are asked for once
+  std::vector<bool> areTaken_;           // by place
+  std::set<std::size_t> takenFacts_;     // their places: a query takes few of many
   std::set<TermId> wanted_;
   std::vector<TermId> open_;
 };

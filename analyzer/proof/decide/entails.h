@@ -5,6 +5,7 @@
 
 #include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace feedhold::prove {
@@ -26,7 +27,7 @@ public:
 private:
   const smt::TermStore &store_;
   std::size_t indexed_ = 0;
-  std::map<smt::TermId, std::vector<std::size_t>> users_;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> users_; // by variable
 };
 
 /// The same, with an index that has all the facts.

@@ -41,25 +41,27 @@ public:
 
 private:
   TermId pure(TermId formula) {
+    if (isPlain(formula))
+      return formula;
     for (TermId id : reachable(store_, std::span(&formula, 1))) {
-      if (done_.contains(id))
+      if (isPlain(id) || done_.contains(id))
         continue;
       const TermKind kind = store_[id].kind;
       std::vector<TermId> arguments = store_[id].arguments;
       for (TermId &argument : arguments)
-        argument = done_.at(argument);
-      const TermId over = withArguments(store_, id, arguments);
-      if (isSquareOfSum(over))
+        argument = isPlain(argument) ? argument : done_.at(argument);
+      const TermId over = arguments == store_[id].arguments ? id : withArguments(store_, id, arguments);
+      if (isSquareOfSum(store_, store_[over]))
         squares_.push_back(over);
       done_.emplace(id, kind == TermKind::Divide || kind == TermKind::Apply ? named(over) : over);
     }
     return done_.at(formula);
   }
 
-  bool isSquareOfSum(TermId id) const {
-    const Term &term = store_[id];
-    return term.kind == TermKind::Multiply && term.arguments.size() == 2 && term.arguments[0] == term.arguments[1] &&
-           store_[term.arguments[0]].kind == TermKind::Add;
+  /// Nothing in it gets a name or a fact.
+  bool isPlain(TermId id) const {
+    const TermShape &shape = store_.shape(id);
+    return !shape.hasFunctions && !shape.hasSquares;
   }
 
   /// Folding may have left a number, or a sum with an application in it.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 
 namespace feedhold::smt {
 namespace {
@@ -13,33 +15,36 @@ std::size_t mix(std::size_t seed, std::size_t value) {
   return seed ^ (value + 0x9E3779B97F4A7C15u + (seed << 6) + (seed >> 2));
 }
 
-using Factors = std::map<TermId, Number>;
-
-LinearSum fromFactors(const Number &constant, const Factors &factors) {
-  LinearSum sum{constant, {}};
-  for (const auto &[term, factor] : factors)
-    if (!factor.isZero())
-      sum.terms.emplace_back(term, factor);
-  return sum;
-}
-
-} // namespace
-
-std::size_t TermStore::Hash::operator()(TermId id) const {
-  const Term &term = (*store)[id];
+std::uint32_t hashOf(const Term &term) {
   std::size_t hash = mix(static_cast<std::size_t>(term.kind), static_cast<std::size_t>(term.function));
   for (TermId argument : term.arguments)
     hash = mix(hash, argument.index());
-  return mix(mix(hash, term.number.hash()), std::hash<std::string>()(term.name));
+  hash = mix(mix(hash, term.number.hash()), std::hash<std::string>()(term.name));
+  return static_cast<std::uint32_t>((hash * 0x9E3779B97F4A7C15u) >> 32);
 }
 
-bool TermStore::Same::operator()(TermId left, TermId right) const {
-  const Term &a = (*store)[left], &b = (*store)[right];
+bool areSame(const Term &a, const Term &b) {
   return a.kind == b.kind && a.sort == b.sort && a.function == b.function && a.arguments == b.arguments &&
          a.number == b.number && a.name == b.name;
 }
 
-TermStore::TermStore() : known_(64, Hash{this}, Same{this}) {
+/// Ascending, each term once, without factors of 0.
+void combine(std::vector<std::pair<TermId, Number>> &terms) {
+  std::ranges::stable_sort(terms, std::less(), [](const auto &part) { return part.first; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < terms.size();) {
+    std::pair<TermId, Number> sum = std::move(terms[i]);
+    for (++i; i < terms.size() && terms[i].first == sum.first; ++i)
+      sum.second += terms[i].second;
+    if (!sum.second.isZero())
+      terms[kept++] = std::move(sum);
+  }
+  terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(kept), terms.end());
+}
+
+} // namespace
+
+TermStore::TermStore() {
   intern({.kind = TermKind::False, .sort = Sort::Bool, .arguments = {}, .number = {}, .name = {}});
   intern({.kind = TermKind::True, .sort = Sort::Bool, .arguments = {}, .number = {}, .name = {}});
 }
@@ -73,21 +78,27 @@ TermId TermStore::intern(Term term) {
   constexpr std::uint64_t kSought = 10, kMade = 30;
   const std::uint64_t size = 1 + term.arguments.size() + term.number.words();
   spend(kSought + 2 * size);
-  TermId id = terms_.add(std::move(term));
-  auto [known, isNew] = known_.insert(id);
-  if (isNew) {
-    shapes_.push_back(shapeOf(terms_[id]));
-    spend(kMade + 2 * size);
-    return id;
-  }
-  TermId result = *known;
-  terms_.truncate(id.index());
-  return result;
+  const std::uint32_t hash = hashOf(term);
+  if (const auto known = known_.find(hash, [&](std::uint32_t index) { return areSame(terms_[TermId(index)], term); }))
+    return TermId(*known);
+  spend(kMade + 2 * size);
+  shapes_.push_back(shapeOf(term));
+  const TermId id = terms_.add(std::move(term));
+  negations_.push_back(id);
+  known_.add(hash, id.index());
+  return id;
 }
 
 TermShape TermStore::shapeOf(const Term &term) const {
   constexpr std::uint32_t kMost = 1'000'000;
-  TermShape shape{term.kind == TermKind::Add ? 0U : 1U, 0, 0, static_cast<std::uint32_t>(term.number.words()), 1};
+  TermShape shape{.monomials = term.kind == TermKind::Add ? 0U : 1U,
+                  .degree = 0,
+                  .depth = 0,
+                  .words = static_cast<std::uint32_t>(term.number.words()),
+                  .size = 1,
+                  .hasFunctions = term.kind == TermKind::Divide || term.kind == TermKind::Apply,
+                  .hasRounding = isRounding(term),
+                  .hasSquares = isSquareOfSum(*this, term)};
   const auto capped = [](std::uint64_t size) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, kMost));
   };
@@ -96,6 +107,9 @@ TermShape TermStore::shapeOf(const Term &term) const {
     shape.depth = std::max(shape.depth, inner.depth);
     shape.words = std::max(shape.words, inner.words);
     shape.size = capped(std::uint64_t{shape.size} + inner.size);
+    shape.hasFunctions = shape.hasFunctions || inner.hasFunctions;
+    shape.hasRounding = shape.hasRounding || inner.hasRounding;
+    shape.hasSquares = shape.hasSquares || inner.hasSquares;
     if (term.kind == TermKind::Add) {
       shape.monomials = capped(std::uint64_t{shape.monomials} + inner.monomials);
       shape.degree = std::max(shape.degree, inner.degree);
@@ -161,16 +175,15 @@ TermId TermStore::fromLinear(const LinearSum &sum) {
 }
 
 TermId TermStore::add(std::span<const TermId> terms) {
-  Number constant;
-  Factors factors;
+  LinearSum sum;
   for (TermId term : terms) {
     LinearSum part = linear(term);
-    constant += part.constant;
+    sum.constant += part.constant;
     spend(8 * part.terms.size());
-    for (const auto &[factorTerm, factor] : part.terms)
-      factors[factorTerm] += factor;
+    std::ranges::move(part.terms, std::back_inserter(sum.terms));
   }
-  return fromLinear(fromFactors(constant, factors));
+  combine(sum.terms);
+  return fromLinear(sum);
 }
 
 TermId TermStore::add(TermId left, TermId right) {
@@ -179,7 +192,17 @@ TermId TermStore::add(TermId left, TermId right) {
   return add(std::array{left, right});
 }
 
-TermId TermStore::subtract(TermId left, TermId right) { return add(left, negate(right)); }
+LinearSum TermStore::difference(TermId left, TermId right) const {
+  LinearSum sum = linear(left), taken = linear(right);
+  spend(8 * (sum.terms.size() + taken.terms.size()));
+  sum.constant -= taken.constant;
+  for (auto &[term, factor] : taken.terms)
+    sum.terms.emplace_back(term, -factor);
+  combine(sum.terms);
+  return sum;
+}
+
+TermId TermStore::subtract(TermId left, TermId right) { return fromLinear(difference(left, right)); }
 
 TermId TermStore::scale(const Number &factor, TermId term) {
   if (factor.isZero())
@@ -269,7 +292,7 @@ TermId TermStore::compare(TermKind kind, TermId left, TermId right) {
   };
   if (isNumber(left) && isNumber(right))
     return decided(terms_[left].number, terms_[right].number);
-  LinearSum sum = linear(subtract(left, right));
+  LinearSum sum = difference(left, right);
   if (sum.terms.empty())
     return decided(sum.constant, Number());
   const Number first = sum.terms.front().second;
@@ -336,6 +359,14 @@ TermId TermStore::junction(TermKind kind, std::span<const TermId> terms) {
 }
 
 TermId TermStore::logicalNot(TermId id) {
+  if (negations_[id.index()] == id) {
+    const TermId found = negation(id); // makes terms
+    negations_[id.index()] = found;
+  }
+  return negations_[id.index()];
+}
+
+TermId TermStore::negation(TermId id) {
   const Term &term = terms_[id];
   FEEDHOLD_CHECK(term.sort == Sort::Bool, "a number is no Bool");
   if (id == yes() || id == no())

@@ -4,14 +4,14 @@
 #include "base/support/id.h"
 #include "base/support/store.h"
 #include "proof/smt/number.h"
+#include "proof/smt/term_table.h"
 
+#include <deque>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -75,9 +75,12 @@ struct Term {
 struct TermShape {
   std::uint32_t monomials; ///< at most so many; a million stands for more
   std::uint32_t degree;
-  std::uint32_t depth; ///< of quotients, functions and choices within one another
-  std::uint32_t words; ///< of the largest number in it
-  std::uint32_t size;  ///< terms in it, those that occur twice counted twice; a million stands for more
+  std::uint32_t depth;       ///< of quotients, functions and choices within one another
+  std::uint32_t words;       ///< of the largest number in it
+  std::uint32_t size;        ///< terms in it, those that occur twice counted twice; a million stands for more
+  bool hasFunctions = false; ///< quotients or functions
+  bool hasRounding = false;  ///< Nearest or Near
+  bool hasSquares = false;   ///< of sums
 };
 
 /// constant + the sum of factor * term; the terms are no sums, differ, and ascend; no factor is 0.
@@ -154,18 +157,11 @@ public:
   TermId fromLinear(const LinearSum &sum);
 
 private:
-  struct Hash {
-    const TermStore *store;
-    std::size_t operator()(TermId id) const;
-  };
-  struct Same {
-    const TermStore *store;
-    bool operator()(TermId left, TermId right) const;
-  };
-
   TermId intern(Term term);
   TermShape shapeOf(const Term &term) const;
+  LinearSum difference(TermId left, TermId right) const;
   TermId compare(TermKind kind, TermId left, TermId right);
+  TermId negation(TermId id);
   std::optional<TermId> roundedBy(TermId term) const;
   TermId junction(TermKind kind, std::span<const TermId> terms);
   std::optional<TermId> foldedFloor(TermId argument);
@@ -175,10 +171,12 @@ private:
 
   Store<Term, TermId> terms_;
   std::vector<TermShape> shapes_; // by term
-  std::unordered_set<TermId, Hash, Same> known_;
+  std::vector<TermId> negations_; // by term: itself where it is not known
+  TermTable known_;
   std::map<std::string, TermId, std::less<>> variables_;
   std::set<TermId> doubles_;
-  mutable std::unordered_map<std::uint32_t, std::vector<TermId>> variablesOf_; // of the terms that were asked for
+  mutable std::vector<const std::vector<TermId> *> variablesOf_; // by term; null: not asked for yet
+  mutable std::deque<std::vector<TermId>> variableLists_;
 };
 
 /// All terms below some terms, and these: each once, arguments before their users.
@@ -196,6 +194,8 @@ TermId substitute(TermStore &store, TermId term, const Substitution &substitutio
 
 /// Nearest or Near.
 bool isRounding(const Term &term);
+/// Of a sum with itself.
+bool isSquareOfSum(const TermStore &store, const Term &term);
 /// Each rounded number in the term replaced by what it was rounded from.
 TermId withoutRounding(TermStore &store, TermId term);
 

@@ -5,29 +5,48 @@
 #include "proof/smt/steps.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace feedhold::smt {
 
-std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> terms) {
-  std::vector<bool> seen(store.size(), false);
-  std::vector<TermId> open, found;
-  auto visit = [&](TermId term) {
-    if (seen[term.index()])
-      return;
-    seen[term.index()] = true;
-    open.push_back(term);
-    found.push_back(term);
-  };
-  for (TermId term : terms)
-    visit(term);
-  while (!open.empty()) {
-    TermId term = open.back();
-    open.pop_back();
-    for (TermId argument : store[term].arguments)
-      visit(argument);
+namespace {
+
+/// The terms that one walk has seen.  Kept from walk to walk: a store is much larger than what most walks see of it.
+class Seen {
+public:
+  explicit Seen(std::size_t size) {
+    if (marks.size() < size)
+      marks.resize(size, 0);
+    if (++walk == 0) { // all numbers have been used
+      std::ranges::fill(marks, 0);
+      walk = 1;
+    }
   }
-  spend(store.size() / 128 + 8 * found.size());
-  std::sort(found.begin(), found.end());
+  /// False: it was there.
+  bool add(TermId term) { return std::exchange(marks[term.index()], walk) != walk; }
+
+private:
+  static thread_local std::vector<std::uint32_t> marks; // by term: the last walk that saw it
+  static thread_local std::uint32_t walk;
+};
+
+thread_local std::vector<std::uint32_t> Seen::marks;
+thread_local std::uint32_t Seen::walk = 0;
+
+} // namespace
+
+std::vector<TermId> reachable(const TermStore &store, std::span<const TermId> terms) {
+  Seen seen(store.size());
+  std::vector<TermId> found;
+  const auto visit = [&](TermId term) {
+    if (seen.add(term))
+      found.push_back(term);
+  };
+  std::ranges::for_each(terms, visit);
+  for (std::size_t next = 0; next < found.size(); ++next)
+    std::ranges::for_each(store[found[next]].arguments, visit);
+  spend(8 * found.size());
+  std::ranges::sort(found);
   return found;
 }
 
@@ -40,10 +59,12 @@ std::vector<TermId> variablesOf(const TermStore &store, std::span<const TermId> 
 const std::vector<TermId> &variablesOf(const TermStore &store, TermId term) { return store.variablesOf(term); }
 
 const std::vector<TermId> &TermStore::variablesOf(TermId term) const {
-  const auto known = variablesOf_.find(term.index());
-  return known != variablesOf_.end()
-             ? known->second
-             : variablesOf_.emplace(term.index(), smt::variablesOf(*this, std::span(&term, 1))).first->second;
+  if (variablesOf_.size() < size())
+    variablesOf_.resize(size());
+  const std::vector<TermId> *&known = variablesOf_[term.index()];
+  if (!known)
+    known = &variableLists_.emplace_back(smt::variablesOf(*this, std::span(&term, 1)));
+  return *known;
 }
 
 TermId withArguments(TermStore &store, TermId id, const std::vector<TermId> &arguments) {
@@ -81,11 +102,18 @@ TermId substitute(TermStore &store, TermId term, const Substitution &substitutio
   return done.at(term);
 }
 
+bool isSquareOfSum(const TermStore &store, const Term &term) {
+  return term.kind == TermKind::Multiply && term.arguments.size() == 2 && term.arguments[0] == term.arguments[1] &&
+         store[term.arguments[0]].kind == TermKind::Add;
+}
+
 bool isRounding(const Term &term) {
   return term.kind == TermKind::Apply && (term.function == Function::Nearest || term.function == Function::Near);
 }
 
 TermId withoutRounding(TermStore &store, TermId term) {
+  if (!store.shape(term).hasRounding)
+    return term;
   Substitution exact;
   for (const TermId part : reachable(store, std::span(&term, 1))) {
     const Term &each = store[part];

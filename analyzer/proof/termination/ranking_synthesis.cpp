@@ -129,9 +129,9 @@ private:
   std::vector<Form> rankings_;
 };
 
-RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation, smt::TermStore &store,
-                                   const LoopInstance &loop, std::span<const std::size_t> iterations,
-                                   std::span<const TermId> more)
+RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation, const FactIndex &facts,
+                                   smt::TermStore &store, const LoopInstance &loop,
+                                   std::span<const std::size_t> iterations, std::span<const TermId> more)
     : interpretation_(interpretation), store_(store), loop_(loop), iterations_(iterations.begin(), iterations.end()) {
   for (const auto &[variable, next] : loop.transitions.front().next)
     if (store.sort(variable) != Sort::Bool && loop.deciding.contains(variable))
@@ -155,7 +155,8 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation,
     std::vector<TermId> numbers = smt::variablesOf(store, all);
     std::erase_if(numbers, [&](TermId each) { return store.sort(each) == Sort::Bool; });
     const TermId aboutAll = store.lessOrEqual(zero, store.add(numbers));
-    const std::vector<TermId> relevant = relevantQuery(store, interpretation.facts(), conditions, aboutAll).assumptions;
+    const std::vector<TermId> relevant =
+        relevantQuery(store, facts, interpretation.facts(), conditions, aboutAll).assumptions;
     formulas.insert(formulas.end(), next.begin(), next.end());
     formulas.insert(formulas.end(), relevant.begin(), relevant.end());
     ends.push_back(formulas.size());

@@ -10,8 +10,10 @@
 
 #include "proof/explore/exploration.h"
 
+#include "proof/decide/entails.h"
 #include <map>
 #include <optional>
+
 #include <span>
 #include <vector>
 
@@ -19,9 +21,10 @@ namespace feedhold::prove {
 
 class RankingSynthesis {
 public:
-  /// `more`: holds before each of the iterations, and behind it.
-  RankingSynthesis(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop,
-                   std::span<const std::size_t> iterations, std::span<const smt::TermId> more);
+  /// `facts`: the index of those of the interpretation.  `more`: holds before each of the iterations, and behind it.
+  RankingSynthesis(const SymbolicInterpretation &interpretation, const FactIndex &facts, smt::TermStore &store,
+                   const LoopInstance &loop, std::span<const std::size_t> iterations,
+                   std::span<const smt::TermId> more);
 
   /// Lowered by the iteration, before which it is not negative; raised by none; lowered by as many others as can be.
   std::optional<smt::TermId> loweredBy(std::size_t iteration);

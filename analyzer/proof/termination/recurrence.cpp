@@ -43,7 +43,9 @@ class RecurrenceSearch {
 public:
   RecurrenceSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const Exploration &exploration,
                    const LoopInstance &loop, const Model &inputs)
-      : store_(store), exploration_(exploration), loop_(loop), facts_(interpretation.facts()), inputs_(inputs) {
+      : store_(store), exploration_(exploration), loop_(loop), facts_(interpretation.facts()), index_(store),
+        inputs_(inputs) {
+    index_.add(facts_);
     for (const auto &[variable, value] : interpretation.entryValues())
       for (const TermId part : {value.number, value.vacant})
         fix(part);
@@ -352,7 +354,7 @@ private:
     broken_.reset();
     if (goal == store_.yes())
       return true;
-    Outcome outcome = discharge(store_, relevantQuery(store_, facts_, conditions, goal), kEffortOfRecurrence);
+    Outcome outcome = discharge(store_, relevantQuery(store_, index_, facts_, conditions, goal), kEffortOfRecurrence);
     work_ += outcome.effort + 200;
     const bool proved = outcome.proved();
     if (proved)
@@ -366,6 +368,7 @@ private:
   const Exploration &exploration_;
   const LoopInstance &loop_;
   const std::vector<TermId> &facts_;
+  FactIndex index_;
   Model inputs_;
   smt::Substitution fixed_;
   std::set<TermId> known_; // facts of loops, which are no branches

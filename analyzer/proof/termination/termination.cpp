@@ -137,7 +137,7 @@ private:
   /// Ranking functions of which each falls when the one before it is negative.
   bool inPhases(const std::vector<std::size_t> &iterations) {
     for (const std::size_t depth : {2u, 3u}) {
-      RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
+      RankingSynthesis synthesis(interpretation_, index_, store_, loop_, iterations, phases_);
       const auto nested = synthesis.nested(depth);
       work_ += synthesis.work();
       if (!nested)
@@ -176,7 +176,7 @@ private:
     if (phases_.size() >= kMostPhases)
       return false;
     std::vector<TermId> decreasing = decreasingRankings(iterations);
-    RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
+    RankingSynthesis synthesis(interpretation_, index_, store_, loop_, iterations, phases_);
     if (const auto found = synthesis.decreasing())
       decreasing.insert(decreasing.begin(), *found);
     work_ += synthesis.work();
@@ -200,7 +200,7 @@ private:
   bool lowerByProgram(std::vector<std::size_t> &iterations) {
     if (iterations.size() > kMostDecreasing || work_ > kMostWork)
       return false;
-    RankingSynthesis synthesis(interpretation_, store_, loop_, iterations, phases_);
+    RankingSynthesis synthesis(interpretation_, index_, store_, loop_, iterations, phases_);
     bool lowered = false;
     for (const std::size_t iteration : iterations) {
       const auto ranking = synthesis.loweredBy(iteration);
