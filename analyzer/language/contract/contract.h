@@ -203,6 +203,14 @@ struct AlarmPromise {
   ExpressionId condition; // over the values on entry
 };
 
+/// `@EVENTUALLY #1000 EQ 1`: a read that the program makes again and again at one place gives such a value in the end.
+struct AwaitedInput {
+  ClauseId clause;
+  std::uint32_t variable; // one that the machine changes
+  OperatorKind relation;
+  Decimal value;
+};
+
 /// `@INVARIANT`, `@VARIANT` at a loop head.
 struct LoopHint {
   ClauseId clause;
@@ -229,6 +237,7 @@ struct Contract {
   std::vector<Assigns> assigns; // together: the union
   std::optional<Guarded> guarded;
   std::vector<AlarmPromise> alarms;
+  std::vector<AwaitedInput> awaited;
   std::vector<LoopHint> invariants;
   std::vector<LoopHint> variants;
   std::optional<ClauseId> cyclic;

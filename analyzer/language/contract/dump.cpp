@@ -106,6 +106,8 @@ private:
     entry(contract);
     geometry(contract);
     promises(contract);
+    for (const AwaitedInput &each : contract.awaited)
+      line(fmt::format("awaits {}", contracts_.clauses[each.clause].text));
     if (contract.cyclic)
       line("runs for ever");
   }

@@ -58,6 +58,7 @@ private:
     case ClauseKind::Alarm: return alarm();
     case ClauseKind::Invariant: return hint(contract_.invariants);
     case ClauseKind::Variant: return hint(contract_.variants);
+    case ClauseKind::Eventually: return eventually();
     case ClauseKind::Cyclic: return mark(contract_.cyclic);
     }
   }
@@ -336,6 +337,29 @@ private:
       } while (!reader_.failed() && !reader_.atEnd());
     if (isRead())
       contract_.assigns.push_back(std::move(assigns));
+  }
+
+  void eventually() {
+    const ExpressionId condition = reader_.condition(nullptr);
+    const auto awaited = reader_.failed() ? std::nullopt : awaitedIn(condition);
+    if (!awaited && !reader_.failed())
+      reader_.fail(ContractIssueKind::Malformed, reading_.result.tree.expressions[condition].span,
+                   "an input that the machine changes, compared with a number, such as `#1000 EQ 1`");
+    if (isRead())
+      contract_.awaited.push_back(*awaited);
+  }
+
+  std::optional<AwaitedInput> awaitedIn(ExpressionId condition) const {
+    const SyntaxTree &tree = reading_.result.tree;
+    const auto *relation = std::get_if<BinaryOperation>(&tree.expressions[unwrapped(tree, condition)].node);
+    if (!relation || !isRelation(relation->op))
+      return std::nullopt;
+    const auto variable = variableNumber(tree, unwrapped(tree, relation->left));
+    const auto value = literalValue(tree, relation->right);
+    const VariableRange *range = variable ? findVariable(reading_.dialect, *variable) : nullptr;
+    if (!value || !range || !isVolatile(range->role))
+      return std::nullopt;
+    return AwaitedInput{id_, *variable, relation->op, *value};
   }
 
   void mark(std::optional<ClauseId> &place) {

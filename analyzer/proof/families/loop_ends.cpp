@@ -1,6 +1,7 @@
 #include "proof/families/loop_ends.h"
 
 #include "proof/decide/cancel.h"
+#include "proof/families/awaited_reads.h"
 #include "proof/termination/recurrence.h"
 
 #include <algorithm>
@@ -110,13 +111,13 @@ std::optional<Witness> endlessFromStart(const ProofContext &context, const LoopI
 
 Termination foundEnd(const ProofContext &context, const LoopInstance &loop) {
   // That an iteration is always followed by another one cannot be seen where conditions have been forgotten.
-  const bool mayRecur = !context.found.forgets;
+  const bool mayRecur = !context.found.forgets && !readsAwaited(context);
   Termination end;
   if (mayRecur)
     end.endless = endless(context, loop);
   if (end.endless)
     return end;
-  end = provesEnd(context.start.interpretation(), context.start.store(), loop);
+  end = provesEnd(context.start.interpretation(), context.start.store(), loop, awaitedReads(context, loop));
   if (!end.proved && mayRecur)
     end.endless = endlessFromStart(context, loop);
   return end;

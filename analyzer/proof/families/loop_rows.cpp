@@ -1,5 +1,6 @@
 // Termination: every loop ends, and so does the program.
 #include "meaning/cfg/wto.h"
+#include "proof/families/awaited_reads.h"
 #include "proof/families/families.h"
 #include "proof/families/loop_ends.h"
 #include "proof/termination/termination_explanation.h"
@@ -109,6 +110,12 @@ std::optional<std::string> comesBack(const RunResult &run) {
   return run.end == RunEnd::Repeats ? std::optional(std::string(kRepeats)) : std::nullopt;
 }
 
+/// Nothing denies an end for which the program waits.
+Violation unlessAwaited(const ProofContext &context, Violation violation) {
+  return readsAwaited(context) ? Violation([](const RunResult &) { return std::optional<std::string>(); })
+                               : std::move(violation);
+}
+
 Violation staysInside(std::shared_ptr<const Wto> wto, Place place) {
   return [wto = std::move(wto), place](const RunResult &run) -> std::optional<std::string> {
     const bool stays = !run.cycle.empty() && std::all_of(run.cycle.begin(), run.cycle.end(),
@@ -128,7 +135,7 @@ Obligation rowOfLoop(const ProofContext &context, const std::shared_ptr<const Wt
   }
   Obligation row =
       context.subject.obligation(ObligationKind::LoopEnds, place, context.subject.spanOf(place), "this loop ends");
-  settleLoop(context, row, within, staysInside(wto, place));
+  settleLoop(context, row, within, unlessAwaited(context, staysInside(wto, place)));
   if (verdict::Proved *proved = row.verdict.proved())
     explainEnd(context, *proved, instances);
   return row;
@@ -149,7 +156,9 @@ void settleLoops(const ProofContext &context, SettledRows &into) {
       continue;
     const Place place{context.subject.program.file, head};
     into.rows.push_back(rowOfLoop(context, wto, place));
-    into.denials.push_back({into.rows.back(), [wto, place](const ProofContext &) { return staysInside(wto, place); }});
+    into.denials.push_back({into.rows.back(), [wto, place](const ProofContext &run) {
+                              return unlessAwaited(run, staysInside(wto, place));
+                            }});
   }
 }
 
@@ -161,7 +170,7 @@ void settleEnd(const ProofContext &context, SettledRows &into) {
   auto row = programEndRow(context);
   if (!row)
     return;
-  into.denials.push_back({*row, [](const ProofContext &) { return Violation(comesBack); }});
+  into.denials.push_back({*row, [](const ProofContext &run) { return unlessAwaited(run, Violation(comesBack)); }});
   into.rows.push_back(*std::move(row));
 }
 
@@ -174,7 +183,7 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
     instances.push_back(&loop);
   Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
   row.id = fmt::format("{}.program-ends", subject.name());
-  settleLoop(context, row, instances, comesBack);
+  settleLoop(context, row, instances, unlessAwaited(context, comesBack));
   if (const auto *call = context.found.callWithoutReturn(); call && row.verdict.kind() != Verdict::Refuted)
     row.verdict = Verdict::unknown(mayNotReturn(*call), call->own);
   else if (row.verdict == Verdict::Unreachable)

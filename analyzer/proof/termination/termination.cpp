@@ -31,8 +31,9 @@ constexpr std::uint64_t kMostSteps = 3 * kStepsOfWork * kMostWork;
 
 class RankingSearch {
 public:
-  RankingSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop)
-      : interpretation_(interpretation), store_(store), loop_(loop), index_(store) {
+  RankingSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop,
+                std::span<const AwaitedRead> awaited)
+      : interpretation_(interpretation), store_(store), loop_(loop), awaited_(awaited), index_(store) {
     index_.add(interpretation.facts());
   }
 
@@ -64,7 +65,7 @@ private:
   bool rank(std::vector<std::size_t> iterations) {
     if (!phases_.empty())
       std::erase_if(iterations, [&](std::size_t iteration) { return holds(iteration, store_.no(), result_.evidence); });
-    if (iterations.empty())
+    if (iterations.empty() || waitForInput(iterations))
       return true;
     if (withLittle([&] { return lower(iterations, candidates_); }) || lowerByProgram(iterations))
       return rank(iterations);
@@ -83,6 +84,30 @@ private:
              (lower(iterations, candidates_) && rank(iterations)) || afterPhase(iterations);
     return std::all_of(cycles.begin(), cycles.end(), [&](const auto &cycle) { return rank(cycle); });
   }
+  /// Each of them reads an awaited input at one place, and goes on with another value: a run cannot make these
+  /// iterations alone without end.
+  bool waitForInput(const std::vector<std::size_t> &iterations) {
+    return std::ranges::any_of(awaited_, [&](const AwaitedRead &first) {
+      std::vector<Outcome> evidence;
+      const bool allWait = std::ranges::all_of(iterations, [&](std::size_t iteration) {
+        return std::ranges::any_of(awaited_, [&](const AwaitedRead &read) {
+          return read.place == first.place && read.clause == first.clause && isRead(read, iteration) &&
+                 holds(iteration, read.isOther, evidence);
+        });
+      });
+      if (!allWait)
+        return false;
+      std::ranges::move(evidence, std::back_inserter(result_.evidence));
+      result_.awaited = first.clause;
+      return true;
+    });
+  }
+  /// In this iteration, and not before the loop.
+  bool isRead(const AwaitedRead &read, std::size_t iteration) const {
+    const std::vector<TermId> variables = smt::variablesOf(store_, loop_.transitions[iteration].conditions);
+    return !loop_.isFixed(interpretation_, read.number) && std::ranges::binary_search(variables, read.number);
+  }
+
   std::vector<TermId> likely() const {
     return {candidates_.begin(),
             candidates_.begin() + static_cast<std::ptrdiff_t>(std::min(kLikely, candidates_.size()))};
@@ -441,6 +466,7 @@ private:
   const SymbolicInterpretation &interpretation_;
   smt::TermStore &store_;
   const LoopInstance &loop_;
+  std::span<const AwaitedRead> awaited_;
   FactIndex index_;
   std::vector<TermId> candidates_;
   std::vector<TermId> phases_;                  // hold from some iteration on
@@ -469,8 +495,9 @@ std::optional<std::size_t> recurrentIterationOf(const SymbolicInterpretation &in
 
 } // namespace
 
-Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop) {
-  auto found = smt::within(kMostSteps, [&] { return RankingSearch(interpretation, store, loop).run(); });
+Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop,
+                      std::span<const AwaitedRead> awaited) {
+  auto found = smt::within(kMostSteps, [&] { return RankingSearch(interpretation, store, loop, awaited).run(); });
   if (found)
     return std::move(*found);
   Termination given;

@@ -24,11 +24,22 @@ struct Termination {
   bool proved = false;
   std::vector<RankingFunction> rankings; // in lexicographic order
   std::vector<Outcome> evidence;
-  std::string reason;                  // why not
-  std::optional<Witness> endless = {}; // inputs with which it never ends
+  std::optional<std::size_t> awaited = {}; // the place of the clause that ends the iterations which are left
+  std::string reason;                      // why not
+  std::optional<Witness> endless = {};     // inputs with which it never ends
 };
 
-Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop);
+/// A read of an input that a contract says comes in the end (@EVENTUALLY), at a place to which an iteration comes at
+/// most once.  A run that comes there without end reads an awaited value at some time.
+struct AwaitedRead {
+  Place place;
+  std::size_t clause;  // its place in the contract
+  smt::TermId number;  // what the read gives
+  smt::TermId isOther; // it is not an awaited value
+};
+
+Termination provesEnd(const SymbolicInterpretation &interpretation, smt::TermStore &store, const LoopInstance &loop,
+                      std::span<const AwaitedRead> awaited = {});
 
 /// The number of an iteration whose conditions hold again after it, so that it repeats for ever.
 std::optional<std::size_t> recurrentIteration(const SymbolicInterpretation &interpretation, smt::TermStore &store,

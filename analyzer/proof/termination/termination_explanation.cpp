@@ -29,6 +29,8 @@ public:
   }
 
   TerminationExplanation of(const Termination &end) {
+    if (end.awaited)
+      return {"without end, it would read a value at last that ends it (`@EVENTUALLY`)", ""};
     if (end.rankings.empty())
       return {"no iteration leads back to the head of the loop", ""};
     if (std::any_of(end.rankings.begin(), end.rankings.end(),

@@ -34,6 +34,7 @@ struct ProveArguments {
   ConfigArguments config;
   std::string arithmetic = "control";
   std::string missing = "return";
+  unsigned effort = 1;
   std::string certificate;
   CacheArguments cache;
   std::string format = "text";
@@ -66,6 +67,10 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
          "what a call of a program that is in none of the files does: the program returns and may change common "
          "variables, modal codes and the position; the control stops; or anything (havoc)")
       ->check(CLI::IsMember({"return", "stop", "havoc"}))
+      ->capture_default_str()
+      ->excludes(certificate);
+  app.add_option("--effort", arguments.effort, "multiply the step budget of each program: more proofs, in more time")
+      ->check(CLI::Range(1U, 100U))
       ->capture_default_str()
       ->excludes(certificate);
   addFormat(app, arguments.format, {"text", "json", "sarif"});
@@ -102,6 +107,7 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   options.prove.only = kindsFrom(arguments.only);
   if (arguments.arithmetic == "exact")
     options.prove.arithmetic = prove::Arithmetic::Exact;
+  options.prove.steps *= arguments.effort;
   options.prove.missing = arguments.missing == "stop"    ? MissingPrograms::Stop
                           : arguments.missing == "havoc" ? MissingPrograms::DoAnything
                                                          : MissingPrograms::Return;

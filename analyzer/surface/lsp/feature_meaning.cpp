@@ -160,6 +160,7 @@ std::string_view helpOf(ClauseKind kind) {
   case ClauseKind::Alarm: return "the calls that raise an alarm";
   case ClauseKind::Invariant: return "a condition that holds at the start of every iteration of the loop at this block";
   case ClauseKind::Variant: return "a value that falls at every iteration of the loop at this block";
+  case ClauseKind::Eventually: return "an input that the program waits for comes in the end";
   case ClauseKind::Cyclic: return "the program is meant to run forever";
   }
   return "";

@@ -45,8 +45,9 @@ constexpr std::array kAssumptions = {
                "or swivelling table moves an axis.",
                "the machine builder", kAll},
     Assumption{"Loops may wait",
-               "A loop that waits for an input counts as endless, because nobody may ever set the input.",
-               "the reviewer of the report", "loop-ends, program-ends"},
+               "A loop that waits for an input counts as endless, because nobody may ever set the input. Where "
+               "@EVENTUALLY says that the input comes, the machine must bring it while the program waits.",
+               "the reviewer of the report, the machine builder", "loop-ends, program-ends"},
     Assumption{
         "Work and tool offsets",
         "Coordinates refer to the work coordinate system active at the start. With G43 or G44 they refer to the tip "
