@@ -3,7 +3,6 @@
 #include "proof/smt/steps.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
 namespace feedhold::prove {
@@ -11,12 +10,25 @@ namespace feedhold::prove {
 using smt::TermId;
 
 void FactIndex::add(std::span<const TermId> facts) {
-  for (; indexed_ < facts.size(); ++indexed_) {
-    const std::vector<TermId> &variables = smt::variablesOf(store_, facts[indexed_]);
+  for (const TermId fact : facts.subspan(std::min(indexed_.size(), facts.size()))) {
+    const std::vector<TermId> &variables = smt::variablesOf(store_, fact);
     smt::spend(5 + 10 * variables.size());
     for (const TermId variable : variables)
-      users_[variable.index()].push_back(indexed_);
+      users_[variable.index()].push_back(indexed_.size());
+    indexed_.push_back(fact);
   }
+}
+
+void FactIndex::follow(std::span<const TermId> conditions) {
+  const auto parted = std::ranges::mismatch(indexed_, conditions).in1;
+  const auto kept = static_cast<std::size_t>(parted - indexed_.begin());
+  while (indexed_.size() > kept) {
+    for (const TermId variable : smt::variablesOf(store_, indexed_.back()))
+      users_[variable.index()].pop_back(); // the last condition is the last of each of its variables
+    indexed_.pop_back();
+  }
+  smt::spend(kept / 16);
+  add(conditions);
 }
 
 const std::vector<std::size_t> *FactIndex::factsOn(TermId variable) const {
@@ -29,30 +41,21 @@ namespace {
 /// Follows variables to what speaks of them, and on to its variables.
 class Relevant {
 public:
-  Relevant(const smt::TermStore &store, const FactIndex &index, std::span<const TermId> facts,
-           std::span<const TermId> conditions)
-      : store_(store), index_(index), facts_(facts), conditions_(conditions), areTaken_(conditions.size()) {
-    for (std::size_t i = 0; i < conditions.size(); ++i)
-      for (const TermId variable : smt::variablesOf(store, conditions[i]))
-        ofConditions_.emplace_back(variable, i);
-    smt::spend(5 * (conditions.size() + ofConditions_.size()));
-    std::ranges::sort(ofConditions_);
-  }
+  Relevant(const smt::TermStore &store, const FactIndex &ofFacts, const FactIndex &ofConditions,
+           std::span<const TermId> facts, std::span<const TermId> conditions)
+      : store_(store), ofFacts_(ofFacts), ofConditions_(ofConditions), facts_(facts), conditions_(conditions) {}
 
   std::vector<TermId> to(TermId goal) {
     want(goal);
     while (!open_.empty()) {
       const TermId variable = open_.back();
       open_.pop_back();
-      takeFacts(variable);
-      takeConditions(variable);
+      take(ofFacts_, variable, facts_, takenFacts_);
+      take(ofConditions_, variable, conditions_, takenConditions_);
     }
     std::vector<TermId> taken;
-    for (const std::size_t fact : takenFacts_)
-      taken.push_back(facts_[fact]);
-    for (std::size_t i = 0; i < conditions_.size(); ++i)
-      if (areTaken_[i])
-        taken.push_back(conditions_[i]);
+    collect(facts_, takenFacts_, taken);
+    collect(conditions_, takenConditions_, taken);
     return taken;
   }
 
@@ -62,34 +65,27 @@ private:
       if (wanted_.insert(variable).second)
         open_.push_back(variable);
   }
-  void takeFacts(TermId variable) {
-    const auto *users = index_.factsOn(variable);
+  void take(const FactIndex &index, TermId variable, std::span<const TermId> terms, std::set<std::size_t> &taken) {
+    const auto *users = index.factsOn(variable);
     if (!users)
       return;
     smt::spend(5 * users->size());
     for (const std::size_t user : *users)
-      if (user < facts_.size() && takenFacts_.insert(user).second)
-        want(facts_[user]);
+      if (user < terms.size() && taken.insert(user).second)
+        want(terms[user]);
   }
-  void takeConditions(TermId variable) {
-    const auto users = std::ranges::equal_range(ofConditions_, variable, std::less(), &VariableOf::first);
-    smt::spend(5 * users.size());
-    for (const VariableOf &user : users)
-      if (!areTaken_[user.second]) {
-        areTaken_[user.second] = true;
-        want(conditions_[user.second]);
-      }
+  static void collect(std::span<const TermId> terms, const std::set<std::size_t> &taken, std::vector<TermId> &into) {
+    for (const std::size_t user : taken)
+      into.push_back(terms[user]);
   }
-
-  using VariableOf = std::pair<TermId, std::size_t>; // with the place of a condition
 
   const smt::TermStore &store_;
-  const FactIndex &index_;
+  const FactIndex &ofFacts_;
+  const FactIndex &ofConditions_;
   std::span<const TermId> facts_;
   std::span<const TermId> conditions_;
-  std::vector<VariableOf> ofConditions_; // sorted: there are few, and most are asked for once
-  std::vector<bool> areTaken_;           // by place
-  std::set<std::size_t> takenFacts_;     // their places: a query takes few of many
+  std::set<std::size_t> takenFacts_; // their places: a query takes few of many
+  std::set<std::size_t> takenConditions_;
   std::set<TermId> wanted_;
   std::vector<TermId> open_;
 };
@@ -107,28 +103,38 @@ Query relevantQuery(const smt::TermStore &store, const FactIndex &index, std::sp
                     std::span<const TermId> conditions, TermId goal) {
   if (smt::areStepsUsedUp()) // it will not be asked
     return {{}, goal};
-  return {Relevant(store, index, facts, conditions).to(goal), goal};
+  FactIndex ofConditions(store);
+  ofConditions.add(conditions);
+  return {Relevant(store, index, ofConditions, facts, conditions).to(goal), goal};
 }
 
 namespace {
-constexpr std::uint64_t kWorkOfTerm = 20; // to look at it, compared with a step of the search
-}
+constexpr std::uint64_t kWorkOfTerm = 20;        // to look at it, compared with a step of the search
+constexpr std::uint64_t kConditionsOfWork = 100; // that are compared with those of the question before
+} // namespace
 
 bool Entailment::operator()(std::span<const TermId> facts, std::span<const TermId> conditions, TermId goal) {
   if (goal == store_.yes() || std::find(conditions.begin(), conditions.end(), goal) != conditions.end())
     return true;
-  if (work_ >= allowed_)
+  if (isExhausted())
     return false;
-  index_.add(facts);
-  const Query query{Relevant(store_, index_, facts, conditions).to(goal), goal};
+  ofFacts_.add(facts);
+  ofConditions_.follow(conditions);
+  const Query query{Relevant(store_, ofFacts_, ofConditions_, facts, conditions).to(goal), goal};
   std::vector<TermId> key = query.assumptions;
   key.push_back(goal);
   const auto known = known_.find(key);
-  work_ += kWorkOfTerm * (key.size() + conditions.size());
+  work_ += kWorkOfTerm * key.size() + conditions.size() / kConditionsOfWork;
   if (known != known_.end())
     return known->second;
+  if (models_.refute(query)) {
+    known_.emplace(std::move(key), false);
+    return false;
+  }
   const Outcome outcome = discharge(store_, query, budget_);
   work_ += outcome.effort;
+  if (const smt::Model *model = outcome.counterexample())
+    models_.add(*model);
   known_.emplace(std::move(key), outcome.proved());
   return outcome.proved();
 }

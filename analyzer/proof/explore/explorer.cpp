@@ -124,7 +124,8 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
     : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), options_(options),
       merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   interpretation_.usePath(this);
-  entails_.allow(options.mostWork);
+  if (merging != PathMerging::Forget) // its steps are the limit there
+    entails_.allow(options.mostWork);
   if (interpretation.arithmetic() != Arithmetic::Exact)
     entails_.spendAtMost(kLittle);
 }
@@ -158,6 +159,9 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
     result_.isTooLarge = result_.isTooLarge || (!result_.incomplete && !isOverall);
     giveUp(isOverall ? kProgramStepsUsedUp : kTooLarge);
   }
+  // What is not asked any more is not proved, and may look as if there were no invariant.
+  if (result_.incomplete && entails_.isExhausted())
+    result_.isTooLarge = true;
   for (std::size_t call = 0; call < result_.unmodelledCalls.size(); ++call)
     for (const std::size_t loop : result_.unmodelledCalls[call].loops)
       if (auto &known = result_.loops[loop].unmodelledCall; !known || result_.unmodelledCalls[call].returning.empty())

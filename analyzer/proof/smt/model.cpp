@@ -1,38 +1,13 @@
 #include "proof/smt/model.h"
 
 #include "base/support/check.h"
+#include "proof/smt/steps.h"
 
 namespace feedhold::smt {
 namespace {
 
-using Known = std::map<TermId, std::optional<Value>>;
-
 std::optional<Value> opposite(const std::optional<Value> &value) {
   return value ? std::optional<Value>(!std::get<bool>(*value)) : std::nullopt;
-}
-
-/// Of And (deciding: false) and Or (deciding: true).
-std::optional<Value> junction(const Term &term, const Known &known) {
-  const bool deciding = term.kind == TermKind::Or;
-  bool complete = true;
-  for (TermId argument : term.arguments) {
-    const std::optional<Value> &value = known.at(argument);
-    if (value && std::get<bool>(*value) == deciding)
-      return deciding;
-    complete = complete && value.has_value();
-  }
-  return complete ? std::optional<Value>(!deciding) : std::nullopt;
-}
-
-std::optional<std::vector<Number>> numbers(const Term &term, const Known &known) {
-  std::vector<Number> values;
-  for (TermId argument : term.arguments) {
-    const std::optional<Value> &value = known.at(argument);
-    if (!value)
-      return std::nullopt;
-    values.push_back(std::get<Number>(*value));
-  }
-  return values;
 }
 
 std::optional<Value> ofFunction(Function function, const std::vector<Number> &arguments) {
@@ -70,21 +45,53 @@ std::optional<Value> arithmetic(const Term &term, const std::vector<Number> &val
   FEEDHOLD_UNREACHABLE("no arithmetic");
 }
 
-std::optional<Value> valueOf(const Term &term, const Known &known, const Model &model) {
+} // namespace
+
+/// Of And (deciding: false) and Or (deciding: true).
+std::optional<Value> Evaluation::junction(const Term &term) const {
+  const bool deciding = term.kind == TermKind::Or;
+  bool complete = true;
+  for (TermId argument : term.arguments) {
+    const std::optional<Value> &value = known(argument);
+    if (value && std::get<bool>(*value) == deciding)
+      return deciding;
+    complete = complete && value.has_value();
+  }
+  return complete ? std::optional<Value>(!deciding) : std::nullopt;
+}
+
+std::optional<std::vector<Number>> Evaluation::numbers(const Term &term) const {
+  std::vector<Number> values;
+  for (TermId argument : term.arguments) {
+    const std::optional<Value> &value = known(argument);
+    if (!value)
+      return std::nullopt;
+    values.push_back(std::get<Number>(*value));
+  }
+  return values;
+}
+
+std::optional<Value> Evaluation::ofVariable(const Term &term) const {
+  const auto found = model_.find(term.name);
+  if (found != model_.end())
+    return found->second;
+  if (others_ == OtherVariables::Unknown)
+    return std::nullopt;
+  return term.sort == Sort::Bool ? Value(false) : Value(Number());
+}
+
+std::optional<Value> Evaluation::found(const Term &term) const {
   switch (term.kind) {
   case TermKind::True: return true;
   case TermKind::False: return false;
   case TermKind::Number: return term.number;
-  case TermKind::Variable: {
-    auto found = model.find(term.name);
-    return found == model.end() ? std::nullopt : std::optional(found->second);
-  }
+  case TermKind::Variable: return ofVariable(term);
   case TermKind::And:
-  case TermKind::Or: return junction(term, known);
-  case TermKind::Not: return opposite(known.at(term.arguments[0]));
+  case TermKind::Or: return junction(term);
+  case TermKind::Not: return opposite(known(term.arguments[0]));
   case TermKind::Ite: {
-    const std::optional<Value> &condition = known.at(term.arguments[0]);
-    return condition ? known.at(term.arguments[std::get<bool>(*condition) ? 1 : 2]) : std::nullopt;
+    const std::optional<Value> &condition = known(term.arguments[0]);
+    return condition ? known(term.arguments[std::get<bool>(*condition) ? 1 : 2]) : std::nullopt;
   }
   case TermKind::Add:
   case TermKind::Multiply:
@@ -93,25 +100,44 @@ std::optional<Value> valueOf(const Term &term, const Known &known, const Model &
   case TermKind::LessOrEqual:
   case TermKind::Equal:
   case TermKind::Apply: {
-    std::optional<std::vector<Number>> values = numbers(term, known);
+    const std::optional<std::vector<Number>> values = numbers(term);
     return values ? arithmetic(term, *values) : std::nullopt;
   }
   }
   FEEDHOLD_UNREACHABLE("a new kind of term needs its value");
 }
 
-} // namespace
+const std::optional<Value> &Evaluation::of(TermId whole) {
+  constexpr std::uint64_t kStepsOfTerm = 20;
+  std::vector<TermId> open{whole};
+  while (!open.empty()) {
+    const TermId term = open.back();
+    const std::size_t before = open.size();
+    if (!known_.contains(term.index())) {
+      for (const TermId argument : store_[term].arguments)
+        if (!known_.contains(argument.index()))
+          open.push_back(argument);
+      if (open.size() > before)
+        continue;
+      spend(kStepsOfTerm);
+      known_.emplace(term.index(), found(store_[term]));
+    }
+    open.pop_back();
+  }
+  return known(whole);
+}
+
+bool Evaluation::is(TermId condition, bool truth) {
+  const std::optional<Value> &value = of(condition);
+  return value && std::get<bool>(*value) == truth;
+}
 
 std::optional<Value> evaluate(const TermStore &store, TermId term, const Model &model) {
-  Known known;
-  for (TermId id : reachable(store, std::span(&term, 1)))
-    known.emplace(id, valueOf(store[id], known, model));
-  return known.at(term);
+  return Evaluation(store, model, OtherVariables::Unknown).of(term);
 }
 
 bool isTrue(const TermStore &store, TermId condition, const Model &model) {
-  const std::optional<Value> value = evaluate(store, condition, model);
-  return value && std::get<bool>(*value);
+  return Evaluation(store, model, OtherVariables::Unknown).is(condition, true);
 }
 
 } // namespace feedhold::smt
