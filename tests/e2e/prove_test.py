@@ -211,6 +211,13 @@ class Prove(Scratch):
         self.assertEqual(witness["happened"], "stops with PS0112 (divided by zero)")
         self.assertReplays(witness)
 
+    def test_witness_is_near_to_the_calls_that_are_known(self):
+        self.write("O9100.nc", "O9100\nIF[#9EQ#0]THEN#9=120\nIF[#9LT50]GOTO90\n#10=#21/[#22-4]\nG1Z-#21F#9\nM99\n"
+                               "N90#3000=1(F)\nO10\nG65P9100U12.V2.\nG65P9100U12.V3.F200.\nM30\n")
+        rows = {row["id"]: row for row in self.obligations("O9100.nc")}
+        self.assertEqual(rows["O9100.no-control-alarm.L4"]["witness"]["call"], "G65 P9100 U12. V4.")
+        self.assertEqual(rows["O9100.alarm-unreachable.N90"]["witness"]["call"], "G65 P9100 F1. U12. V2.")
+
     def test_witness_with_a_common_variable(self):
         self.write("O4.nc", ENDLESS)
         witness = self.one("O4.loop-ends.N10", "O4.nc")["witness"]
@@ -304,8 +311,8 @@ class Prove(Scratch):
         self.assertIn("O9100.nc: O9100: ", text)
         self.assertIn("refuted: the control can stop here with PS0112 (divided by zero) [O9100.no-control-alarm.N10]\n"
                       " --> O9100.nc:2:", text)
-        self.assertIn("G65 P9100: stops with PS0112 (divided by zero)\n", text)
-        self.assertIn("replay it: feedhold run O9100.nc --dialect fanuc-30i --isolated\n", text)
+        self.assertIn("G65 P9100 U1. V0.: stops with PS0112 (divided by zero)\n", text)
+        self.assertIn("replay it: feedhold run O9100.nc --arg U=1 --arg V=0 --dialect fanuc-30i --isolated\n", text)
         self.assertLess(text.index("refuted: "), text.index("the program comes to an end"))
 
     def test_unknown_says_why(self):

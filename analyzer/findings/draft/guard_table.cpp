@@ -2,6 +2,7 @@
 #include "findings/draft/guard_table.h"
 
 #include "base/support/text.h"
+#include "meaning/cfg/program_nodes.h"
 
 #include <algorithm>
 #include <map>
@@ -54,19 +55,7 @@ public:
   }
 
 private:
-  const Assignment *alarmAt(NodeId node) const {
-    const auto *assign = std::get_if<Assign>(&facts_.node(node).instruction);
-    if (!assign)
-      return nullptr;
-    for (std::uint32_t i = 0; i < assign->count; ++i) {
-      const Statement &statement = facts_.file.tree->statements[StatementId(assign->first.index() + i)];
-      const auto *assignment = std::get_if<Assignment>(&statement.node);
-      const auto target = assignment ? variableNumber(*facts_.file.tree, assignment->target) : std::nullopt;
-      if (target && raisesAlarm(*facts_.file.dialect, *target))
-        return assignment;
-    }
-    return nullptr;
-  }
+  const Assignment *alarmAt(NodeId node) const { return ownAlarmAt(facts_.file, node); }
   bool isDoomed(NodeId node) const {
     if (alarmAt(node))
       return true;

@@ -1,5 +1,6 @@
 #include "inference/absint/flow_facts.h"
 
+#include "meaning/cfg/program_nodes.h"
 #include "meaning/cfg/reached_programs.h"
 
 #include <algorithm>
@@ -8,21 +9,6 @@
 namespace feedhold {
 
 namespace {
-
-/// The nodes of a program stand together: up to the entry of the next one.
-std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
-  const std::size_t first = file.cfg.entryOf(program).index();
-  const std::size_t next = program.index() + 1;
-  if (next == file.cfg.entries.size())
-    return file.cfg.nodes.size() - first;
-  if (file.cfg.entries[next].index() > first && !file.model->programs[ProgramId(next)].within)
-    return file.cfg.entries[next].index() - first;
-  std::size_t end = file.cfg.nodes.size(); // subroutines stand behind the program around them
-  for (const NodeId entry : file.cfg.entries)
-    if (entry.index() > first)
-      end = std::min<std::size_t>(end, entry.index());
-  return end - first;
-}
 
 /// Expressions stand in the order of the blocks.
 std::size_t firstExpressionOf(const ProgramFile &file, BlockId block) {

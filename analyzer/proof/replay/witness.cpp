@@ -20,8 +20,9 @@ constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfInput = 20; // of a model
 constexpr std::uint64_t kStepsOfLook = 10;  // at a run, and at a movement of it
+constexpr std::size_t kMostBreaking = 40;   // samples of which the nearest is the witness
 constexpr std::size_t kMostReplays = 200;   // that are kept for the judge
-constexpr int kMostInexact = 5;             // samples that break a claim by rounding, before the others are left alone
+constexpr std::size_t kMostInexact = 5;     // samples that break a claim by rounding, before the others are left alone
 
 /// A third that has to be met exactly is met by no double: the same inputs with three places.
 GivenVariables shortened(const GivenVariables &given, double (*whole)(double)) {
@@ -63,7 +64,8 @@ double rounded(double value, double scale) { return std::round(value * scale) / 
 WitnessSearch::WitnessSearch(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                              std::vector<smt::TermId> demands, std::vector<double> constants)
     : interpretation_(interpretation), programs_(programs), entry_(entry), demands_(std::move(demands)),
-      constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)) {}
+      constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)),
+      likely_(std::make_shared<LikelyCalls>(programs, entry)) {}
 
 std::vector<std::uint32_t> WitnessSearch::inputs() const {
   std::vector<std::uint32_t> inputs;
@@ -126,6 +128,7 @@ WitnessSearch WitnessSearch::narrowed(smt::TermId demand, const std::vector<smt:
   narrowed.startFrom(start_, place_, open_);
   narrowed.others_ = others_;
   narrowed.exactRuns_ = exactRuns_;
+  narrowed.likely_ = likely_;
   narrowed.replays_ = replays_;
   narrowed.demands_.push_back(demand);
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -164,6 +167,9 @@ void WitnessSearch::sample() {
   const std::vector<double> pool = plainNumbers();
   std::mt19937 random(1);
   const std::vector<std::uint32_t> names = inputs();
+  for (const GivenVariables &call : likely_->calls())
+    keepSample(readBy(call));
+  firstPlain_ = samples_.size();
   for (int i = 0; i < kSamples; ++i) {
     GivenVariables given;
     for (const std::uint32_t variable : names) {
@@ -173,6 +179,15 @@ void WitnessSearch::sample() {
     }
     keepSample(std::move(given));
   }
+}
+
+/// Of a call, what the program reads.
+GivenVariables WitnessSearch::readBy(const GivenVariables &call) const {
+  GivenVariables given;
+  for (const auto &[variable, value] : call.entries())
+    if (interpretation_.entryValues().contains(variable))
+      given.set(variable, value);
+  return given;
 }
 
 void WitnessSearch::sampleOtherModes() {
@@ -189,7 +204,7 @@ void WitnessSearch::sampleOtherModes() {
 void WitnessSearch::sampleAround(const smt::Model &allowed) {
   others_ = allowed;
   const std::vector<std::uint32_t> names = inputs();
-  if (samples_.size() >= kFewSamples || names.empty())
+  if (samples_.size() - firstPlain_ >= kFewSamples || names.empty())
     return;
   const std::vector<double> pool = plainNumbers();
   std::mt19937 random(1);
@@ -303,19 +318,24 @@ std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violat
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
-  int inexact = 0;
+  struct Breaking {
+    unsigned distance;
+    const Sample *sample;
+    std::string happened;
+  };
+  std::vector<Breaking> breaking;
   for (const Sample &sample : samples_) {
-    if (smt::areStepsUsedUp())
-      return std::nullopt;
-    smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
-    const auto happened = broken(sample, violation);
-    if (!happened)
-      continue;
-    if (isExact(sample.given, sample.result, violation))
-      return plainest({sample.given, sample.result.end, *happened}, violation, kSampleFuel);
-    if (++inexact == kMostInexact)
+    if (breaking.size() == kMostBreaking || smt::areStepsUsedUp())
       break;
+    smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
+    if (auto happened = broken(sample, violation))
+      breaking.push_back({likely_->distanceOf(sample.given), &sample, *std::move(happened)});
   }
+  std::ranges::stable_sort(breaking, {}, &Breaking::distance);
+  breaking.resize(std::min(breaking.size(), kMostInexact));
+  for (const auto &[distance, sample, happened] : breaking)
+    if (isExact(sample->given, sample->result, violation))
+      return plainest({sample->given, sample->result.end, happened}, violation, kSampleFuel);
   return std::nullopt;
 }
 
@@ -465,88 +485,6 @@ std::string WitnessSearch::whyNotShown(const smt::Model &model) const {
              ? fmt::format("{}, and may depend on a parameter of the control or on what no manual says: {}", kNot,
                            howItEnded(result))
              : fmt::format("{}: {}", kNot, howItEnded(result));
-}
-
-/// Each input in turn: left out if that will do, else 0, 1, or with as few digits as will do.
-Witness WitnessSearch::plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const {
-  for (const std::uint32_t variable : inputs()) {
-    const ConcreteValue *held = witness.variables.find(variable);
-    if (!held)
-      continue;
-    const double value = held->number;
-    GivenVariables without = witness.variables;
-    without.erase(variable);
-    std::vector<GivenVariables> plainer{without};
-    for (const double plain : {0.0, 1.0, rounded(value, 0.1), rounded(value, 1), rounded(value, 10),
-                               rounded(value, 100), rounded(value, 1000)}) {
-      if (plain == value)
-        break;
-      plainer.push_back(without);
-      plainer.back().set(variable, ConcreteValue::of(plain));
-    }
-    for (const GivenVariables &given : plainer)
-      if (auto found = tried(given, violation, fuel)) {
-        witness = std::move(*found);
-        break;
-      }
-  }
-  return withPlainReadings(withPlainStart(std::move(witness), violation, fuel), violation, fuel);
-}
-
-/// As after power-on if that will do; else in as few other codes, words and coordinates as will do.
-Witness WitnessSearch::withPlainStart(Witness witness, const Violation &violation, std::uint64_t fuel) const {
-  constexpr int kMostSteps = 12;
-  const auto plainer = [&]() -> std::optional<Witness> {
-    for (const GivenStart &start : plainerStarts(witness.variables.start)) {
-      GivenVariables given = witness.variables;
-      given.start = start;
-      if (auto found = tried(given, violation, fuel))
-        return found;
-    }
-    return std::nullopt;
-  };
-  for (int step = 0; step < kMostSteps; ++step) {
-    auto found = plainer();
-    if (!found)
-      break;
-    witness = *std::move(found);
-  }
-  return witness;
-}
-
-/// Each input in turn: without readings, that is 0; else as few numbers as will do, and 0 or 1 in place of others.
-Witness WitnessSearch::withPlainReadings(Witness witness, const Violation &violation, std::uint64_t fuel) const {
-  const auto taken = [&](std::uint32_t variable, const std::vector<double> &script) {
-    GivenVariables given = witness.variables;
-    given.readings.erase(variable);
-    if (!script.empty())
-      given.readings.set(variable, script);
-    auto found = tried(given, violation, fuel);
-    if (found)
-      witness = *std::move(found);
-    return found.has_value();
-  };
-  const InputReadings readings = witness.variables.readings;
-  for (const auto &[variable, all] : readings.entries()) {
-    if (taken(variable, {}))
-      continue;
-    std::vector<double> script = all;
-    for (std::size_t size = 1; size < script.size(); ++size)
-      if (taken(variable, {script.begin(), script.begin() + static_cast<std::ptrdiff_t>(size)})) {
-        script.resize(size);
-        break;
-      }
-    for (double &reading : script) {
-      const double before = reading;
-      for (const double plain : {0.0, 1.0, rounded(before, 1)}) {
-        reading = plain;
-        if (plain == before || taken(variable, script))
-          break;
-        reading = before;
-      }
-    }
-  }
-  return witness;
 }
 
 } // namespace feedhold::prove

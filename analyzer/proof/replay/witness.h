@@ -3,6 +3,7 @@
 
 #include "proof/obligation/obligation.h"
 #include "proof/replay/exact_run.h"
+#include "proof/replay/likely_calls.h"
 #include "proof/replay/start_inputs.h"
 #include "proof/symbolic/contract_terms.h"
 #include "proof/symbolic/symbolic_interpretation.h"
@@ -51,7 +52,7 @@ public:
   }
   RunOptions runOptions(const GivenVariables &given) const;
   RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
-  /// Runs on plain numbers, before anything is known: each run and its inputs are kept.
+  /// Runs on likely calls, then on plain numbers, before anything is known: each run and its inputs are kept.
   void sample();
   /// The same inputs as some of these runs, from starts in other modes.
   void sampleOtherModes();
@@ -62,11 +63,11 @@ public:
   void sampleEnds(const std::vector<InputEnds> &ends);
   /// On numbers with a few digits behind the point, which the control rounds; between the ends where these are known.
   void sampleDecimals(const std::vector<InputEnds> &ends);
-  /// Among the sampled runs.
+  /// Among the sampled runs, the one nearest to a call that a shop makes.
   std::optional<Witness> amongSamples(const Violation &violation) const;
   /// Among those of sampleDecimals(), of which more are followed exactly than amongSamples() does.
   std::optional<Witness> amongDecimals(const Violation &violation) const;
-  /// The inputs that a model of the solver names, then made as plain as they can be.
+  /// The inputs that a model of the solver names, then made as plain as they can be, and as near to a likely call.
   std::optional<Witness> fromModel(const smt::Model &model, const Violation &violation,
                                    std::uint64_t fuel = kFuel) const;
   /// Of a model that is no witness: what the machine does on its inputs instead.
@@ -113,6 +114,8 @@ private:
   bool isExact(const GivenVariables &given, const RunResult &run) const;
   bool isExact(const GivenVariables &given, const RunResult &run, const Violation &violation) const;
   std::optional<Witness> tried(const GivenVariables &given, const Violation &violation, std::uint64_t fuel) const;
+  GivenVariables readBy(const GivenVariables &call) const;
+  std::vector<GivenVariables> nearer(const GivenVariables &given, std::uint32_t variable) const;
   Witness plainest(Witness witness, const Violation &violation, std::uint64_t fuel) const;
   Witness withPlainStart(Witness witness, const Violation &violation, std::uint64_t fuel) const;
   Witness withPlainReadings(Witness witness, const Violation &violation, std::uint64_t fuel) const;
@@ -127,8 +130,10 @@ private:
   StartInputs open_;
   std::vector<Sample> samples_;
   std::mt19937 readings_{1};             // of samples
-  std::size_t firstDecimal_ = 0;         // of samples_
+  std::size_t firstPlain_ = 0;           // of samples_: behind the likely calls
+  std::size_t firstDecimal_ = 0;         // the same
   std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
+  std::shared_ptr<const LikelyCalls> likely_;
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
   smt::Model others_; // inputs that satisfy what they have to
 };

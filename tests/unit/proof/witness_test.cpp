@@ -42,7 +42,7 @@ TEST(Witness, AModelThatDoesNotDoItIsNone) {
 }
 
 TEST(Witness, ItIsMadeAsPlainAsItCanBe) {
-  Explored program("O1\nIF[#1GT5]THEN#3000=7\nM99\n");
+  Explored program("O1\nIF[#1GT500]THEN#3000=7\nM99\n");
   const auto witness = program.runs()->fromModel(modelOf(program, 987654), stopsWithAlarm());
   ASSERT_TRUE(witness);
   EXPECT_EQ(witness->variables.find(1)->number, 987650); // a digit less
