@@ -12,10 +12,10 @@
 namespace feedhold::smt {
 namespace {
 
-/// Against a Z3 that ignores its budget: twice what the slowest questions take, so that the load of the machine decides
+/// Against a Z3 that ignores its budget: many times what the budget takes, so that the load of the machine decides
 /// nothing.
 ProcessLimits limitsFor(std::uint64_t resources) {
-  return {.processorSeconds = 2 + static_cast<std::uint32_t>(6 * resources / 1'000'000), .watchdogSeconds = 120};
+  return {.processorSeconds = 2 + static_cast<std::uint32_t>(15 * resources / 1'000'000), .watchdogSeconds = 120};
 }
 
 /// Z3 does not count what its polynomials and long numbers cost: with them it may go on for minutes within its
