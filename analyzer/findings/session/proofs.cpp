@@ -40,8 +40,8 @@ std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
   return programsInFile <= 1 ? stepsOfOne : stepsOfOne * 4 / 5 / programsInFile;
 }
 
-/// Of the steps of a program with a contract, and of the work of Z3 in one question.  What needs more without one is seldom proved at all: of 78 programs of
-/// other authors, one complete answer in 29 is lost with it.
+/// Of the steps of a program with a contract, and of the work of Z3 in one question.  What needs more without one is
+/// seldom proved at all: of 78 programs of other authors, one complete answer in 29 is lost with it.
 constexpr std::uint64_t kShareWithoutContract = 4;
 
 void proveAnew(const Job &job, const prove::ProveOptions &options) {

@@ -20,7 +20,7 @@ constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfInput = 20; // of a model
 constexpr std::uint64_t kStepsOfLook = 10;  // at a run, and at a movement of it
-constexpr std::size_t kMostBreaking = 40;   // samples of which the nearest is the witness
+constexpr std::size_t kMostBreaking = 12;   // samples of which the nearest is the witness
 constexpr std::size_t kMostReplays = 200;   // that are kept for the judge
 constexpr std::size_t kMostInexact = 5;     // samples that break a claim by rounding, before the others are left alone
 
@@ -318,25 +318,29 @@ std::optional<std::string> WitnessSearch::broken(const Sample &run, const Violat
 }
 
 std::optional<Witness> WitnessSearch::amongSamples(const Violation &violation) const {
-  struct Breaking {
-    unsigned distance;
-    const Sample *sample;
-    std::string happened;
-  };
-  std::vector<Breaking> breaking;
-  for (const Sample &sample : samples_) {
-    if (breaking.size() == kMostBreaking || smt::areStepsUsedUp())
+  std::optional<Witness> nearest;
+  unsigned distance = 0;
+  std::size_t exact = 0, inexact = 0;
+  for (std::size_t i = 0; i < samples_.size() && exact < kMostBreaking && inexact < kMostInexact; ++i) {
+    const Sample &sample = samples_[i];
+    if (smt::areStepsUsedUp())
       break;
     smt::spend(kStepsOfLook + kStepsOfLook * sample.result.moves.size());
-    if (auto happened = broken(sample, violation))
-      breaking.push_back({likely_->distanceOf(sample.given), &sample, *std::move(happened)});
+    auto happened = broken(sample, violation);
+    if (!happened)
+      continue;
+    if (!isExact(sample.given, sample.result, violation)) {
+      inexact += i < firstPlain_ ? 0 : 1;
+      continue;
+    }
+    ++exact;
+    const unsigned found = likely_->distanceOf(sample.given);
+    if (nearest && found >= distance)
+      continue;
+    distance = found;
+    nearest = Witness{sample.given, sample.result.end, *std::move(happened)};
   }
-  std::ranges::stable_sort(breaking, {}, &Breaking::distance);
-  breaking.resize(std::min(breaking.size(), kMostInexact));
-  for (const auto &[distance, sample, happened] : breaking)
-    if (isExact(sample->given, sample->result, violation))
-      return plainest({sample->given, sample->result.end, happened}, violation, kSampleFuel);
-  return std::nullopt;
+  return nearest ? std::optional(plainest(*std::move(nearest), violation, kSampleFuel)) : std::nullopt;
 }
 
 std::optional<Witness> WitnessSearch::amongDecimals(const Violation &violation) const {
