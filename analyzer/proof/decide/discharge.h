@@ -83,8 +83,8 @@ struct Outcome {
 
 /// Of a step of a search or a unit of work: about a microsecond.
 constexpr std::uint64_t kStepsOfWork = 100;
-/// Of the proof of one program, about 12 seconds (smt/steps.h).
-constexpr std::uint64_t kStepsOfProgram = 1'200'000'000;
+/// Of the proof of one program, 12 to 20 seconds (smt/steps.h).
+constexpr std::uint64_t kStepsOfProgram = 1'000'000'000;
 constexpr std::string_view kProgramStepsUsedUp = "gave up: the step budget for this program is used up";
 
 /// Never spends more steps than go with the budget, and no more than the program has left.
