@@ -1,4 +1,5 @@
-// An immediate dominator is the nearest common one of the predecessors: repeated in reverse postorder until it is stable.
+// An immediate dominator is the nearest common one of the predecessors: repeated in reverse postorder until it is
+// stable.
 #include "base/support/dominators.h"
 
 #include <algorithm>
