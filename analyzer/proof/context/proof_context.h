@@ -28,6 +28,12 @@ struct ProofContext : ExploredProgram {
   /// Whether the contract allows no call at all; the counterexample is one.  Null: there is no contract.
   const Outcome *anyCall;
   Budget budget;
+  /// Of another exploration of the same program: what these rows say of a claim is not asked again.  Null: there was
+  /// none.
+  const std::vector<Obligation> *decided = nullptr;
+
+  /// Null: the claim is open.
+  const Obligation *decidedAs(const Obligation &claim) const;
 };
 
 /// A path and what has to hold at its end.

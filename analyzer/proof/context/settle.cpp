@@ -1,6 +1,8 @@
 // Settles a question: by a sampled run, by proofs of all its goals, or by the replay of a counterexample.
 #include "proof/context/proof_context.h"
 
+#include <algorithm>
+
 namespace feedhold::prove {
 
 namespace {
@@ -96,6 +98,14 @@ std::optional<Verdict> decidedBefore(const ProofContext &context, const Violatio
   return std::nullopt;
 }
 
+const Obligation *ProofContext::decidedAs(const Obligation &claim) const {
+  if (!decided)
+    return nullptr;
+  const auto known = std::ranges::find_if(
+      *decided, [&](const Obligation &row) { return isSameClaim(row, claim) && row.verdict != Verdict::Unknown; });
+  return known == decided->end() ? nullptr : &*known;
+}
+
 std::vector<Query> queriesOf(ProofStart &start, const Question &question) {
   std::vector<Query> queries;
   for (const PathGoal &goal : question.goals)
@@ -134,7 +144,8 @@ Obligation settle(const ProofContext &context, const Question &question) {
 void settleAll(const ProofContext &context, Questions questions, SettledRows &into) {
   for (Question &question : questions) {
     into.denials.push_back(denialOf(question));
-    into.rows.push_back(settle(context, question));
+    const Obligation *known = context.decidedAs(question.row);
+    into.rows.push_back(known ? *known : settle(context, question));
     if (!into.rows.back().verdict.holds()) {
       question.row = into.rows.back();
       into.open.push_back(std::move(question));

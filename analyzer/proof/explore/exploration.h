@@ -176,6 +176,10 @@ enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };
 /// What a contract suggests for the loop at a place: terms over the state before an iteration.
 using LoopHints = std::function<std::vector<smt::TermId>(Place head, const SymbolicState &state)>;
 
+/// How widely invariants of loops are looked for.  A wide search takes several times as long: it is for programs of
+/// which claims are open.
+enum class InvariantSearch : std::uint8_t { Usual, Wide };
+
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyIteration;
@@ -184,7 +188,8 @@ struct ExploreOptions {
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;
-  LoopHints invariants = {};   // tried with those that are guessed
+  LoopHints invariants = {}; // tried with those that are guessed
+  InvariantSearch search = InvariantSearch::Usual;
   LoopHints rankingHints = {}; // kept for LoopInstance::rankingHints
   MissingPrograms missing = MissingPrograms::DoAnything;
   bool missingChangeNothing = false;                // those that return: for single runs

@@ -3,6 +3,7 @@
 #include "proof/decide/linear_algebra.h"
 
 #include <algorithm>
+#include <set>
 
 namespace feedhold::prove {
 
@@ -34,8 +35,7 @@ public:
     keptSums();
     restoredSums();
     growingSums();
-    for (const std::size_t number : numbers_)
-      secondOrder(number);
+    series();
     arrivalConditions();
     for (const TermId condition : trial_.conditions)
       iterationCondition(condition);
@@ -153,32 +153,96 @@ private:
           }
   }
 
-  /// A part that every iteration changes by a + b * iterations: the sum of an arithmetic series.
-  void secondOrder(std::size_t part) {
+  /// Parts that every iteration changes by the same polynomial of the number of iterations before it.  What is found
+  /// of one part may show the change of another.
+  void series() {
+    const std::size_t rounds = trial_.search == InvariantSearch::Wide ? numbers_.size() : 1;
+    std::set<std::size_t> known;
+    for (std::size_t round = 0; round < rounds; ++round) {
+      const std::size_t before = known.size();
+      for (const std::size_t number : numbers_)
+        if (!known.contains(number) && seriesOf(number))
+          known.insert(number);
+      if (known.size() == before)
+        return;
+    }
+  }
+
+  bool seriesOf(std::size_t part) {
     std::optional<TermId> by;
     for (std::size_t iteration = 0; iteration < trial_.left.size(); ++iteration) {
       if (by && *by != change(iteration, part))
-        return;
+        return false;
       by = change(iteration, part);
     }
     if (!by)
-      return;
-    smt::Substitution spelled, first{{trial_.iterations, zero_}}, second{{trial_.iterations, store_.number(Number(1))}};
-    for (const Travel &travel : trial_.shape.travels) {
-      spelled.emplace(travel.distance, store_.multiply(trial_.iterations, travel.step));
-      first.emplace(travel.distance, zero_);
-      second.emplace(travel.distance, travel.step);
+      return false;
+    const auto differences = differencesOf(*by);
+    if (!differences)
+      return false;
+    const TermId sum = store_.add(parts()[part].arrival, summed(*differences));
+    offer(store_.equal(parts()[part].symbol, sum));
+    const auto &variables = smt::variablesOf(store_, sum);
+    const bool isClosed = std::ranges::none_of(numbers_, [&](std::size_t number) {
+      return std::ranges::find(variables, parts()[number].symbol) != variables.end();
+    });
+    if (trial_.search == InvariantSearch::Wide && isClosed)
+      closedForms_.emplace(parts()[part].symbol, sum);
+    return true;
+  }
+
+  /// The forward differences at 0 of a polynomial of the number of iterations, without the zeros behind the last
+  /// (Newton).  Absent: it is none, or of too high a degree.
+  std::optional<std::vector<TermId>> differencesOf(TermId by) {
+    constexpr std::size_t kChecked = 2; // differences that have to be 0 beyond the degree
+    const std::size_t degree = trial_.search == InvariantSearch::Wide ? 5 : 1;
+    const TermId shown = smt::substitute(store_, by, closedForms_);
+    std::vector<TermId> values;
+    for (std::size_t at = 0; at <= degree + kChecked; ++at) {
+      const Number n(static_cast<std::int64_t>(at));
+      smt::Substitution now{{trial_.iterations, store_.number(n)}};
+      for (const Travel &travel : trial_.shape.travels)
+        now.emplace(travel.distance, store_.scale(n, travel.step));
+      values.push_back(smt::substitute(store_, shown, now));
     }
-    const TermId a = smt::substitute(store_, *by, first);
-    const TermId b = store_.subtract(smt::substitute(store_, *by, second), a);
-    if (smt::substitute(store_, *by, spelled) != store_.add(a, store_.multiply(b, trial_.iterations)))
-      return;
-    const TermId pairs =
-        store_.scale(Number(1) / Number(2),
-                     store_.subtract(store_.multiply(trial_.iterations, trial_.iterations), trial_.iterations));
-    offer(store_.equal(parts()[part].symbol,
-                       store_.add(parts()[part].arrival,
-                                  store_.add(store_.multiply(a, trial_.iterations), store_.multiply(b, pairs)))));
+    std::vector<TermId> differences;
+    while (!values.empty()) {
+      differences.push_back(values.front());
+      for (std::size_t at = 0; at + 1 < values.size(); ++at)
+        values[at] = store_.subtract(values[at + 1], values[at]);
+      values.pop_back();
+    }
+    if (std::any_of(differences.end() - kChecked, differences.end(), [&](TermId term) { return term != zero_; }))
+      return std::nullopt;
+    while (!differences.empty() && differences.back() == zero_)
+      differences.pop_back();
+    return differences;
+  }
+
+  /// The sum of the first `iterations` values: each difference times iterations over (its order + 1).
+  TermId summed(const std::vector<TermId> &differences) {
+    std::vector<Number> binomial{Number(1)}; // by power of the number of iterations
+    TermId sum = zero_;
+    for (std::size_t order = 0; order < differences.size(); ++order) {
+      std::vector<Number> next(binomial.size() + 1);
+      const Number k(static_cast<std::int64_t>(order));
+      for (std::size_t power = 0; power < binomial.size(); ++power) { // times (iterations - k) / (k + 1)
+        next[power + 1] += binomial[power] / (k + Number(1));
+        next[power] -= k * binomial[power] / (k + Number(1));
+      }
+      binomial = std::move(next);
+      sum = store_.add(sum, store_.multiply(differences[order], inPowers(binomial)));
+    }
+    return sum;
+  }
+  TermId inPowers(const std::vector<Number> &factors) {
+    TermId sum = zero_;
+    TermId power = store_.number(Number(1));
+    for (const Number &factor : factors) {
+      sum = store_.add(sum, store_.scale(factor, power));
+      power = store_.multiply(power, trial_.iterations);
+    }
+    return sum;
   }
 
   /// What held of a variable at the arrival may hold of what becomes of it.
@@ -218,6 +282,7 @@ private:
   TermId zero_;
   std::vector<std::size_t> flags_;   // parts that are free: Bools
   std::vector<std::size_t> numbers_; // and numbers
+  smt::Substitution closedForms_;    // of parts, over the number of iterations
   std::vector<TermId> all_;
 };
 

@@ -2,6 +2,7 @@
 // guess costs time and nothing else: loops.h keeps those that are proved.
 #pragma once
 
+#include "proof/explore/exploration.h"
 #include "proof/explore/loops.h"
 
 namespace feedhold::prove {
@@ -14,6 +15,7 @@ struct LoopTrial {
   std::vector<smt::TermId> arrival;                  // conditions of the path that met the loop
   std::vector<smt::TermId> conditions;               // of all iterations
   Arithmetic arithmetic = Arithmetic::Exact;
+  InvariantSearch search = InvariantSearch::Usual;
 };
 
 /// Each once, in ascending order.

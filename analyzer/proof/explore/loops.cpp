@@ -2,7 +2,7 @@
 
 #include "proof/decide/entails.h"
 #include "proof/explore/explorer.h"
-#include "proof/explore/invariant_candidates.h"
+#include "proof/explore/loop_work.h"
 #include "proof/symbolic/path_memory.h"
 
 #include <algorithm>
@@ -18,7 +18,6 @@ using smt::TermKind;
 
 namespace {
 
-constexpr int kMostRounds = 12;
 /// By how much an iteration may be off, in powers of two: sums of some millimetres, .. of what is typed with 8 digits;
 /// and half the least increment, for words.
 constexpr std::array kErrors = {-44, -24, -10};
@@ -122,21 +121,6 @@ void LoopSummarizer::addErrorsBehind(const LoopPart &part, TermId left, smt::Sub
   next.emplace(part.error->now, store.add(part.error->now, added));
   next.emplace(part.error->before, part.error->now);
 }
-
-struct LoopSummarizer::Work {
-  Path arrival;
-  std::size_t instance;
-  TermId iterations;
-  LoopShape shape = {};
-  TermId moved{0};
-  std::vector<TermId> facts = {};
-  std::size_t before = 0; // conditions of the last trial's start
-  std::vector<Path> found = {};
-  std::vector<std::vector<TermId>> left = {}; // by iteration: its parts
-
-  std::vector<LoopPart> &parts() { return shape.parts; }
-  const std::vector<LoopPart> &parts() const { return shape.parts; }
-};
 
 // ---- errors ----
 
@@ -290,7 +274,7 @@ bool LoopSummarizer::relayout(Work &work, bool &grew) {
 
 bool LoopSummarizer::findChanged(Work &work) {
   work.parts().clear();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostLoopRounds; ++round) {
     if (work.parts().empty())
       for (const TermId part : termsOf(work.arrival.state, work.arrival.moved))
         work.parts().push_back({PartKind::Kept, part, part, part, part});
@@ -393,7 +377,7 @@ bool LoopSummarizer::verify(Work &work) {
 bool LoopSummarizer::findKinds(Work &work) {
   classify(work);
   smt::TermStore &store = explorer_.store_;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostLoopRounds; ++round) {
     // Derived parts speak of closed ones: when one of those has become free, so do they.
     for (LoopPart &part : work.parts())
       if (part.kind == PartKind::Derived)
@@ -421,106 +405,6 @@ bool LoopSummarizer::findKinds(Work &work) {
   }
   explorer_.giveUp("what a loop changes is unknown: it could not be summarised");
   return false;
-}
-
-// ---- invariants ----
-
-/// Before the first iteration, or some iteration has come before: what let it come back to the head held then.
-void LoopSummarizer::addLastIteration(Work &work) {
-  smt::TermStore &store = explorer_.store_;
-  const smt::Substitution earlier = atIteration(work, -1);
-  std::vector<TermId> cases{store.equal(work.iterations, store.number(Number(0)))};
-  for (const Path &iteration : work.found) {
-    std::vector<TermId> held{store.lessOrEqual(store.number(Number(1)), work.iterations)};
-    for (std::size_t i = work.before; i < iteration.conditions.size(); ++i) {
-      const auto variables = smt::variablesOf(store, iteration.conditions[i]);
-      if (std::all_of(variables.begin(), variables.end(),
-                      [&](TermId variable) { return earlier.contains(variable) || isConstant(work, variable); }))
-        held.push_back(smt::substitute(store, iteration.conditions[i], earlier));
-    }
-    cases.push_back(store.logicalAnd(held));
-  }
-  work.facts.push_back(store.logicalOr(cases));
-}
-
-std::vector<TermId> LoopSummarizer::candidates(const Work &work) const {
-  LoopTrial trial{work.iterations,         work.shape, work.left,
-                  work.arrival.conditions, {},         explorer_.interpretation_.arithmetic()};
-  for (const Path &iteration : work.found)
-    trial.conditions.insert(trial.conditions.end(),
-                            iteration.conditions.begin() + static_cast<std::ptrdiff_t>(work.before),
-                            iteration.conditions.end());
-  std::vector<TermId> all = invariantCandidates(explorer_.store_, trial);
-  if (explorer_.options_.invariants)
-    for (const TermId hint : explorer_.options_.invariants(work.arrival.at, work.shape.state))
-      all.push_back(hint);
-  return all;
-}
-
-smt::Substitution LoopSummarizer::atArrival(const Work &work) const {
-  const TermId zero = explorer_.store_.number(Number(0));
-  smt::Substitution first{{work.iterations, zero}};
-  for (const Travel &travel : work.shape.travels)
-    first.emplace(travel.distance, zero);
-  for (const LoopPart &part : work.parts())
-    if (part.kind == PartKind::Free)
-      first.emplace(part.symbol, part.arrival);
-    else if (part.error)
-      first.emplace(part.error->now, zero);
-  return first;
-}
-
-bool LoopSummarizer::holdsAtArrival(const Work &work, TermId candidate) {
-  smt::TermStore &store = explorer_.store_;
-  const smt::Substitution first = atArrival(work);
-  return explorer_.entails_(explorer_.interpretation_.facts(), work.arrival.conditions,
-                            smt::substitute(store, candidate, first));
-}
-
-bool LoopSummarizer::holdsAfter(const Work &work, const Path &iteration, TermId candidate) {
-  smt::TermStore &store = explorer_.store_;
-  smt::Substitution next = atIteration(work, 1);
-  const auto &left = work.left[static_cast<std::size_t>(&iteration - work.found.data())];
-  for (std::size_t i = 0; i < work.parts().size(); ++i)
-    if (const LoopPart &part = work.parts()[i]; part.kind == PartKind::Free)
-      next.emplace(part.symbol, left[i]);
-    else if (part.kind == PartKind::Closed && part.error)
-      addErrorsBehind(part, left[i], next);
-  return explorer_.entails_(explorer_.interpretation_.facts(), iteration.conditions,
-                            smt::substitute(store, candidate, next));
-}
-
-/// Houdini: candidates that do not hold are dropped until all that are left hold together.
-void LoopSummarizer::addInvariants(Work &work) {
-  const std::vector<TermId> always = work.facts;
-  std::vector<TermId> left = candidates(work);
-  const smt::Substitution counted = atIteration(work, 1);
-  std::erase_if(left, [&](TermId candidate) {
-    const auto variables = smt::variablesOf(explorer_.store_, candidate);
-    const auto changes = [&](TermId variable) {
-      return counted.contains(variable) ||
-             std::any_of(work.parts().begin(), work.parts().end(),
-                         [&](const LoopPart &part) { return part.kind == PartKind::Free && part.symbol == variable; });
-    };
-    return std::none_of(variables.begin(), variables.end(), changes) ||
-           !std::all_of(variables.begin(), variables.end(),
-                        [&](TermId variable) { return changes(variable) || isConstant(work, variable); }) ||
-           !holdsAtArrival(work, candidate);
-  });
-  for (int round = 0; round < kMostRounds && !left.empty(); ++round) {
-    work.facts = always;
-    work.facts.insert(work.facts.end(), left.begin(), left.end());
-    bool grew = false;
-    if (!tryIterations(work) || !relayout(work, grew) || grew)
-      break;
-    const auto dropped = std::erase_if(left, [&](TermId candidate) {
-      return !std::all_of(work.found.begin(), work.found.end(),
-                          [&](const Path &iteration) { return holdsAfter(work, iteration, candidate); });
-    });
-    if (dropped == 0)
-      return;
-  }
-  work.facts = always;
 }
 
 // ---- LoopSummarizer ----

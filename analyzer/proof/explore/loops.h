@@ -69,10 +69,15 @@ private:
   void classify(Work &work);
   bool verify(Work &work);
   void addInvariants(Work &work);
+  bool changesInLoop(const Work &work, smt::TermId candidate) const;
+  std::vector<smt::TermId> thoseThatHold(Work &work, const std::vector<smt::TermId> &known,
+                                         std::vector<smt::TermId> candidates);
+  bool holdsAfterFirst(const Work &work, smt::TermId candidate);
   void addLastIteration(Work &work);
   std::vector<smt::TermId> candidates(const Work &work) const;
   bool holdsAtArrival(const Work &work, smt::TermId candidate);
-  bool holdsAfter(const Work &work, const Path &iteration, smt::TermId candidate);
+  bool holdsAfter(const Work &work, const Path &iteration, smt::TermId candidate,
+                  const std::vector<smt::TermId> &also = {});
 
   bool tryIterations(Work &work);
   void build(Work &work);

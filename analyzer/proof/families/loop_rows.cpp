@@ -135,6 +135,8 @@ Obligation rowOfLoop(const ProofContext &context, const std::shared_ptr<const Wt
   }
   Obligation row =
       context.subject.obligation(ObligationKind::LoopEnds, place, context.subject.spanOf(place), "this loop ends");
+  if (const Obligation *known = context.decidedAs(row))
+    return *known;
   settleLoop(context, row, within, unlessAwaited(context, staysInside(wto, place)));
   if (verdict::Proved *proved = row.verdict.proved())
     explainEnd(context, *proved, instances);
@@ -183,6 +185,8 @@ std::optional<Obligation> programEndRow(const ProofContext &context) {
     instances.push_back(&loop);
   Obligation row = subject.obligation(ObligationKind::ProgramEnds, "the program comes to an end");
   row.id = fmt::format("{}.program-ends", subject.name());
+  if (const Obligation *known = context.decidedAs(row))
+    return *known;
   settleLoop(context, row, instances, unlessAwaited(context, comesBack));
   if (const auto *call = context.found.callWithoutReturn(); call && row.verdict.kind() != Verdict::Refuted)
     row.verdict = Verdict::unknown(mayNotReturn(*call), call->own);

@@ -56,6 +56,8 @@ Obligation SpaceProver::row(const SpaceRule &rule, Place own, const Moves &moves
   Obligation row = subject.obligation(rule.kind, own, subject.spanOf(own), subject.textOf(rule.clause));
   if (!rule.name.empty())
     row.id.insert(row.id.rfind('.'), "." + rule.name);
+  if (const Obligation *known = context_.decidedAs(row))
+    return *known;
   const SpaceRuns runs(context_, rule, own);
   row.tolerance = runs.tolerance();
   if (auto decided = decidedBefore(context_, runs.violation()))

@@ -4,6 +4,7 @@
 #include "proof/guards/guard_inference.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/prove/judge.h"
+#include "proof/relations/loop_relations.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
@@ -49,7 +50,10 @@ public:
 
   ProgramProof run() {
     settleStage(*stage_);
+    if (auto guarded = guardedRow(contextOf(*stage_))) // of other calls, which are explored apart
+      stage_->settled.rows.push_back(*std::move(guarded));
     followIterations();
+    searchWidely();
     std::vector<Obligation> &rows = stage_->settled.rows;
     requireSomeCall(rows);
     if (subject_.options.arithmetic == Arithmetic::Exact) {
@@ -77,8 +81,13 @@ public:
 
 private:
   ProofContext contextOf(Stage &stage) {
-    return {{subject_, start_, stage.found}, *witnesses_, promises_, stage.ends, anyCall_ ? &*anyCall_ : nullptr,
-            subject_.options.budget};
+    return {{subject_, start_, stage.found},
+            *witnesses_,
+            promises_,
+            stage.ends,
+            anyCall_ ? &*anyCall_ : nullptr,
+            subject_.options.budget,
+            &stage == stage_.get() ? nullptr : &stage_->settled.rows};
   }
 
   void sampleContract() {
@@ -100,14 +109,16 @@ private:
     settleEnd(context, settled);
     settleAll(context, promiseQuestions(context), settled);
     for (Obligation &row : settled.rows)
-      if (row.kind == ObligationKind::AlarmIff)
+      if (row.kind == ObligationKind::AlarmIff && !context.decidedAs(row))
         requireEnds(context, row);
     settleSpace(context, settled);
-    if (auto guarded = guardedRow(context))
-      settled.rows.push_back(*std::move(guarded));
   }
 
   void followIterations();
+  void searchWidely();
+  Exploration exploreWidely();
+  void settleAgain(Stage &stage, const std::string &method);
+  void goOnWith(std::unique_ptr<Stage> stage);
 
   /// Which missing programs a verdict takes to return: for all runs, or in the run of the witness.
   void nameReturning(std::vector<Obligation> &rows) const {
@@ -156,16 +167,16 @@ bool isOpen(const Obligation &row) { return row.verdict == Verdict::Unknown; }
 
 /// No path stops at the place, and all paths have been followed to their end.  A run that comes to `#3000=` stops
 /// there, so that no run comes to it; one that comes to a block where a control may stop does not always do so.
-Obligation notMet(Obligation row) {
+Obligation notMet(Obligation row, const std::string &method) {
   if (isOpen(row) && row.kind == ObligationKind::AlarmUnreachable)
-    row.verdict = verdict::Unreachable{.method = "loop unrolling"};
+    row.verdict = verdict::Unreachable{.method = method};
   if (isOpen(row) && row.kind == ObligationKind::NoControlAlarm)
-    row.verdict = verdict::Proved{.proof = {.method = "loop unrolling"}};
+    row.verdict = verdict::Proved{.proof = {.method = method}};
   return row;
 }
 
 /// The verdicts on both sides; what was decided before stays.
-void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> &rows) {
+void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> &rows, const std::string &method) {
   for (Obligation &now : rows) {
     const auto known =
         std::find_if(before.begin(), before.end(), [&](const Obligation &old) { return isSameClaim(old, now); });
@@ -174,7 +185,7 @@ void keepDecided(const std::vector<Obligation> &before, std::vector<Obligation> 
   }
   for (const Obligation &old : before)
     if (std::none_of(rows.begin(), rows.end(), [&](const Obligation &now) { return isSameClaim(old, now); }))
-      rows.push_back(notMet(old));
+      rows.push_back(notMet(old, method));
 }
 
 /// Claims that are open after one symbolic iteration stood for all: where all loops have few iterations, they are
@@ -195,10 +206,81 @@ void Work::followIterations() {
   each->found = explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
   if (each->found.incomplete || each->found.callWithoutReturn())
     return;
-  settleStage(*each);
-  keepDecided(before, each->settled.rows);
-  std::ranges::move(stage_->settled.denials, std::back_inserter(each->settled.denials));
-  stage_ = std::move(each);
+  settleAgain(*each, "loop unrolling");
+  goOnWith(std::move(each));
+}
+
+/// Settles what another exploration of all paths has found, and keeps what was decided before it.
+void Work::settleAgain(Stage &stage, const std::string &method) {
+  settleStage(stage);
+  keepDecided(stage_->settled.rows, stage.settled.rows, method);
+}
+
+void Work::goOnWith(std::unique_ptr<Stage> stage) {
+  std::ranges::move(stage_->settled.denials, std::back_inserter(stage->settled.denials));
+  stage_ = std::move(stage);
+}
+
+/// The iterations of a loop change what an open claim speaks of; of some loop nothing but bounds is known.
+bool mayDependOnLoops(const smt::TermStore &store, const Exploration &found, const SettledRows &settled) {
+  std::set<smt::TermId> changed;
+  for (const LoopInstance &loop : found.loops)
+    if (loop.isRecorded && !loop.variables.empty()) {
+      changed.insert(loop.variables.begin(), loop.variables.end());
+      changed.insert(loop.iterations);
+    }
+  const auto speaksOfLoops = [&](smt::TermId term) {
+    return std::ranges::any_of(smt::variablesOf(store, term),
+                               [&](smt::TermId variable) { return changed.contains(variable); });
+  };
+  const auto isOfLoops = [&](const PathGoal &goal) {
+    return speaksOfLoops(goal.goal) || (goal.stops && speaksOfLoops(*goal.stops)) ||
+           std::ranges::any_of(*goal.conditions, speaksOfLoops);
+  };
+  return !changed.empty() && (std::ranges::any_of(settled.rows,
+                                                  [](const Obligation &row) {
+                                                    return isOpen(row) && (row.kind == ObligationKind::LoopEnds ||
+                                                                           row.kind == ObligationKind::ProgramEnds);
+                                                  }) ||
+                              std::ranges::any_of(settled.open, [&](const Question &question) {
+                                return isOpen(question.row) && std::ranges::any_of(question.goals, isOfLoops);
+                              }));
+}
+
+/// Claims that are still open: the program is explored once more, with relations that runs and these claims suggest as
+/// invariants of its loops, and with more guesses of its own.  What that finds is used where it decides a claim.
+void Work::searchWidely() {
+  constexpr std::uint64_t kMostWork = 1'500'000;   // of a program that is explored twice
+  constexpr std::uint64_t kMostSteps = 40'000'000; // about 0.4 seconds; guards are searched for with what is left
+  const Exploration &found = stage_->found;
+  const bool isOneSymbolicIteration = found.treatment == LoopTreatment::AnyIteration && !found.incomplete;
+  if (!isOneSymbolicIteration || found.work > kMostWork || found.callWithoutReturn() ||
+      !mayDependOnLoops(start_.store(), found, stage_->settled))
+    return;
+  const smt::Steps share(std::min(kMostSteps, smt::stepsLeft() / 4), smt::Steps::AtEnd::GoOn);
+  auto wide = std::make_unique<Stage>();
+  wide->found = exploreWidely();
+  if (wide->found.incomplete || wide->found.callWithoutReturn())
+    return;
+  settleAgain(*wide, "loop invariants");
+  if (std::ranges::count_if(wide->settled.rows, isOpen) < std::ranges::count_if(stage_->settled.rows, isOpen))
+    goOnWith(std::move(wide));
+}
+
+Exploration Work::exploreWidely() {
+  LoopRelations relations;
+  const ProofContext context = contextOf(*stage_);
+  addRelationsOfRuns(context, relations);
+  addRelationsOfGoals(context, stage_->settled.open, relations);
+  ExploreOptions options = start_.exploreOptions(subject_);
+  options.search = InvariantSearch::Wide;
+  options.invariants = [&, before = options.invariants](Place head, const SymbolicState &state) {
+    std::vector<smt::TermId> all = relations.in(start_.store(), head, state);
+    if (before)
+      std::ranges::move(before(head, state), std::back_inserter(all));
+    return all;
+  };
+  return explore(start_.interpretation(), subject_.programs, subject_.program, start_.entry(), options);
 }
 
 bool isByRounding(const Obligation &exact) {

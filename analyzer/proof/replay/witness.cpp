@@ -4,6 +4,7 @@
 #include "proof/smt/steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
@@ -279,20 +280,17 @@ std::set<std::uint32_t> WitnessSearch::inputsRead() const {
   return read;
 }
 
-/// Of inputs that the program reads, in every second sample.
-void WitnessSearch::addReadings(GivenVariables &given) {
-  constexpr std::size_t kMostReadings = 4;
-  if (samples_.size() % 2 == 0)
-    return;
+/// Of inputs that the program reads: at most so many of each.
+void WitnessSearch::addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const {
   const std::vector<double> pool = plainNumbers();
   for (const std::uint32_t variable : inputsRead()) {
     const VariableRange *range = findVariable(*programs_.file(entry_.file).dialect, variable);
     if (!range)
       continue;
-    std::vector<double> script(1 + readings_() % kMostReadings);
+    std::vector<double> script(1 + random() % most);
     for (double &reading : script)
-      reading = range->role == VariableRole::Signal ? static_cast<double>(readings_() % 2)
-                                                    : std::fabs(pool[readings_() % pool.size()]);
+      reading = range->role == VariableRole::Signal ? static_cast<double>(random() % 2)
+                                                    : std::fabs(pool[random() % pool.size()]);
     if (range->role == VariableRole::Clock)
       std::ranges::sort(script);
     if (!mayRead(*range, script))
@@ -301,8 +299,28 @@ void WitnessSearch::addReadings(GivenVariables &given) {
   }
 }
 
+std::vector<GivenVariables> WitnessSearch::smallInputs() const {
+  constexpr std::size_t kMostInputs = 40;
+  constexpr int kTries = 120;
+  constexpr std::size_t kMostReadings = 16;
+  constexpr std::array<unsigned, 3> kSizes = {4, 12, 30};
+  std::vector<GivenVariables> found;
+  std::mt19937 random(1);
+  for (int i = 0; i < kTries && found.size() < kMostInputs && smt::stepsLeft() > 0; ++i) {
+    GivenVariables given = inputsOf(others_);
+    for (const std::uint32_t variable : inputs())
+      given.set(variable, ConcreteValue::of(static_cast<double>(random() % kSizes[random() % kSizes.size()])));
+    addReadings(given, random, kMostReadings);
+    if (allowed(given))
+      found.push_back(std::move(given));
+  }
+  return found;
+}
+
 void WitnessSearch::keepSample(GivenVariables given) {
-  addReadings(given);
+  constexpr std::size_t kMostReadings = 4;
+  if (samples_.size() % 2 != 0)
+    addReadings(given, readings_, kMostReadings);
   if (smt::areStepsUsedUp() || !allowed(given))
     return;
   throwIfCancelled();

@@ -63,6 +63,8 @@ public:
   void sampleEnds(const std::vector<InputEnds> &ends);
   /// On numbers with a few digits behind the point, which the control rounds; between the ends where these are known.
   void sampleDecimals(const std::vector<InputEnds> &ends);
+  /// Inputs that are allowed, of small whole numbers: runs on them show how loops go on.
+  std::vector<GivenVariables> smallInputs() const;
   /// Among the sampled runs, the one nearest to a call that a shop makes.
   std::optional<Witness> amongSamples(const Violation &violation) const;
   /// Among those of sampleDecimals(), of which more are followed exactly than amongSamples() does.
@@ -107,7 +109,7 @@ private:
   /// A run that passes over what may change anything shows nothing: it is one of many.
   static std::optional<std::string> broken(const Sample &run, const Violation &violation);
   bool isAllowed(const GivenVariables &given) const;
-  void addReadings(GivenVariables &given);
+  void addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const;
   void keepSample(GivenVariables given);
   /// Absent: there is none, or none that is a number.
   std::optional<double> endIn(const GivenVariables &given, const std::optional<smt::TermId> &end) const;

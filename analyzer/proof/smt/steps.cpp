@@ -1,6 +1,7 @@
 #include "proof/smt/steps.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace feedhold::smt {
 namespace {
@@ -34,5 +35,9 @@ void spend(std::uint64_t steps) {
 }
 
 bool areStepsUsedUp() { return outermost && outermost->areUsedUp(); }
+
+std::uint64_t stepsLeft() {
+  return innermost ? innermost->most_ - innermost->spent_ : std::numeric_limits<std::uint64_t>::max();
+}
 
 } // namespace feedhold::smt

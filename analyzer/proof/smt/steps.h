@@ -32,6 +32,7 @@ public:
 
 private:
   friend void spend(std::uint64_t);
+  friend std::uint64_t stepsLeft();
   void take(std::uint64_t steps) { spent_ = steps < most_ - spent_ ? spent_ + steps : most_; }
 
   Steps *outer_;
@@ -45,6 +46,9 @@ void spend(std::uint64_t steps);
 
 /// The scope of this thread that is farthest out has none left.
 bool areStepsUsedUp();
+
+/// What the innermost scope of this thread has left; without one: as many as there are.
+std::uint64_t stepsLeft();
 
 /// What an engine gives within so many steps; absent when it needs more.
 template <typename Engine> std::optional<std::invoke_result_t<Engine>> within(std::uint64_t most, Engine &&engine) {
