@@ -158,8 +158,8 @@ void settleLoops(const ProofContext &context, SettledRows &into) {
       continue;
     const Place place{context.subject.program.file, head};
     into.rows.push_back(rowOfLoop(context, wto, place));
-    into.denials.push_back({into.rows.back(), [wto, place](const ProofContext &run) {
-                              return unlessAwaited(run, staysInside(wto, place));
+    into.denials.push_back({into.rows.back(), [stays = staysInside(wto, place)](const ProofContext &run) {
+                              return unlessAwaited(run, stays);
                             }});
   }
 }
