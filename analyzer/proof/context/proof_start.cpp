@@ -160,6 +160,7 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   const bool isExact = interpretation_.arithmetic() == Arithmetic::Exact;
   options.demands = [&subject, isExact](const Callee &callee) { return !isExact || subject.contractsOf(callee); };
   const Contract *contract = subject.contract();
+  options.leavesSteps = !contract; // there are few of them without one
   if (!contract)
     return options;
   options.keepWrites = !contract->assigns.empty();

@@ -199,6 +199,8 @@ struct ExploreOptions {
   bool mayBeCalled = true;
   KeepMoves moves = KeepMoves::No;
   bool keepWrites = false;
+  /// Some of the steps are left for the claims, and for runs that refute them, if there are too many paths.
+  bool leavesSteps = false;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 6'000'000;

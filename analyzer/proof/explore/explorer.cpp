@@ -557,13 +557,20 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
   first.mostPaths /= 4;
   first.mostWork /= 2;
   first.mostTerms /= 2;
-  Exploration found = Explorer(interpretation, programs, first, PathMerging::No).run(entry, start);
+  const std::uint64_t left = smt::stepsLeft();
+  const auto explored = [&](const ExploreOptions &limits, PathMerging merging, std::uint64_t steps) {
+    std::optional<smt::Steps> share;
+    if (options.leavesSteps)
+      share.emplace(steps, smt::Steps::AtEnd::GoOn);
+    return Explorer(interpretation, programs, limits, merging).run(entry, start);
+  };
+  Exploration found = explored(first, PathMerging::No, left / 5);
   if (!found.isTooLarge)
     return found;
-  Exploration merged = Explorer(interpretation, programs, options, PathMerging::Yes).run(entry, start);
+  Exploration merged = explored(options, PathMerging::Yes, left / 4);
   if (!merged.isTooLarge)
     return merged;
-  return Explorer(interpretation, programs, options, PathMerging::Forget).run(entry, start);
+  return explored(options, PathMerging::Forget, left / 4);
 }
 
 } // namespace
