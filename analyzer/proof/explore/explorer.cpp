@@ -557,6 +557,7 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
   first.mostPaths /= 4;
   first.mostWork /= 2;
   first.mostTerms /= 2;
+  // Shares that add up to less than all: the claims are asked, and runs are made, with what remains.
   const std::uint64_t left = smt::stepsLeft();
   const auto explored = [&](const ExploreOptions &limits, PathMerging merging, std::uint64_t steps) {
     std::optional<smt::Steps> share;
