@@ -64,6 +64,26 @@ bool readsLiveValue(const FileContext &context, ExpressionId root) {
   });
 }
 
+std::vector<SumTerm> termsOf(const SyntaxTree &tree, ExpressionId root) {
+  std::vector<SumTerm> terms;
+  std::vector<SumTerm> open{{root, false}};
+  while (!open.empty()) {
+    const SumTerm term{unwrapped(tree, open.back().value), open.back().isMinus};
+    open.pop_back();
+    const auto *operation = as<BinaryOperation>(tree, term.value);
+    const auto *negation = as<Negation>(tree, term.value);
+    if (operation && (operation->op == OperatorKind::Add || operation->op == OperatorKind::Subtract)) {
+      open.push_back({operation->right, term.isMinus != (operation->op == OperatorKind::Subtract)});
+      open.push_back({operation->left, term.isMinus});
+    } else if (negation) {
+      open.push_back({negation->operand, !term.isMinus});
+    } else {
+      terms.push_back(term);
+    }
+  }
+  return terms;
+}
+
 bool sameText(const FileContext &context, Span left, Span right) {
   const std::string_view a = context.text(left);
   const std::string_view b = context.text(right);

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace feedhold::rules {
 
@@ -32,6 +33,14 @@ bool isConstant(const SyntaxTree &tree, ExpressionId root);
 
 /// Some variable below `root` is a system variable, or computed, and may change from one block to the next.
 bool readsLiveValue(const FileContext &context, ExpressionId root);
+
+/// A part of a sum, and whether it is subtracted.
+struct SumTerm {
+  ExpressionId value;
+  bool isMinus;
+};
+/// `#1-[#2+3]`: #1, -#2, -3; of what is no sum, itself.
+std::vector<SumTerm> termsOf(const SyntaxTree &tree, ExpressionId root);
 
 /// Both texts are the same to the control: blanks and letter case do not count.
 bool sameText(const FileContext &context, Span left, Span right);

@@ -1,0 +1,65 @@
+// compensation-on-arc: `G41 D1 G02 X10. Y0. R5.`.
+#include "findings/rule/rule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace feedhold::rules::compensation_on_arc {
+namespace {
+
+const Word *codeWith(const FileContext &context, BlockId block, std::initializer_list<CodeAction> actions) {
+  for (const Word &word : context.tree.wordsOf(block))
+    if (const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
+        code && std::ranges::find(actions, code->action) != actions.end())
+      return &word;
+  return nullptr;
+}
+
+/// By the text of the program: the compensation is in force.  Absent: nothing before the block says so.
+std::optional<bool> stateBefore(const FileContext &context, BlockId block) {
+  const BlockId first = context.model.programs[context.model.programOf(block)].first;
+  for (std::uint32_t i = block.index(); i-- > first.index();) {
+    const BlockId each(i);
+    if (codeWith(context, each, {CodeAction::CompensationLeft, CodeAction::CompensationRight}))
+      return true;
+    if (codeWith(context, each, {CodeAction::CompensationOff}))
+      return false;
+  }
+  return std::nullopt;
+}
+
+void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Code *code = codeOf(word, context.dialect);
+  const bool isArc =
+      code && (code->action == CodeAction::ArcClockwise || code->action == CodeAction::ArcCounterclockwise);
+  if (!isArc || context.dialect.grammar.oWords)
+    return; // where subroutines are o-words, an arc may begin the compensation
+  const Word *start = codeWith(context, block, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+  const Word *end = codeWith(context, block, {CodeAction::CompensationOff});
+  const Word *switching = start ? start : end;
+  if (!switching || meansOwnWords(context.tree, block, context.dialect))
+    return;
+  // G41 again where it is in force, or G40 where nothing is, changes nothing.  A caller may have left it in any state.
+  const auto known = stateBefore(context, block);
+  if (!known || *known == (start != nullptr))
+    return;
+  reporter.report({.message = fmt::format("{} {} in a block with an arc", context.quoted(switching->span()),
+                                          start ? "begins" : "ends"),
+                   .span = switching->span(),
+                   .labels = {{word.span(), "the arc"}},
+                   .notes = {"the control stops with an alarm: it needs a straight move for the compensation to take "
+                             "effect and to end",
+                             start ? "write it in a G00 or G01 block before the arc"
+                                   : "write it in a G00 or G01 block behind the arc"}});
+}
+
+} // namespace
+
+extern const Rule compensationOnArc;
+const Rule compensationOnArc{.info = {"compensation-on-arc", Category::Motion, Severity::Warning,
+                                      "Reports `G41`, `G42` or `G40` in the block of a `G02` or `G03`."},
+                             .hooks = {.word = check, .wordAddresses = "G"}};
+
+} // namespace feedhold::rules::compensation_on_arc

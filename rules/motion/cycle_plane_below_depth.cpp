@@ -1,0 +1,69 @@
+// cycle-plane-below-depth: `G81 Z-5. R-10.`.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace feedhold::rules::cycle_plane_below_depth {
+namespace {
+
+constexpr std::initializer_list<CodeAction> kCycles = {
+    CodeAction::CycleDrill,     CodeAction::CycleDwell,   CodeAction::CyclePeck, CodeAction::CycleChipBreak,
+    CodeAction::CycleTap,       CodeAction::CycleTapLeft, CodeAction::CycleBore, CodeAction::CycleBoreStop,
+    CodeAction::CycleBoreDwell, CodeAction::CycleFineBore};
+
+class CyclePlaneBelowDepth final : public FlowRule {
+public:
+  CyclePlaneBelowDepth(ProgramId program, const FileContext &context)
+      : view_(program, context), asked_(context.dialect.machine == MachineKind::Milling) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!asked_ || !view_.findAction(node, kCycles) ||
+        view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}) ||
+        !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}))
+      return;
+    const Word *plane = find(node, 'R');
+    const Word *depth = find(node, 'Z');
+    if (plane && depth && plane->number() <= depth->number())
+      found_.emplace(node, std::pair{plane, depth});
+  }
+
+  void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, words] : found_) {
+      const auto &[plane, depth] = words;
+      reporter.report({.message = fmt::format("{} is not above the depth {}", context.quoted(plane->span()),
+                                              context.quoted(depth->span())),
+                       .span = plane->span(),
+                       .labels = {{depth->span(), "the depth"}},
+                       .notes = {"the tool goes to R at rapid, so into the part, and feeds away from it",
+                                 "correct the sign or the value of R or Z"}});
+    }
+  }
+
+private:
+  /// A number that the node executes.
+  const Word *find(NodeId node, char address) const {
+    for (const Word *word : view_.wordsOf(node))
+      if (word->address() == address && word->isNumber())
+        return word;
+    return nullptr;
+  }
+
+  MotionView view_;
+  bool asked_;
+  std::map<NodeId, std::pair<const Word *, const Word *>> found_; // R, Z
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<CyclePlaneBelowDepth>(program, context);
+}
+
+} // namespace
+
+extern const Rule cyclePlaneBelowDepth;
+const Rule cyclePlaneBelowDepth{.info = {"cycle-plane-below-depth", Category::Motion, Severity::Warning,
+                                         "Reports a drilling cycle whose `R` is not above its depth."},
+                                .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules::cycle_plane_below_depth
