@@ -22,11 +22,10 @@ std::optional<VoidReason> voidReason(const FlowFacts &facts, const FileContext &
 }
 
 void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter, NodeId node,
-            ExpressionId condition, Truth truth, std::optional<VoidReason> reason) {
+            ExpressionId condition, Truth truth, std::optional<VoidReason> reason, std::string_view effect) {
   const Span span = context.tree.expressions[condition].span;
   Diagnostic diagnostic{.message = fmt::format("{} {} here{}", context.quoted(span),
-                                               truth == Truth::True ? "is always true" : "is never true",
-                                               reason ? ": this check cannot raise its alarm" : ""),
+                                               truth == Truth::True ? "is always true" : "is never true", effect),
                         .span = span,
                         .flow = pathFromEntry(facts, node)};
   if (reason) {
@@ -53,11 +52,17 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const auto statements = context.tree.statementsOf(block);
     const bool isWhile =
         std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
-    const auto reason = isWhile ? std::nullopt : voidReason(facts, context, node, *test->condition, *truth);
+    auto reason = isWhile ? std::nullopt : voidReason(facts, context, node, *test->condition, *truth);
     const bool toBeSure =
         isAskedToBeSure(facts, *test->condition, block) && !(reason && asksVacancy(context, *test->condition));
-    if (!isWhile && !toBeSure)
-      report(facts, context, reporter, node, *test->condition, *truth, reason);
+    if (isWhile || toBeSure)
+      continue;
+    if (reason) // an alarm
+      report(facts, context, reporter, node, *test->condition, *truth, reason, ": this check cannot raise its alarm");
+    else if (reason = whatNeverRuns(facts, context, node, *test->condition, *truth); reason)
+      report(facts, context, reporter, node, *test->condition, *truth, reason, ": blocks behind it never run");
+    else
+      report(facts, context, reporter, node, *test->condition, *truth, reason, "");
   }
 }
 

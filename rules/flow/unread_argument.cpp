@@ -47,11 +47,12 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   if (!isTransparent(file, callee->program))
     return;
   const Program &program = file.model->programs[callee->program];
+  const Contract *contract = context.contractOf(*callee);
   for (const Argument &argument : call.arguments) {
     const Word &word = context.tree.words[argument.word];
     const bool passesNothing = word.form() == WordForm::Expression && isVacant(context, word.expression());
     if (argument.role != ArgumentRole::Passed || argument.variable == 0 || passesNothing ||
-        reads(file, callee->program, argument.variable))
+        reads(file, callee->program, argument.variable) || (contract && contract->param(argument.variable)))
       continue;
     reporter.report({.message = fmt::format("{} never reads `#{}`: {} has no effect", toString(program.name),
                                             argument.variable, context.quoted(word.span())),
@@ -66,7 +67,7 @@ void asksForPrograms(const FlowFacts &, const FileContext &, const Reporter &) {
 } // namespace
 
 extern const Rule unreadArgument;
-const Rule unreadArgument{.info = {"unread-argument", Category::Flow, Severity::Info,
+const Rule unreadArgument{.info = {"unread-argument", Category::Flow, Severity::Warning,
                                    "Reports an argument of a macro call that the macro never reads."},
                           .hooks = {.call = check, .flow = asksForPrograms}};
 

@@ -29,7 +29,35 @@ public:
     return alarmWithoutCase();
   }
 
+  std::optional<VoidReason> deadBlocks(Truth truth) const {
+    const auto jumps = context_.model.jumpsIn(block(), block().next());
+    if (jumps.size() != 1 || jumps.front().kind != JumpKind::Goto || holdsConstant())
+      return std::nullopt;
+    const auto dead = truth == Truth::True ? std::optional(blockNext()) : blockBehind(facts_, jumps.front());
+    if (!dead || reachedNode(facts_, *dead))
+      return std::nullopt;
+    return VoidReason{isAskedBefore() ? "the checks before it leave no case to these blocks: change their order, or "
+                                        "correct the limit"
+                                      : "what is computed before it leaves no other outcome: check the limit",
+                      Label{tree_.blocks[*dead].span(), "never executed"}};
+  }
+
 private:
+  /// Some variable of the condition has one value only: a setting decides.
+  bool holdsConstant() const {
+    const auto reads = readsIn(facts_.file, condition_, block());
+    return std::ranges::any_of(reads, [&](const Read &read) {
+      const AbstractValue *value = facts_.valueOf(read.expression);
+      const bool isVacantConstant = read.number == kVacantVariable;
+      return !isVacantConstant && (!value || (value->isNumber() && value->number().isConstant()));
+    });
+  }
+  BlockId blockNext() const {
+    NodeId node = facts_.node(test_).next;
+    while (isLoneNumber(facts_, node))
+      node = node.next();
+    return facts_.node(node).block;
+  }
   static bool isEquality(OperatorKind op) { return op == OperatorKind::Equal || op == OperatorKind::NotEqual; }
 
   /// `#101=#3*2`, then `IF[#101EQ#0]`: an operation or a function always gives a number.
@@ -141,6 +169,11 @@ private:
 std::optional<VoidReason> whyVoid(const FlowFacts &facts, const FileContext &context, NodeId test,
                                   ExpressionId condition) {
   return isTooLarge(facts) ? std::nullopt : VoidCheck(facts, context, test, condition).reason();
+}
+
+std::optional<VoidReason> whatNeverRuns(const FlowFacts &facts, const FileContext &context, NodeId test,
+                                        ExpressionId condition, Truth truth) {
+  return isTooLarge(facts) ? std::nullopt : VoidCheck(facts, context, test, condition).deadBlocks(truth);
 }
 
 } // namespace feedhold::rules

@@ -18,4 +18,9 @@ struct VoidReason {
 std::optional<VoidReason> whyVoid(const FlowFacts &facts, const FileContext &context, NodeId test,
                                   ExpressionId condition);
 
+/// Of a decided test with a GOTO: blocks that for its sake no run comes to, where other checks and not the values of a
+/// setting decide it.
+std::optional<VoidReason> whatNeverRuns(const FlowFacts &facts, const FileContext &context, NodeId test,
+                                        ExpressionId condition, Truth truth);
+
 } // namespace feedhold::rules

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
+#include <vector>
 
 namespace feedhold::rules::unreachable_block {
 namespace {
@@ -28,6 +30,12 @@ std::optional<BlockId> firstUnintended(const DeadBlocks::Run &run, const FileCon
   return block <= run.last ? std::optional(block) : std::nullopt;
 }
 
+/// A block behind a label to which no jump leads, and that tells the operator what is wrong.
+struct DeadMessage {
+  BlockId block;
+  bool isAlarm; // else a stop with a remark
+};
+
 /// The block that jumps were to lead to, if it raises an alarm.
 bool isAlarm(BlockId block, const FileContext &context) {
   return std::ranges::any_of(context.model.variablesIn(block, block.next()), [&](const VariableUse &use) {
@@ -35,9 +43,40 @@ bool isAlarm(BlockId block, const FileContext &context) {
   });
 }
 
-void reportAlarm(BlockId block, BlockId ender, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = "this alarm is never raised: no jump leads to it",
-                   .span = context.tree.blocks[block].span(),
+/// `M05`, `M09`, `G04`: what is done before an alarm is told.
+bool preparesAlarm(BlockId block, const FileContext &context) {
+  const auto words = context.tree.wordsOf(block);
+  return context.tree.statementsOf(block).empty() && std::ranges::all_of(words, [&](const Word &word) {
+           return word.address() == 'N' || word.address() == 'M' ||
+                  (word.address() == 'G' && (word.integer() == 4 || word.integer() == 80)) || word.address() == 'X' ||
+                  word.address() == 'P';
+         });
+}
+
+/// `N801`, `M09`, `#3000=1(LOW BATTERY)`; `N910 M01(NO MATERIAL)`.
+std::optional<DeadMessage> messageOf(const DeadBlocks::Run &run, BlockId start, const FileContext &context) {
+  bool hasLabel = false;
+  for (BlockId block = run.ender.next(); block <= run.last; block = block.next()) {
+    hasLabel = hasLabel || findWord(context.tree, block, 'N');
+    if (block < start || !isRead(context.tree.blocks[block]) || !hasContent(context, block))
+      continue;
+    if (!hasLabel)
+      return std::nullopt;
+    if (isAlarm(block, context))
+      return DeadMessage{block, true};
+    const auto comments = context.tree.commentsOf(block);
+    if (findCode(context.tree, block, context.dialect, CodeRole::ProgramStop) && !comments.empty())
+      return DeadMessage{block, false};
+    if (!preparesAlarm(block, context))
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void reportMessage(const DeadMessage &message, BlockId ender, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = message.isAlarm ? "this alarm is never raised: no jump leads to it"
+                                              : "this stop is never reached: no jump leads to it",
+                   .span = context.tree.blocks[message.block].span(),
                    .labels = {{context.tree.blocks[ender].span(), "the program never continues past this block"}},
                    .notes = {"the check that should lead here is missing, or its GOTO names another block"}},
                   Severity::Warning);
@@ -57,7 +96,7 @@ bool callsUnseen(BlockId block, const FileContext &context) {
 /// `G229 T910` and `N910` in the run: the program that is called may return there, by `M99 P#20`.
 bool isNamedToUnseen(const DeadBlocks::Run &run, ProgramId program, const FileContext &context) {
   std::vector<Decimal> numbers;
-  for (BlockId block = run.first; block <= run.last; block = block.next())
+  for (BlockId block = run.ender.next(); block <= run.last; block = block.next())
     if (const Word *number = findWord(context.tree, block, 'N'); number && number->isNumber())
       numbers.push_back(number->number());
   if (numbers.empty())
@@ -72,14 +111,69 @@ bool isNamedToUnseen(const DeadBlocks::Run &run, ProgramId program, const FileCo
   return false;
 }
 
+/// `G5.1 Q1`: a function of the control, and how it is set.
+struct Setting {
+  std::uint16_t code; // in tenths
+  char address;
+  Decimal value;
+};
+
+std::optional<Setting> settingIn(BlockId block, const FileContext &context) {
+  std::vector<const Word *> words;
+  for (const Word &word : context.tree.wordsOf(block))
+    if (word.address() != 'N')
+      words.push_back(&word);
+  if (words.size() != 2 || !words[0]->isCode() || words[0]->address() != 'G' || !words[1]->isNumber() ||
+      (words[1]->address() != 'P' && words[1]->address() != 'Q') || !context.tree.statementsOf(block).empty())
+    return std::nullopt;
+  const auto code = words[0]->tenths();
+  const Code *known = codeOf(*words[0], context.dialect);
+  if (!code || (known && (known->role == CodeRole::Dwell || known->role == CodeRole::ReferenceReturn)))
+    return std::nullopt;
+  return Setting{*code, words[1]->address(), words[1]->number()};
+}
+
+/// The last block that sets what the dead one was to set back.
+std::optional<BlockId> notSetBack(const DeadBlocks::Run &run, BlockId start, ProgramId program,
+                                  const FileContext &context) {
+  const auto own = settingIn(start, context);
+  if (!own || flowAfter(context.tree, run.ender, context.dialect) != FlowAfter::Ends)
+    return std::nullopt;
+  std::optional<BlockId> found;
+  for (BlockId block = context.model.programs[program].first; block < run.ender; block = block.next()) {
+    const auto other = settingIn(block, context);
+    if (!other || other->code != own->code || other->address != own->address)
+      continue;
+    if (other->value == own->value)
+      return std::nullopt;
+    found = block;
+  }
+  return found;
+}
+
+void reportSetting(BlockId set, BlockId back, BlockId ender, const FileContext &context, const Reporter &reporter) {
+  const auto spanOf = [&](BlockId block) { return context.tree.blocks[block].span(); };
+  reporter.report(
+      {.message = fmt::format("{} is never executed: {} stays in force", context.quoted(spanOf(back)),
+                              context.quoted(spanOf(set))),
+       .span = spanOf(back),
+       .labels = {{spanOf(set), "set here"}, {spanOf(ender), "the program never continues past this block"}},
+       .notes = {"set it back before the program ends or returns"}},
+      Severity::Warning);
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
     const auto start = firstUnintended(run, context);
     if (!start || context.model.programOf(*start) != program || isNamedToUnseen(run, program, context))
       continue;
-    if (isAlarm(*start, context) && findWord(context.tree, *start, 'N')) {
-      reportAlarm(*start, run.ender, context, reporter);
+    if (const auto message = messageOf(run, *start, context)) {
+      reportMessage(*message, run.ender, context, reporter);
+      continue;
+    }
+    if (const auto set = notSetBack(run, *start, program, context)) {
+      reportSetting(*set, *start, run.ender, context, reporter);
       continue;
     }
     const std::uint32_t first = context.source.lineOf(context.tree.blocks[*start].begin);
