@@ -51,7 +51,8 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
   for (const Argument &argument : call.arguments) {
     const Word &word = context.tree.words[argument.word];
     const bool passesNothing = word.form() == WordForm::Expression && isVacant(context, word.expression());
-    if (argument.role != ArgumentRole::Passed || argument.variable == 0 || passesNothing ||
+    // A letter of I, J, K out of order is reported as such.
+    if (argument.role != ArgumentRole::Passed || argument.variable == 0 || argument.fromSet || passesNothing ||
         reads(file, callee->program, argument.variable) || (contract && contract->param(argument.variable)))
       continue;
     reporter.report({.message = fmt::format("{} never reads `#{}`: {} has no effect", toString(program.name),

@@ -4,7 +4,9 @@
 #include "base/support/text.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -114,11 +116,28 @@ bool hasContent(const FileContext &context, BlockId block) {
 
 namespace {
 
-/// A block that does not parse and may have been meant to jump.
-bool mayJumpUnread(const FileContext &context, BlockId id) {
+/// Where a block that does not parse may have been meant to jump: `IF[#3 GT= 3] GOTO205` names the one place.  Absent:
+/// it may be anywhere.
+std::optional<std::vector<std::uint32_t>> unreadTargets(const FileContext &context, BlockId id) {
+  std::vector<std::uint32_t> targets;
   const Block &block = context.tree.blocks[id];
-  return block.has(Block::kBroken) && (mayNameWord(context.source, context.tree, id) ||
-                                       toUpper(context.text(block.span())).find("GO") != std::string::npos);
+  if (!block.has(Block::kBroken))
+    return targets;
+  if (mayNameWord(context.source, context.tree, id))
+    return std::nullopt;
+  const std::string text = toUpper(context.text(block.span()));
+  for (std::size_t at = text.find("GO"); at != std::string::npos; at = text.find("GO", at + 2)) {
+    const std::size_t first = text.find_first_not_of(" \t", at + 4);
+    if (text.compare(at, 4, "GOTO") != 0 || first == std::string::npos)
+      return std::nullopt;
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", first), text.size());
+    constexpr std::size_t kMostDigits = 9;
+    const bool goesOn = end < text.size() && std::string_view(".#[+-*/").find(text[end]) != std::string_view::npos;
+    if (end == first || end - first > kMostDigits || goesOn)
+      return std::nullopt;
+    targets.push_back(static_cast<std::uint32_t>(std::stoul(text.substr(first, end - first))));
+  }
+  return targets;
 }
 
 /// The blocks to which control may come: along blocks and jumps that are themselves reached.
@@ -158,16 +177,25 @@ private:
       for (const Jump &jump : context_.model.jumpsIn(block, block.next()))
         if (jump.kind != JumpKind::CallAt)
           addTargets(jump);
-      if (mayJumpUnread(context_, block))
-        addAllLabels();
+      addUnread(block);
       if (leavesForGood(context_, block))
         return;
     }
   }
+  void addUnread(BlockId block) {
+    if (const auto targets = unreadTargets(context_, block))
+      for (const std::uint32_t number : *targets)
+        addLabel(number);
+    else
+      addAllLabels();
+  }
+  void addLabel(std::uint32_t number) {
+    if (const auto label = labels_.find(number); label != labels_.end())
+      open_.insert(open_.end(), label->second.begin(), label->second.end());
+  }
   void addTargets(const Jump &jump) {
     if (const auto number = targetNumber(jump)) {
-      if (const auto label = labels_.find(*number); label != labels_.end())
-        open_.insert(open_.end(), label->second.begin(), label->second.end());
+      addLabel(*number);
     } else if (jump.computed) {
       addAllLabels();
     }
