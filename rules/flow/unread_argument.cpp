@@ -53,13 +53,16 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
     const bool passesNothing = word.form() == WordForm::Expression && isVacant(context, word.expression());
     // A letter of I, J, K out of order is reported as such.
     if (argument.role != ArgumentRole::Passed || argument.variable == 0 || argument.fromSet || passesNothing ||
-        reads(file, callee->program, argument.variable) || (contract && contract->param(argument.variable)))
+        reads(file, callee->program, argument.variable))
       continue;
+    // A parameter of the contract belongs to the interface, as the radius of the tool does, which no block needs.
+    const bool isPromised = contract && contract->param(argument.variable);
     reporter.report({.message = fmt::format("{} never reads `#{}`: {} has no effect", toString(program.name),
                                             argument.variable, context.quoted(word.span())),
                      .span = word.span(),
                      .labels = {{program.header, "the called program", callee->file}},
-                     .notes = {"probably another letter was meant, or the macro no longer needs it"}});
+                     .notes = {"probably another letter was meant, or the macro no longer needs it"}},
+                    isPromised ? Severity::Info : Severity::Warning);
   }
 }
 
