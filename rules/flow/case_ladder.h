@@ -21,7 +21,7 @@ struct CaseLine {
 /// The case of a block; absent when it asks for something else, or nothing.
 std::optional<CaseLine> caseAt(const FileContext &context, BlockId block);
 
-/// The next block in which more than comments and a sequence number stands.
+/// The next block in which more than comments stands; behind the last block of the text where there is none.
 BlockId nextContent(const FileContext &context, BlockId block);
 
 /// Lines of one variable directly below each other, two or more.

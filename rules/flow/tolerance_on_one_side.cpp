@@ -60,6 +60,8 @@ public:
     BlockId block = *jump.target;
     if (context_.tree.statementsOf(block).empty() && context_.tree.wordsOf(block).size() == 1)
       block = nextContent(context_, block);
+    if (block >= context_.model.programs[program_].last)
+      return false; // a label at the end of a text that is cut off
     const bool isStop = findCode(context_.tree, block, context_.dialect, CodeRole::ProgramStop) &&
                         !context_.tree.commentsOf(block).empty();
     const auto uses = context_.model.variablesIn(block, block.next());
