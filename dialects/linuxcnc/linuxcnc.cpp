@@ -132,6 +132,9 @@ Behaviour behaviour() {
   behaviour.machineMoveByMode = true;
   behaviour.machineIncrement = MachineIncrement::Alarm;
   behaviour.repeatsByK = false;
+  behaviour.cutterCorners = CutterCorners::Arcs;
+  behaviour.cutterEntry = CutterEntry::ByItself;
+  behaviour.cutterDiameterCodes = {411, 421};
   behaviour.equalTolerance = 1e-4;
   return behaviour;
 }

@@ -76,6 +76,9 @@ Dialect make(MachineKind machine) {
   dialect.grammar.thenMayBeWords = true;
   dialect.grammar.wordMayBeUnbracketed = true;
   dialect.behaviour.machineMoveByMode = true;
+  dialect.behaviour.cutterBlocks = 5;
+  if (machine == MachineKind::Milling)
+    dialect.behaviour.cutterOffsets = {{2401, 12001}, {2601, 13001}, 200};
   dialect.behaviour.machineIncrement = MachineIncrement::Distance;
   dialect.behaviour.absoluteBehindMappings = true;
   dialect.numbers = NumberModel::Either;

@@ -4,7 +4,7 @@ import math
 import os
 import subprocess
 
-from interpreter import AXES
+from interpreter import AXES, Run
 
 FEEDHOLD = os.environ["FEEDHOLD"]
 TOLERANCE = 1e-6
@@ -16,12 +16,17 @@ ROTARY = "ABC"
 ENDED = ("M02", "M30", "M99", "end-of-file")
 
 
-def report_of(path, *options):
-    result = subprocess.run([FEEDHOLD, "run", str(path), "--dialect", "linuxcnc", "--isolated", "--format", "json", *options],
+def report_of(path, *options, dialect="linuxcnc"):
+    result = subprocess.run([FEEDHOLD, "run", str(path), "--dialect", dialect, "--isolated", "--format", "json", *options],
                             capture_output=True, text=True, timeout=LONGEST_RUN)
     if result.returncode not in (0, 1):
         raise AssertionError(f"{path}: ended with {result.returncode}:\n{result.stderr}")
     return json.loads(result.stdout)
+
+
+def moves_of_tool(report):
+    """Under cutter compensation the moves of the tool's centre in place of the programmed ones."""
+    return [{**move, **step} for move in report["moves"] for step in move.get("tool_path", [{}])]
 
 
 def counts(move):
@@ -66,7 +71,7 @@ class Comparison:
 
     def __init__(self, path, theirs):
         report = report_of(path)
-        moves = [move for index, move in enumerate(report["moves"]) if index == 0 or counts(move)]
+        moves = [move for index, move in enumerate(moves_of_tool(report)) if index == 0 or counts(move)]
         self.moves = len(theirs.moves)
         self.stopped = theirs.error
         self.difference = self.first_difference(theirs, moves, report)

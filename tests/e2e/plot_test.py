@@ -29,6 +29,15 @@ G02 X-10. Y0. Z-4. I-10. J0.
 G18 G03 X10. Z-4. I10. K0.
 M30
 """
+COMPENSATED = """O4
+G21 G17 G90 G40 G00 X0 Y-20.
+G01 G41 D1 Y0 F200.
+Y40.
+X40.
+X0 Y10.
+G40 X-40.
+M30
+"""
 
 
 class Plot(Scratch):
@@ -102,7 +111,28 @@ class Plot(Scratch):
     def test_no_movement(self):
         self.assertEqual(len(self.views(self.picture(self.write("O3.nc", "O3\n#1=1\nM30\n")))), 2)
 
+    def test_cutter_compensation(self):
+        self.write("O4.nc", COMPENSATED)
+        picture = self.picture("O4.nc", "--offset", "D1=5")
+        plan, _ = self.views(picture)
+        programmed, centre = self.paths(plan, "path contour"), self.paths(plan)
+        self.assertEqual(len(programmed), 5)
+        self.assertEqual([path.count("L") for path in centre], [1, 1, 2, 1, 1])  # two about the sharp corner
+        self.assertFalse(set(programmed) & set(centre))
+        self.assertIn("programmed, with cutter compensation", self.texts(picture))
+        other = self.picture("O4.nc")  # without an offset
+        self.assertEqual(len(self.paths(self.views(other)[0], "path other")), 5)
+
     # ---- gouges ----
+
+    def test_gouge_of_the_compensated_tool(self):
+        clauses = "(@TOOL FLAT RADIUS 5.)\n(@KEEPOUT CLAMP BOX X10..20 Y48..60)\n"
+        self.write("O4.nc", COMPENSATED.replace("O4\n", "O4\n" + clauses))
+        for arguments in ((), ("--offset", "D1=5")):  # the tool's own radius is taken for an offset that nothing gives
+            result = self.plot("O4.nc", *arguments)
+            self.assertExit(result, 1)
+            self.assertEqual(result.stderr, "2 mm inside CLAMP at line 7\n")
+        self.assertExit(self.plot("O4.nc", "--offset", "D1=2.5"), 0)
 
     def test_gouge(self):
         self.write("O1.nc", SLOT)

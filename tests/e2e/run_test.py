@@ -65,6 +65,25 @@ class Run(Scratch):
         self.assertEqual(self.report("both.nc", "--program", "O2", "--arg", "B=2")["end"], "M99")
         self.assertExit(self.run_program("both.nc", "--program", "O9"), 2)
 
+    def test_cutter_offsets(self):
+        self.write("slot.nc", "O1\nG21 G17 G90 G00 X0 Y0\nG01 G41 D2 X10. F100.\nX60.\nG40 Y30.\nM30\n")
+        for option in (("--offset", "D2=5"), ("--offset", "d2=+5."), ("--var", "13002=5")):
+            moves = self.report("slot.nc", *option)["moves"]
+            self.assertEqual([step["to"]["Y"] for move in moves for step in move.get("tool_path", [])], [5, 5, 30])
+        self.assertNotIn("tool_path", self.report("slot.nc")["moves"][1])
+        for bad, why in (("5", "not of the form D1=5"), ("H1=5", "not of the form D1=5"), ("D1=", "not of the form D1=5"),
+                         ("D1=five", "not of the form D1=5"), ("D0=5", "the offsets D1 to D999"),
+                         ("D1.5=5", "the offsets D1 to D999"), ("D1000=5", "the offsets D1 to D999")):
+            result = self.run_program("slot.nc", "--offset", bad)
+            self.assertExit(result, 2)
+            self.assertIn(why, result.stderr)
+
+    def test_cutter_offsets_that_are_no_variables(self):
+        self.write("slot.ngc", "g1 x10 f100\nm2\n")
+        result = self.feedhold("run", "--dialect", "linuxcnc", "--isolated", "slot.ngc", "--offset", "D1=5")
+        self.assertExit(result, 2)
+        self.assertIn("no cutter offsets in variables", result.stderr)
+
     def test_inputs(self):
         self.write("wait.nc", "O7\n#1=0\nN10#1=#1+1\nIF[#1000EQ0]GOTO10\nM30\n")
         for given, passes in (("#1000=0,0,1", 3), ("1000=1", 1), ("#1000 = 0, 1", 2)):

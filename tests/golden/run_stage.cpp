@@ -82,7 +82,7 @@ std::string runStageOf(const Input &input, std::string_view wishes) {
   if (!loaded)
     return loaded.error().message + "\n";
   const Project &programs = *loaded.value();
-  Wish options{.options = {.numbers = numbersOfRun(programs.dialect())}};
+  Wish options{.options = {.numbers = numbersOfRun(programs.dialect()), .cutter = CutterCompensation::Followed}};
   std::istringstream words{std::string(wishes)};
   for (std::string word; words >> word;)
     if (!take(word, programs.dialect(), options))

@@ -36,6 +36,8 @@ constexpr std::array kSwitchNames = {
     SwitchName{"ijk", &Switches::ijk},
     SwitchName{"fxy", &Switches::fxy},
     SwitchName{"ax1", &Switches::ax1},
+    SwitchName{"sup", &Switches::sup},
+    SwitchName{"odi", &Switches::odi},
     SwitchName{"short_arc_stops", &Switches::shortArcStops},
     SwitchName{"point_arc_stops", &Switches::pointArcStops},
     SwitchName{"bare_cycle_stops", &Switches::bareCycleStops},

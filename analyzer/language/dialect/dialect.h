@@ -356,6 +356,8 @@ struct Switches {
   Switch fxy = Switch::Unknown; // 5101#0: cycles drill along the normal of the plane (On) or along Z
   Switch ax1 =
       Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system
+  Switch sup = Switch::Unknown; // 5003#0: cutter compensation starts and ends by way of its own block's normal (type B)
+  Switch odi = Switch::Unknown; // 5004#2: the offset of D is a diameter
   // What controls do differently, or what no manual says (parity.md of each dialect).
   Switch shortArcStops = Switch::Unknown;  // R a little below half the distance of the ends: an alarm, or a half circle
   Switch pointArcStops = Switch::Unknown;  // an arc by R that ends where it starts: an alarm, or no movement
@@ -423,6 +425,24 @@ enum class MachineIncrement : std::uint8_t {
   Alarm
 };
 
+/// The path of the tool's centre about an outer corner under cutter compensation.
+enum class CutterCorners : std::uint8_t {
+  Lines, // to where the offset lines cross; beyond a quarter turn, cut off at the radius
+  Arcs   // an arc about the corner
+};
+/// How cutter compensation begins.
+enum class CutterEntry : std::uint8_t {
+  ToNext,  // ends beside the start of the next block, square to it
+  ByItself // ends beside its own end, square to itself; the corner behind it is one of the contour
+};
+/// The variables of the offset of D1: where several are listed they are the numbers of memories of different kinds, of
+/// which a control has one.  0: none.
+struct CutterOffsets {
+  std::array<std::uint32_t, 2> geometry{};
+  std::array<std::uint32_t, 2> wear{};
+  std::uint32_t count = 0; // of D
+};
+
 /// How the control computes and moves, where controls differ.
 struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
@@ -446,9 +466,15 @@ struct Behaviour {
   MachineIncrement machineIncrement = MachineIncrement::NotFollowed;
   bool absoluteBehindMappings = false; // also behind G68, not only behind G69, the first movement has to be absolute
   bool scalesByIncrements = false;     // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
-  double equalTolerance = 0;           // EQ and NE take values this near as equal
-  double arcTolerance = 0.05;          // mm: largest difference of the radii at start and end
-  double peckClearance = 0.254;        // mm: how far above the last depth a peck begins (a parameter of most controls)
+  CutterCorners cutterCorners = CutterCorners::Lines;
+  CutterEntry cutterEntry = CutterEntry::ToNext;
+  CutterOffsets cutterOffsets;
+  std::array<std::uint16_t, 2> cutterDiameterCodes{}; // G41, G42 whose D is the diameter of the cutter itself
+  /// Blocks that are read ahead under cutter compensation, the present one included; 0: as many as are needed.
+  std::uint8_t cutterBlocks = 0;
+  double equalTolerance = 0;    // EQ and NE take values this near as equal
+  double arcTolerance = 0.05;   // mm: largest difference of the radii at start and end
+  double peckClearance = 0.254; // mm: how far above the last depth a peck begins (a parameter of most controls)
 };
 
 /// One text feature that speaks for a dialect, or against it.

@@ -1,5 +1,6 @@
 #include "meaning/machine/machine.h"
 
+#include "meaning/machine/cutter_path.h"
 #include "meaning/machine/repeat_watch.h"
 #include "meaning/semantics/tool_point.h"
 
@@ -19,7 +20,8 @@ public:
         interpretation_(*programs.file(entry.file).dialect, options.variables, options.words, options.numbers),
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(interpretation_, modes_, options.start)), at_{entry.file,
-                                                                                                         entry.entry} {
+                                                                                                         entry.entry},
+        cutter_(*programs.file(entry.file).dialect, result_.moves) {
     for (const auto &[group, code] : options.codes)
       state_.codes[group] = code;
     putInForce(options.variables.start, state_);
@@ -39,6 +41,8 @@ public:
       else
         one();
     }
+    cutter_.finish();
+    takeCutterAlarm();
     result_.place = at_;
     result_.passedUnmodelled = interpretation_.passedUnmodelled();
     for (std::size_t i = 1; i < frames_.size(); ++i)
@@ -99,6 +103,7 @@ private:
   }
   /// The run is told up to where its state came back first.
   void endInCycle() {
+    cutter_.finish();
     result_.cycle.assign(cycle_->places.begin(), cycle_->places.end());
     result_.steps = cycle_->steps;
     result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(cycle_->moves), result_.moves.end());
@@ -119,18 +124,58 @@ private:
   void takeEffects(Place here) {
     const bool refused = interpretation_.stopped().kind == ConcreteInterpretation::Stop::ControlAlarm;
     std::vector<Move<ConcreteValue>> moves = interpretation_.takeMoves();
+    const std::size_t first = result_.moves.size();
     if (!refused && !moves.empty()) // the control does not begin a block that it does not understand
       record(std::move(moves), here);
+    if (!refused && options_.cutter == CutterCompensation::Followed)
+      compensate(here, first);
     for (const std::string_view reason : interpretation_.takeNotes())
       if (noted_.insert({here, reason}).second)
         result_.notes.push_back({reason, here});
     if (interpretation_.stopped().kind != ConcreteInterpretation::Stop::None)
       stop();
+    else if (cutter_.alarm())
+      end(RunEnd::Alarm);
+  }
+  /// The block has been executed, and its moves are recorded from `first` on.
+  void compensate(Place here, std::size_t first) {
+    if (!std::holds_alternative<ExecuteWords>(node().instruction) || (words_.codes.empty() && words_.entries.empty()))
+      return;
+    auto ctx = context();
+    if (cutter_.isOff() && !mayCompensate(ctx))
+      return;
+    const CutterBlock block = cutterBlockOf(ctx, words_, [&] { return otherOffset(); });
+    result_.offsetIsAssumed = result_.offsetIsAssumed || block.offsetIsAssumed;
+    cutter_.take(block, here, frames_.size() - 1, first);
+    for (const RunNote &note : cutter_.takeNotes())
+      if (noted_.insert({note.place, note.reason}).second)
+        result_.notes.push_back(note);
+  }
+  std::optional<double> otherOffset() {
+    if (!otherOffset_)
+      otherOffset_ = options_.cutterRadius ? options_.cutterRadius(options_) : std::nullopt;
+    return *otherOffset_;
+  }
+  /// The control stops before a block that it has read ahead: what has been read since is not done.
+  void takeCutterAlarm() {
+    const auto &alarm = cutter_.alarm();
+    if (!alarm)
+      return;
+    end(RunEnd::Alarm);
+    result_.alarm = alarm->kind;
+    result_.compensation = alarm->began;
+    if (alarm->move < result_.moves.size())
+      result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(alarm->move), result_.moves.end());
+    if (alarm->depth < frames_.size())
+      frames_.resize(alarm->depth + 1, frames_.front());
+    at_ = alarm->place;
+    result_.alarmSpan = blockSpan();
   }
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
     const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
-    const bool isOfTool = point.withoutCompensation && point.lengthKnown && point.sameUnits && point.sameSide;
+    const bool isFollowed = point.withoutCompensation || options_.cutter == CutterCompensation::Followed;
+    const bool isOfTool = isFollowed && point.lengthKnown && point.sameUnits && point.sameSide;
     const Place own = frames_.size() > 1 ? frames_[1].call : here;
     const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
     for (Move<ConcreteValue> &move : moves)
@@ -335,6 +380,8 @@ private:
   std::unique_ptr<Cycle> cycle_; // null until a state has come back
   std::set<std::pair<Place, std::string_view>> noted_;
   RunResult result_;
+  CutterPath cutter_;
+  std::optional<std::optional<double>> otherOffset_; // absent: not asked yet
   bool ended_ = false;
 };
 

@@ -1,7 +1,7 @@
 // The concrete machine: runs a program on given values and records the tool path, or why the control stopped.
 #pragma once
 
-#include "meaning/machine/concrete_interpretation.h"
+#include "meaning/machine/recorded_move.h"
 #include "meaning/semantics/frames.h"
 
 #include <functional>
@@ -19,6 +19,9 @@ struct RunMoment {
   std::size_t moves; // recorded so far
 };
 
+/// Whether the path of the tool's centre is computed under cutter compensation; else its moves are not of the tool.
+enum class CutterCompensation : std::uint8_t { NotFollowed, Followed };
+
 /// The operator's switch: blocks with a `/` are executed or passed over.
 enum class BlockSkipSwitch : std::uint8_t { Off, On };
 
@@ -32,7 +35,10 @@ struct RunOptions {
   std::size_t mostMoves = 1'000'000; // recorded; behind them the run ends as without fuel
   BlockSkipSwitch blockSkip = BlockSkipSwitch::Off;
   WordRounding words = WordRounding::Increment;
-  NumberModel numbers = NumberModel::Binary64;     // in which expressions are computed; Either: doubles
+  NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
+  CutterCompensation cutter = CutterCompensation::NotFollowed;
+  /// The offset of each D that nothing else gives, in this run; null, or absent: such a path is not followed.
+  std::function<std::optional<double>(const RunOptions &)> cutterRadius = nullptr;
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// What the read of an input in an instruction gives, in place of `variables.readings`; null: those.
   std::function<double(Place, std::uint32_t variable)> inputs = nullptr;
@@ -59,26 +65,6 @@ struct OpenCall {
   Callee callee;
 };
 
-/// What the numbers of a move are counted in; the time of a dwell is not.
-enum class LengthUnit : std::uint8_t { Millimetre, Inch };
-
-struct RecordedMove {
-  Move<ConcreteValue> move;
-  LengthUnit unit;
-  Place place;
-  Place own; // the same, or the block of the started program that called it
-  /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
-  std::array<double, 3> zero = {};
-  /// Its coordinates are those of the tool (tool_point.h): no cutter compensation is in force, its length and the units
-  /// are those of the start, and no other axis has turned the part.
-  bool isOfTool = true;
-};
-
-struct RunNote {
-  std::string_view reason;
-  Place place;
-};
-
 struct RunResult {
   RunEnd end = RunEnd::Fuel;
   Place place{FileId(0), NodeId(0)}; // where it ended
@@ -86,6 +72,8 @@ struct RunResult {
   double alarmNumber = 0;            // of UserAlarm
   std::string alarmText;             // of UserAlarm: the comment
   Span alarmSpan;                    // of both: the words that it comes from
+  std::optional<Place> compensation; // of Alarm: the block with the G41 or G42 that it comes from
+  bool offsetIsAssumed = false;      // `cutterRadius` was taken
   std::vector<OpenCall> calls;       // the innermost last
   std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed

@@ -43,6 +43,7 @@ private:
     for (const CodeWord &word : words_.codes)
       enter(word);
     computedCodes();
+    alarmOfCompensation();
     cancelCycle();
     if (shifts)
       moveOrigins(context_, before);
@@ -124,6 +125,15 @@ private:
                              &state_.cycle.dwell})
           *level = interpretation_.anything();
     }
+  }
+  /// A control stops where the tool does not fit into the contour, in this block or in one behind it.  Runs that follow
+  /// the path of the tool's centre see it (machine/cutter_path.h); all others foresee it where the compensation begins.
+  void alarmOfCompensation() {
+    const auto begins = [](const CodeWord &word) {
+      return word.code->action == CodeAction::CompensationLeft || word.code->action == CodeAction::CompensationRight;
+    };
+    if (std::any_of(words_.codes.begin(), words_.codes.end(), begins))
+      interpretation_.alarm(context_.maybeNot(), {AlarmKind::CutterCompensation, context_.place()});
   }
   /// What is left of a cycle has no part in one that begins.
   void beginCycle(const CodeWord &word) {

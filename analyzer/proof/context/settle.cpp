@@ -1,5 +1,6 @@
 // Settles a question: by a sampled run, by proofs of all its goals, or by the replay of a counterexample.
 #include "proof/context/proof_context.h"
+#include "proof/space/plain_space.h"
 
 #include <algorithm>
 
@@ -84,6 +85,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   WitnessSearch runs(start.interpretation(), subject.programs, subject.program, std::move(demands),
                      subject.constants());
   RunOptions options = start.runStart();
+  options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
   runs.sample();

@@ -70,7 +70,10 @@ double SpaceRuns::leastDepth() const {
 Violation SpaceRuns::violation() const {
   const auto happened = [runs = *this](const RunResult &run, const GivenVariables &given) {
     const auto gouge = runs.gougeIn(run, given);
-    return gouge ? std::optional(textOf(runs.rule_, *gouge)) : std::nullopt;
+    if (!gouge)
+      return std::optional<std::string>();
+    return std::optional(textOf(runs.rule_, *gouge) +
+                         (run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : ""));
   };
   if (tolerance())
     return happened;

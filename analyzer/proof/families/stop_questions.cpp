@@ -30,6 +30,9 @@ auto stopAt(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
     });
     if (!alarm && here && run.end == RunEnd::UserAlarm && !isForeseen)
       return fmt::format("stops with alarm {:.15g}", run.alarmNumber);
+    if (alarm == AlarmKind::CutterCompensation && run.end == RunEnd::Alarm && run.compensation == place)
+      return fmt::format("stops: {}{}", meaningOf(run.alarm),
+                         run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : "");
     if (alarm && here && run.end == RunEnd::Alarm && run.alarm == *alarm)
       return "the control stops here";
     return std::nullopt;
@@ -37,6 +40,8 @@ auto stopAt(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
 }
 
 std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
+  if (stop.alarm == AlarmKind::CutterCompensation)
+    return "the control never stops in the cutter compensation that begins here";
   if (stop.alarm)
     return fmt::format("no {} here", meaningOf(*stop.alarm));
   if (foreseen.empty())
@@ -82,6 +87,9 @@ Questions stopQuestions(const ExploredProgram &program) {
                       .goals = {},
                       .broken = stopAt(stop, foreseen)};
     question.row.alarm = stop.alarm;
+    if (stop.alarm == AlarmKind::CutterCompensation)
+      question.whyOpen = "the path of the tool's centre under G41 and G42 is not proved to fit; `feedhold run` follows "
+                         "it for given arguments";
     for (const StopInstance &instance : stop.instances) {
       const TermId isForeseen = stop.alarm ? store.no() : isOneOf(start.interpretation(), instance.number, foreseen);
       question.goals.push_back({&instance.conditions, store.implies(instance.stops, isForeseen)});

@@ -144,11 +144,17 @@ public:
 
   std::optional<Gouge> deepest(std::span<const RecordedMove> moves) {
     std::optional<Gouge> worst;
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      const auto found = depthOf(moves[i], worst ? worst->depth + kDeeper : floor_);
+    const auto look = [&](const RecordedMove &move, std::size_t index) {
+      const auto found = depthOf(move, worst ? worst->depth + kDeeper : floor_);
       if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
-        worst = Gouge{i, found->at, found->depth};
-    }
+        worst = Gouge{index, found->at, found->depth};
+    };
+    for (std::size_t i = 0; i < moves.size(); ++i)
+      if (moves[i].centre.empty() || claim_ == SpaceClaim::Travel) // limits are those of programmed points
+        look(moves[i], i);
+      else
+        for (const RecordedMove &move : movesOfCentre(moves[i]))
+          look(move, i);
     return worst;
   }
 

@@ -41,7 +41,7 @@ using MoveFilter = std::function<bool(const RecordedMove &)>;
 
 /// Where a run breaks one claim most; `region`: index of keepIn or keepOut.  Rapid moves go straight, and each axis by
 /// itself at any rate of its own: anywhere in the box between the ends.  What an unmodelled move does
-/// (MoveKind::Unmodelled), or one with cutter compensation, is not looked at.
+/// (MoveKind::Unmodelled), or one with cutter compensation that the run does not follow, is not looked at.
 std::optional<Gouge> deepestGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
                                   std::span<const RecordedMove> moves, const MoveFilter &filter = {});
 

@@ -35,8 +35,9 @@ bool mayBeGuarded(const Obligation &claim) {
   case ObligationKind::ProgramEnds:
   case ObligationKind::AlarmUnreachable:
   case ObligationKind::Ensures: return true;
-  case ObligationKind::NoControlAlarm: // an M99 is missing, or a program: no argument mends that
-    return claim.alarm != AlarmKind::EndOfRecord && claim.alarm != AlarmKind::ProgramNotFound;
+  case ObligationKind::NoControlAlarm: // an M99 is missing, or a program: no argument mends that; or it is not proved
+    return claim.alarm != AlarmKind::EndOfRecord && claim.alarm != AlarmKind::ProgramNotFound &&
+           claim.alarm != AlarmKind::CutterCompensation;
   case ObligationKind::AlarmIff:
   case ObligationKind::Assigns:
   case ObligationKind::ModalPreserved:

@@ -113,4 +113,16 @@ RunOptions startedAsSaid(const ProgramSet &programs, Callee program, const FileC
   return run;
 }
 
+RunOptions withCompensation(const ProgramSet &programs, Callee program, const FileContracts *contracts,
+                            RunOptions run) {
+  run.cutter = CutterCompensation::Followed;
+  const Contract *contract = contracts == nullptr ? nullptr : contracts->of(program.program);
+  if (contract != nullptr && contract->tool)
+    run.cutterRadius = [&programs, program, contracts](const RunOptions &started) -> std::optional<double> {
+      const auto tool = plainSpace(programs, program, *contracts, started).tool;
+      return tool && tool->radius > 0 ? std::optional(tool->radius) : std::nullopt;
+    };
+  return run;
+}
+
 } // namespace feedhold::prove

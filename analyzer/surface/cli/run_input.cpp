@@ -92,6 +92,24 @@ std::optional<Error> addReadings(const std::string &text, const Project &program
   return std::nullopt;
 }
 
+/// `D1=5.`: what the register of the cutter offset holds.
+std::optional<Error> addOffset(const std::string &text, const Project &programs, GivenVariables &given) {
+  const Result<Setting> setting = settingFrom(text);
+  const std::string name = setting ? setting.value().name : "";
+  const auto number =
+      name.size() > 1 && toUpper(name.front()) == 'D' ? numberFrom(std::string_view(name).substr(1)) : std::nullopt;
+  if (!number)
+    return Error{fmt::format("--offset: `{}` is not of the form D1=5", text)};
+  const CutterOffsets &offsets = programs.dialect().behaviour.cutterOffsets;
+  if (offsets.count == 0)
+    return Error{fmt::format("--offset: `{}`: this control keeps no cutter offsets in variables", text)};
+  if (*number != std::floor(*number) || *number < 1 || *number > offsets.count)
+    return Error{fmt::format("--offset: `{}`: this control has the offsets D1 to D{}", text, offsets.count)};
+  const std::uint32_t variable = offsets.geometry.front() + static_cast<std::uint32_t>(*number) - 1;
+  given.set(cellOf(programs.dialect(), variable), ConcreteValue::of(setting.value().value));
+  return std::nullopt;
+}
+
 Result<GivenVariables> givenVariables(const RunInput &input, const Project &programs) {
   GivenVariables given;
   for (const std::string &text : input.arguments) {
@@ -113,6 +131,9 @@ Result<GivenVariables> givenVariables(const RunInput &input, const Project &prog
       return Error{fmt::format("--var: no program has a variable `{}`", setting.value().name)};
     given.set(*variable, ConcreteValue::of(setting.value().value));
   }
+  for (const std::string &text : input.offsets)
+    if (auto complaint = addOffset(text, programs, given))
+      return *std::move(complaint);
   for (const std::string &text : input.readings)
     if (auto complaint = addReadings(text, programs, given))
       return *std::move(complaint);
@@ -199,6 +220,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
   app.add_option("--var", input.variables, "set a variable at the start: 500=3 or <depth>=2.5 (may be repeated)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  app.add_option("--offset", input.offsets,
+                 "what the register of a cutter offset holds: D1=5, for G41 and G42 (may be repeated)")
+      ->type_name("D=VALUE")
+      ->allow_extra_args(false);
   app.add_option("--input", input.readings,
                  "numbers that the reads of an input give in order; the last stays: \"#1000=0,0,1\" (may be repeated)")
       ->type_name("NAME=VALUES")
@@ -245,6 +270,7 @@ Result<PreparedRun> prepareRun(const RunInput &input) {
                      .numbers = numbersFor(input, *programs.file(start->file).dialect),
                      .missing = input.missing == "return" ? MissingPrograms::Return : MissingPrograms::Stop};
   options = prove::startedAsSaid(*programs.set, *start, programs.file(start->file).contracts, std::move(options));
+  options = prove::withCompensation(*programs.set, *start, &programs.file(start->file).contracts, std::move(options));
   return PreparedRun{loaded.take(), *start, std::move(options)};
 }
 

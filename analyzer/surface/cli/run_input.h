@@ -19,6 +19,7 @@ struct RunInput {
   std::string program;
   std::vector<std::string> arguments;
   std::vector<std::string> variables;
+  std::vector<std::string> offsets;
   std::vector<std::string> readings;
   std::vector<std::string> start;
   std::vector<std::string> modal;

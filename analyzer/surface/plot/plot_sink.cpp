@@ -37,6 +37,7 @@ constexpr std::string_view kStyle = R"(<style>
 .feedhold-plot .zero { stroke: #aeb6bf; }
 .feedhold-plot .path { fill: none; stroke: #0a58ca; stroke-width: 1.6; stroke-linejoin: round; stroke-linecap: round; }
 .feedhold-plot .rapid { stroke-dasharray: 6 4; stroke-width: 1.2; }
+.feedhold-plot .contour { stroke: #59636e; stroke-width: 1; }
 .feedhold-plot .other { stroke-dasharray: 1 4; }
 .feedhold-plot .both { stroke-width: 3.4; }
 .feedhold-plot .both.rapid { stroke-width: 2.4; }
@@ -58,6 +59,7 @@ constexpr std::string_view kStyle = R"(<style>
 .feedhold-plot .grid { stroke: #21262d; }
 .feedhold-plot .zero { stroke: #484f58; }
 .feedhold-plot .path { stroke: #58a6ff; }
+.feedhold-plot .contour { stroke: #9198a1; }
 .feedhold-plot .second { stroke: #ffa657; }
 .feedhold-plot .mark { fill: #58a6ff; stroke: #0d1117; }
 .feedhold-plot .mark.second { fill: #ffa657; }
@@ -88,7 +90,10 @@ RecordedMove converted(RecordedMove recorded, LengthUnit unit) {
   return recorded;
 }
 
+/// `recorded`: as programmed where it has a path of the centre, which is drawn beside it.
 std::string_view classOf(const RecordedMove &recorded) {
+  if (!recorded.centre.empty())
+    return "path contour";
   switch (recorded.move.kind) {
   case MoveKind::Rapid: return "path rapid";
   case MoveKind::Feed:
@@ -145,10 +150,14 @@ private:
     for (const RecordedMove &move : run.moves.first(std::min(run.moves.size(), kMostMoves))) {
       if (move.move.kind == MoveKind::Dwell)
         continue;
-      if (isNear(move))
-        result.moves.push_back(converted(move, unit_));
-      else
+      if (!isNear(move)) {
         ++tooFar_;
+        continue;
+      }
+      result.moves.push_back(converted(move, unit_));
+      if (!move.centre.empty())
+        for (const RecordedMove &step : movesOfCentre(move))
+          result.moves.push_back(converted(step, unit_));
     }
     return result;
   }
@@ -359,7 +368,9 @@ private:
         signs.push_back({stroke(fmt::format("path{}", run.role)), run.run->name});
     signs.push_back({stroke("path"), "cutting"});
     signs.push_back({stroke("path rapid"), "rapid"});
-    if (std::any_of(runs_.begin(), runs_.end(), hasOther))
+    if (std::any_of(runs_.begin(), runs_.end(), [](const DrawnRun &run) { return has(run, "path contour"); }))
+      signs.push_back({stroke("path contour"), "programmed, with cutter compensation"});
+    if (std::any_of(runs_.begin(), runs_.end(), [](const DrawnRun &run) { return has(run, "path other"); }))
       signs.push_back({stroke("path other"), "unknown, or the programmed path with cutter compensation"});
     signs.push_back({"<circle class=\"mark\" cx=\"14\" cy=\"6\" r=\"5\"/>", "start"});
     signs.push_back({"<rect class=\"mark\" x=\"10\" y=\"2\" width=\"8\" height=\"8\"/>", "end"});
@@ -387,9 +398,9 @@ private:
     }
     bottom_ += kLine + 14;
   }
-  static bool hasOther(const DrawnRun &run) {
+  static bool has(const DrawnRun &run, std::string_view style) {
     return std::any_of(run.moves.begin(), run.moves.end(),
-                       [](const RecordedMove &move) { return classOf(move) == "path other"; });
+                       [&](const RecordedMove &move) { return classOf(move) == style; });
   }
 
   const Picture &picture_;

@@ -62,9 +62,11 @@ constexpr std::array kAssumptions = {
         "G00 may move each axis independently: the tool may be anywhere in the box spanned by the two ends of the "
         "move.",
         "nobody: this assumption is conservative", "keep-out, clearance, travel"},
-    Assumption{"Cutter compensation is not modelled",
-               "Moves with G41 or G42 active are not proved: claims about their space stay unknown.",
-               "the reviewer of the report", kSpace},
+    Assumption{"Cutter compensation is not proved",
+               "With G41 or G42 active nothing is proved of the path of the tool's centre: claims about its space, and "
+               "whether the control stops because the tool does not fit, stay unknown or are refuted by a run. Such a "
+               "run takes the offset of D to be the radius of @TOOL unless a variable gives it.",
+               "the reviewer of the report", "keep-in, keep-out, clearance, travel, no-control-alarm"},
     Assumption{
         "The control keeps to the path",
         "Corner rounding in cutting mode (G64), servo lag, thermal growth and deflection of tool and machine are not "

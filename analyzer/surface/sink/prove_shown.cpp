@@ -66,6 +66,11 @@ std::string controlAlarm(const Dialect &dialect, AlarmKind kind) {
   return number ? fmt::format("{} ({})", *number, meaningOf(kind)) : std::string(meaningOf(kind));
 }
 
+/// An alarm that the control raises at the block of the claim; under cutter compensation it may be any block behind it.
+bool isOfBlock(const Obligation &obligation) {
+  return obligation.alarm && obligation.alarm != AlarmKind::CutterCompensation;
+}
+
 } // namespace
 
 std::vector<std::string> modalWords(const GivenStart &start, const Dialect &dialect) {
@@ -172,12 +177,12 @@ std::string textOf(const TypedWitness &witness) {
 }
 
 std::string claimOf(const Obligation &obligation, const Dialect &dialect) {
-  return obligation.alarm ? "the control never stops here with " + controlAlarm(dialect, *obligation.alarm)
-                          : obligation.claim;
+  return isOfBlock(obligation) ? "the control never stops here with " + controlAlarm(dialect, *obligation.alarm)
+                               : obligation.claim;
 }
 
 std::string happenedIn(const prove::Witness &witness, const Obligation &obligation, const Dialect &dialect) {
-  const std::string happened = obligation.alarm && witness.end == RunEnd::Alarm
+  const std::string happened = isOfBlock(obligation) && witness.end == RunEnd::Alarm
                                    ? "stops with " + controlAlarm(dialect, *obligation.alarm)
                                    : witness.happened;
   const std::size_t programs = witness.returning.size();
@@ -208,6 +213,8 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
     return isRefuted ? "this program can run for ever" : "it is not known whether this program always comes to an end";
   case ObligationKind::AlarmUnreachable: return fmt::format("{}this alarm can be raised", open);
   case ObligationKind::NoControlAlarm:
+    if (obligation.alarm == AlarmKind::CutterCompensation)
+      return fmt::format("{}the control can stop in the cutter compensation that begins here", open);
     return fmt::format("{}the control can stop here{}", open,
                        obligation.alarm ? " with " + controlAlarm(dialect, *obligation.alarm) : "");
   case ObligationKind::AlarmIff:

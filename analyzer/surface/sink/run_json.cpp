@@ -50,6 +50,17 @@ Json pointOf(const std::array<ConcreteValue, kAxisCount> &point, const std::vect
   return coordinates;
 }
 
+bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
+void addPath(Json &row, const Move<ConcreteValue> &move, const std::vector<Axis> &axes) {
+  row["from"] = pointOf(move.start, axes);
+  row["to"] = pointOf(move.end, axes);
+  if (!isArc(move.kind))
+    return;
+  row["centre"] = {{std::string(1, letterOf(move.plane.first)), move.firstCentre.number},
+                   {std::string(1, letterOf(move.plane.second)), move.secondCentre.number}};
+  row["turns"] = move.turns;
+}
+
 Json moveToJson(const RunReport &report, const RecordedMove &recorded, const std::vector<Axis> &axes) {
   const Move<ConcreteValue> &move = recorded.move;
   Json row = {{"kind", nameOf(move.kind)},
@@ -61,15 +72,14 @@ Json moveToJson(const RunReport &report, const RecordedMove &recorded, const std
     return row;
   }
   row["units"] = recorded.unit == LengthUnit::Inch ? "inch" : "mm";
-  row["from"] = pointOf(move.start, axes);
-  row["to"] = pointOf(move.end, axes);
-  if (move.kind == MoveKind::ArcClockwise || move.kind == MoveKind::ArcCounterclockwise) {
-    row["centre"] = {{std::string(1, letterOf(move.plane.first)), move.firstCentre.number},
-                     {std::string(1, letterOf(move.plane.second)), move.secondCentre.number}};
-    row["turns"] = move.turns;
-  }
+  addPath(row, move, axes);
   if (move.kind != MoveKind::Rapid)
     row["feed"] = feed;
+  for (const Move<ConcreteValue> &step : recorded.centre) {
+    Json way = {{"kind", nameOf(step.kind)}};
+    addPath(way, step, axes);
+    row["tool_path"].push_back(std::move(way));
+  }
   return row;
 }
 
@@ -105,6 +115,8 @@ std::string writeRunJson(const RunReport &report) {
            row.update(placeOf(report, note.place));
            return row;
          }));
+  if (result.offsetIsAssumed)
+    member("offset_from_tool", "true");
   member("skipped", json::compactText(result.skipped));
   member("moves", listOf(result.moves, [&](const RecordedMove &move) { return moveToJson(report, move, axes); }));
   if (!report.trace.empty())

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace feedhold {
@@ -42,6 +43,8 @@ public:
       text_ += '\n';
     for (const std::string &program : result_.skipped)
       text_ += fmt::format("{} is in none of the files: the run takes it to return and to change nothing\n", program);
+    if (result_.offsetIsAssumed)
+      text_ += "no variable gives the offset of D: it is taken to be the radius of @TOOL\n";
     for (const RunNote &note : result_.notes)
       text_ += fmt::format("not modelled: {}, {}\n", note.reason, where(note.place));
     return std::move(text_) + ending();
@@ -53,7 +56,7 @@ private:
   void path() {
     std::size_t next = 0;
     for (const TracedBlock &block : report_.trace) {
-      for (; next < block.movesBefore; ++next)
+      for (; next < std::min(block.movesBefore, result_.moves.size()); ++next)
         move(result_.moves[next]);
       text_ += fmt::format("{} {}{}\n", gutter(block.place), std::string(2 * block.depth, ' '), lineText(block.place));
     }
@@ -61,8 +64,13 @@ private:
       move(result_.moves[next]);
   }
   void move(const RecordedMove &recorded) {
-    const Move<ConcreteValue> &move = recorded.move;
-    text_ += fmt::format("{} {:<8}", gutter(recorded.place), kindOf(move.kind));
+    step(recorded.place, recorded.move, "");
+    for (const Move<ConcreteValue> &move : recorded.centre)
+      step(recorded.place, move, "  centre ");
+  }
+  /// A move, or one that the centre of the tool makes in its place.
+  void step(Place place, const Move<ConcreteValue> &move, std::string_view role) {
+    text_ += fmt::format("{} {}{:<8}", gutter(place), role, kindOf(move.kind));
     if (move.kind == MoveKind::Dwell) {
       text_ += fmt::format(" {}\n", length(move.feed.number));
       return;
@@ -71,7 +79,7 @@ private:
       text_ += fmt::format(" {}{}", letterOf(axis), length(move.end[indexOf(axis)].number));
     if (isArc(move.kind))
       text_ += centreOf(move);
-    if (move.kind != MoveKind::Rapid && !move.feed.vacant)
+    if (move.kind != MoveKind::Rapid && !move.feed.vacant && role.empty())
       text_ += fmt::format(" F{}", length(move.feed.number));
     text_ += '\n';
   }

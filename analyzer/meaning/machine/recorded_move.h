@@ -1,0 +1,37 @@
+// RecordedMove: one movement of a run, and where the tool's centre went while it was made.
+#pragma once
+
+#include "meaning/machine/concrete_interpretation.h"
+
+#include <vector>
+
+namespace feedhold {
+
+/// What the numbers of a move are counted in; the time of a dwell is not.
+enum class LengthUnit : std::uint8_t { Millimetre, Inch };
+
+struct RecordedMove {
+  Move<ConcreteValue> move; // as programmed
+  LengthUnit unit;
+  Place place;
+  Place own; // the same, or the block of the started program that called it
+  /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
+  std::array<double, 3> zero = {};
+  /// Its coordinates, or those of `centre`, are those of the tool (tool_point.h): cutter compensation is off or
+  /// followed, its length and the units are those of the start, and no other axis has turned the part.
+  bool isOfTool = true;
+  /// The moves that the centre of the tool makes instead, beside the programmed one: cutter compensation is in force or
+  /// ends.  Empty: it makes the programmed one.
+  std::vector<Move<ConcreteValue>> centre = {};
+};
+
+/// The same as moves of the tool's centre: those of `centre`, or the programmed one.
+std::vector<RecordedMove> movesOfCentre(const RecordedMove &recorded);
+
+/// Something that a run did not follow.
+struct RunNote {
+  std::string_view reason;
+  Place place;
+};
+
+} // namespace feedhold
