@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "rules/expressions/expression_view.h"
+#include "rules/flow/system_variables.h"
 
 #include <fmt/format.h>
 
@@ -22,12 +23,19 @@ struct Limit {
 bool isUpper(OperatorKind op) { return op == OperatorKind::GreaterThan || op == OperatorKind::GreaterOrEqual; }
 bool isLower(OperatorKind op) { return op == OperatorKind::LessThan || op == OperatorKind::LessOrEqual; }
 
+/// From one block to the next.  What is modal only changes by the codes between them.
+bool mayChange(const FileContext &context, ExpressionId value) {
+  const auto number = variableNumber(context.tree, unwrapped(context.tree, value));
+  const VariableRole role = number ? roleOf(context, *number) : VariableRole::Plain;
+  return role != VariableRole::ModalCode && role != VariableRole::ModalWord && readsLiveValue(context, value);
+}
+
 std::optional<Limit> limitIn(const FileContext &context, ExpressionId id) {
   const auto *relation = asInside<BinaryOperation>(context.tree, id);
   const auto number = relation && (isUpper(relation->op) || isLower(relation->op))
                           ? literalValue(context.tree, relation->right)
                           : std::nullopt;
-  if (!number || isConstant(context.tree, relation->left) || readsLiveValue(context, relation->left))
+  if (!number || isConstant(context.tree, relation->left) || mayChange(context, relation->left))
     return std::nullopt;
   return Limit{isUpper(relation->op), unwrapped(context.tree, relation->left), *number,
                context.tree.expressions[id].span};

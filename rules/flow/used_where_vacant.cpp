@@ -24,6 +24,31 @@ std::optional<Question> questionIn(const FlowFacts &facts, const FileContext &co
   return variable ? std::optional(Question{*variable, relation->op == OperatorKind::Equal}) : std::nullopt;
 }
 
+/// An alarm comes soon: `N800`, `M05`, `G65 P910002(SENSOR OFF)`, `#3000=1`.
+bool comesToAlarm(const FlowFacts &facts, const FileContext &context, BlockId block) {
+  constexpr int kFarthest = 10;
+  const BlockId last = context.model.programs[facts.program].last;
+  for (int i = 0; i < kFarthest && block < last; ++i, block = block.next()) {
+    const auto uses = context.model.variablesIn(block, block.next());
+    if (std::ranges::any_of(uses, [&](const VariableUse &use) {
+          return use.write && use.number && raisesAlarm(context.dialect, *use.number);
+        }))
+      return true;
+    if (flowAfter(context.tree, block, context.dialect) != FlowAfter::Next)
+      return false;
+  }
+  return false;
+}
+
+/// With the other outcome of the test.
+bool turnsOthersAway(const FlowFacts &facts, const FileContext &context, const PassedTest &passed) {
+  const BlockId block = facts.node(passed.node).block;
+  if (passed.isTrue)
+    return comesToAlarm(facts, context, block.next());
+  const auto jumps = context.model.jumpsIn(block, block.next());
+  return jumps.size() == 1 && jumps.front().target && comesToAlarm(facts, context, *jumps.front().target);
+}
+
 /// `IF[#7NE#0]THEN#3000=1`: to the text, the program goes on behind it.
 std::optional<NodeId> alarmBefore(const FlowFacts &facts, const FileContext &context, std::uint32_t variable,
                                   NodeId at) {
@@ -46,7 +71,7 @@ std::optional<NodeId> decidingTest(const FlowFacts &facts, const FileContext &co
     // Without an alarm for the other calls, two kinds of calls are told apart, and this is the one without the
     // argument.
     if (question && question->variable == variable && question->vacantWhenTrue == passed.isTrue &&
-        alarmWhenTrue(facts, passed.node) == !passed.isTrue)
+        turnsOthersAway(facts, context, passed))
       return passed.node;
   }
   return alarmBefore(facts, context, variable, at);
@@ -58,8 +83,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   std::set<std::uint32_t> told;
   for (const Read &read : readsOf(facts)) {
     const AbstractValue *value = facts.valueOf(read.expression);
-    if (read.use != ReadUse::Computed || !read.number || told.contains(*read.number) || !value || !value->isVacant() ||
-        !isLocal(facts.file, *read.number))
+    const bool countsAsZero = read.use == ReadUse::Computed || read.use == ReadUse::Ordering;
+    if (!countsAsZero || !read.number || told.contains(*read.number) || !value || !value->isVacant())
       continue;
     const auto node = nodeOf(facts, read.block, read.expression);
     const auto test = node ? decidingTest(facts, context, *read.number, *node) : std::nullopt;
@@ -71,7 +96,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                                             describeVariable(context.dialect, *read.number)),
                      .span = context.tree.expressions[read.expression].span,
                      .labels = {{context.tree.expressions[condition].span, "the check"}},
-                     .notes = {"it is computed with as 0, and every call that passes a value is turned away",
+                     .notes = {isLocal(facts.file, *read.number)
+                                   ? "it counts as 0, and every call that passes a value is turned away"
+                                   : "it counts as 0, and the program stops with an alarm wherever it holds a value",
                                "the check asks for the opposite: exchange EQ and NE"}});
   }
 }
@@ -79,8 +106,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule usedWhereVacant;
-const Rule usedWhereVacant{.info = {"used-where-vacant", Category::Flow, Severity::Warning,
-                                    "Reports a variable that is computed with where a check has left it vacant."},
-                           .hooks = {.flow = check}};
+const Rule usedWhereVacant{
+    .info = {"used-where-vacant", Category::Flow, Severity::Warning,
+             "Reports a variable that is computed with, or compared as a number, where a check has left it vacant."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::used_where_vacant
