@@ -114,8 +114,7 @@ void reportSetting(const Setting &setting, const FileContext &context, const Rep
                                           context.quoted(setting.remark->span)),
                    .span = span,
                    .notes = {"other settings at the head of the program are read; a change of this one has no effect",
-                             "use it where its remark says, or delete it here and in the template"}},
-                  Severity::Warning);
+                             "use it where its remark says, or delete it here and in the template"}});
 }
 
 /// Where no other setting is read, the head belongs to something else.
