@@ -43,6 +43,23 @@ IF[#500GT3]GOTO10
 M30
 """
 
+COMPENSATED = """O7
+(@PARAM #18 TOOL 1..8. MM)
+(@MODAL G17 G21 G90 G40)
+(@START X0 Y0 Z0)
+(@TOOL FLAT RADIUS #18)
+(@KEEPOUT CLAMP BOX X20..40 Y9..20 Z-10..10)
+(@TRAVEL X0..60 Y0..6)
+(@ALARM 7 IFF #18 GT 4)
+N10 G01 G41 D1 X10. F100.
+N20 X60.
+N30 Y6.
+N40 X30.
+N50 G40 Y0
+IF[#18GT4]THEN#3000=7(BIG)
+M99
+"""
+
 
 class Prove(Scratch):
     def prove(self, *arguments):
@@ -331,6 +348,19 @@ class Prove(Scratch):
         self.write("O7.nc", "O7\n(@MODAL G17)\n(@START X0 Y0)\nG91\nG03 X-10. Y10. I-10. J0 F100\nM99\n")
         [row] = [row for row in self.obligations("O7.nc") if "radius differs" in row["claim"]]
         self.assertEqual(row["verdict"], "proved")
+
+    def test_cutter_compensation_replays(self):
+        self.write("O7.nc", COMPENSATED)
+        rows = {row["id"]: row for row in self.obligations("O7.nc")}
+        for name, command, shown in (("O7.no-control-alarm.N10", "run", "alarm PS0041"),
+                                     ("O7.keep-out.CLAMP.N20", "plot", "inside CLAMP at N20")):
+            row = rows[name]
+            self.assertEqual(row["verdict"], "refuted", name)
+            self.assertIn("the offset of D is taken to be the radius of `@TOOL`", row["witness"]["happened"])
+            replay = self.feedhold(command, *row["witness"]["run"].split()[2:])
+            self.assertIn(shown, replay.stdout + replay.stderr)
+        self.assertEqual(rows["O7.travel.N20"]["verdict"], "proved")  # of programmed points
+        self.assertNotIn(rows["O7.alarm-iff.7"]["verdict"], ("proved", "refuted"))  # the control may stop before
 
     def test_the_work_offset_is_one_of_the_table(self):
         self.write("O9.nc", "O9\n#1=#[5201+[#4014-53]*20]\nM99\n")
