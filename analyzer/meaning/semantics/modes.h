@@ -132,8 +132,15 @@ private:
     const auto begins = [](const CodeWord &word) {
       return word.code->action == CodeAction::CompensationLeft || word.code->action == CodeAction::CompensationRight;
     };
-    if (std::any_of(words_.codes.begin(), words_.codes.end(), begins))
-      interpretation_.alarm(context_.maybeNot(), {AlarmKind::CutterCompensation, context_.place()});
+    Truth any = interpretation_.truth(std::any_of(words_.codes.begin(), words_.codes.end(), begins));
+    for (const auto &[group, code] : words_.computed) // `G#7`, where #7 holds what #4007 said
+      if (group == context_.modes.groupOf(ModalKind::Compensation))
+        any =
+            context_.either(any, interpretation_.isOneOf(code, context_.modes.maskOf(ModalKind::Compensation,
+                                                                                     {CodeAction::CompensationLeft,
+                                                                                      CodeAction::CompensationRight})));
+    interpretation_.alarm(interpretation_.both(any, context_.maybeNot()),
+                          {AlarmKind::CutterCompensation, context_.place()});
   }
   /// What is left of a cycle has no part in one that begins.
   void beginCycle(const CodeWord &word) {
