@@ -50,13 +50,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Word *tool = findWord(context.tree, block, 'T');
   const auto number = tool ? tool->integer() : std::nullopt;
   const auto named = number ? toolOf(context.text(comments.front().span)) : std::nullopt;
-  const bool changes = [&] {
-    for (const Word &word : context.tree.wordsOf(block))
-      if (const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
-          code && code->action == CodeAction::ToolChange)
-        return true;
-    return false;
-  }();
+  const bool changes = findAction(context.tree, block, context.dialect, {CodeAction::ToolChange}) != nullptr;
   if (!named || !changes || *named == *number || isNeighbour(context, block, *named))
     return;
   reporter.report(

@@ -36,15 +36,12 @@ std::optional<double> expected(const CaseLadder &ladder, std::size_t odd) {
 /// The block with the sequence number that no run comes to: no jump of the program names it, and the block before
 /// leaves.
 const SequenceNumber *unusedLabel(const FileContext &context, ProgramId program, double number) {
-  const auto &all = context.model.sequenceNumbers;
-  const Program &whole = context.model.programs[program];
-  const auto label = std::ranges::find_if(all, [&](const SequenceNumber &each) {
-    return each.block >= whole.first && each.block < whole.last && each.number == number;
-  });
+  const auto labels = context.model.sequenceNumbersOf(program);
+  const auto label = std::ranges::find(labels, number, &SequenceNumber::number);
   const auto jumps = context.model.jumpsOf(program);
   const bool isUsed =
       std::ranges::any_of(jumps, [&](const Jump &jump) { return !jump.number || jump.number->toDouble() == number; });
-  if (label == all.end() || isUsed || label->block == whole.first)
+  if (label == labels.end() || isUsed || label->block == context.model.programs[program].first)
     return nullptr;
   // What is in front of it runs into it, and it is a number among others.
   const FlowAfter before = flowAfter(context.tree, BlockId(label->block.index() - 1), context.dialect);

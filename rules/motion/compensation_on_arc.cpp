@@ -3,18 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
 namespace feedhold::rules::compensation_on_arc {
 namespace {
 
-const Word *codeWith(const FileContext &context, BlockId block, std::initializer_list<CodeAction> actions) {
-  for (const Word &word : context.tree.wordsOf(block))
-    if (const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
-        code && std::ranges::find(actions, code->action) != actions.end())
-      return &word;
-  return nullptr;
+const Word *startIn(const FileContext &context, BlockId block) {
+  return findAction(context.tree, block, context.dialect,
+                    {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+}
+const Word *endIn(const FileContext &context, BlockId block) {
+  return findAction(context.tree, block, context.dialect, {CodeAction::CompensationOff});
 }
 
 /// By the text of the program: the compensation is in force.  Absent: nothing before the block says so.
@@ -22,9 +21,9 @@ std::optional<bool> stateBefore(const FileContext &context, BlockId block) {
   const BlockId first = context.model.programs[context.model.programOf(block)].first;
   for (std::uint32_t i = block.index(); i-- > first.index();) {
     const BlockId each(i);
-    if (codeWith(context, each, {CodeAction::CompensationLeft, CodeAction::CompensationRight}))
+    if (startIn(context, each))
       return true;
-    if (codeWith(context, each, {CodeAction::CompensationOff}))
+    if (endIn(context, each))
       return false;
   }
   return std::nullopt;
@@ -36,9 +35,8 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
       code && (code->action == CodeAction::ArcClockwise || code->action == CodeAction::ArcCounterclockwise);
   if (!isArc || context.dialect.grammar.oWords)
     return; // where subroutines are o-words, an arc may begin the compensation
-  const Word *start = codeWith(context, block, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
-  const Word *end = codeWith(context, block, {CodeAction::CompensationOff});
-  const Word *switching = start ? start : end;
+  const Word *start = startIn(context, block);
+  const Word *switching = start ? start : endIn(context, block);
   if (!switching || meansOwnWords(context.tree, block, context.dialect))
     return;
   // G41 again where it is in force, or G40 where nothing is, changes nothing.  A caller may have left it in any state.

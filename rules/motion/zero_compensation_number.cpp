@@ -3,20 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace feedhold::rules::zero_compensation_number {
 namespace {
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (!word.isNumber() || !word.number().isZero() || context.dialect.grammar.oWords)
     return; // where subroutines are o-words, the tool table says what D0 is
-  const auto words = context.tree.wordsOf(block);
-  const auto begins = std::ranges::find_if(words, [&](const Word &each) {
-    const Code *code = each.isCode() ? codeOf(each, context.dialect) : nullptr;
-    return code && (code->action == CodeAction::CompensationLeft || code->action == CodeAction::CompensationRight);
-  });
-  if (begins == words.end() || meansOwnWords(context.tree, block, context.dialect))
+  const Word *begins =
+      findAction(context.tree, block, context.dialect, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+  if (!begins || meansOwnWords(context.tree, block, context.dialect))
     return;
   reporter.report({.message = fmt::format("{} with {} offsets by nothing", context.quoted(begins->span()),
                                           context.quoted(word.span())),

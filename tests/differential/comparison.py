@@ -26,7 +26,7 @@ def report_of(path, *options, dialect="linuxcnc"):
 
 def moves_of_tool(report):
     """Under cutter compensation the moves of the tool's centre in place of the programmed ones."""
-    return [{**move, **step} for move in report["moves"] for step in move.get("tool_path", [{}])]
+    return [{**move, **step} for move in report["moves"] for step in move.get("toolPath", [{}])]
 
 
 def counts(move):

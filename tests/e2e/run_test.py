@@ -69,8 +69,13 @@ class Run(Scratch):
         self.write("slot.nc", "O1\nG21 G17 G90 G00 X0 Y0\nG01 G41 D2 X10. F100.\nX60.\nG40 Y30.\nM30\n")
         for option in (("--offset", "D2=5"), ("--offset", "d2=+5."), ("--var", "13002=5")):
             moves = self.report("slot.nc", *option)["moves"]
-            self.assertEqual([step["to"]["Y"] for move in moves for step in move.get("tool_path", [])], [5, 5, 30])
-        self.assertNotIn("tool_path", self.report("slot.nc")["moves"][1])
+            self.assertEqual([step["to"]["Y"] for move in moves for step in move.get("toolPath", [])], [5, 5, 30])
+        self.assertNotIn("toolPath", self.report("slot.nc")["moves"][1])
+        self.write("tool.nc", "O1\n(@MODAL G21 G17 G90)\n(@TOOL FLAT RADIUS 5.)\nG20\nG01 G41 D2 X1. F9.\nX6.\nG40 Y3.\nM30\n")
+        inches = self.report("tool.nc")  # the contract counts in the units of the start
+        self.assertNotIn("offsetFromTool", inches)
+        self.write("tool.nc", "O1\n(@MODAL G21 G17 G90)\n(@TOOL FLAT RADIUS 5.)\nG01 G41 D2 X10. F9.\nX60.\nG40 Y30.\nM30\n")
+        self.assertTrue(self.report("tool.nc")["offsetFromTool"])
         for bad, why in (("5", "not of the form D1=5"), ("H1=5", "not of the form D1=5"), ("D1=", "not of the form D1=5"),
                          ("D1=five", "not of the form D1=5"), ("D0=5", "the offsets D1 to D999"),
                          ("D1.5=5", "the offsets D1 to D999"), ("D1000=5", "the offsets D1 to D999")):

@@ -23,6 +23,15 @@ const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &diale
   return nullptr;
 }
 
+const Word *findAction(const SyntaxTree &tree, BlockId block, const Dialect &dialect,
+                       std::initializer_list<CodeAction> actions) {
+  for (const Word &word : tree.wordsOf(block))
+    if (const Code *code = codeOf(word, dialect);
+        code && std::find(actions.begin(), actions.end(), code->action) != actions.end())
+      return &word;
+  return nullptr;
+}
+
 const Word *findWord(const SyntaxTree &tree, BlockId block, char address) {
   for (const Word &word : tree.wordsOf(block))
     if (word.address() == address && !word.has(Word::kComma))

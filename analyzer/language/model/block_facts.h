@@ -11,6 +11,9 @@ namespace feedhold {
 
 /// The first word of the block whose code has the role.
 const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &dialect, CodeRole role);
+/// Likewise, by what it does: one of `actions`.
+const Word *findAction(const SyntaxTree &tree, BlockId block, const Dialect &dialect,
+                       std::initializer_list<CodeAction> actions);
 /// The first word of an address; comma words do not count.
 const Word *findWord(const SyntaxTree &tree, BlockId block, char address);
 /// The dialect's row for a G or M word with a literal number; none for an argument of a call.

@@ -166,7 +166,7 @@ CutterElement elementOf(const Move<ConcreteValue> &move, const Plane &plane, int
   CutterElement element;
   element.start = at(move.start);
   element.end = at(move.end);
-  element.isArc = move.kind == MoveKind::ArcClockwise || move.kind == MoveKind::ArcCounterclockwise;
+  element.isArc = isArc(move.kind);
   if (element.isArc) {
     element.way = move.kind == MoveKind::ArcClockwise ? -1 : 1;
     element.centre = {move.firstCentre.number, move.secondCentre.number};

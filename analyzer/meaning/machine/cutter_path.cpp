@@ -11,7 +11,6 @@ namespace {
 constexpr double kStanding = 1e-9; // a shorter way is none
 constexpr double kSame = 1e-7;     // offsets that rounding alone keeps apart
 
-bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 bool isFollowed(MoveKind kind) { return kind == MoveKind::Rapid || kind == MoveKind::Feed || isArc(kind); }
 
 /// From one spoke to another along the way of an arc, the short way round.

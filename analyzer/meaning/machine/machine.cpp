@@ -144,14 +144,17 @@ private:
     auto ctx = context();
     if (cutter_.isOff() && !mayCompensate(ctx))
       return;
-    const CutterBlock block = cutterBlockOf(ctx, words_, [&] { return otherOffset(); });
+    const CutterBlock block = cutterBlockOf(ctx, words_, [&] { return otherOffset(ctx); });
     result_.offsetIsAssumed = result_.offsetIsAssumed || block.offsetIsAssumed;
     cutter_.take(block, here, frames_.size() - 1, first);
     for (const RunNote &note : cutter_.takeNotes())
       if (noted_.insert({note.place, note.reason}).second)
         result_.notes.push_back(note);
   }
-  std::optional<double> otherOffset() {
+  /// It is told in the units of the start.
+  std::optional<double> otherOffset(StepContext<ConcreteInterpretation> &ctx) {
+    if (!toolPointOf(ctx, entry_).sameUnits)
+      return std::nullopt;
     if (!otherOffset_)
       otherOffset_ = options_.cutterRadius ? options_.cutterRadius(options_) : std::nullopt;
     return *otherOffset_;

@@ -19,6 +19,7 @@ enum class MoveKind : std::uint8_t {
   Unmodelled, // its path is not known; nor need it lead from `start` to `end`
 };
 std::string_view nameOf(MoveKind kind);
+inline bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 
 /// Coordinates are those of the active work coordinate system, in the units in force, without tool compensation.
 template <typename Value> struct Move {

@@ -14,7 +14,6 @@ namespace {
 /// Depths up to here come from rounding: the tool touches.
 constexpr double kTouch = 1e-7;
 
-bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }
 
 bool isFollowed(const RecordedMove &recorded) {

@@ -53,7 +53,7 @@ public:
   TermPoint atCentre(TermPoint point) const;
 
 private:
-  bool isArc() const { return move_.kind == MoveKind::ArcClockwise || move_.kind == MoveKind::ArcCounterclockwise; }
+  bool isArc() const { return feedhold::isArc(move_.kind); }
   Hull boxHull() const;
   Hull arcHull();
   PointOnPath pointOfLine();

@@ -50,7 +50,6 @@ Json pointOf(const std::array<ConcreteValue, kAxisCount> &point, const std::vect
   return coordinates;
 }
 
-bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 void addPath(Json &row, const Move<ConcreteValue> &move, const std::vector<Axis> &axes) {
   row["from"] = pointOf(move.start, axes);
   row["to"] = pointOf(move.end, axes);
@@ -78,7 +77,7 @@ Json moveToJson(const RunReport &report, const RecordedMove &recorded, const std
   for (const Move<ConcreteValue> &step : recorded.centre) {
     Json way = {{"kind", nameOf(step.kind)}};
     addPath(way, step, axes);
-    row["tool_path"].push_back(std::move(way));
+    row["toolPath"].push_back(std::move(way));
   }
   return row;
 }
@@ -116,7 +115,7 @@ std::string writeRunJson(const RunReport &report) {
            return row;
          }));
   if (result.offsetIsAssumed)
-    member("offset_from_tool", "true");
+    member("offsetFromTool", "true");
   member("skipped", json::compactText(result.skipped));
   member("moves", listOf(result.moves, [&](const RecordedMove &move) { return moveToJson(report, move, axes); }));
   if (!report.trace.empty())

@@ -83,7 +83,6 @@ private:
       text_ += fmt::format(" F{}", length(move.feed.number));
     text_ += '\n';
   }
-  static bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
   static std::string centreOf(const Move<ConcreteValue> &move) {
     std::string text = fmt::format(" about {}{} {}{}", letterOf(move.plane.first), length(move.firstCentre.number),
                                    letterOf(move.plane.second), length(move.secondCentre.number));

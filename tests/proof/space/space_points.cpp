@@ -20,7 +20,6 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 
 double fraction(Random &random) { return static_cast<double>(random.below(4097)) / 4096; }
 
-bool isArc(MoveKind kind) { return kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise; }
 bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || isArc(kind); }
 
 /// Ends of their own for what comes often: the two ends of the way.
