@@ -52,6 +52,12 @@ constexpr std::array kFagor = {
     LanguageHint{TextSignal::FagorNumber, 10},
     LanguageHint{TextSignal::FagorTool, 2},
 };
+/// Variables and calls are not those of Macro B: a call copies the words A to Z to #0 to #25.
+constexpr std::array kHuazhong = {
+    LanguageHint{TextSignal::HuazhongFunction, 30}, LanguageHint{TextSignal::HuazhongControl, 30},
+    LanguageHint{TextSignal::FagorNumber, 10},      LanguageHint{TextSignal::HuazhongIf, 2},
+    LanguageHint{TextSignal::BlockIf, 1},
+};
 constexpr std::array kLnc = {
     LanguageHint{TextSignal::LncVariable, 6},
 };
@@ -100,6 +106,8 @@ constexpr std::array kLanguages = {
                     kGrbl},
     ForeignLanguage{"Syntec MACRO", "only programs in ISO mode (without `%@MACRO`) can be read", kSyntec},
     ForeignLanguage{"Fagor 8055", "statements in parentheses would be read as comments", kFagor},
+    ForeignLanguage{"a macro for Huazhong HNC",
+                    "its variables and calls are not those of a Macro B control; exclude these files", kHuazhong},
     ForeignLanguage{"LNC macro", "variables such as `@100` are not supported", kLnc},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not supported", kDollar},
     ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not supported", kFadal},

@@ -40,7 +40,8 @@ constexpr auto kMillingHints = joined(kMacroBHints, std::array{
                                                         LanguageHint{TextSignal::MitsubishiVariable, 6},
                                                         LanguageHint{TextSignal::MitsubishiOffsetGroup, 12},
                                                         LanguageHint{TextSignal::MitsubishiParameterRead, 12},
-                                                        LanguageHint{TextSignal::BlockIf, 4},
+                                                        // Weak: it is also written for controls without it.
+                                                        LanguageHint{TextSignal::BlockIf, 1},
                                                         LanguageHint{TextSignal::EiaFile, 12},
                                                     });
 /// On lathes of other makers `#16001` is an offset, too.

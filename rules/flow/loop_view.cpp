@@ -151,13 +151,16 @@ bool comesFromControl(const FlowFacts &facts, std::uint32_t variable) {
   for (const VariableUse &use : facts.file.model->variablesOf(facts.program)) {
     if (!use.write || use.number != variable)
       continue;
-    for (const Read &read : readsOf(facts.file, use.block))
+    const auto reads = readsOf(facts.file, use.block);
+    for (const Read &read : reads)
       if (read.use != ReadUse::Equality && read.number && *read.number != kVacantVariable &&
           !isPlain(facts.file, *read.number))
         return true;
+    const bool isDefault = std::ranges::any_of(
+        reads, [&](const Read &read) { return read.use == ReadUse::Equality && read.number == variable; });
     for (const Statement &statement : tree.statementsOf(use.block))
       if (const auto *assignment = std::get_if<Assignment>(&statement.node);
-          assignment && literalValue(tree, assignment->value))
+          assignment && !isDefault && literalValue(tree, assignment->value))
         return true; // a setting
   }
   return false;

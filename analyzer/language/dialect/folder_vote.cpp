@@ -20,6 +20,11 @@ bool fitsSeveral(const LanguageGuess &guess) {
                        [best](int score) { return score >= best - kAlike; }) >= kSeveral;
 }
 
+int voteOf(const LanguageGuess &file, std::size_t dialect) {
+  const int best = *std::max_element(file.scores.begin(), file.scores.end());
+  return std::max(file.scores[dialect] - best, -kMostOfOneFile);
+}
+
 } // namespace
 
 void FolderVote::add(const LanguageGuess &file) {
@@ -37,9 +42,8 @@ void FolderVote::add(const LanguageGuess &file) {
     ++speakers_[file.dialect];
   distinct_ += file.basis == GuessBasis::Text && file.kin == nullptr && !fitsSeveral(file) ? 1U : 0U;
   sums_.resize(file.scores.size());
-  const int best = *std::max_element(file.scores.begin(), file.scores.end());
   for (std::size_t i = 0; i < sums_.size(); ++i)
-    sums_[i] += std::max(file.scores[i] - best, -kMostOfOneFile);
+    sums_[i] += voteOf(file, i);
 }
 
 bool FolderVote::isClear() const {
@@ -79,10 +83,13 @@ LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
   }
   if (sums_.empty())
     return guess;
-  const int most = *std::max_element(sums_.begin(), sums_.end());
+  std::vector<int> others = sums_; // what the program itself says counts once
+  for (std::size_t i = 0; i < others.size(); ++i)
+    others[i] -= voteOf(own, i);
+  const int most = *std::max_element(others.begin(), others.end());
   std::vector<int> scores = own.scores;
   for (std::size_t i = 0; i < scores.size(); ++i)
-    scores[i] += std::max(sums_[i] - most, -kMostOfFolder);
+    scores[i] += std::max(others[i] - most, -kMostOfFolder);
   const Dialect *dialect = likeliestDialect(scores, *registry_);
   if (dialect != own.dialect) {
     guess.dialect = dialect;

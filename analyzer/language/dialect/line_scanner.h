@@ -117,6 +117,7 @@ private:
   void countLatheMarks();
   void countGCodeSystem();
   bool hasAnyCode(std::size_t first, std::size_t last) const;
+  bool isBareIf() const;
   void countCombinations();
   void sortLine();
 

@@ -189,6 +189,8 @@ std::optional<TextSignal> LineScanner::pairSignal(std::string_view run, bool isF
     return TextSignal::OkumaVariable;
   if (run.size() >= 2 && toUpper(run[0]) == 'N' && isFirst && isJoined)
     return TextSignal::OkumaLabel;
+  if (equalsUpper(run, "AR") && peek() == '[')
+    return TextSignal::HuazhongFunction;
   if (isOneOf(run, kTextParameters) && isDigit(peek()))
     return TextSignal::KlartextParameter;
   return std::nullopt;
@@ -501,9 +503,19 @@ void LineScanner::scanString() {
   at_ = end == std::string_view::npos ? line_.size() : end + 1;
 }
 
+/// `IF [#1 GT 2]` and nothing behind it.
+bool LineScanner::isBareIf() const {
+  if (!hasIf_ || hasOWord_ || !beginsUpper(trimmed(line_), "IF"))
+    return false;
+  const std::string_view code = trimmed(line_.substr(0, line_.find_first_of("(;")));
+  return code.ends_with(']') && code.find('=') == std::string_view::npos && letters_ == 0;
+}
+
 void LineScanner::countCombinations() {
   if (hasIf_ && endsWithThen_ && !hasOWord_)
     count(TextSignal::BlockIf);
+  if (isBareIf())
+    note(TextSignal::HuazhongIf);
   if (hasG65_ && hasLetter('P'))
     count(TextSignal::MacroCall);
   if (hasM98_ && hasLetter('P'))

@@ -113,6 +113,24 @@ TEST(Guess, LanguagesThatAreRefused) {
   EXPECT_EQ(guessed("%wait\n%X0=posx, Y0=posy\nG21\nM5\n"), "sender macro (CNCjs)");
 }
 
+TEST(Guess, Huazhong) {
+  constexpr std::string_view kHuazhong = "a macro for Huazhong HNC";
+  EXPECT_EQ(guessed("%0001\nG92 X0 Z50\n#10=0\nWHILE #10 LE 8\nG1 X[#10] F500\n#10=#10+0.1\nENDW\nM30\n"), kHuazhong);
+  EXPECT_EQ(guessed("O9810\nIF [AR[#23] EQ 90]\n#1=#23\nENDIF\nM99\n"), kHuazhong);
+  EXPECT_EQ(guessed("%9811\nIF[#19 LE 6]\n#3=1\nENDIF\nIF[#19 GT 9]\n#3=2\nENDIF\nM99\n"), kHuazhong);
+}
+
+TEST(Guess, ConditionsWithoutActionAloneAreNotHuazhong) {
+  EXPECT_EQ(guessed("O1\nIF [#1 EQ 1]\nG0 X1.\nIF [#1 EQ 2]\nG0 X2.\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("%1234\nIF [#1 EQ 1] GOTO10\nG0 X1.\nN10M30\n"), "fanuc-30i");
+}
+
+TEST(Guess, BlocksOfIfAreWeakerThanANamedControl) {
+  constexpr std::string_view kBlocks = "IF [#1 EQ 1] THEN\n#2=1\nENDIF\nIF [#1 EQ 2] THEN\n#2=2\nENDIF\nM99\n";
+  EXPECT_EQ(guessed(std::string("O9010 (HAAS NGC)\n").append(kBlocks)), "haas-ngc");
+  EXPECT_EQ(guessed(std::string("O9010\n").append(kBlocks)), "mitsubishi-m700");
+}
+
 TEST(Guess, DdcsByAnyOfItsOwnMarks) {
   constexpr std::string_view kDdcs = "a macro for DDCS";
   EXPECT_EQ(guessed("#1505 = -5000(wait)\nIF #1 == 2 GOTO1\nIF #3 != 0 GOTO2\nN1\nN2 M30\n"), kDdcs);
