@@ -1,5 +1,6 @@
 // loop-leaves-in-first-pass: a jump in the loop is always taken before its END.
 #include "rules/flow/flow_view.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -30,12 +31,22 @@ const Jump *wayOut(const FlowFacts &facts, const Loop &loop) {
   return nullptr;
 }
 
+/// `WHILE[..]DO1`, some blocks, `GOTO200`, `END1`: a loop that stands for an IF of several blocks.
+bool standsForIf(const FileContext &context, const Loop &loop, const Jump &jump) {
+  if (jump.conditional || !hasCondition(context, loop))
+    return false;
+  BlockId behind = jump.block.next();
+  while (behind < *loop.endBlock && isEmpty(context.tree, behind))
+    behind = behind.next();
+  return behind == *loop.endBlock;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (const Loop &loop : context.model.loopsOf(facts.program)) {
     if (loop.program != facts.program || !loop.endBlock || reachedNode(facts, *loop.endBlock))
       continue;
     const Jump *jump = wayOut(facts, loop);
-    if (!jump)
+    if (!jump || standsForIf(context, loop, *jump))
       continue;
     reporter.report(
         {.message = "this loop never comes to its END: its first pass leaves it",

@@ -57,6 +57,17 @@ std::optional<ExpressionId> differenceBehind(const FlowFacts &facts, NodeId node
                                                                          : std::nullopt;
 }
 
+/// `ATAN[#1/[#2-#3]]`: of a line along an axis the difference is 0, and there its angle is as good as any.
+bool isSlope(const FileContext &context, const FlowFacts &facts, NodeId node, ExpressionId divisor) {
+  const auto all = expressionsOf(facts.file, facts.node(node).block);
+  return std::ranges::any_of(all, [&](ExpressionId id) {
+    const auto *call = as<FunctionCall>(context.tree, id);
+    const bool isOne = call && call->function == FunctionKind::Atan && call->arguments().size() == 1;
+    const auto *quotient = isOne ? asInside<BinaryOperation>(context.tree, call->arguments().front()) : nullptr;
+    return quotient && quotient->op == OperatorKind::Divide && quotient->right == divisor;
+  });
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (isTooLarge(facts))
     return;
@@ -81,14 +92,15 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                   "a divisor of 0"}};
     if (!alarm.place.contains(context.tree.expressions[*difference].span))
       diagnostic.labels.push_back({context.tree.expressions[*difference].span, "computed here"});
-    reporter.report(std::move(diagnostic));
+    reporter.report(std::move(diagnostic),
+                    isSlope(context, facts, alarm.node, *place) ? Severity::Warning : Severity::Info);
   }
 }
 
 } // namespace
 
 extern const Rule unguardedDifference;
-const Rule unguardedDifference{.info = {"unguarded-difference", Category::Flow, Severity::Info,
+const Rule unguardedDifference{.info = {"unguarded-difference", Category::Flow, Severity::Warning,
                                         "Reports a division by a difference that is never checked for 0."},
                                .hooks = {.flow = check}};
 

@@ -68,7 +68,10 @@ public:
     const auto y = chord(plane.second, 1);
     if (!a || !b || !x || !y)
       return std::nullopt;
-    return apart({*a, *b}, {sum(*x, -1, *a), sum(*y, -1, *b)});
+    const Vector start{*a, *b};
+    const Vector end{sum(*x, -1, *a), sum(*y, -1, *b)};
+    const auto apartAlways = apart(start, end);
+    return apartAlways ? apartAlways : shifted(start, {*x, *y});
   }
 
 private:
@@ -261,6 +264,25 @@ private:
     const bool depends = std::ranges::any_of(
         words, [](const Word *word) { return word->form() == WordForm::Expression && !word->isCode(); });
     return ApartRadii{first, second, depends};
+  }
+  /// `X[#102+.1] I[-#102]` from `X#102`: both points and the centre are on a line, and the end is the start moved by a
+  /// number.  The end names the variable of the centre, so that a half circle of this width is not what is meant.
+  std::optional<ApartRadii> shifted(const Vector &start, const Vector &between) {
+    for (const std::size_t along : {0U, 1U}) {
+      const std::size_t across = 1 - along;
+      const bool isOnLine = start[across].isConstant() && start[across].constant == 0 && between[across].isConstant() &&
+                            between[across].constant == 0;
+      const double shift = std::abs(between[along].constant);
+      if (!isOnLine || !between[along].isConstant() || shift <= tolerance() || start[along].isConstant())
+        continue;
+      const auto step = stepOf(along == 0 ? block_.plane.first : block_.plane.second, 0);
+      const bool namesCentre = step && std::ranges::any_of(start[along].factors, [&](const auto &factor) {
+                                 return step->form.factors.contains(factor.first);
+                               });
+      if (namesCentre)
+        return ApartRadii{Interval::all(), Interval::all(), true, shift};
+    }
+    return std::nullopt;
   }
   Interval lengthOf(const Vector &vector) const {
     const auto square = [&](const LinearForm &form) {

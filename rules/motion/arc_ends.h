@@ -28,6 +28,9 @@ struct ApartRadii {
   Interval start;
   Interval end;
   bool dependsOnVariables; // some word of the arc has an expression
+  /// The end lies this far from the start on the line through the centre: the radii agree for one value only, that of a
+  /// half circle.
+  std::optional<double> shift = std::nullopt;
 };
 
 /// Absent: the radii may be equal, or it cannot be told.  A word whose variable is vacant counts as written: the claim

@@ -120,12 +120,18 @@ private:
       notes.push_back(fmt::format("the radius is {:.6g} at the start point and {:.6g} at the end point{}",
                                   radii->start.lo, radii->end.lo,
                                   radii->dependsOnVariables ? ", whatever numbers the variables hold" : ""));
+    const bool isShifted = radii && radii->shift;
+    if (isShifted)
+      notes.push_back(fmt::format("the end is the start point moved by {:.6g} along the radius: both are on one circle "
+                                  "for one value of the variables only, which makes a half circle",
+                                  *radii->shift));
     notes.push_back(fmt::format("the control {}", stopsWith(view_.context().dialect, AlarmKind::ArcRadius)));
     notes.emplace_back("I, J and K are the distances from the start point to the centre");
     reporter.report({.message = "the end point of this arc is not on the circle through its start point",
                      .span = place,
                      .flow = pathFromEntry(facts, node),
-                     .notes = std::move(notes)});
+                     .notes = std::move(notes)},
+                    isShifted ? Severity::Warning : Severity::Error);
   }
 
   static constexpr double kShown = 1e-6; // a bound of a radius, as the place that messages have for it

@@ -52,9 +52,18 @@ private:
       const auto callee = context_.callGraph.callee(ref.file, call);
       if (callee)
         readProgram(*callee, tools, false);
+      else if (call.kind == CallKind::Subprogram && call.programWord && call.callee.empty() &&
+               file.model->programs.size() > 2)
+        readOthers(ref, tools);
       else
         tools.hasOffset = true;
     }
+  }
+
+  /// `M98P[#1+9200]`: some program of the file.
+  void readOthers(ProgramRef ref, Tools &tools) {
+    for (std::size_t program = 0; program < context_.programs->file(ref.file).model->programs.size(); ++program)
+      readProgram({ref.file, ProgramId(program)}, tools, false);
   }
 
   void readBlock(const ProgramFile &file, BlockId block, Tools &tools, bool isOuter) const {

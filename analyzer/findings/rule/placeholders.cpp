@@ -50,13 +50,32 @@ std::optional<Span> placeholderOf(std::string_view text, Span line) {
   return std::nullopt;
 }
 
+/// Besides one line of dots, the text is a program from its number to its end: the dots are a slip.
+bool isProgramWithSlip(const FileContext &context) {
+  constexpr std::size_t kFewestBlocks = 12;
+  const SyntaxTree &tree = context.tree;
+  if (tree.issues.size() != 1 || context.model.programs.size() != 1)
+    return false;
+  const Program &program = *context.model.programs.begin();
+  std::size_t full = 0;
+  bool ends = false;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    full += isEmpty(tree, block) ? 0U : 1U;
+    ends = ends || flowAfter(tree, block, context.dialect) == FlowAfter::Ends;
+  }
+  return ends && full >= kFewestBlocks && !program.name.empty();
+}
+
 } // namespace
 
 std::optional<Span> placeholderIn(const FileContext &context) {
   const std::string_view text = context.source.text();
-  for (const SyntaxIssue &issue : context.tree.issues)
-    if (const auto found = placeholderOf(text, lineAround(text, issue.span.begin)))
+  for (const SyntaxIssue &issue : context.tree.issues) {
+    const Span line = lineAround(text, issue.span.begin);
+    const auto found = placeholderOf(text, line);
+    if (found && !(found == line && isProgramWithSlip(context)))
       return found;
+  }
   return std::nullopt;
 }
 

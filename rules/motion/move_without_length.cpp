@@ -1,0 +1,79 @@
+// move-without-length: `G49`, and in a later block `G00 Z#18`.
+#include "rules/motion/motion_view.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace feedhold::rules::move_without_length {
+namespace {
+
+class MoveWithoutLength final : public FlowRule {
+public:
+  MoveWithoutLength(ProgramId program, const FileContext &context) : view_(program, context) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!view_.mayHave(node, 'Z') || isHavocked(state) || !zWord(node) || view_.sets(node, ModalKind::Length) ||
+        view_.findAction(node, {CodeAction::ToolChange}))
+      return;
+    if (view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) &&
+        view_.surely(state, ModalKind::Length, {CodeAction::LengthOff}) &&
+        view_.wasSet(state, ModalKind::Length, {CodeAction::LengthOff}))
+      moves_.push_back(node);
+  }
+
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    // Hobby machines have G49 in each preamble, and tools without lengths.
+    if (moves_.empty() || context.dialect.behaviour.endRestoresModes || !usesLengthOffset(facts))
+      return;
+    std::ranges::sort(moves_);
+    for (NodeId off = facts.entry(); off < facts.end(); off = off.next())
+      if (facts.isReached(off) && view_.findAction(off, {CodeAction::LengthOff}))
+        tell(off, facts, context, reporter);
+  }
+
+private:
+  const Word *zWord(NodeId node) const {
+    for (const Word *word : view_.modalMotionWords(node))
+      if (word->address() == 'Z')
+        return word;
+    return nullptr;
+  }
+  bool usesLengthOffset(const FlowFacts &facts) const {
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+      if (facts.isReached(node) && view_.findAction(node, {CodeAction::LengthPlus, CodeAction::LengthMinus}))
+        return true;
+    return false;
+  }
+  void tell(NodeId off, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+    const auto isOver = [&](NodeId node) {
+      return (node != off && view_.sets(node, ModalKind::Length)) || view_.findAction(node, {CodeAction::ToolChange});
+    };
+    const auto node = firstReached(facts, off, moves_, isOver);
+    if (!node || told_ == node)
+      return;
+    told_ = node;
+    reporter.report(
+        {.message = fmt::format("{} moves the tool without its length", context.quoted(zWord(*node)->span())),
+         .span = zWord(*node)->span(),
+         .labels = {{view_.findAction(off, {CodeAction::LengthOff})->span(), "the length offset ends here"}},
+         .notes = {"the spindle nose goes to this height, and the tool is below it by its length",
+                   "retract before `G49`, or by `G53` or `G28`; approach with `G43` and H"}});
+  }
+
+  MotionView view_;
+  std::vector<NodeId> moves_;
+  std::optional<NodeId> told_;
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<MoveWithoutLength>(program, context);
+}
+
+} // namespace
+
+extern const Rule moveWithoutLength;
+const Rule moveWithoutLength{.info = {"move-without-length", Category::Motion, Severity::Warning,
+                                      "Reports a move in `Z` behind `G49`, in a program that sets a length offset."},
+                             .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules::move_without_length

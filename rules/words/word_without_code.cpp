@@ -1,0 +1,69 @@
+// word-without-code: `M65 P1 L3` where a word that no code of its block takes stops the control.
+#include "rules/words/block_words.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <span>
+#include <string_view>
+
+namespace feedhold::rules::word_without_code {
+namespace {
+
+/// Codes in tenths that take a word, as LinuxCNC's messages about the word name them.
+struct Takers {
+  char letter;
+  std::string_view names;
+  std::span<const std::uint16_t> gCodes;
+  std::span<const std::uint16_t> mCodes;
+};
+constexpr std::array<std::uint16_t, 11> kOfD = {410, 411, 420, 421, 520, 700, 710, 711, 712, 720, 960};
+constexpr std::array<std::uint16_t, 3> kOfH = {430, 432, 760};
+constexpr std::array<std::uint16_t, 18> kOfL = {52,  100, 410, 411, 420, 421, 730, 740, 760,
+                                                810, 820, 830, 840, 850, 860, 870, 880, 890};
+constexpr std::array<std::uint16_t, 2> kOfLByM = {660, 980};
+constexpr std::array kTakers = {
+    Takers{'D', "G41, G42 or G96", kOfD, {}},
+    Takers{'H', "G43 or G76", kOfH, {}},
+    Takers{'L', "G10, G41, G42, a canned cycle, M66 or M98", kOfL, kOfLByM},
+};
+
+bool takes(const Takers &takers, const Code &code, char address) {
+  const auto codes = address == 'G' ? takers.gCodes : takers.mCodes;
+  return std::ranges::find(codes, code.tenths) != codes.end();
+}
+
+/// Behind axis words the movement in force may be a cycle; a code that is not in the tables may be a remapped one.
+bool mayBeTaken(const Takers &takers, BlockId block, const FileContext &context) {
+  constexpr std::string_view kAxes = "XYZABCUVW";
+  return std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+    if (kAxes.find(word.address()) != std::string_view::npos)
+      return takers.letter == 'L';
+    const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
+    return word.isCode() && (!code || takes(takers, *code, word.address()));
+  });
+}
+
+void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  const Block &its = context.tree.blocks[block];
+  if (!context.dialect.grammar.oWords || its.has(Block::kBroken) || word.has(Word::kArgument))
+    return;
+  const Takers &takers = *std::ranges::find(kTakers, word.address(), &Takers::letter);
+  if (!context.model.callsIn(block, block.next()).empty() || mayBeTaken(takers, block, context))
+    return;
+  reporter.report(
+      {.message = fmt::format("no code of this block takes {}", context.quoted(word.span())),
+       .span = word.span(),
+       .notes = {fmt::format("the control stops with an error: {} stands only with {}", takers.letter, takers.names),
+                 "correct the code of the block, or delete the word"}});
+}
+
+} // namespace
+
+extern const Rule wordWithoutCode;
+const Rule wordWithoutCode{.info = {"word-without-code", Category::Word, Severity::Error,
+                                    "Reports a `D`, `H` or `L` word in a block without a code that takes it, where "
+                                    "the control stops for that."},
+                           .hooks = {.word = check, .wordAddresses = "DHL"}};
+
+} // namespace feedhold::rules::word_without_code
