@@ -41,14 +41,15 @@ std::optional<Read> askedAt(const FlowFacts &facts, const FileContext &context, 
   return std::nullopt;
 }
 
-/// Locals with a letter that the program asks for: by argument assignment II, repeated I, J and K fill the others.
+/// Arguments with a letter of which the program asks whether they were passed.  By argument assignment II, repeated I,
+/// J and K fill the locals without a letter.
 std::size_t lettersAsked(const FlowFacts &facts, const FileContext &context) {
   constexpr std::uint32_t kLastOfFirstSet = 6;
   std::set<std::uint32_t> asked;
   for (const Read &read : readsOf(facts)) {
     const bool hasLetter = read.number && *read.number > kLastOfFirstSet && *read.number <= kLastLetter &&
                            letterOfArgument(context.dialect, *read.number);
-    if (hasLetter && (read.use == ReadUse::Equality || !maySet(facts, *read.number)))
+    if (hasLetter && isTestedForVacancy(facts.file, facts.program, *read.number))
       asked.insert(*read.number);
   }
   return asked.size();

@@ -74,13 +74,15 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     done.insert(late->argument);
     const Span span = context.tree.expressions[use->expression].span;
-    reporter.report({.message = fmt::format("{} is used before its default is set",
-                                            describeVariable(context.dialect, late->argument)),
-                     .span = span,
-                     .labels = {{late->span, "the default comes here"}},
-                     .notes = {use->use == ReadUse::Word ? "when it is not passed, the control ignores this word"
-                                                         : "when it is not passed, the control computes with 0 here",
-                               "move the default before this block"}});
+    reporter.report(
+        {.message =
+             fmt::format("{} is used before its default is set", describeVariable(context.dialect, late->argument)),
+         .span = span,
+         .labels = {{late->span, "the default comes here"}},
+         .notes = {use->use == ReadUse::Word ? "when it is not passed, the control ignores this word"
+                                             : "when it is not passed, the control computes with 0 here",
+                   "move the default before this block"}},
+        use->use == ReadUse::Word ? Severity::Info : Severity::Warning); // a word may be left out on purpose
   }
 }
 
