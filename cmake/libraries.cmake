@@ -1,5 +1,6 @@
 # A library is one folder and one static library.  `DEPS` names the libraries above it that it uses, so that the link
-# line says the same as .ci/layers.txt; `PRIVATE` names libraries that only its .cpp files see.
+# line says the same as .ci/layers.txt; `PRIVATE` names libraries that only its .cpp files see;
+# `EXCEPT` files whose twins take their place in this build.
 
 add_library(feedhold_options INTERFACE)
 target_compile_options(feedhold_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch-enum -Werror)
@@ -15,8 +16,11 @@ if(FEEDHOLD_SANITIZE)
 endif()
 
 function(feedhold_library name)
-  cmake_parse_arguments(LIBRARY "" "" "DEPS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(LIBRARY "" "" "DEPS;PRIVATE;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(file ${LIBRARY_EXCEPT})
+    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
   if(sources)
     feedhold_batches(batches ${sources})
     add_library(${name} STATIC ${batches})

@@ -42,7 +42,7 @@ class Completions(Scratch):
 
     def commands(self):
         text = self.feedhold("--help").stdout.split("Subcommands:")[1]
-        return set(re.findall(r"^  ([a-z]+) ", text, re.MULTILINE))
+        return set(re.findall(r"^  ([a-z-]+) ", text, re.MULTILINE))
 
     def test_bash(self):
         self.script("bash", "feedhold.bash")

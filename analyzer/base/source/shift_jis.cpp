@@ -1,15 +1,13 @@
-// Shift-JIS by its byte ranges; the table of characters is the C library's (iconv), and only this file speaks to it.
+// Shift-JIS by its byte ranges.  The table of characters is ours: a C library's is a file beside it.
 #include "base/source/shift_jis.h"
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
-#include <iconv.h>
+#include <iterator>
 
 namespace feedhold {
 
 namespace {
-
-constexpr std::string_view kReplacementText = "\xEF\xBF\xBD";
 
 bool isLead(std::uint8_t byte) { return (byte >= 0x81 && byte <= 0x9F) || (byte >= 0xE0 && byte <= 0xFC); }
 bool isTrail(std::uint8_t byte) { return byte >= 0x40 && byte <= 0xFC && byte != 0x7F; }
@@ -33,38 +31,41 @@ int japaneseVote(std::string_view text, std::size_t at) {
   return next >= 0x80 || (afterHigh && isKatakana(byte)) ? 1 : -1;
 }
 
-class Converter {
-public:
-  Converter() : handle_(::iconv_open("UTF-8", "CP932")) {}
-  Converter(const Converter &) = delete;
-  Converter &operator=(const Converter &) = delete;
-  ~Converter() {
-    if (known())
-      ::iconv_close(handle_);
-  }
+constexpr char16_t kNone = 0xFFFD;
+constexpr char16_t kFirstKatakana = 0xFF61;
+constexpr char16_t kFirstOfUsers = 0xE000;
+constexpr std::size_t kTrails = 188;
 
-  /// One character.  Where the system lacks the table, every double-byte character is unknown.
-  std::string convert(std::string_view character) {
-    std::array<char, 8> output;
-    char *in = const_cast<char *>(character.data()); // iconv's old signature; it does not write there
-    char *out = output.data();
-    std::size_t inLeft = character.size();
-    std::size_t outLeft = output.size();
-    if (!known() || ::iconv(handle_, &in, &inLeft, &out, &outLeft) == static_cast<std::size_t>(-1)) {
-      reset();
-      return std::string(kReplacementText);
-    }
-    return std::string(output.data(), out);
-  }
-
-private:
-  bool known() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
-  void reset() {
-    if (known())
-      ::iconv(handle_, nullptr, nullptr, nullptr, nullptr);
-  }
-  iconv_t handle_;
+struct Row {
+  std::uint8_t lead;
+  std::u16string_view characters; // by trail byte
 };
+
+constexpr Row kRows[] = {
+#define ROW(lead, characters) {lead, characters},
+#include "base/source/shift_jis_table.def"
+#undef ROW
+};
+static_assert(std::ranges::all_of(kRows, [](const Row &row) { return row.characters.size() == kTrails; }));
+static_assert(std::ranges::is_sorted(kRows, {}, &Row::lead));
+
+/// Of two bytes, as shiftJisLength() takes them together.
+char16_t characterOf(std::uint8_t lead, std::uint8_t trail) {
+  const std::size_t column = trail - 0x40U - (trail > 0x7F ? 1 : 0);
+  if (lead >= 0xF0 && lead <= 0xF9)
+    return static_cast<char16_t>(kFirstOfUsers + (lead - 0xF0) * kTrails + column);
+  const Row *row = std::ranges::lower_bound(kRows, lead, {}, &Row::lead);
+  return row != std::end(kRows) && row->lead == lead ? row->characters[column] : kNone;
+}
+
+/// Of all but ASCII.
+std::string utf8Of(char16_t character) {
+  const auto continuation = [](unsigned bits) { return static_cast<char>(0x80U | (bits & 0x3FU)); };
+  const unsigned code = character;
+  if (code < 0x800)
+    return {static_cast<char>(0xC0U | code >> 6U), continuation(code)};
+  return {static_cast<char>(0xE0U | code >> 12U), continuation(code >> 6U), continuation(code)};
+}
 
 } // namespace
 
@@ -84,15 +85,17 @@ std::size_t shiftJisLength(std::string_view text, std::size_t at) {
 }
 
 std::string utf8FromShiftJis(std::string_view bytes) {
-  Converter converter;
   std::string result;
   for (std::size_t at = 0; at < bytes.size();) {
-    const std::string_view character = bytes.substr(at, shiftJisLength(bytes, at));
-    if (unitAt(character, 0) < 0x80)
-      result += character;
+    const std::size_t length = shiftJisLength(bytes, at);
+    const std::uint8_t byte = unitAt(bytes, at);
+    if (length == 2)
+      result += utf8Of(characterOf(byte, unitAt(bytes, at + 1)));
+    else if (byte < 0x80)
+      result += bytes[at];
     else
-      result += converter.convert(character);
-    at += character.size();
+      result += utf8Of(isKatakana(byte) ? static_cast<char16_t>(kFirstKatakana + (byte - 0xA1)) : kNone);
+    at += length;
   }
   return result;
 }

@@ -80,7 +80,7 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
   Material material;
   material.add(kFormat);
   material.add(cache.tool);
-  material.add(smt::z3Version());
+  material.add(smt::z3Version().value_or("no Z3"));
   material.add(programs.dialect().id);
   material.add(textOf(programs.dialect().switches));
   material.add(only.size());

@@ -227,7 +227,7 @@ private:
       return {Unknown{"Z3 found a proof that cvc5 did not confirm: " + none->reason}, "z3+cvc5", effort_};
     if (!cvc5.isUnsat())
       return {Unknown{"Z3 and cvc5 disagree"}, "z3+cvc5", effort_};
-    const SolverEvidence evidence{text_, {smt::z3Version(), smt::cvc5Version().value_or("cvc5")}};
+    const SolverEvidence evidence{text_, {smt::z3Version().value_or("z3"), smt::cvc5Version().value_or("cvc5")}};
     return {Proved{Grade::TwoSolvers, evidence}, "z3+cvc5", effort_};
   }
 

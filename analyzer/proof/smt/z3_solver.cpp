@@ -157,7 +157,7 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
   return readAnswer(output.value().output);
 }
 
-std::string z3Version() {
+std::optional<std::string> z3Version() {
   unsigned major = 0, minor = 0, build = 0, revision = 0;
   Z3_get_version(&major, &minor, &build, &revision);
   return "z3 " + std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(build);

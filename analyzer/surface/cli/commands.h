@@ -34,6 +34,7 @@ Command addProveCommand(CLI::App &parent);
 Command addDraftCommand(CLI::App &parent);
 Command addCertifyCommand(CLI::App &parent);
 Command addRecheckCommand(CLI::App &parent);
+Command addSelfCheckCommand(CLI::App &parent);
 Command addCompletionsCommand(CLI::App &parent);
 Command addManCommand(CLI::App &parent);
 Command addLspCommand(CLI::App &parent);

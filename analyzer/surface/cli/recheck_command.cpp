@@ -97,7 +97,8 @@ std::string summaryOf(const std::vector<Question> &questions) {
   const std::size_t asked = questions.size() - countOf(questions, &Question::z3, SolverSays::NotAsked);
   return fmt::format(
       "evidence: {}, {} verified by the checker, {} asked again ({}; {})\n", counted(questions.size(), "question"),
-      counted(followed, "certificate"), asked, agreementOf(smt::z3Version(), questions, &Question::z3),
+      counted(followed, "certificate"), asked,
+      agreementOf(smt::z3Version().value_or("Z3, which is not installed,"), questions, &Question::z3),
       agreementOf(smt::cvc5Version().value_or("cvc5, which is not installed,"), questions, &Question::cvc5));
 }
 

@@ -70,9 +70,7 @@ void addGuards(ProofsResult &proofs, const ProofOptions &made) {
 }
 
 std::vector<std::string> solvers() {
-  std::vector<std::string> names = {smt::z3Version()};
-  names.push_back(smt::cvc5Version().value_or("cvc5 is not installed"));
-  return names;
+  return {smt::z3Version().value_or("Z3 is not installed"), smt::cvc5Version().value_or("cvc5 is not installed")};
 }
 
 } // namespace

@@ -155,6 +155,8 @@ private:
 } // namespace
 
 std::string pathFrom(const fs::path &folder, const fs::path &path) {
+  if (path.empty())
+    return "";
   const fs::path absolute = fs::absolute(path).lexically_normal();
   const std::string relative =
       absolute.lexically_relative(fs::absolute(folder / "").lexically_normal()).generic_string();

@@ -24,7 +24,8 @@ std::string readingOptions(const BundleReading &reading);
 /// File names, `/` as separator, and their texts.
 using Bundle = std::map<std::string, std::string>;
 
-/// How a file is named in a folder that will hold a bundle; absolute where no way leads from there.
+/// How a file is named in a folder that will hold a bundle; absolute where no way leads from there, and empty
+/// for a text without a file.
 std::string pathFrom(const std::filesystem::path &folder, const std::filesystem::path &path);
 
 /// `folder`: where the bundle will lie; sources are named from there.  Same proofs, same bytes.
