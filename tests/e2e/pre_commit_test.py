@@ -1,4 +1,5 @@
-"""The real `pre-commit` with this project's hooks: a bad macro blocks the commit, a good one passes."""
+"""The real `pre-commit` with this project's hooks for a program on the PATH: a bad macro blocks the commit, a good one
+passes."""
 import os
 import re
 import shutil
@@ -21,7 +22,7 @@ TOP = "O1\nG65 P9100 A1.\nM30\n"
 
 
 class Hooked(Scratch):
-    hook = "feedhold"
+    hook = "feedhold-system"
 
     def setUp(self):
         super().setUp()
@@ -96,7 +97,7 @@ class Check(Hooked):
 
 
 class Prove(Hooked):
-    hook = "feedhold-prove"
+    hook = "feedhold-prove-system"
 
     def setUp(self):
         super().setUp()
@@ -153,7 +154,15 @@ class Lists(unittest.TestCase):
         extensions = set(re.findall(r'"(\w+)"', rows))
         hooks = (ROOT / ".pre-commit-hooks.yaml").read_text()
         listed = [set(re.findall(r"\w+", names)) for names in re.findall(r"\\\.\(\n(.*?)\)\$", hooks, re.S)]
-        self.assertEqual(listed, [extensions, extensions, extensions - {"contract"}])
+        self.assertEqual(listed, [extensions, extensions - {"contract"}])
+
+    def test_hooks_that_install_themselves_do_what_those_on_the_path_do(self):
+        hooks = (ROOT / ".pre-commit-hooks.yaml").read_text().split("- id: ")[1:]
+        entries = {hook.split("\n")[0]: re.search(r"entry: (.*)", hook)[1] for hook in hooks}
+        languages = {hook.split("\n")[0]: re.search(r"language: (.*)", hook)[1] for hook in hooks}
+        for name in ("feedhold", "feedhold-fix", "feedhold-prove"):
+            self.assertEqual(entries[name], entries[f"{name}-system"])
+            self.assertEqual((languages[name], languages[f"{name}-system"]), ("python", "system"))
 
 
 if __name__ == "__main__":

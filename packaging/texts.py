@@ -1,0 +1,8 @@
+"""What goes with the program wherever it goes."""
+from libraries import notices
+from release import ROOT
+
+
+def texts(release):
+    return {"LICENSE": (ROOT / "LICENSE").read_bytes(), "CHANGELOG.md": (ROOT / "CHANGELOG.md").read_bytes(),
+            "THIRD-PARTY-NOTICES": notices(release.build).encode()}
