@@ -11,9 +11,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SUMMARY = "Static analyser, linter and prover for CNC macro programs"
-DESCRIPTION = """Feedhold reads macro programs of CNC controls (FANUC Custom Macro B, Mitsubishi, Haas, LinuxCNC) as the control does.
-It reports mistakes before the machine makes them, runs programs without a machine, and proves for all inputs that loops
-end, that the control does not stop and that contracts are kept."""
+DESCRIPTION = """Feedhold reads macro programs of CNC controls (FANUC Custom Macro B,
+Mitsubishi, Haas, LinuxCNC) as the control does. It reports mistakes before
+the machine makes them, runs programs without a machine, and proves for all
+inputs that loops end, that the control does not stop and that contracts are
+kept."""
 HOMEPAGE = "https://example.com/feedhold"
 MAINTAINER = "Feedhold maintainers <maintainers@users.noreply.h-seed-c282d966.example>"
 LICENCE = "Apache-2.0"

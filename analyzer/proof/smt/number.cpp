@@ -24,22 +24,38 @@ void spendOn(const Number &left, const Number &right) {
   spend(20 + words + words * words / 8);
 }
 
-} // namespace
+// GMP takes and gives `long`, which has 32 bits on some systems; its limbs have 64 on all of ours.
+static_assert(sizeof(mp_limb_t) == sizeof(std::int64_t));
 
-static_assert(sizeof(long) == sizeof(std::int64_t), "GMP takes and gives long");
+mpz_class integerOf(std::int64_t value) {
+  const std::uint64_t magnitude = value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+  mpz_class result;
+  mpz_import(result.get_mpz_t(), 1, -1, sizeof magnitude, 0, 0, &magnitude);
+  return value < 0 ? mpz_class(-result) : result;
+}
+
+/// Absent where it does not fit; the most negative value, which no Rational holds, counts among these.
+std::optional<std::int64_t> narrowed(const mpz_class &value) {
+  const mp_limb_t limb = mpz_getlimbn(value.get_mpz_t(), 0); // 0 of 0
+  if (mpz_size(value.get_mpz_t()) > 1 || limb > static_cast<mp_limb_t>(std::numeric_limits<std::int64_t>::max()))
+    return std::nullopt;
+  return sgn(value) < 0 ? -static_cast<std::int64_t>(limb) : static_cast<std::int64_t>(limb);
+}
+
+} // namespace
 
 Number::Number(std::int64_t value) {
   if (const auto small = Rational::make(value, 1)) // all but the most negative
     small_ = *small;
   else
-    big_ = std::make_shared<const mpq_class>(mpz_class(static_cast<long>(value)));
+    big_ = std::make_shared<const mpq_class>(integerOf(value));
 }
 
 Number::Number(mpq_class value) {
-  const mpz_class &above = value.get_num(), &below = value.get_den();
+  const std::optional<std::int64_t> above = narrowed(value.get_num()), below = narrowed(value.get_den());
   std::optional<Rational> small;
-  if (above.fits_slong_p() && below.fits_slong_p())
-    small = Rational::make(above.get_si(), below.get_si());
+  if (above && below)
+    small = Rational::make(*above, *below);
   if (small)
     small_ = *small;
   else
@@ -49,7 +65,7 @@ Number::Number(mpq_class value) {
 mpq_class Number::wide() const {
   if (big_)
     return *big_;
-  return {mpz_class(static_cast<long>(small_.numerator())), mpz_class(static_cast<long>(small_.denominator()))};
+  return {integerOf(small_.numerator()), integerOf(small_.denominator())};
 }
 
 int Number::sign() const {

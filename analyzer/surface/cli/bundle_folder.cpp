@@ -2,10 +2,9 @@
 
 #include "base/source/source_file.h"
 #include "base/source/write_file.h"
+#include "surface/cli/platform.h"
 
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 namespace feedhold {
 
@@ -18,7 +17,7 @@ fs::path beside(const fs::path &folder, std::string_view what) {
   fs::path path = fs::absolute(folder).lexically_normal();
   if (!path.has_filename())
     path = path.parent_path();
-  return path.string() + fmt::format(".{}-{}", what, ::getpid());
+  return path.string() + fmt::format(".{}-{}", what, processId());
 }
 
 std::optional<Error> writeAll(const fs::path &folder, const Bundle &bundle) {

@@ -1,69 +1,14 @@
 #include "surface/cli/cache_place.h"
 
+#include "surface/cli/platform.h"
+
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <elf.h>
-#include <link.h>
 #include <string>
-#include <string_view>
 
 namespace feedhold {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-std::size_t aligned(std::size_t size) { return (size + 3) / 4 * 4; }
-
-/// The linker's hash of what it has put together, in the notes of an object (man 5 elf, "Notes").
-std::string buildIdIn(std::string_view notes) {
-  while (notes.size() > sizeof(ElfW(Nhdr))) {
-    const auto *head = reinterpret_cast<const ElfW(Nhdr) *>(notes.data());
-    const std::size_t value = sizeof *head + aligned(head->n_namesz);
-    const std::size_t end = value + aligned(head->n_descsz);
-    if (end > notes.size())
-      break;
-    std::string id;
-    if (head->n_type == NT_GNU_BUILD_ID)
-      for (const char c : notes.substr(value, head->n_descsz))
-        id += fmt::format("{:02x}", static_cast<unsigned char>(c));
-    if (!id.empty())
-      return id;
-    notes.remove_prefix(end);
-  }
-  return "";
-}
-
-/// The program itself is the first object; behind it come the libraries.
-int lookAt(dl_phdr_info *object, std::size_t, void *result) {
-  auto &id = *static_cast<std::string *>(result);
-  for (int i = 0; i < object->dlpi_phnum && id.empty(); ++i)
-    if (const auto &part = object->dlpi_phdr[i]; part.p_type == PT_NOTE)
-      id = buildIdIn({reinterpret_cast<const char *>(object->dlpi_addr + part.p_vaddr), part.p_memsz});
-  return 1;
-}
-
-std::string buildId() {
-  std::string id;
-  dl_iterate_phdr(lookAt, &id);
-  return id;
-}
-
-std::optional<fs::path> userCache() {
-  const auto variable = [](const char *name) {
-    const char *value = std::getenv(name);
-    return fs::path(value == nullptr ? "" : value);
-  };
-  // The specification wants an absolute path and tells to pass over any other.
-  if (const fs::path cache = variable("XDG_CACHE_HOME"); cache.is_absolute())
-    return cache / "feedhold";
-  if (const fs::path home = variable("HOME"); home.is_absolute())
-    return home / ".cache" / "feedhold";
-  return std::nullopt;
-}
-
-} // namespace
 
 std::optional<ProofCache> proofCache(const std::optional<fs::path> &folder) {
   const std::optional<fs::path> place = folder ? folder : userCache();

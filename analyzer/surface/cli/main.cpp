@@ -1,13 +1,16 @@
 // The program `feedhold`: reads the command line and runs one sub-command.
 #include "surface/cli/commands.h"
+#include "surface/cli/platform.h"
 #include "surface/cli/terminal.h"
 
+#include <algorithm>
 #include <exception>
+#include <string>
 #include <vector>
 
 namespace {
 
-int run(int argc, char **argv) {
+int run(std::vector<std::string> words) {
   using namespace feedhold;
   CLI::App app("Static analyser, linter and prover for CNC macro programs", "feedhold");
   app.set_help_flag("-h,--help", "print this help and exit");
@@ -26,7 +29,8 @@ int run(int argc, char **argv) {
   // Only now: the commands would take it over.
   app.footer("`feedhold COMMAND --help` describes the options of a command; `feedhold check FOLDER` is a good start.");
   try {
-    app.parse(argc, argv);
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError &error) {
     return app.exit(error) == 0 ? kExitClean : kExitCouldNotRun;
   }
@@ -40,7 +44,7 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   try {
-    const int exitCode = run(argc, argv);
+    const int exitCode = run(feedhold::beginProgram(argc, argv));
     if (feedhold::outputArrived())
       return exitCode;
     feedhold::printError("standard output cannot be written; is the disk full?");

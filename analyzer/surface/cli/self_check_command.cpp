@@ -26,8 +26,7 @@ std::string selfCheckText(const std::vector<SelfCheckStep> &steps, bool passed) 
   std::vector<std::string_view> dialects;
   for (const Dialect *dialect : allDialects().dialects)
     dialects.push_back(dialect->id);
-  std::string text = fmt::format("feedhold {}, {} rules\ndialects: {}\n", FEEDHOLD_VERSION, allRules().rules.size(),
-                                 fmt::join(dialects, ", "));
+  std::string text = fmt::format("feedhold {}\ndialects: {}\n", FEEDHOLD_VERSION, fmt::join(dialects, ", "));
   for (const SelfCheckStep &step : steps)
     text += fmt::format("{:<8} {:<12} {}\n", resultOf(step), step.name, step.problem.value_or(step.shown));
   return text + (passed ? "the self-check passed\n" : "the self-check failed: do not rely on this installation\n");

@@ -1,10 +1,11 @@
-// Writes to the standard streams; the only file here that asks the operating system about them.
+// Writes to the standard streams.
 #include "surface/cli/terminal.h"
+
+#include "surface/cli/platform.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <unistd.h>
 
 namespace feedhold {
 
@@ -25,10 +26,10 @@ bool useColour(ColourOption options) {
   case ColourOption::Auto: break;
   }
   const char *noColour = std::getenv("NO_COLOR");
-  return (noColour == nullptr || *noColour == '\0') && ::isatty(STDOUT_FILENO) != 0;
+  return (noColour == nullptr || *noColour == '\0') && isTerminal(Stream::Output);
 }
 
-bool isErrorTerminal() { return ::isatty(STDERR_FILENO) != 0; }
+bool isErrorTerminal() { return isTerminal(Stream::Error); }
 
 void print(std::string_view text) { writeTo(stdout, text); }
 
