@@ -1,5 +1,4 @@
-// Writes beside the file, brings the bytes to the disk, then renames.  POSIX calls: another system needs another such
-// file.
+// On POSIX systems: writes beside the file, brings the bytes to the disk, then renames.
 #include "base/source/write_file.h"
 
 #include <fmt/format.h>

@@ -63,6 +63,8 @@ TEST(Encoding, DecodesToUtf8) {
   EXPECT_EQ(toUtf8(kToolChange, Encoding::ShiftJis), "(工具交換)");
   EXPECT_EQ(toUtf8(kDrill, Encoding::ShiftJis), "(ﾄﾞﾘﾙ)");
   EXPECT_EQ(toUtf8("A\\~", Encoding::ShiftJis), "A\\~");
+  EXPECT_EQ(toUtf8("\x81\x40\x81\x7e\x81\x80", Encoding::ShiftJis), "\u3000×÷"); // no character ends in 7F
+  EXPECT_EQ(toUtf8("\xfa\x40\xf0\x40\xf9\xfc", Encoding::ShiftJis), "ⅰ\uE000\uE757");
   EXPECT_EQ(toUtf8("45\xb0 \x80 \x96", Encoding::Latin1), "45° € –");
   EXPECT_EQ(toUtf8("\xc3\x98 🔧", Encoding::Utf8), "Ø 🔧");
 }
@@ -72,6 +74,7 @@ TEST(Encoding, ReplacesWhatDoesNotDecode) {
   EXPECT_EQ(toUtf8("\xf4\x90\x80\x80", Encoding::Utf8), "\uFFFD\uFFFD\uFFFD\uFFFD");
   EXPECT_EQ(toUtf8("A\x8d", Encoding::ShiftJis), "A\uFFFD");
   EXPECT_EQ(toUtf8("\xff\x8d\x48", Encoding::ShiftJis), "\uFFFD工");
+  EXPECT_EQ(toUtf8("\x85\x40\x84\xfc\xfc\xfc", Encoding::ShiftJis), "\uFFFD\uFFFD\uFFFD"); // no row, holes
   EXPECT_EQ(toUtf8("\x81", Encoding::Latin1), "\uFFFD");
 }
 
