@@ -1,7 +1,7 @@
 """The real `pre-commit` installs the hooks by itself from a local index; nothing named `feedhold` is on the PATH."""
 import shutil
 
-from packaged import BAD, DIST, GOOD, PROVED, REFUTED, ROOT, Packaged, main
+from packaged import BAD, DIST, GOOD, ROOT, Packaged, main
 
 CONFIG = """repos:
   - repo: {hooks}
@@ -10,6 +10,8 @@ CONFIG = """repos:
       - id: feedhold
       - id: feedhold-prove
 """
+GUARDED = "O9101\nIF[#1LE0]GOTO90\n#100=5/#1\nN90 M99\n"
+NEEDY = "O9102\n(@REQUIRE #1 GT 0)\n(@ENSURE #100 GT 5)\n#100=#1\nM99\n"
 PEOPLE = {f"GIT_{role}_{what}": "a@localhost" for role in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
 
 
@@ -39,13 +41,13 @@ class PreCommit(Packaged):
         shop = self.repository("shop", {".pre-commit-config.yaml": CONFIG.format(hooks=hooks, revision=revision)})
         self.run_clean("pre-commit", "install", cwd=shop)
         (shop / "O1000.nc").write_text(GOOD)
-        (shop / "O9101.nc").write_text(PROVED)
+        (shop / "O9101.nc").write_text(GUARDED)
         self.assertEqual(self.commit(shop).count("Passed"), 2)
         (shop / "O1001.nc").write_text(BAD)
         self.assertIn("missing-equals", self.commit(shop, code=1))
         (shop / "O1001.nc").unlink()
-        (shop / "O9102.nc").write_text(REFUTED)
-        self.assertIn("O9102.no-control-alarm", self.commit(shop, code=1))
+        (shop / "O9102.nc").write_text(NEEDY)
+        self.assertIn("O9102.ensures", self.commit(shop, code=1))
 
 
 if __name__ == "__main__":
