@@ -24,6 +24,7 @@ Comment: Inside the program are {libraries}.
 # Why lintian may complain of it.
 OVERRIDES = """# One file that runs on every release: what is inside is listed in the bill of materials.
 feedhold: statically-linked-binary [usr/bin/feedhold]
+feedhold: embedded-library gmp [usr/bin/feedhold]
 """
 
 

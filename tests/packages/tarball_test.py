@@ -12,10 +12,12 @@ PROGRAMS = ["mould-entry", "pocket"]  # of corpus/packages
 
 
 def verdicts(program, path, folder):
-    told = subprocess.run([program, "prove", "--no-cache", "--format", "json", *(ROOT / "corpus/packages" / name for name in PROGRAMS)],
-                          capture_output=True, cwd=folder, env={"PATH": path, "HOME": str(folder)}, timeout=600).stdout
-    return {obligation["id"]: obligation["verdict"] for file in json.loads(told)["files"]
-            for each in file["programs"] for obligation in each["obligations"]}
+    """By file and claim."""
+    programs = [ROOT / "corpus/packages" / name for name in PROGRAMS]
+    told = subprocess.run([program, "prove", "--no-cache", "--format", "json", *programs], capture_output=True, cwd=folder,
+                          env={"PATH": path, "HOME": str(folder)}, timeout=600).stdout
+    return {(file["path"], claim["id"]): (claim["verdict"], claim["grade"])
+            for file in json.loads(told)["files"] for claim in file["obligations"]}
 
 
 class Tarball(Packaged):
