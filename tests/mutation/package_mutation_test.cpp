@@ -59,6 +59,7 @@ bool speaksOf(const Obligation &obligation, const Break &found) {
     return obligation.place == found.place && obligation.span == found.span &&
            meaningOf(*obligation.alarm) == found.name;
   case ObligationKind::AlarmUnreachable: return obligation.place == found.place && obligation.span == found.span;
+  case ObligationKind::Compensation:
   case ObligationKind::Clearance:
   case ObligationKind::Travel:
   case ObligationKind::Limit:

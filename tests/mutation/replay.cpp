@@ -266,6 +266,13 @@ void ReplayedProgram::addStop(std::vector<Break> &breaks, const Run &run) const 
     add(breaks, {ObligationKind::ProgramEnds, {FileId(0), entry().entry}, "", {}, "goes round for ever", run.number});
   if (!isOwn)
     return;
+  if (result.end == RunEnd::Alarm && result.compensation)
+    return add(breaks, {ObligationKind::Compensation,
+                        *result.compensation,
+                        "",
+                        {},
+                        fmt::format("{} at {}", meaningOf(result.alarm), loaded_.blockOf(result.place)),
+                        run.number});
   if (result.end == RunEnd::Alarm)
     add(breaks, {ObligationKind::NoControlAlarm, result.place, std::string(meaningOf(result.alarm)), result.alarmSpan,
                  fmt::format("{} at {}", meaningOf(result.alarm), loaded_.blockOf(result.place)), run.number});

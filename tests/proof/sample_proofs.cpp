@@ -180,6 +180,7 @@ private:
       return here && result.end == RunEnd::UserAlarm && !contract_.foresees(result.alarmNumber);
     case ObligationKind::NoControlAlarm:
       return here && result.end == RunEnd::Alarm && result.alarm == *obligation.alarm;
+    case ObligationKind::Compensation: return result.end == RunEnd::Alarm && result.compensation == obligation.place;
     case ObligationKind::LoopEnds:
     case ObligationKind::ProgramEnds: return result.end == RunEnd::Repeats || result.end == RunEnd::Fuel;
     case ObligationKind::Guarded: return !result.moves.empty() || hasEnded(result.end);

@@ -169,6 +169,14 @@ std::optional<char> ClauseReader::takeLetter(std::string_view letters) {
   return letter;
 }
 
+bool ClauseReader::takeAddress(char letter) {
+  if (toUpper(std::string(1, sign(at_)))[0] != letter)
+    return false;
+  ++at_;
+  skipBlanks();
+  return true;
+}
+
 std::uint32_t ClauseReader::integer(std::string_view what) {
   std::uint32_t end = at_;
   while (isDigit(sign(end)))
@@ -293,6 +301,17 @@ Range ClauseReader::range(std::string_view what) {
   reading_.ranges.push_back({clause_, range, {begin, at_}});
   skipBlanks();
   return range;
+}
+
+Range ClauseReader::valueOrRange(std::string_view what) {
+  const std::uint32_t end = operandEnd(at_);
+  std::uint32_t next = end;
+  while (next < end_ && isBlank(sign(next)))
+    ++next;
+  if (end == at_ || (sign(next) == '.' && sign(next + 1) == '.'))
+    return range(what);
+  const ExpressionId only = value(what);
+  return {only, only};
 }
 
 ExpressionId ClauseReader::expression(FindReserved reserved) {

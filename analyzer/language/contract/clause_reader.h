@@ -53,6 +53,8 @@ public:
   /// An upper-case letter, one of `letters`, that begins a word: no letter follows.  Absent: something else comes.
   std::optional<char> peekLetter(std::string_view letters) const;
   std::optional<char> takeLetter(std::string_view letters);
+  /// The letter, whatever follows.
+  bool takeAddress(char letter);
   /// `120`
   std::uint32_t integer(std::string_view what);
   /// `#21`
@@ -66,6 +68,8 @@ public:
   ExpressionId value(std::string_view what);
   /// `1..[#2/2]`, `..5`, `0..`, `..`
   Range range(std::string_view what);
+  /// `5.`: both ends are it.
+  Range valueOrRange(std::string_view what);
   bool hasUpperEnd(bool spacedBefore);
   /// All that is left.
   ExpressionId condition(FindReserved reserved);

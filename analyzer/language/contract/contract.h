@@ -112,6 +112,14 @@ struct ContractTool {
   std::optional<ExpressionId> corner; // of Bull
 };
 
+/// `@OFFSET D1 RADIUS 5`, `@OFFSET D#20 RADIUS 4.9..5.1`: what the register of cutter compensation holds, in the units
+/// of the start.
+struct RadiusOffset {
+  ClauseId clause;
+  std::optional<ExpressionId> number; // of D; absent: any, `D*`
+  Range radius;                       // both ends are the same: a single value
+};
+
 /// A side that is not named is unbounded.
 struct Box {
   std::vector<AxisRange> sides;
@@ -227,7 +235,8 @@ struct Contract {
   std::vector<ModalCode> modal; // each group once
   std::optional<StartPosition> start;
   std::optional<ContractTool> tool;
-  std::vector<Region> keepIn; // each name is the union of its regions
+  std::vector<RadiusOffset> offsets; // one with `D*` at most
+  std::vector<Region> keepIn;        // each name is the union of its regions
   std::vector<Region> keepOut;
   std::optional<Clearance> clearance;
   std::optional<Travel> travel;

@@ -135,6 +135,11 @@ private:
       line(fmt::format("tool {} radius {}{}", kShapes[static_cast<std::size_t>(tool->shape)],
                        writer(tool->clause).text(tool->radius),
                        tool->corner ? " corner " + writer(tool->clause).text(*tool->corner) : ""));
+    for (const RadiusOffset &each : contract.offsets) {
+      const Writer writes = writer(each.clause);
+      line(fmt::format("offset of {} radius {}", each.number ? "D " + writes.text(*each.number) : "every D",
+                       each.radius.low == each.radius.high ? writes.text(*each.radius.low) : writes.text(each.radius)));
+    }
     for (const auto &[kind, list] : {std::pair("keep in", &contract.keepIn), std::pair("keep out", &contract.keepOut)})
       for (const Region &each : *list)
         line(fmt::format("{} {}: {}", kind, each.name, writer(each.clause).shape(each)));

@@ -46,6 +46,7 @@ private:
     case ClauseKind::Modal: return modal();
     case ClauseKind::Start: return start();
     case ClauseKind::Tool: return tool();
+    case ClauseKind::Offset: return offset();
     case ClauseKind::KeepIn: return region(contract_.keepIn);
     case ClauseKind::KeepOut: return region(contract_.keepOut);
     case ClauseKind::Clearance: return clearance();
@@ -242,6 +243,26 @@ private:
     }
     if (isRead())
       setOnce(contract_.tool, std::move(tool), "the tool");
+  }
+
+  void offset() {
+    RadiusOffset offset{id_, {}, {}};
+    if (!reader_.takeAddress('D'))
+      reader_.expected("`D` and its number, such as `D1`, `D#20`, or `D*` for any");
+    else if (!reader_.takeSign('*'))
+      offset.number = reader_.value("the number of D, or `*` for any");
+    if (!reader_.take("RADIUS"))
+      reader_.expected("`RADIUS` and its value");
+    offset.radius = reader_.valueOrRange("the radius, such as `5.` or `4.9..5.1`");
+    if (!reader_.failed() && !offset.radius.low && !offset.radius.high)
+      reader_.expected("an end of the range of the radius");
+    if (!isRead())
+      return;
+    const auto first = std::ranges::find_if(contract_.offsets,
+                                            [&](const RadiusOffset &each) { return !each.number && !offset.number; });
+    if (first != contract_.offsets.end())
+      return refuseSecond(first->clause, "the offset of every D");
+    contract_.offsets.push_back(std::move(offset));
   }
 
   // ---- geometry ----

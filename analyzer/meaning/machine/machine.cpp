@@ -1,10 +1,11 @@
 #include "meaning/machine/machine.h"
 
-#include "meaning/machine/cutter_path.h"
 #include "meaning/machine/repeat_watch.h"
+#include "meaning/machine/run_cutter.h"
 #include "meaning/semantics/tool_point.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace feedhold {
@@ -21,7 +22,7 @@ public:
         modes_(*programs.file(entry.file).dialect),
         state_(options.state ? *options.state : startState(interpretation_, modes_, options.start)), at_{entry.file,
                                                                                                          entry.entry},
-        cutter_(*programs.file(entry.file).dialect, result_.moves) {
+        cutter_(*programs.file(entry.file).dialect) {
     for (const auto &[group, code] : options.codes)
       state_.codes[group] = code;
     putInForce(options.variables.start, state_);
@@ -41,7 +42,7 @@ public:
       else
         one();
     }
-    cutter_.finish();
+    finishCutter();
     takeCutterAlarm();
     result_.place = at_;
     result_.passedUnmodelled = interpretation_.passedUnmodelled();
@@ -103,7 +104,7 @@ private:
   }
   /// The run is told up to where its state came back first.
   void endInCycle() {
-    cutter_.finish();
+    finishCutter();
     result_.cycle.assign(cycle_->places.begin(), cycle_->places.end());
     result_.steps = cycle_->steps;
     result_.moves.erase(result_.moves.begin() + static_cast<std::ptrdiff_t>(cycle_->moves), result_.moves.end());
@@ -144,20 +145,26 @@ private:
     auto ctx = context();
     if (cutter_.isOff() && !mayCompensate(ctx))
       return;
-    const CutterBlock block = cutterBlockOf(ctx, words_, [&] { return otherOffset(ctx); });
+    RunCutter host(result_.moves, [&](double number) { return otherOffset(ctx, number); });
+    const CutterBlock<double> block = cutterBlockOf(host, ctx, words_);
     result_.offsetIsAssumed = result_.offsetIsAssumed || block.offsetIsAssumed;
-    cutter_.take(block, here, frames_.size() - 1, first);
-    for (const RunNote &note : cutter_.takeNotes())
-      if (noted_.insert({note.place, note.reason}).second)
-        result_.notes.push_back(note);
+    cutter_.take(host, block, {here, frames_.size() - 1}, first, result_.moves.size());
+    for (const auto &[reason, place] : cutter_.takeNotes())
+      if (noted_.insert({place, reason}).second)
+        result_.notes.push_back({reason, place});
+  }
+  void finishCutter() {
+    RunCutter host(result_.moves);
+    cutter_.finish(host);
   }
   /// It is told in the units of the start.
-  std::optional<double> otherOffset(StepContext<ConcreteInterpretation> &ctx) {
-    if (!toolPointOf(ctx, entry_).sameUnits)
+  std::optional<CutterOffset<double>> otherOffset(StepContext<ConcreteInterpretation> &ctx, double number) {
+    if (!toolPointOf(ctx, entry_).sameUnits || !options_.cutterRadius)
       return std::nullopt;
-    if (!otherOffset_)
-      otherOffset_ = options_.cutterRadius ? options_.cutterRadius(options_) : std::nullopt;
-    return *otherOffset_;
+    const auto known = otherOffsets_.find(number);
+    if (known != otherOffsets_.end())
+      return known->second;
+    return otherOffsets_[number] = options_.cutterRadius(options_, number);
   }
   /// The control stops before a block that it has read ahead: what has been read since is not done.
   void takeCutterAlarm() {
@@ -383,8 +390,8 @@ private:
   std::unique_ptr<Cycle> cycle_; // null until a state has come back
   std::set<std::pair<Place, std::string_view>> noted_;
   RunResult result_;
-  CutterPath cutter_;
-  std::optional<std::optional<double>> otherOffset_; // absent: not asked yet
+  CutterPath<RunCutter> cutter_;
+  std::map<double, std::optional<CutterOffset<double>>> otherOffsets_; // by D
   bool ended_ = false;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/machine/recorded_move.h"
+#include "meaning/semantics/cutter_offset.h"
 #include "meaning/semantics/frames.h"
 
 #include <functional>
@@ -37,8 +38,8 @@ struct RunOptions {
   WordRounding words = WordRounding::Increment;
   NumberModel numbers = NumberModel::Binary64; // in which expressions are computed; Either: doubles
   CutterCompensation cutter = CutterCompensation::NotFollowed;
-  /// The offset of each D that nothing else gives, in this run; null, or absent: such a path is not followed.
-  std::function<std::optional<double>(const RunOptions &)> cutterRadius = nullptr;
+  /// The offset of a D that nothing else gives, in this run; null, or absent: such a path is not followed.
+  std::function<std::optional<CutterOffset<double>>(const RunOptions &, double number)> cutterRadius = nullptr;
   MissingPrograms missing = MissingPrograms::Stop; // DoAnything: as Stop
   /// What the read of an input in an instruction gives, in place of `variables.readings`; null: those.
   std::function<double(Place, std::uint32_t variable)> inputs = nullptr;
@@ -73,7 +74,7 @@ struct RunResult {
   std::string alarmText;             // of UserAlarm: the comment
   Span alarmSpan;                    // of both: the words that it comes from
   std::optional<Place> compensation; // of Alarm: the block with the G41 or G42 that it comes from
-  bool offsetIsAssumed = false;      // `cutterRadius` was taken
+  bool offsetIsAssumed = false;      // of a D, by `cutterRadius`
   std::vector<OpenCall> calls;       // the innermost last
   std::vector<Place> cycle;          // of Repeats: the places of the started program that repeat; empty: unknown
   std::uint64_t steps = 0;           // instructions executed

@@ -153,6 +153,45 @@ Query ProofStart::onPath(const std::vector<TermId> &conditions, TermId goal) {
   return query;
 }
 
+/// By the clauses of the contract, or the radius of its tool.
+OffsetOfCutter ProofStart::cutterOffsets(const Contract &contract) {
+  if (!contract.tool && contract.offsets.empty())
+    return nullptr;
+  return [this, &contract](const SymbolicValue &number, const auto &proves) -> std::optional<PathOffset> {
+    const auto termOf = [&](ExpressionId expression) { return terms_->number(expression, entry_, entry_); };
+    const RadiusOffset *found = nullptr;
+    for (const RadiusOffset &offset : contract.offsets) {
+      const TermId same = offset.number ? store_.equal(number.number, termOf(*offset.number)) : store_.no();
+      if (offset.number ? proves(same) : found == nullptr)
+        found = &offset;
+      else if (offset.number && !proves(store_.logicalNot(same)))
+        return std::nullopt;
+    }
+    if (found)
+      return rangeOf(*found, number.number);
+    if (!contract.offsets.empty())
+      return std::nullopt;
+    return PathOffset{.radius = termOf(contract.tool->radius), .isAssumed = true};
+  };
+}
+
+/// A range holds one radius for each D, in the whole run.
+PathOffset ProofStart::rangeOf(const RadiusOffset &offset, TermId number) {
+  const auto &[low, high] = offset.radius;
+  const auto termOf = [&](ExpressionId expression) { return terms_->number(expression, entry_, entry_); };
+  if (low == high)
+    return {.radius = termOf(*low)};
+  auto [known, isNew] = radii_.try_emplace({offset.clause.index(), number}, number);
+  if (isNew)
+    known->second = interpretation_.fresh("offset", smt::Sort::Real);
+  PathOffset result{.radius = known->second};
+  if (low)
+    result.conditions.push_back(store_.lessOrEqual(termOf(*low), result.radius));
+  if (high)
+    result.conditions.push_back(store_.lessOrEqual(result.radius, termOf(*high)));
+  return result;
+}
+
 /// Hints are tried, never believed: an invariant has to hold before each iteration, a ranking function has to fall.
 ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOptions options) {
   options.assumptions = demands_;
@@ -166,9 +205,11 @@ ExploreOptions ProofStart::exploreOptions(const ProofSubject &subject, ExploreOp
   options.keepWrites = !contract->assigns.empty();
   const bool asksOfSpace = hasSpaceClause(*contract) &&
                            std::ranges::any_of(kSpaceKinds, [&](ObligationKind kind) { return subject.wants(kind); });
-  options.moves = contract->clearance && subject.wants(ObligationKind::Clearance) ? KeepMoves::WithColumn
-                  : asksOfSpace || !contract->limits.empty()                      ? KeepMoves::Yes
-                                                                                  : KeepMoves::No;
+  if (subject.wants(ObligationKind::Compensation) || asksOfSpace)
+    options.cutterOffset = cutterOffsets(*contract);
+  options.moves = contract->clearance && subject.wants(ObligationKind::Clearance)    ? KeepMoves::WithColumn
+                  : asksOfSpace || !contract->limits.empty() || options.cutterOffset ? KeepMoves::Yes
+                                                                                     : KeepMoves::No;
   const auto hintsOf = [&subject](const std::vector<LoopHint> &hints, HintTerm termOf) {
     return [&subject, &hints, termOf = std::move(termOf)](Place head, const SymbolicState &state) {
       std::vector<TermId> terms;

@@ -78,6 +78,8 @@ private:
   void keepPolar(const Dialect &dialect);
   void readContract(const ProofSubject &subject);
   void leaveMappingsOpen(const ProofSubject &subject);
+  OffsetOfCutter cutterOffsets(const Contract &contract);
+  PathOffset rangeOf(const RadiusOffset &offset, smt::TermId number);
 
   smt::TermStore store_;
   SymbolicInterpretation interpretation_;
@@ -87,6 +89,7 @@ private:
   std::vector<smt::TermId> demands_;
   std::unique_ptr<ContractTerms> terms_;
   std::unique_ptr<SpaceClaims> space_;
+  std::map<std::pair<std::uint32_t, smt::TermId>, smt::TermId> radii_; // by clause and number of D
   FactIndex facts_{store_};
 };
 

@@ -101,6 +101,13 @@ struct WriteInstance {
   std::optional<std::uint32_t> variable; // absent: its number is not known
 };
 
+/// Under cutter compensation the tool makes other moves than the programmed ones (cutter_path.h).
+enum class MovePath : std::uint8_t {
+  Both,       // there is none, or its moves are not known
+  Programmed, // the tool makes others
+  Centre      // of the tool, in place of the programmed one
+};
+
 /// One path to a movement.
 struct MoveInstance {
   Place place; // of the block
@@ -111,6 +118,17 @@ struct MoveInstance {
   ToolPoint<SymbolicInterpretation> point;
   SymbolicValue spindleSpeed;
   smt::TermId column; // of WithColumn: before it, Z down to which the tool has cut at this X and Y (path_memory.h)
+  MovePath path = MovePath::Both;
+  std::string_view whyBeside = {}; // why it is not known where the tool goes under cutter compensation; empty: it is
+};
+
+/// One path on which the control does not stop for the cutter compensation that began at a place.
+struct CutterClaim {
+  Place began;
+  std::vector<smt::TermId> conditions = {};
+  smt::TermId goal;
+  std::optional<AlarmKind> alarm = {}; // with which it would stop
+  std::string why = {};                // the path is not followed for this reason, so that it may stop
 };
 
 /// Something that is not modelled: it may do anything.
@@ -138,9 +156,10 @@ struct Exploration {
   std::vector<StopSite> stopSites;
   std::vector<LoopInstance> loops;
   std::vector<PathExit> exits;
-  std::vector<CallInstance> calls;   // for which the started program has to answer
-  std::vector<MoveInstance> moves;   // of ExploreOptions::moves
-  std::vector<WriteInstance> writes; // of ExploreOptions::keepWrites
+  std::vector<CallInstance> calls;       // for which the started program has to answer
+  std::vector<MoveInstance> moves;       // of ExploreOptions::moves
+  std::vector<CutterClaim> cutterClaims; // of ExploreOptions::cutterOffset
+  std::vector<WriteInstance> writes;     // of ExploreOptions::keepWrites
   LoopTreatment treatment = LoopTreatment::AnyIteration;
   std::vector<Place> repeats; // of EachIteration: heads to which a path returned in the same state
   std::set<Place> heads;      // of EachIteration: those that were reached
@@ -162,6 +181,16 @@ struct Exploration {
   /// What is not modelled in a block, by its name.
   std::optional<std::string> unmodelledAt(Place place) const;
 };
+
+/// An offset of cutter compensation: a radius, under conditions on its own variables.
+struct PathOffset {
+  smt::TermId radius;
+  std::vector<smt::TermId> conditions = {};
+  bool isAssumed = false; // nothing says so but the tool of the contract
+};
+/// Of a D on a path, whose conditions prove what is asked.  Absent: nothing gives it.
+using OffsetOfCutter = std::function<std::optional<PathOffset>(const SymbolicValue &number,
+                                                               const std::function<bool(smt::TermId)> &proves)>;
 
 /// Whether paths that meet continue as one (merging.h): fewer paths, and less precise ones.
 enum class PathMerging : std::uint8_t {
@@ -198,6 +227,8 @@ struct ExploreOptions {
   /// that number of its own.  False: for single runs of a started program.
   bool mayBeCalled = true;
   KeepMoves moves = KeepMoves::No;
+  /// The offset of a D; empty: cutter compensation is not followed.  Moves are kept.
+  OffsetOfCutter cutterOffset = {};
   bool keepWrites = false;
   /// Some of the steps are left for the claims, and for runs that refute them, if there are too many paths.
   bool leavesSteps = false;

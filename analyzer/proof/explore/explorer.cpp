@@ -288,7 +288,13 @@ std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) 
   for (Path &path : paths) {
     if (!path.atOpenedHead && !closeLeftLoops(path, trial))
       continue;
-    const auto same = std::find_if(left.begin(), left.end(), [&](const Path &other) { return canMerge(other, path); });
+    const auto same = std::find_if(left.begin(), left.end(), [&](const Path &other) {
+      return canMerge(other, path) && (merging_ == PathMerging::Forget || other.cutter == path.cutter);
+    });
+    if (same != left.end() && same->cutter != path.cutter) {
+      loseCutter(*same, "cutter compensation on paths that meet");
+      loseCutter(path, "cutter compensation on paths that meet");
+    }
     if (same == left.end())
       left.push_back(std::move(path));
     else if (merging_ == PathMerging::Forget)
@@ -327,6 +333,8 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
     return false;
   if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
     return true;
+  if (options_.loops == LoopTreatment::AnyIteration)
+    loseCutter(path, "cutter compensation through the head of a loop");
   if (options_.loops == LoopTreatment::EachIteration)
     return !comesBack(path);
   const bool isOpen =
@@ -345,6 +353,8 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
 bool Explorer::comesBack(Path &path) {
   smt::spend(stepsOf(path));
   result_.heads.insert(path.at);
+  if (path.cutter) // no part of the state
+    return false;
   const auto &known = path.landmark;
   if (known && known->at == path.at && known->moved == path.moved && known->frames == path.frames &&
       known->state == path.state) {
@@ -398,6 +408,7 @@ bool Explorer::takeStops(Path &path) {
       smt::spend(path.conditions.size());
       found->instances.push_back({path.conditions, stop.when.term, stop.number, path.moved});
     }
+    endCutter(path, stop.when.term);
     if (!path.assume(store_, store_.logicalNot(stop.when.term)))
       return false;
   }
@@ -414,8 +425,11 @@ void Explorer::stopsWhen(Path &path, Condition when, AlarmKind alarm) {
   interpretation_.alarm(when, {alarm, fileOf(path).tree->blocks[nodeOf(path).block].span()});
 }
 
-void Explorer::exit(const Path &path, ExitKind kind) {
+void Explorer::exit(Path &path, ExitKind kind) {
   ++result_.paths;
+  endCutter(path, store_.yes());
+  if (path.cutter && kind == ExitKind::Returns)
+    loseCutter(path, "cutter compensation that is in force where the program returns");
   if (purpose_ == Purpose::Record)
     result_.exits.push_back({kind, path.at, path.conditions, path.state, path.moved});
 }

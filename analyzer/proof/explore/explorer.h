@@ -12,6 +12,8 @@
 
 namespace feedhold::prove {
 
+class PathCutter;
+
 class Explorer : public PathKnowledge {
 public:
   Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
@@ -77,6 +79,18 @@ private:
   void checkExactResults(const Path &path);
   // ---- movements (explorer_moves.cpp) ----
   void takeMoves(Path &path);
+  // ---- cutter compensation (explorer_cutter.cpp) ----
+  PathCutter cutterOf(Path &path, CutterTrack &track, smt::TermId also);
+  bool takeCutter(Path &path, const std::vector<MoveInstance> &moves, smt::TermId besidePath);
+  bool settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff);
+  std::optional<PathOffset> offsetOf(Path &path, const SymbolicValue &number);
+  void giveCentre(MoveInstance &move);
+  void decideVacancies(const Path &path, MoveInstance &instance);
+  bool startsThere(const MoveInstance &move, const std::array<smt::TermId, 2> &end) const;
+  void stopInCutter(const Path &path, const CutterTrack &track);
+  void leaveOpen(PathCutter &host, CutterTrack &track);
+  void loseCutter(Path &path, std::string_view reason);
+  void endCutter(Path &path, smt::TermId when);
   // ---- writes (explorer_writes.cpp) ----
   struct StepWrites {
     SymbolicState before;                   // the step
@@ -91,7 +105,7 @@ private:
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
   static Place ownPlace(const Path &path) { return path.frames.size() > 1 ? path.frames[1].call : path.at; }
   void stopsWhen(Path &path, Condition when, AlarmKind alarm);
-  void exit(const Path &path, ExitKind kind);
+  void exit(Path &path, ExitKind kind);
   void giveUp(std::string_view reason);
   /// Too many paths, or too long ones: says where they are.
   void giveUpOn(const Worklist &open, const Path &path);

@@ -71,6 +71,7 @@ std::vector<Path> Explorer::unknownCall(Path path, const CallRequest<SymbolicInt
                                         std::optional<std::size_t> modal, std::string_view reason, std::string why) {
   if (mayReach(request, path.frames.front().callee)) // what is claimed of its blocks is claimed there too
     giveUp("an unmodelled call may re-enter this program");
+  loseCutter(path, "cutter compensation through a call that is not followed");
   recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, std::move(why)});
   recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);
@@ -92,6 +93,7 @@ std::vector<Path> Explorer::missingCall(Path path, const CallRequest<SymbolicInt
   const NodeId next = nodeOf(path).next;
   if (options_.missingChangeNothing)
     return {to(std::move(path), next)};
+  loseCutter(path, "cutter compensation through a call that is not followed");
   recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, fmt::format("{} was not supplied", name), name});
   recordUnmodelledEntries(path, request, modal);
   auto context = contextOf(path);

@@ -12,26 +12,36 @@ using smt::TermId;
 void Explorer::takeMoves(Path &path) {
   const bool withColumn = options_.moves == KeepMoves::WithColumn;
   const bool isMissing = withColumn && !path.state.variables.find(kFreeColumn); // havocked with all else
-  if (interpretation_.moves().empty() && !isMissing)
+  const SymbolicValue *beside = path.state.variables.find(kBesidePath);
+  if (path.cutter && !beside)
+    loseCutter(path, "cutter compensation through a block that may do anything");
+  if (interpretation_.moves().empty() && !isMissing) {
+    takeCutter(path, {}, beside ? beside->number : store_.number(smt::Number(1)));
     return;
+  }
   auto context = contextOf(path);
   ToolPoint<SymbolicInterpretation> point = toolPointOf(context, entry_);
   const auto level = [&](const SymbolicValue &z) {
     return interpretation_.add(z, point.zero[indexOf(Axis::Z)]).number;
   };
   const std::vector<Move<SymbolicValue>> moves = interpretation_.moves();
+  const TermId besidePath = beside ? beside->number : store_.number(smt::Number(1));
   leavePath(path, moves, point);
   const SymbolicValue &z = moves.empty() ? path.state.at(Axis::Z) : moves.front().start[indexOf(Axis::Z)];
   TermId column = withColumn && !isMissing ? path.state.variables.find(kFreeColumn)->number : level(z);
+  std::vector<MoveInstance> instances;
+  const bool isKept = purpose_ == Purpose::Record || options_.cutterOffset;
   for (const Move<SymbolicValue> &move : moves) {
-    if (purpose_ == Purpose::Record)
-      result_.moves.push_back(
+    if (isKept)
+      instances.push_back(
           {path.at, ownPlace(path), path.conditions, move, radiusOf(path, move), point, path.state.word('S'), column});
     if (withColumn)
       column = columnBehind(path, move, column, level(move.end[indexOf(Axis::Z)]));
   }
   if (withColumn)
     path.state.variables.set(kFreeColumn, {store_.no(), column});
+  if (!takeCutter(path, instances, besidePath) && purpose_ == Purpose::Record)
+    std::move(instances.begin(), instances.end(), std::back_inserter(result_.moves));
 }
 
 /// Whether cutter compensation puts the tool beside the path, or has done so before: a movement without it comes back

@@ -30,6 +30,8 @@ struct Landmark {
   smt::TermId moved;
 };
 
+struct CutterTrack;
+
 struct Path {
   Place at;
   SymbolicState state;
@@ -38,6 +40,7 @@ struct Path {
   std::vector<OpenLoop> loops; // the innermost last
   smt::TermId moved;           // an axis has moved since the start
   std::uint32_t steps = 0;
+  std::shared_ptr<const CutterTrack> cutter = {}; // cutter compensation, where it is followed (path_cutter.h)
   // ---- with LoopTreatment::EachIteration ----
   std::shared_ptr<const Landmark> landmark = {};
   std::uint32_t visits = 0;     // to heads of loops, since the landmark

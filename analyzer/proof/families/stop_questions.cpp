@@ -39,6 +39,26 @@ auto stopAt(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
   };
 }
 
+ObligationKind kindOf(const StopSite &stop) {
+  if (!stop.alarm)
+    return ObligationKind::AlarmUnreachable;
+  return stop.alarm == AlarmKind::CutterCompensation ? ObligationKind::Compensation : ObligationKind::NoControlAlarm;
+}
+
+/// On each path where the compensation is followed the control does not stop.  False: it is not followed at all.
+bool askCompensation(const Exploration &found, const StopSite &stop, Question &question) {
+  for (const CutterClaim &claim : found.cutterClaims)
+    if (claim.began == stop.place) {
+      question.goals.push_back({&claim.conditions, claim.goal});
+      if (question.whyOpen.empty() && !claim.why.empty())
+        question.whyOpen = "the path of the tool's centre is not followed: " + claim.why;
+    }
+  if (question.goals.empty())
+    question.whyOpen = "the path of the tool's centre under G41 and G42 is not followed; state the offset of D with "
+                       "`@OFFSET`, or the tool with `@TOOL`; `feedhold run` follows it for given arguments";
+  return !question.goals.empty();
+}
+
 std::string stopClaim(const StopSite &stop, const std::vector<std::uint32_t> &foreseen) {
   if (stop.alarm == AlarmKind::CutterCompensation)
     return "the control never stops in the cutter compensation that begins here";
@@ -80,16 +100,17 @@ Questions stopQuestions(const ExploredProgram &program) {
   const std::vector<std::uint32_t> foreseen = foreseenAlarms(subject.contract());
   Questions questions;
   for (const StopSite &stop : found.stopSites) {
-    const ObligationKind kind = stop.alarm ? ObligationKind::NoControlAlarm : ObligationKind::AlarmUnreachable;
+    const ObligationKind kind = kindOf(stop);
     if (!subject.isOwn(stop.place) || !subject.wants(kind))
       continue;
     Question question{.row = subject.obligation(kind, stop.place, stop.span, stopClaim(stop, foreseen)),
                       .goals = {},
                       .broken = stopAt(stop, foreseen)};
     question.row.alarm = stop.alarm;
-    if (stop.alarm == AlarmKind::CutterCompensation)
-      question.whyOpen = "the path of the tool's centre under G41 and G42 is not proved to fit; `feedhold run` follows "
-                         "it for given arguments";
+    if (kind == ObligationKind::Compensation && askCompensation(found, stop, question)) {
+      questions.push_back(std::move(question));
+      continue;
+    }
     for (const StopInstance &instance : stop.instances) {
       const TermId isForeseen = stop.alarm ? store.no() : isOneOf(start.interpretation(), instance.number, foreseen);
       question.goals.push_back({&instance.conditions, store.implies(instance.stops, isForeseen)});

@@ -36,6 +36,8 @@ class ToolPath {
 public:
   ToolPath(TermStore &store, TermMove move);
 
+  /// Of an arc by R with its centre, where the form of its terms tells it.
+  const TermMove &move() const { return move_; }
   /// Points whose convex hull contains all of the path.  `conditions` of their variables.
   struct Hull {
     std::vector<TermPoint> corners;

@@ -36,8 +36,8 @@ bool mayBeGuarded(const Obligation &claim) {
   case ObligationKind::AlarmUnreachable:
   case ObligationKind::Ensures: return true;
   case ObligationKind::NoControlAlarm: // an M99 is missing, or a program: no argument mends that; or it is not proved
-    return claim.alarm != AlarmKind::EndOfRecord && claim.alarm != AlarmKind::ProgramNotFound &&
-           claim.alarm != AlarmKind::CutterCompensation;
+    return claim.alarm != AlarmKind::EndOfRecord && claim.alarm != AlarmKind::ProgramNotFound;
+  case ObligationKind::Compensation:
   case ObligationKind::AlarmIff:
   case ObligationKind::Assigns:
   case ObligationKind::ModalPreserved:

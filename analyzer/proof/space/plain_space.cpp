@@ -65,6 +65,21 @@ std::vector<geometry::PlainRegion> named(const RegionShapes<double, bool> &shape
   return result;
 }
 
+/// Of a range its lower end.
+std::optional<CutterOffset<double>> offsetIn(const ProgramSet &programs, Callee program, const FileContracts &contracts,
+                                             const RunOptions &run, double number) {
+  ContractNumbers numbers(programs, program, contracts, run);
+  const Contract &contract = *contracts.of(program.program);
+  const RadiusOffset *found = nullptr;
+  for (const RadiusOffset &offset : contract.offsets)
+    if (offset.number ? numbers.number(*offset.number) == number : found == nullptr)
+      found = &offset;
+  if (found != nullptr)
+    return CutterOffset<double>{numbers.number(found->radius.low ? *found->radius.low : *found->radius.high)};
+  const double radius = contract.tool ? numbers.number(contract.tool->radius) : 0;
+  return contract.offsets.empty() && radius > 0 ? std::optional(CutterOffset<double>{radius, true}) : std::nullopt;
+}
+
 } // namespace
 
 geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
@@ -117,10 +132,9 @@ RunOptions withCompensation(const ProgramSet &programs, Callee program, const Fi
                             RunOptions run) {
   run.cutter = CutterCompensation::Followed;
   const Contract *contract = contracts == nullptr ? nullptr : contracts->of(program.program);
-  if (contract != nullptr && contract->tool)
-    run.cutterRadius = [&programs, program, contracts](const RunOptions &started) -> std::optional<double> {
-      const auto tool = plainSpace(programs, program, *contracts, started).tool;
-      return tool && tool->radius > 0 ? std::optional(tool->radius) : std::nullopt;
+  if (contract != nullptr && (contract->tool || !contract->offsets.empty()))
+    run.cutterRadius = [&programs, program, contracts](const RunOptions &started, double number) {
+      return offsetIn(programs, program, *contracts, started, number);
     };
   return run;
 }

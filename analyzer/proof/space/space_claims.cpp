@@ -179,6 +179,9 @@ SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
 
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
   const MoveKind kind = instance.move.kind;
+  const bool asksOfProgrammed = rule.kind == ObligationKind::Travel || rule.kind == ObligationKind::Limit;
+  if (instance.path == (asksOfProgrammed ? MovePath::Centre : MovePath::Programmed))
+    return false;
   if (kind == MoveKind::Unmodelled)
     return true;
   if (rule.kind == ObligationKind::KeepIn || rule.kind == ObligationKind::Limit)
@@ -200,10 +203,15 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
                                                                   const MoveInstance &instance) const {
   std::vector<std::pair<TermId, std::string>> premises;
   if (rule.kind != ObligationKind::Travel)
-    premises.emplace_back(
-        instance.point.withoutCompensation.term,
-        "cutter compensation (G41, G42) may be active or end here, and its path is not modelled; if it is "
-        "off at the start, state `@MODAL G40`");
+    premises.emplace_back(instance.point.withoutCompensation.term,
+                          instance.path != MovePath::Both ? "the control may stop in this cutter compensation, as its "
+                                                            "own claim says; the path of the tool's centre is "
+                                                            "known where it does not"
+                          : instance.whyBeside.empty()
+                              ? "cutter compensation (G41, G42) may be active or end here, and the path of the tool's "
+                                "centre is not known; "
+                                "if it is off at the start, state `@MODAL G40`"
+                              : fmt::format("the path of the tool's centre is not followed: {}", instance.whyBeside));
   premises.emplace_back(
       instance.point.lengthKnown.term,
       "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "

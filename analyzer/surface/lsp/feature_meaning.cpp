@@ -148,6 +148,7 @@ std::string_view helpOf(ClauseKind kind) {
   case ClauseKind::Modal: return "the G and M codes active on entry";
   case ClauseKind::Start: return "the tool position on entry";
   case ClauseKind::Tool: return "the shape and radius of the tool";
+  case ClauseKind::Offset: return "the radius that the offset of a D holds, for G41 and G42";
   case ClauseKind::KeepIn: return "during cutting moves, the whole tool stays inside this region";
   case ClauseKind::KeepOut: return "the tool never enters this region";
   case ClauseKind::Clearance: return "rapid moves stay at or above this height";

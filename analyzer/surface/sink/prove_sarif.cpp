@@ -21,6 +21,7 @@ std::string_view summaryOf(ObligationKind kind) {
   case ObligationKind::LoopEnds: return "every loop ends";
   case ObligationKind::ProgramEnds: return "every run of the program ends";
   case ObligationKind::AlarmUnreachable: return "no call raises the alarm of this `#3000`";
+  case ObligationKind::Compensation: return "the control does not stop in a cutter compensation";
   case ObligationKind::NoControlAlarm: return "the control does not stop the program with an alarm of its own";
   case ObligationKind::AlarmIff: return "the alarm is raised for the calls that the contract states";
   case ObligationKind::Ensures: return "the promise of the contract holds at the return";

@@ -213,10 +213,10 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
     return isRefuted ? "this program can run for ever" : "it is not known whether this program always comes to an end";
   case ObligationKind::AlarmUnreachable: return fmt::format("{}this alarm can be raised", open);
   case ObligationKind::NoControlAlarm:
-    if (obligation.alarm == AlarmKind::CutterCompensation)
-      return fmt::format("{}the control can stop in the cutter compensation that begins here", open);
     return fmt::format("{}the control can stop here{}", open,
                        obligation.alarm ? " with " + controlAlarm(dialect, *obligation.alarm) : "");
+  case ObligationKind::Compensation:
+    return fmt::format("{}the control can stop in the cutter compensation that begins here", open);
   case ObligationKind::AlarmIff:
   case ObligationKind::Ensures:
   case ObligationKind::Assigns:

@@ -79,6 +79,7 @@ bool breaks(const Obligation &claim, const RunResult &result) {
   case ObligationKind::AlarmUnreachable: return result.end == RunEnd::UserAlarm && stopsAt(claim, result);
   case ObligationKind::NoControlAlarm:
     return result.end == RunEnd::Alarm && claim.alarm == result.alarm && stopsAt(claim, result);
+  case ObligationKind::Compensation: return result.end == RunEnd::Alarm && result.compensation == claim.place;
   case ObligationKind::AlarmIff:
   case ObligationKind::Ensures:
   case ObligationKind::Assigns:

@@ -1,0 +1,161 @@
+// CutterBlock: what an executed block is to cutter compensation.
+#pragma once
+
+#include "meaning/semantics/cutter_geometry.h"
+#include "meaning/semantics/cutter_offset.h"
+#include "meaning/semantics/cycles.h"
+#include "meaning/semantics/executed_words.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace feedhold {
+
+template <typename N> struct CutterBlock {
+  /// The codes and D ask for compensation on this side, seen along the path as the machine makes it (mirror images
+  /// swap the sides); absent: none.  Radius 0 where `whyNoRadius`.
+  std::optional<CutterSide<N>> side;
+  std::string_view whyNoRadius = {}; // the offset is not known; empty: it is
+  bool offsetIsAssumed = false;
+  Plane plane = kPlaneXY;
+  bool switches = false; // G41 or G42 stands in the block
+  bool stopsReading = false;
+  bool namesPlane = false; // has words for the axes of the plane
+  /// Why the block is not followed where the compensation is in force; empty: it is.
+  std::string_view foreign = {};
+};
+
+/// The host (cutter_geometry.h) also has
+///
+///   offsetOf(context, value of D)  a radius of either sign; absent, kNoOffset: nothing gives it
+template <typename Host>
+CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typename Host::Interpretation> &context,
+                                                 const ExecutedWords<typename Host::Interpretation> &words);
+
+/// G41 or G42 is in force, or a code of their group that is not followed.
+template <ValueAlgebra R> bool mayCompensate(StepContext<R> &context) {
+  return !context.certain(
+      context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, context.interpretation.truth(true)));
+}
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+namespace detail {
+
+/// What may stand in a block between start-up and cancel; all else is not followed there: its own movements, another
+/// tool length (a change of the offset for FANUC), another zero point, mappings, units, cycles.
+inline bool isHarmlessForCutter(CodeAction action) {
+  constexpr std::array kHarmless = {CodeAction::Rapid,           CodeAction::Linear,
+                                    CodeAction::ArcClockwise,    CodeAction::ArcCounterclockwise,
+                                    CodeAction::Dwell,           CodeAction::CycleOff,
+                                    CodeAction::PlaneXY,         CodeAction::PlaneZX,
+                                    CodeAction::PlaneYZ,         CodeAction::Absolute,
+                                    CodeAction::Incremental,     CodeAction::ArcAbsolute,
+                                    CodeAction::ArcIncremental,  CodeAction::FeedPerMinute,
+                                    CodeAction::FeedInverse,     CodeAction::FeedPerRevolution,
+                                    CodeAction::CompensationOff, CodeAction::CompensationLeft,
+                                    CodeAction::ReturnToInitial, CodeAction::CompensationRight,
+                                    CodeAction::ReturnToR,       CodeAction::SpindleClockwise,
+                                    CodeAction::ConstantSpeed,   CodeAction::SpindleCounterclockwise,
+                                    CodeAction::ConstantSurface, CodeAction::SpindleStop,
+                                    CodeAction::CoolantOn,       CodeAction::CoolantOff};
+  return changesNothing(action) || std::find(kHarmless.begin(), kHarmless.end(), action) != kHarmless.end();
+}
+inline bool setsSide(const Code &code) {
+  return code.action == CodeAction::CompensationLeft || code.action == CodeAction::CompensationRight;
+}
+
+template <ValueAlgebra R> std::string_view whyForeign(StepContext<R> &context, const ExecutedWords<R> &words) {
+  if (words.unmodelled || words.mayTakeAxes || !words.computed.empty())
+    return "cutter compensation through a block that is not modelled";
+  R &interpretation = context.interpretation;
+  const bool mayBeArc = interpretation.mayBe(context.inForce(
+      ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}, interpretation.truth(false)));
+  for (const CodeWord &word : words.codes) {
+    if (!isHarmlessForCutter(word.code->action))
+      return "cutter compensation through a code that changes coordinates, offsets or the path";
+    if (setsSide(*word.code) && !mayBeArc && (words.find('I') || words.find('J') || words.find('K')))
+      return "cutter compensation that is given its vector by I, J, K";
+  }
+  const auto group = context.modes.groupOf(ModalKind::Cycle);
+  if (group && interpretation.mayBe(interpretation.isOneOf(context.state.codes[*group],
+                                                           context.modes.maskOf(ModalKind::Cycle, kDrillingCycles))))
+    return "cutter compensation in a canned cycle";
+  return {};
+}
+
+/// The code of the group that is in force; null: it may be several.
+template <ValueAlgebra R> const Code *compensationCode(StepContext<R> &context) {
+  const auto group = context.modes.groupOf(ModalKind::Compensation);
+  const auto index = group ? context.interpretation.onlyCode(context.state.codes[*group]) : std::nullopt;
+  if (!index)
+    return nullptr;
+  const auto &codes = context.modes.group(*group).codes;
+  return *index < codes.size() ? codes[*index] : nullptr;
+}
+
+inline constexpr std::string_view kNoCutterNumber = "cutter compensation without a D that is known";
+
+/// Takes down side and radius; what is in force is G41 or G42.
+template <typename Host>
+void readSide(Host &host, StepContext<typename Host::Interpretation> &context,
+              const ExecutedWords<typename Host::Interpretation> &words, const Code &code,
+              CutterBlock<typename Host::Length> &block) {
+  using N = typename Host::Length;
+  auto &interpretation = context.interpretation;
+  CutterSide<N> side{code.action == CodeAction::CompensationLeft ? 1 : -1, {}};
+  const auto &word = context.state.word('D');
+  const auto &byDiameter = context.behaviour().cutterDiameterCodes;
+  const bool isDiameter = std::find(byDiameter.begin(), byDiameter.end(), code.tenths) != byDiameter.end();
+  std::optional<CutterOffset<N>> offset;
+  if (isDiameter && !(block.switches && !words.find('D')))
+    offset = CutterOffset<N>{host.quotient(host.lengthOf(word), host.number(2))};
+  else if (host.holds(interpretation.isVacant(word)))
+    block.whyNoRadius = kNoCutterNumber;
+  else if (host.holds(host.none(host.lengthOf(word), 0)))
+    return; // D0: as without compensation
+  else
+    offset = host.offsetOf(context, word);
+  if (!offset && block.whyNoRadius.empty())
+    block.whyNoRadius = Host::kNoOffset;
+  if (offset) {
+    block.offsetIsAssumed = offset->isAssumed;
+    const bool isNegative = host.holds(host.negative(offset->radius, 0));
+    side.radius = withSign(isNegative ? -1 : 1, offset->radius);
+    side.sign = isNegative ? -side.sign : side.sign;
+  }
+  if (host.holds(circleMappingOf(context, block.plane).turnsOver))
+    side.sign = -side.sign;
+  block.side = side;
+}
+
+} // namespace detail
+
+template <typename Host>
+CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typename Host::Interpretation> &context,
+                                                 const ExecutedWords<typename Host::Interpretation> &words) {
+  using N = typename Host::Length;
+  CutterBlock<N> block{};
+  block.foreign = detail::whyForeign(context, words);
+  for (const CodeWord &word : words.codes) {
+    block.switches = block.switches || detail::setsSide(*word.code);
+    block.stopsReading = block.stopsReading || word.code->role == CodeRole::ProgramStop;
+  }
+  const auto plane = planeOf(context);
+  if (plane)
+    block.plane = *plane;
+  block.namesPlane = !words.has(CodeAction::Dwell) &&
+                     (words.find(letterOf(block.plane.first)) || words.find(letterOf(block.plane.second)));
+  const Code *code = detail::compensationCode(context);
+  if (code != nullptr && detail::setsSide(*code)) {
+    detail::readSide(host, context, words, *code, block);
+  } else if (mayCompensate(context)) {
+    block.side = CutterSide<N>{};
+    block.whyNoRadius = "compensation by a code that is not followed";
+  }
+  if (context.dialect().machine == MachineKind::Turning)
+    block.whyNoRadius = "tool nose radius compensation";
+  return block;
+}
+
+} // namespace feedhold

@@ -1,0 +1,526 @@
+// CutterPath: cutter compensation as a step between the moves of a run, or of a path of a proof, and their users.
+//
+// Where the tool's centre goes in one block depends on the next one that moves in the plane.  So one block is pending,
+// with the moves behind it that do not move in the plane, until the next one is known, or the control reads no further.
+//
+//   off -> waiting (G41 or G42 in force) -> on (from the first move in the plane: start-up) -> ending (G40 or D0)
+//       -> off (behind the first move in the plane: cancel)
+//
+// What is not followed (another side or offset inside, a vector by I J K, G28 inside ..) leaves the path unknown up to
+// the end of the first move in the plane without compensation.
+//
+// The host (cutter_geometry.h) numbers the moves in order, and also has
+//
+//   moveOf(number)               the programmed move
+//   follow(number, moves)        what the tool's centre makes of it
+//   leave(number)                that is not known
+//   areInOneSpace(number, number)  the same zero point and units
+//   shift(value, length)
+//   isOn(switch)                 a setting of the machine
+//   standing(vector, tolerance)  of no length
+//   refuses(truth, alarm, began) whether the control stops.  A host that cannot tell keeps that it may, and says no
+//   takeUndecided()              why a truth that was asked for is not known, since the last call; empty: all are
+#pragma once
+
+#include "meaning/semantics/cutter_block.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace feedhold {
+
+/// The control stops before a block, for its compensation.
+struct CutterAlarm {
+  AlarmKind kind;
+  Place place;
+  std::size_t depth; // calls that were open there
+  std::size_t move;  // the first that is not made
+  Place began;       // the block with G41 or G42
+};
+
+/// Something that was not followed.
+struct CutterNote {
+  std::string_view reason;
+  Place place;
+};
+
+/// Of a block that has been executed: where, and how many calls are open.
+struct CutterPlace {
+  Place place;
+  std::size_t depth;
+};
+
+template <typename Host> class CutterPath {
+public:
+  using N = typename Host::Length;
+  using Truth = typename Host::Truth;
+  using MoveOf = Move<typename Host::Value>;
+  using Vector = PlaneVector<N>;
+  using Element = CutterElement<N>;
+  using Join = CutterJoin<N>;
+  using Block = CutterBlock<N>;
+
+  explicit CutterPath(const Dialect &dialect) : dialect_(&dialect) {}
+
+  /// A block has been executed; its moves are those from `first` up to `end`.
+  void take(Host &host, const Block &block, CutterPlace where, std::size_t first, std::size_t end);
+  /// No block follows.
+  void finish(Host &host);
+  /// Something came between that is not followed.
+  void lose(Host &host, std::string_view reason, Place place);
+
+  bool isOff() const { return phase_ == Phase::Off; }
+  /// Neither followed up to here nor off.
+  bool isLost() const { return phase_ == Phase::Lost; }
+  bool hasPending() const { return pending_.has_value(); }
+  /// What the tool's centre makes of the move will be known later.
+  bool awaits(std::size_t move) const {
+    return pending_ && (pending_->move == move ||
+                        std::find(pending_->behind.begin(), pending_->behind.end(), move) != pending_->behind.end());
+  }
+  /// The block with G41 or G42; absent: it was in force at the start.
+  const std::optional<Place> &began() const { return began_; }
+
+  const std::optional<CutterAlarm> &alarm() const { return alarm_; }
+  std::vector<CutterNote> takeNotes() { return std::exchange(notes_, {}); }
+
+private:
+  enum class Phase : std::uint8_t { Off, Waiting, On, Ending, Lost };
+  enum class Role : std::uint8_t { StartUp, Steady };
+  struct Pending {
+    std::size_t move;
+    Role role;
+    Element element;
+    Vector from; // offset of the centre at its start
+    Place place;
+    std::size_t depth;
+    std::size_t idle = 0;                 // blocks behind it that do not move in the plane
+    std::vector<std::size_t> behind = {}; // their moves
+  };
+  struct At {
+    Place place;
+    std::size_t depth;
+    std::size_t move;
+  };
+  static constexpr double kStanding = 1e-9; // a shorter way is none
+  static constexpr double kSame = 1e-7;     // offsets that rounding alone keeps apart
+
+  void enter(Host &host, const Block &block, const At &at);
+  void change(Host &host, const Block &block, const At &at);
+  void changeInside(Host &host, const Block &block, const At &at);
+  void move(Host &host, std::size_t index, const Block &block, const At &at);
+  void moveInPlane(Host &host, std::size_t index, const Block &block, const At &at);
+  void moveBeside(Host &host, std::size_t index);
+  void startUp(Host &host, std::size_t index, const Block &block, const At &at);
+  void goOn(Host &host, std::size_t index, const At &at);
+  void cancel(Host &host, std::size_t index, const At &at);
+  void idle(Host &host, const Block &block);
+
+  bool isInPlane(Host &host, const MoveOf &move) const;
+  bool refusesArc(Host &host, const Element &element, const At &block);
+  Join startOf(Host &host, const Element &next) const;
+  Join endOf(Host &host, const Element &next) const;
+  std::string_view whyNotJoined(Host &host, std::size_t index, const Join &join) const;
+  void finishPending(Host &host, const Join &join);
+  void failReading(Host &host);
+  Truth isReversed(Host &host, const Pending &pending, Vector to) const;
+  MoveOf shifted(Host &host, MoveOf move, Vector start, Vector end) const;
+  MoveOf centreMove(Host &host, const Pending &pending, Vector to) const;
+  std::vector<MoveOf> linksOf(Host &host, std::size_t index, const Join &join) const;
+  bool stopsWhere(Host &host, Truth when, AlarmKind kind, const At &at);
+  void stop(Host &host, AlarmKind kind, const At &at);
+  void loseHere(Host &host, std::string_view reason, std::size_t index, const At &at);
+
+  const Dialect *dialect_;
+  Phase phase_ = Phase::Off;
+  CutterSide<N> side_;
+  Plane plane_ = kPlaneXY;
+  Vector at_; // from the programmed point to the centre, behind the last finished block
+  std::optional<Pending> pending_;
+  std::optional<Place> began_; // the last block with G41 or G42; absent: it was in force at the start
+  std::optional<CutterAlarm> alarm_;
+  std::vector<CutterNote> notes_;
+};
+
+// ---- implementation -----------------------------------------------------------------------------------------------
+
+template <typename Host>
+void CutterPath<Host>::take(Host &host, const Block &block, CutterPlace where, std::size_t first, std::size_t end) {
+  if (alarm_ || (phase_ == Phase::Off && !block.side))
+    return;
+  if (block.switches)
+    began_ = where.place;
+  const At at{where.place, where.depth, first};
+  const bool isOpen = !host.takeUndecided().empty();
+  change(host, block, at);
+  if (isOpen && phase_ != Phase::Off && phase_ != Phase::Lost)
+    lose(host, "cutter compensation whose number, offset or side is not known for certain", at.place);
+  bool moves = false;
+  for (std::size_t i = first; i < end; ++i)
+    moves = isInPlane(host, host.moveOf(i)) || moves;
+  for (std::size_t i = first; i < end && !alarm_; ++i)
+    move(host, i, block, at);
+  if (!moves && !alarm_)
+    idle(host, block);
+}
+
+template <typename Host> void CutterPath<Host>::finish(Host &host) {
+  if (pending_ && !alarm_)
+    failReading(host);
+}
+
+// ---- modes ----
+
+template <typename Host> void CutterPath<Host>::enter(Host &host, const Block &block, const At &at) {
+  phase_ = Phase::Waiting;
+  side_ = *block.side;
+  plane_ = block.plane;
+  at_ = {};
+  if (!began_)
+    lose(host, "cutter compensation that was in force before the start", at.place);
+  else if (!block.whyNoRadius.empty())
+    lose(host, block.whyNoRadius, at.place);
+}
+
+template <typename Host> void CutterPath<Host>::change(Host &host, const Block &block, const At &at) {
+  switch (phase_) {
+  case Phase::Off: return enter(host, block, at);
+  case Phase::Waiting:
+    if (!block.side)
+      phase_ = Phase::Off;
+    else
+      enter(host, block, at);
+    return;
+  case Phase::On: return changeInside(host, block, at);
+  case Phase::Ending:
+    if (block.side)
+      lose(host, "cutter compensation that begins again before a move has ended it", at.place);
+    return;
+  case Phase::Lost: return;
+  }
+}
+
+template <typename Host> void CutterPath<Host>::changeInside(Host &host, const Block &block, const At &at) {
+  if (!block.side) {
+    phase_ = Phase::Ending;
+    return;
+  }
+  if (block.plane.normal != plane_.normal)
+    return stop(host, AlarmKind::CutterPlane, at);
+  if (!block.foreign.empty())
+    return lose(host, block.foreign, at.place);
+  if (block.switches || !(*block.side == side_) || !block.whyNoRadius.empty())
+    lose(host, "cutter compensation whose side or offset changes, or is given again, before it ends", at.place);
+}
+
+// ---- moves ----
+
+template <typename Host> bool CutterPath<Host>::isInPlane(Host &host, const MoveOf &move) const {
+  if (isArc(move.kind))
+    return true;
+  const auto stands = [&](Axis axis) {
+    return host.holds(
+        host.none(host.lengthOf(move.end[indexOf(axis)]) - host.lengthOf(move.start[indexOf(axis)]), kStanding));
+  };
+  return move.kind != MoveKind::Dwell && !(stands(plane_.first) && stands(plane_.second));
+}
+
+template <typename Host> void CutterPath<Host>::move(Host &host, std::size_t index, const Block &block, const At &at) {
+  const MoveOf &programmed = host.moveOf(index);
+  if (programmed.kind == MoveKind::Dwell || phase_ == Phase::Off)
+    return;
+  const bool inPlane = isInPlane(host, programmed);
+  const MoveKind kind = programmed.kind;
+  if (phase_ != Phase::Lost && kind != MoveKind::Rapid && kind != MoveKind::Feed && !isArc(kind))
+    lose(host, "cutter compensation through a move that is not modelled", at.place);
+  if (const bool isOpen = !host.takeUndecided().empty(); isOpen && phase_ == Phase::Lost)
+    return host.leave(index);
+  else if (isOpen)
+    lose(host, "cutter compensation through a block that may move in the plane or not", at.place);
+  if (phase_ == Phase::Lost) {
+    host.leave(index);
+    if (inPlane && !block.side)
+      phase_ = Phase::Off;
+  } else if (inPlane) {
+    moveInPlane(host, index, block, at);
+  } else {
+    moveBeside(host, index);
+  }
+}
+
+template <typename Host>
+void CutterPath<Host>::moveInPlane(Host &host, std::size_t index, const Block &block, const At &at) {
+  switch (phase_) {
+  case Phase::Waiting: return startUp(host, index, block, at);
+  case Phase::On: return goOn(host, index, at);
+  case Phase::Ending: return cancel(host, index, at);
+  case Phase::Off:
+  case Phase::Lost: return;
+  }
+}
+
+/// The tool goes up or down where it stands, which the next block in the plane decides.
+template <typename Host> void CutterPath<Host>::moveBeside(Host &host, std::size_t index) {
+  if (pending_)
+    pending_->behind.push_back(index);
+  else if (phase_ != Phase::Waiting)
+    host.follow(index, {shifted(host, host.moveOf(index), at_, at_)});
+}
+
+template <typename Host>
+void CutterPath<Host>::startUp(Host &host, std::size_t index, const Block &block, const At &at) {
+  const MoveOf &programmed = host.moveOf(index);
+  const bool byItself = dialect_->behaviour.cutterEntry == CutterEntry::ByItself;
+  if (!block.foreign.empty())
+    return loseHere(host, block.foreign, index, at);
+  if (isArc(programmed.kind) && byItself)
+    return loseHere(host, "cutter compensation that begins in an arc", index, at);
+  if (isArc(programmed.kind))
+    return stop(host, AlarmKind::CutterArc, at);
+  const Element element = elementOf(host, programmed, plane_, side_.sign);
+  if (const std::string_view open = host.takeUndecided(); !open.empty())
+    return loseHere(host, open, index, at);
+  if (byItself && stopsWhere(host, host.notPositive(host.magnitude(element.end - element.start) - side_.radius, 0),
+                             AlarmKind::CutterEntryTooShort, at))
+    return;
+  phase_ = Phase::On;
+  pending_ = Pending{index, Role::StartUp, element, {}, at.place, at.depth};
+}
+
+/// The block before it is not made either: its end is not known.
+template <typename Host> bool CutterPath<Host>::refusesArc(Host &host, const Element &element, const At &block) {
+  const At at{block.place, block.depth, pending_ ? pending_->move : block.move};
+  for (const N &radius : {element.endRadius, element.startRadius})
+    if (stopsWhere(host, host.notPositive(radius, kStanding), AlarmKind::CutterArcCentre, at))
+      return true;
+  // LinuxCNC refuses an inside arc of the very radius of the tool, too.
+  const bool byItself = dialect_->behaviour.cutterEntry == CutterEntry::ByItself;
+  const N left = centreRadius(host, element, side_);
+  return stopsWhere(host, byItself ? host.notPositive(left, kStanding) : host.negative(left, kSame),
+                    AlarmKind::CutterInterference, at);
+}
+
+/// Of the pending block and the one that is being taken; empty: they are.
+template <typename Host>
+std::string_view CutterPath<Host>::whyNotJoined(Host &host, std::size_t index, const Join &join) const {
+  if (!host.areInOneSpace(pending_->move, index))
+    return "cutter compensation through a change of the zero point or of the units";
+  if (join.turn == CornerTurn::Back && join.vectors.empty())
+    return "cutter compensation along a block and back";
+  if (join.isArc && host.moveOf(pending_->move).kind == MoveKind::Rapid)
+    return "cutter compensation about an outer corner in rapid traverse";
+  return {};
+}
+
+template <typename Host> void CutterPath<Host>::goOn(Host &host, std::size_t index, const At &at) {
+  const Element element = elementOf(host, host.moveOf(index), plane_, side_.sign);
+  if (const std::string_view open = host.takeUndecided(); !open.empty())
+    return loseHere(host, open, index, at);
+  if (element.isArc && refusesArc(host, element, at))
+    return;
+  if (pending_) {
+    const Join join = pending_->role == Role::StartUp
+                          ? startOf(host, element)
+                          : joinOf(host, pending_->element, element, side_, dialect_->behaviour.cutterCorners);
+    if (const std::string_view open = host.takeUndecided(); !open.empty())
+      return loseHere(host, open, index, at);
+    if (const std::string_view reason = whyNotJoined(host, index, join); !reason.empty())
+      return loseHere(host, reason, index, at);
+    if (join.vectors.empty())
+      return stop(host, AlarmKind::CutterNoCrossing, {pending_->place, pending_->depth, pending_->move});
+    finishPending(host, join);
+    if (phase_ == Phase::Lost)
+      return host.leave(index);
+  } else if (element.isArc && host.holds(host.apart(at_, side_.radius * element.startNormal, kSame))) {
+    return loseHere(host, "cutter compensation of an arc behind a corner that the control has not foreseen", index, at);
+  }
+  if (const std::string_view open = host.takeUndecided(); !open.empty())
+    return loseHere(host, open, index, at);
+  if (!alarm_)
+    pending_ = Pending{index, Role::Steady, element, at_, at.place, at.depth};
+}
+
+template <typename Host> void CutterPath<Host>::cancel(Host &host, std::size_t index, const At &at) {
+  if (isArc(host.moveOf(index).kind))
+    return stop(host, AlarmKind::CutterArc, at);
+  if (pending_ && pending_->role == Role::StartUp) {
+    loseHere(host, "cutter compensation without a block between its start and its end", index, at);
+    phase_ = Phase::Off;
+    return;
+  }
+  if (pending_) {
+    const Join join = endOf(host, elementOf(host, host.moveOf(index), plane_, side_.sign));
+    std::string_view reason = host.takeUndecided();
+    if (reason.empty())
+      reason = whyNotJoined(host, index, join);
+    if (!reason.empty()) {
+      loseHere(host, reason, index, at);
+      phase_ = Phase::Off;
+      return;
+    }
+    finishPending(host, join);
+  }
+  if (alarm_)
+    return;
+  if (phase_ == Phase::Lost) {
+    host.leave(index);
+    phase_ = Phase::Off;
+    return;
+  }
+  host.follow(index, {shifted(host, host.moveOf(index), at_, {})});
+  at_ = {};
+  phase_ = Phase::Off;
+}
+
+template <typename Host> void CutterPath<Host>::idle(Host &host, const Block &block) {
+  if (!pending_ || phase_ != Phase::On)
+    return;
+  ++pending_->idle;
+  const std::size_t most = dialect_->behaviour.cutterBlocks;
+  if (most != 0 && (block.stopsReading || block.namesPlane || pending_->idle > most - 2))
+    failReading(host);
+}
+
+// ---- from one block to the next ----
+
+/// Square to the next block; by type B an outer corner has the normal of the start-up block first, and so has one of
+/// LinuxCNC, where the start-up block is one of the contour.
+template <typename Host> auto CutterPath<Host>::startOf(Host &host, const Element &next) const -> Join {
+  const Element &own = pending_->element;
+  if (dialect_->behaviour.cutterEntry == CutterEntry::ByItself)
+    return joinOf(host, own, next, side_, dialect_->behaviour.cutterCorners);
+  Join join{.turn = turnOf(host, own, next, side_.sign), .vectors = {side_.radius * next.startNormal}};
+  if (join.turn == CornerTurn::Outer && host.isOn(dialect_->switches.sup)) {
+    join.vectors = joinOf(host, own, next, side_, CutterCorners::Lines).vectors;
+    join.vectors.insert(join.vectors.begin(), side_.radius * own.endNormal);
+  }
+  return join;
+}
+
+template <typename Host> auto CutterPath<Host>::endOf(Host &host, const Element &next) const -> Join {
+  const Element &own = pending_->element;
+  Join join{.turn = turnOf(host, own, next, side_.sign), .vectors = {side_.radius * own.endNormal}};
+  if (join.turn == CornerTurn::Outer && dialect_->behaviour.cutterEntry == CutterEntry::ToNext &&
+      host.isOn(dialect_->switches.sup)) {
+    join.vectors = joinOf(host, own, next, side_, CutterCorners::Lines).vectors;
+    join.vectors.push_back(side_.radius * next.startNormal);
+  }
+  return join;
+}
+
+/// The control does not know the next block in the plane: it ends square to its own.
+template <typename Host> void CutterPath<Host>::failReading(Host &host) {
+  finishPending(host, {.turn = CornerTurn::None, .vectors = {side_.radius * pending_->element.endNormal}});
+}
+
+template <typename Host> void CutterPath<Host>::finishPending(Host &host, const Join &join) {
+  const Truth reversed = isReversed(host, *pending_, join.vectors.front());
+  if (const std::string_view open = host.takeUndecided(); !open.empty())
+    return lose(host, open, pending_->place);
+  const Pending pending = *std::exchange(pending_, std::nullopt);
+  if (pending.role == Role::Steady &&
+      stopsWhere(host, reversed, AlarmKind::CutterInterference, {pending.place, pending.depth, pending.move}))
+    return;
+  std::vector<MoveOf> links = linksOf(host, pending.move, join);
+  std::vector<MoveOf> centre{centreMove(host, pending, join.vectors.front())};
+  // Straight pieces belong to the block before the corner, an arc about it to the one behind.
+  at_ = join.isArc ? join.vectors.front() : join.vectors.back();
+  const bool linksFollow = join.isArc && !pending.behind.empty();
+  if (!linksFollow)
+    centre.insert(centre.end(), links.begin(), links.end());
+  host.follow(pending.move, std::move(centre));
+  for (const std::size_t index : pending.behind) {
+    std::vector<MoveOf> beside{shifted(host, host.moveOf(index), at_, at_)};
+    if (linksFollow && index == pending.behind.back()) {
+      links = linksOf(host, index, join);
+      beside.insert(beside.end(), links.begin(), links.end());
+    }
+    host.follow(index, std::move(beside));
+  }
+  at_ = join.vectors.back();
+}
+
+template <typename Host>
+auto CutterPath<Host>::isReversed(Host &host, const Pending &pending, Vector to) const -> Truth {
+  const Element &element = pending.element;
+  if (!element.isArc)
+    return host.negative(dot(element.end + to - element.start - pending.from, element.endDirection), kStanding);
+  return host.arcReversed(element, pending.from, to, centreRadius(host, element, side_));
+}
+
+template <typename Host>
+auto CutterPath<Host>::shifted(Host &host, MoveOf move, Vector start, Vector end) const -> MoveOf {
+  host.shift(move.start[indexOf(plane_.first)], start.first);
+  host.shift(move.start[indexOf(plane_.second)], start.second);
+  host.shift(move.end[indexOf(plane_.first)], end.first);
+  host.shift(move.end[indexOf(plane_.second)], end.second);
+  return move;
+}
+
+template <typename Host>
+auto CutterPath<Host>::centreMove(Host &host, const Pending &pending, Vector to) const -> MoveOf {
+  MoveOf move = shifted(host, host.moveOf(pending.move), pending.from, to);
+  return pending.element.isArc ? host.centreArc(std::move(move), pending.element, pending.from, to,
+                                                centreRadius(host, pending.element, side_))
+                               : move;
+}
+
+template <typename Host>
+auto CutterPath<Host>::linksOf(Host &host, std::size_t index, const Join &join) const -> std::vector<MoveOf> {
+  std::vector<MoveOf> links;
+  const MoveOf &programmed = host.moveOf(index);
+  for (std::size_t i = 1; i < join.vectors.size(); ++i) {
+    MoveOf link = programmed;
+    link.start = link.end = programmed.end;
+    link = shifted(host, link, join.vectors[i - 1], join.vectors[i]);
+    link.kind = programmed.kind == MoveKind::Rapid ? MoveKind::Rapid : MoveKind::Feed;
+    link.turns = 1;
+    if (join.isArc) { // on the outside the contour turns away from the tool
+      link.kind = side_.sign > 0 ? MoveKind::ArcClockwise : MoveKind::ArcCounterclockwise;
+      link.plane = plane_;
+      link.firstCentre = programmed.end[indexOf(plane_.first)];
+      link.secondCentre = programmed.end[indexOf(plane_.second)];
+    }
+    if (!host.holds(host.standing(join.vectors[i] - join.vectors[i - 1], kStanding)))
+      links.push_back(link);
+  }
+  host.takeUndecided(); // a link of no length says no more
+  return links;
+}
+
+// ---- what cannot go on ----
+
+template <typename Host> bool CutterPath<Host>::stopsWhere(Host &host, Truth when, AlarmKind kind, const At &at) {
+  if (!began_ || !host.refuses(when, kind, *began_))
+    return false;
+  stop(host, kind, at);
+  return true;
+}
+
+template <typename Host> void CutterPath<Host>::stop(Host &host, AlarmKind kind, const At &at) {
+  if (pending_ && pending_->move >= at.move)
+    pending_.reset();
+  finish(host);
+  if (!alarm_ && began_)
+    alarm_ = CutterAlarm{kind, at.place, at.depth, at.move, *began_};
+}
+
+template <typename Host> void CutterPath<Host>::lose(Host &host, std::string_view reason, Place place) {
+  notes_.push_back({reason, place});
+  if (pending_) {
+    host.leave(pending_->move);
+    for (const std::size_t index : pending_->behind)
+      host.leave(index);
+  }
+  pending_.reset();
+  phase_ = Phase::Lost;
+}
+
+template <typename Host>
+void CutterPath<Host>::loseHere(Host &host, std::string_view reason, std::size_t index, const At &at) {
+  lose(host, reason, at.place);
+  host.leave(index);
+}
+
+} // namespace feedhold

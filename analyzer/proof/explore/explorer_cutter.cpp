@@ -1,0 +1,232 @@
+// Cutter compensation on the paths of a proof: the moves of the tool's centre in place of the programmed ones.
+//
+// A path that ends, or comes to the head of a loop, leaves it: a run of it may end there too, and the state before an
+// arbitrary iteration does not know it.
+#include "proof/explore/explorer.h"
+#include "proof/explore/path_cutter.h"
+#include "proof/symbolic/path_memory.h"
+
+#include <algorithm>
+
+namespace feedhold::prove {
+
+using smt::TermId;
+
+namespace {
+
+/// The path writes offsets of D, has written them, or started with them in its variables.
+bool touchesOffsets(const Dialect &dialect, const SymbolicState &state,
+                    const std::map<std::uint32_t, SymbolicValue> &read) {
+  const CutterOffsets &offsets = dialect.behaviour.cutterOffsets;
+  const std::array firsts{offsets.geometry[0], offsets.geometry[1], offsets.wear[0], offsets.wear[1]};
+  const auto holdsOffset = [&](std::uint32_t low, std::uint32_t high) {
+    return std::any_of(firsts.begin(), firsts.end(),
+                       [&](std::uint32_t first) { return first != 0 && low < first + offsets.count && first <= high; });
+  };
+  const auto isOffset = [&](const auto &each) { return holdsOffset(each.first, each.first); };
+  const auto &written = state.variables.entries();
+  return std::any_of(written.begin(), written.end(), isOffset) || std::any_of(read.begin(), read.end(), isOffset) ||
+         std::any_of(state.havocked.begin(), state.havocked.end(),
+                     [&](const auto &range) { return holdsOffset(range.first, range.second); });
+}
+
+} // namespace
+
+PathCutter Explorer::cutterOf(Path &path, CutterTrack &track, TermId also) {
+  std::vector<TermId> conditions = path.conditions;
+  if (also != store_.yes())
+    conditions.push_back(also);
+  return {store_,
+          track,
+          {.proves = [this, conditions](TermId truth) { return entails_(interpretation_.facts(), conditions, truth); },
+           .offsetOf = [this, &path](const SymbolicValue &number) { return offsetOf(path, number); },
+           .record =
+               [this, conditions](MoveInstance move) {
+                 if (purpose_ != Purpose::Record)
+                   return;
+                 move.conditions = conditions;
+                 result_.moves.push_back(std::move(move));
+               },
+           .claim =
+               [this, conditions](CutterClaim claim) {
+                 if (purpose_ != Purpose::Record)
+                   return;
+                 claim.conditions = conditions;
+                 result_.cutterClaims.push_back(std::move(claim));
+               }}};
+}
+
+/// In the units of the start, where no offset has been written: those of a contract are those of the start.
+std::optional<PathOffset> Explorer::offsetOf(Path &path, const SymbolicValue &number) {
+  auto context = contextOf(path);
+  const auto proves = [&](TermId truth) { return entails_(interpretation_.facts(), path.conditions, truth); };
+  if (touchesOffsets(*fileOf(path).dialect, path.state, interpretation_.entryValues()) ||
+      !proves(toolPointOf(context, entry_).sameUnits.term))
+    return std::nullopt;
+  auto offset = options_.cutterOffset(number, proves);
+  if (offset)
+    for (const TermId condition : offset->conditions)
+      path.assume(store_, condition);
+  return offset;
+}
+
+/// The block has been executed.  True: its moves are taken here, in place of the explorer.
+bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, TermId besidePath) {
+  const bool isBlock = std::holds_alternative<ExecuteWords>(nodeOf(path).instruction) &&
+                       (!words_.codes.empty() || !words_.entries.empty());
+  if (!options_.cutterOffset)
+    return false;
+  auto context = contextOf(path);
+  if (!isBlock || (!path.cutter && !mayCompensate(context))) {
+    if (!moves.empty() && path.cutter)
+      loseCutter(path, "cutter compensation through a move that is not modelled");
+    return false;
+  }
+  const TermId onPath = store_.equal(besidePath, store_.number(smt::Number(0)));
+  const Dialect &dialect = *fileOf(path).dialect;
+  auto track = path.cutter ? std::make_shared<CutterTrack>(*path.cutter)
+                           : std::make_shared<CutterTrack>(CutterTrack{CutterPath<PathCutter>(dialect), {}, 0, onPath});
+  PathCutter host = cutterOf(path, *track, store_.yes());
+  const bool wasOff = !path.cutter;
+  path.cutter = track;
+  if (!moves.empty() && track->end && !startsThere(moves.front(), *track->end)) {
+    loseCutter(path, "cutter compensation through a change of the position without a move");
+    return false;
+  }
+  const CutterBlock<TermLength> block = cutterBlockOf(host, context, words_);
+  const std::size_t first = track->next;
+  for (MoveInstance move : moves) {
+    decideVacancies(path, move);
+    giveCentre(move);
+    track->open.emplace(track->next++, std::move(move));
+  }
+  if (!moves.empty())
+    track->end = {moves.back().move.end[0].number, moves.back().move.end[1].number};
+  track->walk.take(host, block, {path.at, path.frames.size() - 1}, first, track->next);
+  return settleCutter(path, *track, first, wasOff);
+}
+
+/// `X#8` moves where #8 is not vacant: what the path says of it needs no case in the coordinates.
+void Explorer::decideVacancies(const Path &path, MoveInstance &instance) {
+  Move<SymbolicValue> &move = instance.move;
+  smt::Substitution known;
+  for (const TermId condition : path.conditions) {
+    const smt::Term &term = store_[condition];
+    if (term.kind == smt::TermKind::Variable)
+      known.emplace(condition, store_.yes());
+    else if (term.kind == smt::TermKind::Not && store_[term.arguments.front()].kind == smt::TermKind::Variable)
+      known.emplace(term.arguments.front(), store_.no());
+  }
+  const auto decide = [&](TermId &term) {
+    const auto &variables = smt::variablesOf(store_, term);
+    if (std::any_of(variables.begin(), variables.end(), [&](TermId each) { return known.contains(each); }))
+      term = smt::substitute(store_, term, known);
+  };
+  for (auto *point : {&move.start, &move.end})
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+      decide((*point)[indexOf(axis)].number);
+  decide(move.firstCentre.number);
+  decide(move.secondCentre.number);
+  if (instance.radius)
+    decide(instance.radius->size);
+}
+
+/// Of an arc by R whose centre is told by the form of its terms.
+void Explorer::giveCentre(MoveInstance &move) {
+  if (!move.radius)
+    return;
+  const auto at = [](const auto &point) {
+    return geometry::TermPoint{point[0].number, point[1].number, point[2].number};
+  };
+  const geometry::ToolPath path(store_, {.kind = move.move.kind,
+                                         .start = at(move.move.start),
+                                         .end = at(move.move.end),
+                                         .plane = move.move.plane,
+                                         .turns = move.move.turns,
+                                         .radius = move.radius});
+  if (path.move().radius)
+    return;
+  move.move.firstCentre.number = path.move().firstCentre;
+  move.move.secondCentre.number = path.move().secondCentre;
+}
+
+bool Explorer::startsThere(const MoveInstance &move, const std::array<TermId, 2> &end) const {
+  return move.move.start[0].number == end[0] && move.move.start[1].number == end[1];
+}
+
+/// What has become of the compensation in the block.  False: its moves, from `first` on, are left to the explorer.
+bool Explorer::settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff) {
+  PathCutter host = cutterOf(path, track, store_.yes());
+  const auto claim = [&](TermId goal, std::string_view why) {
+    if (purpose_ == Purpose::Record && track.walk.began())
+      result_.cutterClaims.push_back({*track.walk.began(), path.conditions, goal, std::nullopt, std::string(why)});
+  };
+  const auto notes = track.walk.takeNotes();
+  if (!notes.empty())
+    track.why = notes.front().reason;
+  if (track.walk.isLost() || track.walk.alarm() || !notes.empty()) {
+    if (!track.walk.alarm())
+      claim(store_.no(), track.why);
+    else
+      stopInCutter(path, track);
+    const bool hasBegun = track.walk.began().has_value();
+    if (hasBegun)
+      leaveOpen(host, track);
+    path.cutter.reset();
+    return hasBegun;
+  }
+  if (wasOff && track.walk.began())
+    claim(store_.yes(), {});
+  for (std::size_t i = first; i < track.next; ++i)
+    if (track.open.contains(i) && !track.walk.awaits(i)) { // not yet begun, or no move along the path
+      MoveInstance move = track.open.extract(i).mapped();
+      move.point.withoutCompensation.term = track.rests;
+      if (purpose_ == Purpose::Record)
+        result_.moves.push_back(std::move(move));
+    }
+  if (track.walk.isOff()) {
+    if (track.next > first) // the move that ends it
+      path.state.variables.set(kBesidePath, interpretation_.number(0));
+    path.cutter.reset();
+  }
+  return true;
+}
+
+void Explorer::stopInCutter(const Path &path, const CutterTrack &track) {
+  const auto &alarm = track.walk.alarm();
+  if (purpose_ == Purpose::Record)
+    result_.cutterClaims.push_back({alarm->began, path.conditions, store_.no(), alarm->kind, {}});
+}
+
+void Explorer::leaveOpen(PathCutter &host, CutterTrack &track) {
+  while (!track.open.empty())
+    host.leave(track.open.begin()->first);
+}
+
+/// From here on nothing is known of the centre until the compensation has ended.
+void Explorer::loseCutter(Path &path, std::string_view reason) {
+  if (!path.cutter)
+    return;
+  CutterTrack track = *path.cutter;
+  path.cutter.reset();
+  track.why = reason;
+  PathCutter host = cutterOf(path, track, store_.yes());
+  leaveOpen(host, track);
+  if (purpose_ == Purpose::Record && track.walk.began())
+    result_.cutterClaims.push_back(
+        {*track.walk.began(), path.conditions, store_.no(), std::nullopt, std::string(reason)});
+  path.state.variables.set(kBesidePath, interpretation_.number(1));
+}
+
+/// Runs of the path end here where `when` holds: the control knows no further block.
+void Explorer::endCutter(Path &path, TermId when) {
+  if (!path.cutter || !path.cutter->walk.hasPending() || purpose_ != Purpose::Record || !isPossible(path, when))
+    return;
+  CutterTrack track = *path.cutter;
+  PathCutter host = cutterOf(path, track, when);
+  track.walk.finish(host);
+  track.why = "cutter compensation that does not end";
+  leaveOpen(host, track);
+}
+
+} // namespace feedhold::prove

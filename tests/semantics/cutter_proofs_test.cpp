@@ -1,0 +1,184 @@
+// Cutter compensation as proofs follow it and as a run does: the same moves of the tool's centre, on random contours
+// along the axes whose size is an argument.
+#include "proof/explore/exploration.h"
+#include "proof/replay/exact_run.h"
+#include "semantics/language_sample.h"
+
+#include <fmt/format.h>
+
+#include <random>
+
+namespace feedhold {
+namespace {
+
+using prove::MovePath;
+using smt::TermId;
+
+constexpr double kRadius = 1.5;
+
+/// Lines and tangent quarters of circles, with square corners: lengths are multiples of the argument A.
+class SquareContour {
+public:
+  explicit SquareContour(unsigned seed) : random_(seed) {
+    text = fmt::format("O1\nG21 G17 G90 G40 G49 G80 G94\nG00 X0 Y0 Z5.\nG01 G4{} D1 {} F100.\n", 1 + random_() % 2,
+                       line());
+    bool isBehindArc = false;
+    for (int i = 0; i < 8; ++i) {
+      const bool turns = random_() % 3 != 0;
+      if (turns && (!isBehindArc || random_() % 8 == 0)) // beside an arc inner corners are not computed
+        turn(random_() % 2 == 0 ? 1 : -1);
+      isBehindArc = !turns;
+      text += isBehindArc ? arc() : fmt::format("G01 {}\n", line());
+      if (random_() % 6 == 0)
+        text += "G01 Z-1. F100.\n";
+    }
+    text += "G01 G40 X[200.*#1]\nM30\n";
+  }
+  std::string text;
+
+private:
+  void turn(int way) { std::tie(first_, second_) = std::pair(-way * second_, way * first_); }
+  int length() { return 1 + static_cast<int>(random_() % 9); }
+  std::string point() const { return fmt::format("X[{}.*#1]Y[{}.*#1]", x_, y_); }
+  std::string line() {
+    const int by = length();
+    x_ += by * first_;
+    y_ += by * second_;
+    return point();
+  }
+  std::string arc() {
+    const int way = random_() % 2 == 0 ? 1 : -1;
+    const int size = length();
+    const int i = -way * second_ * size, j = way * first_ * size;
+    x_ += size * first_ + i;
+    y_ += size * second_ + j;
+    turn(way);
+    const std::string centre =
+        random_() % 2 == 0 ? fmt::format("I[{}.*#1]J[{}.*#1]", i, j) : fmt::format("R[{}.*#1]", size);
+    return fmt::format("G0{} {}{}\n", way > 0 ? 3 : 2, point(), centre);
+  }
+
+  std::mt19937 random_;
+  int x_ = 0, y_ = 0;
+  int first_ = 1, second_ = 0;
+};
+
+/// The moves of the tool's centre, and whether the control stops, at one value of the argument.
+struct Followed {
+  std::vector<std::array<double, 6>> ends;
+  bool stops = false;
+  bool isWhole = true; // nothing was left out
+};
+
+class Proof {
+public:
+  explicit Proof(const LanguageSample &sample, const Dialect &dialect) : interpretation_(store_, dialect) {
+    prove::SymbolicState entry = prove::symbolicEntry(interpretation_);
+    size_ = entry.locals[1].number;
+    const ModalTable modes(dialect);
+    for (const std::uint16_t tenths : {150, 210}) { // no polar coordinates, millimetres
+      const Code &code = *findGCode(dialect, tenths);
+      entry.codes[code.group] = interpretation_.code(*modes.indexOf(code));
+    }
+    prove::ExploreOptions options;
+    options.assumptions = {store_.logicalNot(entry.locals[1].vacant), store_.lessOrEqual(number(1), size_),
+                           store_.lessOrEqual(size_, number(3))};
+    options.moves = prove::KeepMoves::Yes;
+    options.cutterOffset = [this](const prove::SymbolicValue &, const auto &) {
+      return std::optional(prove::PathOffset{.radius = number(kRadius)});
+    };
+    found_ = explore(interpretation_, *sample.set, sample.main(), entry, options);
+  }
+
+  Followed at(double size) {
+    const smt::Substitution given{{size_, number(size)}};
+    const auto isOfRun = [&](const std::vector<TermId> &conditions) {
+      return std::none_of(conditions.begin(), conditions.end(),
+                          [&](TermId condition) { return smt::substitute(store_, condition, given) == store_.no(); });
+    };
+    const auto numberOf = [&](TermId term) {
+      const TermId result = smt::substitute(store_, term, given);
+      EXPECT_TRUE(store_.isNumber(result));
+      return store_.isNumber(result) ? store_[result].number.toDouble() : 0;
+    };
+    Followed followed;
+    for (const prove::MoveInstance &each : found_.moves)
+      if (each.path == MovePath::Centre && isOfRun(each.conditions))
+        followed.ends.push_back({numberOf(each.move.start[0].number), numberOf(each.move.start[1].number),
+                                 numberOf(each.move.start[2].number), numberOf(each.move.end[0].number),
+                                 numberOf(each.move.end[1].number), numberOf(each.move.end[2].number)});
+    for (const prove::CutterClaim &claim : found_.cutterClaims) {
+      if (!isOfRun(claim.conditions))
+        continue;
+      followed.isWhole = followed.isWhole && claim.why.empty();
+      followed.stops = followed.stops || smt::substitute(store_, claim.goal, given) == store_.no();
+    }
+    return followed;
+  }
+
+private:
+  TermId number(double value) { return store_.number(smt::Number::fromDouble(value)); }
+
+  smt::TermStore store_;
+  prove::SymbolicInterpretation interpretation_;
+  TermId size_{0};
+  prove::Exploration found_;
+};
+
+Followed ofRun(const LanguageSample &sample, const Dialect &dialect, double size) {
+  RunOptions options;
+  options.variables.set(1, ConcreteValue::of(size));
+  options.variables.set(13001, ConcreteValue::of(kRadius));
+  options.fuel = 10'000;
+  options.numbers = numbersOfRun(dialect);
+  options.words = WordRounding::None;
+  options.cutter = CutterCompensation::Followed;
+  const RunResult result = run(*sample.set, sample.main(), options);
+  Followed followed;
+  followed.stops = result.end == RunEnd::Alarm;
+  for (const RecordedMove &recorded : result.moves) {
+    followed.isWhole = followed.isWhole && recorded.isOfTool;
+    for (const Move<ConcreteValue> &each : recorded.centre)
+      followed.ends.push_back({each.start[0].number, each.start[1].number, each.start[2].number, each.end[0].number,
+                               each.end[1].number, each.end[2].number});
+  }
+  return followed;
+}
+
+void expectSame(const Followed &proof, const Followed &run) {
+  EXPECT_EQ(proof.stops, run.stops);
+  if (run.stops) // a run ends there; a path goes on where the alarm does not come
+    return;
+  EXPECT_TRUE(run.isWhole);
+  ASSERT_EQ(proof.ends.size(), run.ends.size());
+  for (std::size_t i = 0; i < run.ends.size(); ++i)
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_NEAR(proof.ends[i][k], run.ends[i][k], 1e-6) << "move " << i;
+}
+
+TEST(CutterProofs, TheCentreGoesWhereARunGoes) {
+  const Dialect &dialect = *findDialect(allDialects(), "fanuc-30i");
+  std::size_t whole = 0, stopping = 0;
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    const SquareContour contour(seed);
+    SCOPED_TRACE(fmt::format("{}:\n{}", seed, contour.text));
+    const LanguageSample sample(dialect, {contour.text});
+    Proof proof(sample, dialect);
+    for (const double size : {1.0, 1.75, 3.0}) {
+      const Followed followed = proof.at(size);
+      if (!followed.isWhole)
+        continue;
+      const Followed made = ofRun(sample, dialect, size);
+      expectSame(followed, made);
+      whole += made.stops ? 0U : 1U;
+      stopping += made.stops ? 1U : 0U;
+    }
+    if (HasFailure())
+      return;
+  }
+  EXPECT_GT(whole, 150U); // the others have corners between arcs that are not computed
+  EXPECT_GT(stopping, 50U);
+}
+
+} // namespace
+} // namespace feedhold
