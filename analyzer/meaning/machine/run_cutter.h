@@ -30,6 +30,7 @@ public:
   // ---- truths and lengths ----
   bool holds(bool truth) const { return truth; }
   std::string_view takeUndecided() const { return {}; }
+  bool knowsReadAhead(const Dialect &) const { return true; } // the usual setting
   bool isOn(Switch setting) const { return setting == Switch::On; }
   bool none(double length, double tolerance) const { return std::abs(length) <= tolerance; }
   bool positive(double length, double tolerance) const { return length > tolerance; }
@@ -41,6 +42,7 @@ public:
   double lengthOf(const ConcreteValue &value) const { return value.number; }
   double magnitude(Vector v) const { return std::hypot(v.first, v.second); }
   Vector unit(Vector v) const { return 1 / magnitude(v) * v; }
+  Vector direction(Vector v) const { return unit(v); }
   double quotient(double dividend, double divisor) const { return dividend / divisor; }
   double least(double a, double b) const { return std::min(a, b); }
 
@@ -59,7 +61,7 @@ public:
   // ---- moves ----
   const Move<ConcreteValue> &moveOf(std::size_t index) const { return moves_[index].move; }
   void follow(std::size_t index, std::vector<Move<ConcreteValue>> centre) { moves_[index].centre = std::move(centre); }
-  void leave(std::size_t index) { moves_[index].isOfTool = false; }
+  void leave(std::size_t index, std::string_view) { moves_[index].isOfTool = false; }
   bool areInOneSpace(std::size_t a, std::size_t b) const {
     return moves_[a].zero == moves_[b].zero && moves_[a].unit == moves_[b].unit;
   }

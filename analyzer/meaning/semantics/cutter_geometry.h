@@ -18,6 +18,7 @@
 //                                 0, above it, not above it, below it; rounding alone brings a length within the
 //                                 tolerance
 //   number, magnitude, unit, quotient, least, apart
+//   direction(vector)             unit, or the vector itself
 //   sweepOf, turnByAngle, innerCrossing, arcReversed, centreArc
 //                                 what needs angles, or the crossing of circles
 #pragma once
@@ -67,10 +68,13 @@ template <typename N> struct CutterElement {
   PlaneVector<N> startNormal; // to the tool
   PlaneVector<N> endNormal;
 };
+/// Of the start-up block and the one that ends the compensation it matters only to which side they lead: the directions
+/// and normals of a line may have any length.
+enum class CutterRole : std::uint8_t { Contour, WayThere };
 /// Where a move goes in its plane; the caller knows that it goes somewhere.
 template <typename Host>
 CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move, const Plane &plane,
-                                               int side);
+                                               int side, CutterRole role = CutterRole::Contour);
 /// Radius of the path of the tool's centre, at the start of an arc; below 0: the tool does not fit.
 template <typename Host>
 typename Host::Length centreRadius(Host &host, const CutterElement<typename Host::Length> &arc,
@@ -140,7 +144,7 @@ std::vector<PlaneVector<N>> outerVectors(Host &host, const CutterElement<N> &bef
 
 template <typename Host>
 CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename Host::Value> &move, const Plane &plane,
-                                               int side) {
+                                               int side, CutterRole role) {
   using N = typename Host::Length;
   const auto at = [&](const auto &point) {
     return PlaneVector<N>{host.lengthOf(point[indexOf(plane.first)]), host.lengthOf(point[indexOf(plane.second)])};
@@ -158,7 +162,8 @@ CutterElement<typename Host::Length> elementOf(Host &host, const Move<typename H
     element.startDirection = detail::tangentAt(host, element, element.start);
     element.endDirection = detail::tangentAt(host, element, element.end);
   } else {
-    element.startDirection = element.endDirection = host.unit(element.end - element.start);
+    const PlaneVector<N> way = element.end - element.start;
+    element.startDirection = element.endDirection = role == CutterRole::Contour ? host.unit(way) : host.direction(way);
   }
   element.startNormal = quarterTurn(element.startDirection, side);
   element.endNormal = quarterTurn(element.endDirection, side);

@@ -13,9 +13,11 @@
 //
 //   moveOf(number)               the programmed move
 //   follow(number, moves)        what the tool's centre makes of it
-//   leave(number)                that is not known
+//   leave(number, why)           that is not known
 //   areInOneSpace(number, number)  the same zero point and units
 //   shift(value, length)
+//   knowsReadAhead(dialect)      how many blocks the control reads ahead; else a corner that it does not foresee is not
+//                                followed
 //   isOn(switch)                 a setting of the machine
 //   standing(vector, tolerance)  of no length
 //   refuses(truth, alarm, began) whether the control stops.  A host that cannot tell keeps that it may, and says no
@@ -120,7 +122,9 @@ private:
   bool isInPlane(Host &host, const MoveOf &move) const;
   bool refusesArc(Host &host, const Element &element, const At &block);
   Join startOf(Host &host, const Element &next) const;
-  Join endOf(Host &host, const Element &next) const;
+  Join endOf(Host &host, std::size_t index) const;
+  bool turnsOut(Host &host, const Element &before, const Element &behind) const;
+  Element ofContour(Host &host, std::size_t index) const;
   std::string_view whyNotJoined(Host &host, std::size_t index, const Join &join) const;
   void finishPending(Host &host, const Join &join);
   void failReading(Host &host);
@@ -140,6 +144,7 @@ private:
   std::optional<Pending> pending_;
   std::optional<Place> began_; // the last block with G41 or G42; absent: it was in force at the start
   std::optional<CutterAlarm> alarm_;
+  std::string_view lostBy_; // Phase::Lost: the reason
   std::vector<CutterNote> notes_;
 };
 
@@ -235,11 +240,11 @@ template <typename Host> void CutterPath<Host>::move(Host &host, std::size_t ind
   if (phase_ != Phase::Lost && kind != MoveKind::Rapid && kind != MoveKind::Feed && !isArc(kind))
     lose(host, "cutter compensation through a move that is not modelled", at.place);
   if (const bool isOpen = !host.takeUndecided().empty(); isOpen && phase_ == Phase::Lost)
-    return host.leave(index);
+    return host.leave(index, lostBy_);
   else if (isOpen)
     lose(host, "cutter compensation through a block that may move in the plane or not", at.place);
   if (phase_ == Phase::Lost) {
-    host.leave(index);
+    host.leave(index, lostBy_);
     if (inPlane && !block.side)
       phase_ = Phase::Off;
   } else if (inPlane) {
@@ -278,7 +283,7 @@ void CutterPath<Host>::startUp(Host &host, std::size_t index, const Block &block
     return loseHere(host, "cutter compensation that begins in an arc", index, at);
   if (isArc(programmed.kind))
     return stop(host, AlarmKind::CutterArc, at);
-  const Element element = elementOf(host, programmed, plane_, side_.sign);
+  const Element element = elementOf(host, programmed, plane_, side_.sign, CutterRole::WayThere);
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return loseHere(host, open, index, at);
   if (byItself && stopsWhere(host, host.notPositive(host.magnitude(element.end - element.start) - side_.radius, 0),
@@ -314,7 +319,7 @@ std::string_view CutterPath<Host>::whyNotJoined(Host &host, std::size_t index, c
 }
 
 template <typename Host> void CutterPath<Host>::goOn(Host &host, std::size_t index, const At &at) {
-  const Element element = elementOf(host, host.moveOf(index), plane_, side_.sign);
+  const Element element = ofContour(host, index);
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return loseHere(host, open, index, at);
   if (element.isArc && refusesArc(host, element, at))
@@ -331,9 +336,13 @@ template <typename Host> void CutterPath<Host>::goOn(Host &host, std::size_t ind
       return stop(host, AlarmKind::CutterNoCrossing, {pending_->place, pending_->depth, pending_->move});
     finishPending(host, join);
     if (phase_ == Phase::Lost)
-      return host.leave(index);
-  } else if (element.isArc && host.holds(host.apart(at_, side_.radius * element.startNormal, kSame))) {
-    return loseHere(host, "cutter compensation of an arc behind a corner that the control has not foreseen", index, at);
+      return host.leave(index, lostBy_);
+  } else if ((element.isArc || !host.knowsReadAhead(*dialect_)) &&
+             host.holds(host.apart(at_, side_.radius * element.startNormal, kSame))) {
+    return loseHere(host,
+                    element.isArc ? "cutter compensation of an arc behind a corner that the control has not foreseen"
+                                  : "cutter compensation at a corner that the control may not have foreseen",
+                    index, at);
   }
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return loseHere(host, open, index, at);
@@ -350,7 +359,7 @@ template <typename Host> void CutterPath<Host>::cancel(Host &host, std::size_t i
     return;
   }
   if (pending_) {
-    const Join join = endOf(host, elementOf(host, host.moveOf(index), plane_, side_.sign));
+    const Join join = endOf(host, index);
     std::string_view reason = host.takeUndecided();
     if (reason.empty())
       reason = whyNotJoined(host, index, join);
@@ -360,11 +369,12 @@ template <typename Host> void CutterPath<Host>::cancel(Host &host, std::size_t i
       return;
     }
     finishPending(host, join);
-  }
+  } else if (!host.knowsReadAhead(*dialect_)) // the last block may have ended otherwise
+    lose(host, "cutter compensation that ends at a corner that the control may not have foreseen", at.place);
   if (alarm_)
     return;
   if (phase_ == Phase::Lost) {
-    host.leave(index);
+    host.leave(index, lostBy_);
     phase_ = Phase::Off;
     return;
   }
@@ -390,36 +400,57 @@ template <typename Host> auto CutterPath<Host>::startOf(Host &host, const Elemen
   const Element &own = pending_->element;
   if (dialect_->behaviour.cutterEntry == CutterEntry::ByItself)
     return joinOf(host, own, next, side_, dialect_->behaviour.cutterCorners);
-  Join join{.turn = turnOf(host, own, next, side_.sign), .vectors = {side_.radius * next.startNormal}};
-  if (join.turn == CornerTurn::Outer && host.isOn(dialect_->switches.sup)) {
-    join.vectors = joinOf(host, own, next, side_, CutterCorners::Lines).vectors;
-    join.vectors.insert(join.vectors.begin(), side_.radius * own.endNormal);
+  Join join{.vectors = {side_.radius * next.startNormal}};
+  if (turnsOut(host, own, next) && host.isOn(dialect_->switches.sup)) {
+    const Element contour = ofContour(host, pending_->move);
+    join.turn = turnOf(host, contour, next, side_.sign);
+    if (join.turn == CornerTurn::Outer) {
+      join.vectors = joinOf(host, contour, next, side_, CutterCorners::Lines).vectors;
+      join.vectors.insert(join.vectors.begin(), side_.radius * contour.endNormal);
+    }
   }
   return join;
 }
 
-template <typename Host> auto CutterPath<Host>::endOf(Host &host, const Element &next) const -> Join {
+/// `index`: the move that ends the compensation.
+template <typename Host> auto CutterPath<Host>::endOf(Host &host, std::size_t index) const -> Join {
   const Element &own = pending_->element;
-  Join join{.turn = turnOf(host, own, next, side_.sign), .vectors = {side_.radius * own.endNormal}};
-  if (join.turn == CornerTurn::Outer && dialect_->behaviour.cutterEntry == CutterEntry::ToNext &&
+  const Element next = elementOf(host, host.moveOf(index), plane_, side_.sign, CutterRole::WayThere);
+  Join join{.vectors = {side_.radius * own.endNormal}};
+  if (dialect_->behaviour.cutterEntry == CutterEntry::ToNext && turnsOut(host, own, next) &&
       host.isOn(dialect_->switches.sup)) {
-    join.vectors = joinOf(host, own, next, side_, CutterCorners::Lines).vectors;
-    join.vectors.push_back(side_.radius * next.startNormal);
+    const Element contour = ofContour(host, index);
+    join.turn = turnOf(host, own, contour, side_.sign);
+    if (join.turn == CornerTurn::Outer) {
+      join.vectors = joinOf(host, own, contour, side_, CutterCorners::Lines).vectors;
+      join.vectors.push_back(side_.radius * contour.startNormal);
+    }
   }
   return join;
+}
+
+template <typename Host>
+bool CutterPath<Host>::turnsOut(Host &host, const Element &before, const Element &behind) const {
+  return host.holds(
+      host.negative(withSign(side_.sign, cross(before.endDirection, behind.startDirection)), detail::kNoTurn));
+}
+
+template <typename Host> auto CutterPath<Host>::ofContour(Host &host, std::size_t index) const -> Element {
+  return elementOf(host, host.moveOf(index), plane_, side_.sign);
 }
 
 /// The control does not know the next block in the plane: it ends square to its own.
 template <typename Host> void CutterPath<Host>::failReading(Host &host) {
-  finishPending(host, {.turn = CornerTurn::None, .vectors = {side_.radius * pending_->element.endNormal}});
+  finishPending(host, {.vectors = {side_.radius * ofContour(host, pending_->move).endNormal}});
 }
 
 template <typename Host> void CutterPath<Host>::finishPending(Host &host, const Join &join) {
-  const Truth reversed = isReversed(host, *pending_, join.vectors.front());
+  const bool isSteady = pending_->role == Role::Steady;
+  const Truth reversed = isSteady ? isReversed(host, *pending_, join.vectors.front()) : Truth{};
   if (const std::string_view open = host.takeUndecided(); !open.empty())
     return lose(host, open, pending_->place);
   const Pending pending = *std::exchange(pending_, std::nullopt);
-  if (pending.role == Role::Steady &&
+  if (isSteady &&
       stopsWhere(host, reversed, AlarmKind::CutterInterference, {pending.place, pending.depth, pending.move}))
     return;
   std::vector<MoveOf> links = linksOf(host, pending.move, join);
@@ -508,10 +539,11 @@ template <typename Host> void CutterPath<Host>::stop(Host &host, AlarmKind kind,
 
 template <typename Host> void CutterPath<Host>::lose(Host &host, std::string_view reason, Place place) {
   notes_.push_back({reason, place});
+  lostBy_ = reason;
   if (pending_) {
-    host.leave(pending_->move);
+    host.leave(pending_->move, reason);
     for (const std::size_t index : pending_->behind)
-      host.leave(index);
+      host.leave(index, reason);
   }
   pending_.reset();
   phase_ = Phase::Lost;
@@ -520,7 +552,7 @@ template <typename Host> void CutterPath<Host>::lose(Host &host, std::string_vie
 template <typename Host>
 void CutterPath<Host>::loseHere(Host &host, std::string_view reason, std::size_t index, const At &at) {
   lose(host, reason, at.place);
-  host.leave(index);
+  host.leave(index, reason);
 }
 
 } // namespace feedhold

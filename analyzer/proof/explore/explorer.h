@@ -88,7 +88,7 @@ private:
   void decideVacancies(const Path &path, MoveInstance &instance);
   bool startsThere(const MoveInstance &move, const std::array<smt::TermId, 2> &end) const;
   void stopInCutter(const Path &path, const CutterTrack &track);
-  void leaveOpen(PathCutter &host, CutterTrack &track);
+  void leaveOpen(PathCutter &host, CutterTrack &track, std::string_view why);
   void loseCutter(Path &path, std::string_view reason);
   void endCutter(Path &path, smt::TermId when);
   // ---- writes (explorer_writes.cpp) ----

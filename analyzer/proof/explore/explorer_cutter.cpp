@@ -32,28 +32,33 @@ bool touchesOffsets(const Dialect &dialect, const SymbolicState &state,
 
 } // namespace
 
+/// `also`: a further condition of its runs.
 PathCutter Explorer::cutterOf(Path &path, CutterTrack &track, TermId also) {
-  std::vector<TermId> conditions = path.conditions;
-  if (also != store_.yes())
-    conditions.push_back(also);
-  return {store_,
-          track,
-          {.proves = [this, conditions](TermId truth) { return entails_(interpretation_.facts(), conditions, truth); },
-           .offsetOf = [this, &path](const SymbolicValue &number) { return offsetOf(path, number); },
-           .record =
-               [this, conditions](MoveInstance move) {
-                 if (purpose_ != Purpose::Record)
-                   return;
-                 move.conditions = conditions;
-                 result_.moves.push_back(std::move(move));
-               },
-           .claim =
-               [this, conditions](CutterClaim claim) {
-                 if (purpose_ != Purpose::Record)
-                   return;
-                 claim.conditions = conditions;
-                 result_.cutterClaims.push_back(std::move(claim));
-               }}};
+  const auto conditions = [&path, also, yes = store_.yes()] {
+    std::vector<TermId> all = path.conditions;
+    if (also != yes)
+      all.push_back(also);
+    return all;
+  };
+  return {
+      store_,
+      track,
+      {.proves = [this, conditions](TermId truth) { return entails_(interpretation_.facts(), conditions(), truth); },
+       .offsetOf = [this, &path](const SymbolicValue &number) { return offsetOf(path, number); },
+       .record =
+           [this, conditions](MoveInstance move) {
+             if (purpose_ != Purpose::Record)
+               return;
+             move.conditions = conditions();
+             result_.moves.push_back(std::move(move));
+           },
+       .claim =
+           [this, conditions](CutterClaim claim) {
+             if (purpose_ != Purpose::Record)
+               return;
+             claim.conditions = conditions();
+             result_.cutterClaims.push_back(std::move(claim));
+           }}};
 }
 
 /// In the units of the start, where no offset has been written: those of a contract are those of the start.
@@ -77,7 +82,9 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
   if (!options_.cutterOffset)
     return false;
   auto context = contextOf(path);
-  if (!isBlock || (!path.cutter && !mayCompensate(context))) {
+  const bool begins = std::any_of(words_.codes.begin(), words_.codes.end(),
+                                  [](const CodeWord &word) { return detail::setsSide(*word.code); });
+  if (!isBlock || (!path.cutter && (!begins || !mayCompensate(context)))) {
     if (!moves.empty() && path.cutter)
       loseCutter(path, "cutter compensation through a move that is not modelled");
     return false;
@@ -162,16 +169,15 @@ bool Explorer::settleCutter(Path &path, CutterTrack &track, std::size_t first, b
       result_.cutterClaims.push_back({*track.walk.began(), path.conditions, goal, std::nullopt, std::string(why)});
   };
   const auto notes = track.walk.takeNotes();
-  if (!notes.empty())
-    track.why = notes.front().reason;
+  const std::string_view why = notes.empty() ? "the control stops in this cutter compensation" : notes.front().reason;
   if (track.walk.isLost() || track.walk.alarm() || !notes.empty()) {
     if (!track.walk.alarm())
-      claim(store_.no(), track.why);
+      claim(store_.no(), why);
     else
       stopInCutter(path, track);
     const bool hasBegun = track.walk.began().has_value();
     if (hasBegun)
-      leaveOpen(host, track);
+      leaveOpen(host, track, why);
     path.cutter.reset();
     return hasBegun;
   }
@@ -198,9 +204,9 @@ void Explorer::stopInCutter(const Path &path, const CutterTrack &track) {
     result_.cutterClaims.push_back({alarm->began, path.conditions, store_.no(), alarm->kind, {}});
 }
 
-void Explorer::leaveOpen(PathCutter &host, CutterTrack &track) {
+void Explorer::leaveOpen(PathCutter &host, CutterTrack &track, std::string_view why) {
   while (!track.open.empty())
-    host.leave(track.open.begin()->first);
+    host.leave(track.open.begin()->first, why);
 }
 
 /// From here on nothing is known of the centre until the compensation has ended.
@@ -209,9 +215,8 @@ void Explorer::loseCutter(Path &path, std::string_view reason) {
     return;
   CutterTrack track = *path.cutter;
   path.cutter.reset();
-  track.why = reason;
   PathCutter host = cutterOf(path, track, store_.yes());
-  leaveOpen(host, track);
+  leaveOpen(host, track, reason);
   if (purpose_ == Purpose::Record && track.walk.began())
     result_.cutterClaims.push_back(
         {*track.walk.began(), path.conditions, store_.no(), std::nullopt, std::string(reason)});
@@ -225,8 +230,7 @@ void Explorer::endCutter(Path &path, TermId when) {
   CutterTrack track = *path.cutter;
   PathCutter host = cutterOf(path, track, when);
   track.walk.finish(host);
-  track.why = "cutter compensation that does not end";
-  leaveOpen(host, track);
+  leaveOpen(host, track, "cutter compensation that does not end");
 }
 
 } // namespace feedhold::prove

@@ -120,12 +120,12 @@ void PathCutter::follow(std::size_t index, std::vector<Move<Value>> centre) {
   }
 }
 
-void PathCutter::leave(std::size_t index) {
+void PathCutter::leave(std::size_t index, std::string_view why) {
   auto node = track_.open.extract(index);
   if (node.empty())
     return;
   node.mapped().point.withoutCompensation.term = store_.no();
-  node.mapped().whyBeside = track_.why;
+  node.mapped().whyBeside = why;
   explored_.record(std::move(node.mapped()));
 }
 

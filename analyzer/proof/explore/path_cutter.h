@@ -73,6 +73,7 @@ public:
   // ---- truths and lengths ----
   bool holds(Truth truth);
   std::string_view takeUndecided() { return std::exchange(undecided_, {}); }
+  bool knowsReadAhead(const Dialect &dialect) const { return dialect.behaviour.cutterBlocks == 0; }
   bool isOn(Switch setting);
   Truth none(Length length, double) { return {store_.equal(term(length), zero())}; }
   Truth positive(Length length, double) { return {store_.less(zero(), term(length))}; }
@@ -84,6 +85,7 @@ public:
   Length lengthOf(const Value &value) { return {store_, value.number}; }
   Length magnitude(Vector v);
   Vector unit(Vector v);
+  Vector direction(Vector v) { return v; }
   Length quotient(Length dividend, Length divisor) { return {store_, store_.divide(term(dividend), term(divisor))}; }
   Length least(Length a, Length b);
 
@@ -100,7 +102,7 @@ public:
   // ---- moves ----
   const Move<Value> &moveOf(std::size_t index) const;
   void follow(std::size_t index, std::vector<Move<Value>> centre);
-  void leave(std::size_t index);
+  void leave(std::size_t index, std::string_view why);
   bool areInOneSpace(std::size_t a, std::size_t b) const;
   void shift(Value &value, Length length) { value.number = store_.add(value.number, term(length)); }
   bool refuses(Truth truth, AlarmKind kind, Place began);
@@ -126,7 +128,6 @@ struct CutterTrack {
   std::size_t next = 0;                     // number of the next move
   smt::TermId rests;                        // what all of it rests on: the tool stood on the path before, and so on
   std::optional<std::array<smt::TermId, 2>> end = {}; // X and Y where the last move ended
-  std::string_view why = {};                          // Phase::Lost: the reason
 };
 
 } // namespace feedhold::prove

@@ -62,11 +62,12 @@ constexpr std::array kAssumptions = {
         "G00 may move each axis independently: the tool may be anywhere in the box spanned by the two ends of the "
         "move.",
         "nobody: this assumption is conservative", "keep-out, clearance, travel"},
-    Assumption{"Cutter compensation is not proved",
-               "With G41 or G42 active nothing is proved of the path of the tool's centre: claims about its space, and "
-               "whether the control stops because the tool does not fit, stay unknown or are refuted by a run. Such a "
-               "run takes the offset of D to be the radius of @TOOL unless a variable gives it.",
-               "the reviewer of the report", "keep-in, keep-out, clearance, travel, no-control-alarm"},
+    Assumption{
+        "The offset of D is as @OFFSET says",
+        "With G41 or G42 active the path is that of the tool's centre, by the offset that @OFFSET tells for a D; "
+        "without that clause the offset is the radius of @TOOL. Offsets are not changed during the run. Where the "
+        "path is not followed, claims are unknown or refuted by a run.",
+        "the set-up sheet, the operator", "keep-in, keep-out, clearance, compensation"},
     Assumption{
         "The control keeps to the path",
         "Corner rounding in cutting mode (G64), servo lag, thermal growth and deflection of tool and machine are not "
