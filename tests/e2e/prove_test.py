@@ -352,7 +352,7 @@ class Prove(Scratch):
     def test_cutter_compensation_replays(self):
         self.write("O7.nc", COMPENSATED)
         rows = {row["id"]: row for row in self.obligations("O7.nc")}
-        for name, command, shown in (("O7.no-control-alarm.N10", "run", "alarm PS0041"),
+        for name, command, shown in (("O7.compensation.N10", "run", "alarm PS0041"),
                                      ("O7.keep-out.CLAMP.N20", "plot", "inside CLAMP at N20")):
             row = rows[name]
             self.assertEqual(row["verdict"], "refuted", name)

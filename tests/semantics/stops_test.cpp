@@ -105,8 +105,10 @@ INSTANTIATE_TEST_SUITE_P(All, Stops, ::testing::ValuesIn(kStops), [](const auto 
 });
 
 /// What is not in the list above: it needs several programs, or text that does not parse.
-/// That of cutter compensation comes at a later block (tests/golden/verdicts/compensation.md).
-constexpr std::array kElsewhere = {"CutterCompensation", "ArgumentAddress",    "GCodeNotUsable",    "IfFormat",
+/// Those of cutter compensation come at a later block (tests/golden/run/cutter_alarms.md, verdicts/compensation.md).
+constexpr std::array kElsewhere = {"CutterCompensation", "CutterPlane",        "CutterArc",         "CutterEntryTooShort",
+                                   "CutterArcCentre",    "CutterInterference", "CutterNoCrossing",  "ArgumentAddress",
+                                   "GCodeNotUsable",     "IfFormat",
                                    "LoopNumber",         "MacroFormat",        "MacroNesting",      "ProgramNotFound",
                                    "ReadProtected",      "SequenceOutOfRange", "SubprogramNesting", "TooManyIjkSets"};
 

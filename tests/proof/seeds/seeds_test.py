@@ -12,7 +12,7 @@ CORPUS = Path(__file__).resolve().parents[3] / "corpus"
 FEEDHOLD = os.environ["FEEDHOLD"]
 VERDICTS = ("proved", "refuted", "unreachable", "unknown")
 SPACE = ("keep-in", "keep-out", "clearance", "travel", "limit")
-STOPS = ("no-control-alarm", "alarm-unreachable", "loop-ends", "program-ends")
+STOPS = ("no-control-alarm", "compensation", "alarm-unreachable", "loop-ends", "program-ends")
 
 
 def feedhold(*arguments):
