@@ -106,11 +106,11 @@ INSTANTIATE_TEST_SUITE_P(All, Stops, ::testing::ValuesIn(kStops), [](const auto 
 
 /// What is not in the list above: it needs several programs, or text that does not parse.
 /// Those of cutter compensation come at a later block (tests/golden/run/cutter_alarms.md, verdicts/compensation.md).
-constexpr std::array kElsewhere = {"CutterCompensation", "CutterPlane",        "CutterArc",         "CutterEntryTooShort",
-                                   "CutterArcCentre",    "CutterInterference", "CutterNoCrossing",  "ArgumentAddress",
-                                   "GCodeNotUsable",     "IfFormat",
-                                   "LoopNumber",         "MacroFormat",        "MacroNesting",      "ProgramNotFound",
-                                   "ReadProtected",      "SequenceOutOfRange", "SubprogramNesting", "TooManyIjkSets"};
+constexpr std::array kElsewhere = {
+    "CutterCompensation", "CutterPlane",       "CutterArc",       "CutterEntryTooShort", "CutterArcCentre",
+    "CutterInterference", "CutterNoCrossing",  "ArgumentAddress", "GCodeNotUsable",      "IfFormat",
+    "LoopNumber",         "MacroFormat",       "MacroNesting",    "ProgramNotFound",     "ReadProtected",
+    "SequenceOutOfRange", "SubprogramNesting", "TooManyIjkSets"};
 
 TEST(StopsOfTheSemantics, EachHasAProgram) {
   std::set<std::string, std::less<>> known(kElsewhere.begin(), kElsewhere.end());
