@@ -31,6 +31,8 @@ template <typename R> MachineState<R> plainState(R &interpretation) {
     state.modalCalls[i].file = state.modalCalls[i].call = i;
   state.enteredLoops = {{1, {}}, {2, {}}};
   state.counters.resize(2);
+  state.savedCodes = {{0, {}}, {3, {}}};
+  state.savedWords = {{0, {}}, {1, {}}};
   forEachPart(Overloaded{[&](PartId, typename R::Value &value) { value = interpretation.number(0); },
                          [&](PartId, typename R::ModalCode &code) { code = interpretation.code(0); },
                          [&](PartId, typename R::Truth &truth) { truth = interpretation.truth(false); }},
@@ -89,9 +91,9 @@ TEST(Parts, EachKindIsInAState) {
   const AbstractState state = plainState(interpretation);
   std::map<Part, std::size_t> counts;
   forEachPart([&](PartId id, const auto &) { ++counts[id.part]; }, state);
-  for (int part = 0; part <= static_cast<int>(Part::Counter); ++part)
+  for (int part = 0; part <= static_cast<int>(Part::RestoresModes); ++part)
     EXPECT_GT(counts[static_cast<Part>(part)], 0U) << part;
-  EXPECT_EQ(counts.size(), static_cast<std::size_t>(Part::Counter) + 1);
+  EXPECT_EQ(counts.size(), static_cast<std::size_t>(Part::RestoresModes) + 1);
   EXPECT_EQ(counts[Part::LocalVariable], kLocalVariables + 1);
   EXPECT_EQ(counts[Part::ModalCallRepeats], 2U);
 }

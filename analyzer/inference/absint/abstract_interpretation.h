@@ -74,8 +74,8 @@ public:
   Value literal(Decimal value) const;
   Value number(double value) const;
   Value vacant() const { return AbstractValue::vacant(); }
-  Value anything() { return AbstractValue::any(); }
-  Value anyNumber() { return AbstractValue::anyNumber(); }
+  Value anything() const { return AbstractValue::any(); }
+  Value anyNumber() const { return AbstractValue::anyNumber(); }
   Value asNumber(const Value &value) const;
   Truth isVacant(const Value &value) const { return truthOfOutcomes(value.mayBeVacant(), value.mayBeNumber()); }
   std::optional<double> constantOf(const Value &value) const;
@@ -114,6 +114,7 @@ public:
   Truth isOneOf(ModalCode code, CodeMask mask) const;
   std::optional<std::uint8_t> onlyCode(ModalCode code) const;
   ModalCode selectCode(Truth truth, ModalCode first, ModalCode second) const;
+  bool isSameCode(ModalCode a, ModalCode b) const { return onlyCode(a) && onlyCode(a) == onlyCode(b); }
   Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const;
   std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &value, const ModalTable &modes) const;
 
@@ -138,6 +139,7 @@ public:
   static constexpr bool kAsksForKindsAlone = true;
   void move(const Move<Value> &move);
   void unmodelled(std::string_view reason, Span place);
+  void unlistedCode(State &state, const CodeName &code, Span place);
   void havoc(State &state, std::string_view reason, Span place);
   void abandon(std::string_view reason, Span) { abandoned_ = reason; }
   /// Why nothing is told of the program.

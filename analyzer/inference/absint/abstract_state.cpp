@@ -208,9 +208,14 @@ void AbstractInterpretation::havocVariables(State &state, std::uint32_t first, s
   std::erase_if(entries, [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
 }
 
+void AbstractInterpretation::unlistedCode(State &state, const CodeName &, Span place) {
+  alarm(Truth::Maybe, {AlarmKind::GCodeNotUsable, place});
+  havoc(state, kUnlistedCode, place);
+}
+
 void AbstractInterpretation::havoc(State &state, std::string_view reason, Span place) {
   unmodelled(reason, place);
-  havocParts(*this, state, polarGroup_);
+  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});
 }
 
 namespace {

@@ -25,6 +25,17 @@ const AddressFormat &formatOf(const Dialect &dialect, char address) {
   return isLetter(address) ? dialect.addresses[static_cast<std::size_t>(toUpper(address) - 'A')] : kNone;
 }
 
+bool hasModalCalls(const Dialect &dialect) {
+  return std::ranges::any_of(dialect.gCodes, [](const Code &code) {
+    return code.role == CodeRole::ModalCall || code.role == CodeRole::ModalCallEach;
+  });
+}
+
+bool savesModes(const Dialect &dialect) {
+  return std::ranges::any_of(dialect.mCodes,
+                             [](const Code &code) { return code.action == CodeAction::ModesSaveForReturn; });
+}
+
 bool isBuildersCode(const Dialect &dialect, char address, std::uint16_t tenths) {
   const std::vector<CodeName> &codes = dialect.switches.buildersCodes;
   return !codes.empty() && std::find(codes.begin(), codes.end(), CodeName{address, tenths}) != codes.end();

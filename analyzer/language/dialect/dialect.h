@@ -155,8 +155,12 @@ enum class CodeAction : std::uint8_t {
   ToolChange,
   CoolantOn,
   CoolantOff,
+  ModesSave,          // M70: what is in force is saved, for the present level
+  ModesDrop,          // M71: what has been saved is not any more
+  ModesRestore,       // M72: what has been saved is in force again
+  ModesSaveForReturn, // M73: saved, and in force again when the program returns
 };
-inline constexpr std::size_t kCodeActions = static_cast<std::size_t>(CodeAction::CoolantOff) + 1;
+inline constexpr std::size_t kCodeActions = static_cast<std::size_t>(CodeAction::ModesSaveForReturn) + 1;
 /// No program notices the code in its variables or its path.
 constexpr bool changesNothing(CodeAction action) {
   return CodeAction::ByRole <= action && action <= CodeAction::InterruptOff;
@@ -574,6 +578,10 @@ const CodeCall *findCodeCall(const Dialect &dialect, char address, std::uint16_t
 bool isBuildersCode(const Dialect &dialect, char address, std::uint16_t tenths);
 /// The control or the machine's settings have it; at another one the control stops.
 bool hasGCode(const Dialect &dialect, std::uint16_t tenths);
+/// Whether the control has codes that save modes.
+bool savesModes(const Dialect &dialect);
+/// Whether the control has modal calls (G66) at all; without them nothing can begin one.
+bool hasModalCalls(const Dialect &dialect);
 /// It may change anything: an unknown G code, or an M code that Switches::buildersCodes lists.  Other unknown M codes
 /// are those of switches and valves.
 bool mayDoAnything(const Dialect &dialect, char address, std::uint16_t tenths);

@@ -161,6 +161,23 @@ std::optional<Callee> ProgramSet::localCallee(FileId id, const Call &call) const
   return std::nullopt;
 }
 
+std::vector<Callee> ProgramSet::candidates(FileId file, const Call &call, std::uint32_t number) const {
+  Call named = call;
+  named.callee = {number, ""};
+  return candidates(file, named);
+}
+
+std::vector<Callee> ProgramSet::numbered(FileId file, const Call &call) const {
+  std::vector<Callee> all;
+  for (const ProgramFile &each : files_)
+    for (const Program &program : each.model->programs)
+      if (program.name.number)
+        for (const Callee &callee : candidates(file, call, *program.name.number))
+          if (std::find(all.begin(), all.end(), callee) == all.end())
+            all.push_back(callee);
+  return all;
+}
+
 std::vector<LabelledPart> ProgramSet::localParts(FileId id, const Call &call) const {
   const ProgramFile &from = file(id);
   std::set<std::uint32_t> seen;

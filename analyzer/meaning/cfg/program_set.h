@@ -60,6 +60,10 @@ public:
   std::optional<Callee> callee(FileId file, CallId call) const;
   /// The programs that a call may enter: several where their number is given twice.
   std::vector<Callee> candidates(FileId file, const Call &call) const;
+  /// The same of a call whose number is computed, and is this one.
+  std::vector<Callee> candidates(FileId file, const Call &call, std::uint32_t number) const;
+  /// All programs that a call with a computed number may enter.
+  std::vector<Callee> numbered(FileId file, const Call &call) const;
   /// The parts of the calling program that M97 may call: one for each sequence number, as the search from the call
   /// finds it.
   std::vector<LabelledPart> localParts(FileId file, const Call &call) const;

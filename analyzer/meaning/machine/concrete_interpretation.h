@@ -68,6 +68,10 @@ public:
                          WordRounding rounding = WordRounding::Increment, NumberModel numbers = NumberModel::Binary64)
       : dialect_(&dialect), given_(byCell(dialect, given, numbers)), rounding_(rounding), numbers_(numbers) {}
 
+  /// Codes that the control's manual does not have are macros that return and change nothing; else they stop the run.
+  void takeCodesToReturn(bool doThey) { takesCodesToReturn_ = doThey; }
+  /// Their names, since the last call.
+  std::vector<std::string> takeSkipped() { return std::exchange(skipped_, {}); }
   /// In place of the readings that are given.
   void readInputsFrom(InputSource source) { source_ = std::move(source); }
 
@@ -134,6 +138,7 @@ public:
     return code == kNoCode ? std::nullopt : std::optional(code);
   }
   ModalCode selectCode(bool truth, ModalCode first, ModalCode second) const { return truth ? first : second; }
+  bool isSameCode(ModalCode a, ModalCode b) const { return a == b; }
   Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const;
   std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &, const ModalTable &) const {
     return std::nullopt; // a number is one number here
@@ -165,6 +170,12 @@ public:
     notes_.push_back(reason);
     passedUnmodelled_ = passedUnmodelled_ || !stopped_;
   }
+  void unlistedCode(State &, const CodeName &code, Span place) {
+    if (takesCodesToReturn_)
+      skipped_.push_back(textOf(code));
+    else
+      alarm(true, {AlarmKind::GCodeNotUsable, place});
+  }
   void abandon(std::string_view reason, Span) { notes_.push_back(reason); }
   void hold(Value &result, const Expression &expression) {
     if (numbers_ == NumberModel::Mantissa32)
@@ -189,6 +200,8 @@ private:
   std::vector<std::string_view> notes_;
   bool sawVolatile_ = false;
   bool passedUnmodelled_ = false;
+  bool takesCodesToReturn_ = false;
+  std::vector<std::string> skipped_;
 };
 
 /// The state in which a run starts: power-on codes, all variables as given, the tool at `start`.

@@ -31,6 +31,7 @@ public:
       if (const auto variable = programs.variableNamed(name); variable && !state_.variables.find(*variable))
         state_.variables.set(*variable, ConcreteValue::of(0));
     entry_ = state_;
+    interpretation_.takeCodesToReturn(options_.missing == MissingPrograms::Return);
     if (options_.inputs)
       interpretation_.readInputsFrom([this](std::uint32_t variable) { return options_.inputs(at_, variable); });
   }
@@ -130,6 +131,8 @@ private:
       record(std::move(moves), here);
     if (!refused && options_.cutter == CutterCompensation::Followed)
       compensate(here, first);
+    for (std::string &code : interpretation_.takeSkipped())
+      result_.skipped.insert(std::move(code));
     for (const std::string_view reason : interpretation_.takeNotes())
       if (noted_.insert({here, reason}).second)
         result_.notes.push_back({reason, here});
@@ -318,7 +321,8 @@ private:
     }
     if (!request.callee && !request.isLocal && !callsNothing(request.repeats.number) &&
         options_.missing == MissingPrograms::Return) {
-      result_.skipped.insert(nameOfCallee(modal));
+      const std::string name = nameOfCallee(modal);
+      result_.skipped.insert(name.empty() ? std::string(kComputedCallee) : name);
       return false;
     }
     if (!request.callee || callsNothing(request.repeats.number)) {

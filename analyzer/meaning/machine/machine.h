@@ -82,7 +82,8 @@ struct RunResult {
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes;    // what was not followed, each once for a place
   bool passedUnmodelled = false; // what is noted may have changed anything: another run may go on otherwise
-  std::set<std::string> skipped; // names of missing programs that were called, and taken to return
+  /// Names of missing programs that were called, and of codes that call them, and that were taken to return.
+  std::set<std::string> skipped;
 };
 
 /// Starts at `entry` as if called with the given local variables.

@@ -99,6 +99,8 @@ concept HasModalCodes = requires(R interpretation, const typename R::Value value
   /// The index of the code when it can be only one.
   { interpretation.onlyCode(code) } -> std::same_as<std::optional<std::uint8_t>>;
   { interpretation.selectCode(truth, code, code) } -> std::same_as<typename R::ModalCode>;
+  /// One code for certain, whichever it is: two equal sets of codes need not be.
+  { interpretation.isSameCode(code, code) } -> std::same_as<bool>;
   /// The number of the code as #4001 reads it (54.1); of group `std::uint8_t`.
   { interpretation.numberOfCode(code, modes, std::uint8_t{}) } -> std::same_as<typename R::Value>;
   /// The group and the code that a number names, when it may be several numbers; absent when they are of no one group.
@@ -126,6 +128,9 @@ concept HasVariables = requires(R interpretation, const typename R::Value value,
   interpretation.join(state, truth, state);
 };
 
+/// A block with a G code that the control's manual does not have.
+inline constexpr std::string_view kUnlistedCode = "a G code that the control does not have";
+
 /// What happens in a step, reported to the interpretation.
 template <typename R>
 concept HearsEffects = requires(R interpretation, const typename R::Value value, const typename R::Truth truth,
@@ -142,6 +147,8 @@ concept HearsEffects = requires(R interpretation, const typename R::Value value,
   interpretation.unmodelled(std::string_view(), place);
   /// Anything may have happened to the whole state.
   interpretation.havoc(state, std::string_view(), place);
+  /// A G code that the control does not have by its manual: the control stops, or it is a macro that the control has.
+  interpretation.unlistedCode(state, CodeName{}, place);
   /// From here on nothing that the text says need hold, nor did it perhaps before: no claim on the program is made.
   interpretation.abandon(std::string_view(), place);
   /// What the control keeps of the result of an expression: the number that its arithmetic has for it.

@@ -15,10 +15,11 @@ enum class CallAction : std::uint8_t {
 
 template <typename R> struct CallRequest {
   CallAction action = CallAction::Enter;
-  std::optional<Callee> callee; // absent: in none of the files, or its number is not one constant
-  std::vector<Callee> possible; // without `callee`: what a computed number may name in these files
-  bool isLocal = false;         // M97: a part of the calling program, found by its sequence number
-  bool freshLocals = false;     // a level of its own (G65); false: the caller's (M98)
+  std::optional<Callee> callee;                 // absent: in none of the files, or its number is not one constant
+  std::vector<Callee> possible;                 // without `callee`: what a computed number may name in these files
+  std::optional<typename R::Value> number = {}; // of `possible`, each of which begins at its first block
+  bool isLocal = false;                         // M97: a part of the calling program, found by its sequence number
+  bool freshLocals = false;                     // a level of its own (G65); false: the caller's (M98)
   std::array<typename R::Value, kLocalVariables + 1> locals;
   typename R::Value repeats; // L
 };
@@ -63,7 +64,7 @@ public:
     case CallKind::Local:
     case CallKind::External: break;
     }
-    request.callee = callee(request.possible);
+    request.callee = callee(request);
     readRepeats(request);
     return request;
   }
@@ -146,7 +147,8 @@ private:
   }
   static constexpr std::uint32_t kToolCallVariable = 149;
 
-  std::optional<Callee> callee(std::vector<Callee> &possible) {
+  std::optional<Callee> callee(CallRequest<R> &request) {
+    std::vector<Callee> &possible = request.possible;
     if (const auto known = context_.programs.callee(context_.file.file, id_))
       return known;
     if (!call_.callee.empty())
@@ -164,6 +166,8 @@ private:
     const bool isStartKnown = !context_.programs.startsInside(context_.file.file, call_);
     if (!number || !isStartKnown)
       possible = calleesOf(value);
+    if (!number && isStartKnown)
+      request.number = value;
     if (!number || !isStartKnown || *number < 0 || *number > 1e9)
       return std::nullopt;
     const auto found = context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
@@ -195,9 +199,7 @@ private:
     return callees;
   }
   void addCandidates(std::uint32_t number, std::vector<Callee> &callees) const {
-    Call named = call_;
-    named.callee = {number, ""};
-    for (const Callee &found : context_.programs.candidates(context_.file.file, named))
+    for (const Callee &found : context_.programs.candidates(context_.file.file, call_, number))
       if (std::find(callees.begin(), callees.end(), found) == callees.end())
         callees.push_back(found);
   }
@@ -238,9 +240,13 @@ CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<ty
   request.locals = modal.locals;
   request.repeats = modal.repeats;
   request.callee = context.programs.callee(FileId(modal.file), CallId(modal.call));
+  const ProgramFile &file = context.programs.file(FileId(modal.file));
+  const Call &call = file.model->calls[CallId(modal.call)];
   if (!request.callee)
-    request.possible = context.programs.candidates(
-        FileId(modal.file), context.programs.file(FileId(modal.file)).model->calls[CallId(modal.call)]);
+    request.possible = context.programs.candidates(file.file, call);
+  // Which number G66 computed is not kept: it may be that of each program.
+  if (call.programWord && call.callee.empty() && file.tree->words[*call.programWord].form() == WordForm::Expression)
+    request.possible = context.programs.numbered(file.file, call);
   return request;
 }
 

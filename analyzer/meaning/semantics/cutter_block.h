@@ -66,7 +66,7 @@ inline bool setsSide(const Code &code) {
 }
 
 template <ValueAlgebra R> std::string_view whyForeign(StepContext<R> &context, const ExecutedWords<R> &words) {
-  if (words.unmodelled || words.mayTakeAxes || !words.computed.empty())
+  if (words.unmodelled || !words.unlisted.empty() || words.mayTakeAxes || !words.computed.empty())
     return "cutter compensation through a block that is not modelled";
   R &interpretation = context.interpretation;
   const bool mayBeArc = interpretation.mayBe(context.inForce(

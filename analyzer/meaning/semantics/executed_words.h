@@ -31,9 +31,17 @@ template <typename R> struct ExecutedWords {
   bool mayTakeAxes = false;
   /// One of the codes is not known: nothing that the block does can be relied on.
   bool unmodelled = false;
+  /// A G code that the control does not have by its manual: a macro that its parameters call, with the other words of
+  /// the block as its arguments, or an alarm.
+  struct Unlisted {
+    CodeName code;
+    Span span;
+  };
+  std::vector<Unlisted> unlisted;
 
   void clear() {
     unmodelled = false;
+    unlisted.clear();
     mayTakeAxes = false;
     codes.clear();
     computed.clear();
@@ -155,7 +163,7 @@ private:
     else if (isBuildersCode(dialect, word.address(), *tenths))
       buildersCode(word);
     else if (word.address() == 'G')
-      unknownCode(word);
+      words_.unlisted.push_back({CodeName{'G', *tenths}, word.span()});
   }
   std::optional<std::uint16_t> computedCode(const Word &word) {
     const auto value = evaluate(context_, word.expression());
@@ -205,13 +213,6 @@ private:
     words_.codes.push_back({&kAnything, word.address(), word.span()});
     interpretation_.havoc(context_.state, kAnything.meaning, word.span());
   }
-  /// Either an alarm, or a macro that the machine's parameters call.
-  void unknownCode(const Word &word) {
-    words_.unmodelled = true;
-    interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
-    interpretation_.havoc(context_.state, "a G code that the control does not have", word.span());
-  }
-
   void add(const Word &word, Truth present, Value value) {
     if (word.address() < 'A' || word.address() > 'Z') { // `@` and `^`, polar coordinates of LinuxCNC; `$`
       words_.unmodelled = true;

@@ -15,6 +15,23 @@ namespace feedhold {
 /// Own names of a level: named variables that no other program sees.
 template <typename R> using NamedValues = std::vector<typename VariableMap<typename R::Value>::Entry>;
 
+/// The modes that a level has saved (saved_modes.h).
+template <typename R> struct SavedModes {
+  decltype(MachineState<R>::savedCodes) codes = {};
+  decltype(MachineState<R>::savedWords) words = {};
+  typename R::Truth restores = {};
+
+  static SavedModes of(const MachineState<R> &state) {
+    return {state.savedCodes, state.savedWords, state.restoresModes};
+  }
+  void putInto(MachineState<R> &state) const {
+    state.savedCodes = codes;
+    state.savedWords = words;
+    state.restoresModes = restores;
+  }
+  friend bool operator==(const SavedModes &, const SavedModes &) = default;
+};
+
 /// A program that has been entered and not left.
 template <typename R> struct Frame {
   using Value = typename R::Value;
@@ -28,6 +45,7 @@ template <typename R> struct Frame {
   NamedValues<R> callerNames = {};
   decltype(MachineState<R>::enteredLoops) callerLoops = {};
   decltype(MachineState<R>::counters) callerCounters = {};
+  SavedModes<R> callerSaved = {};
   std::optional<std::size_t> modal = {};      // the modal call that this is: its index in MachineState::modalCalls
   std::optional<std::size_t> modalLimit = {}; // only modal calls below this one apply inside; absent: all
 
@@ -64,6 +82,9 @@ enum class MissingPrograms : std::uint8_t {
               // ends none; a run takes it to change nothing, a proof lets it change all that a called program can
   DoAnything, // the control may stop, the program may stop it, or never return
 };
+
+/// How a missing program is named that a call finds by a computed number.
+inline constexpr std::string_view kComputedCallee = "a program with a computed number";
 
 /// The alarm of a call that finds nothing.
 template <typename R> AlarmKind missingAlarm(const CallRequest<R> &request) {
@@ -139,10 +160,11 @@ template <typename R> NamedValues<R> ownNames(const ProgramSet &programs, const 
   return names;
 }
 
-/// No loop has been entered, nothing is counted, no name has been given a value.
+/// No loop has been entered, nothing is counted or saved, no name has been given a value.
 template <typename R> void beginLevel(const ProgramSet &programs, MachineState<R> &state, R &interpretation) {
   state.enteredLoops.clear();
   state.counters.clear();
+  SavedModes<R>{.restores = interpretation.truth(false)}.putInto(state);
   for (auto &[variable, value] : state.variables.entries())
     if (programs.isLocalName(variable))
       value = interpretation.vacant();
@@ -160,6 +182,7 @@ Frame<R> enterCall(const ProgramSet &programs, MachineState<R> &state, const Cal
                  .callerNames = detail::ownNames(programs, state),
                  .callerLoops = state.enteredLoops,
                  .callerCounters = state.counters,
+                 .callerSaved = SavedModes<R>::of(state),
                  .modal = site.modal,
                  .modalLimit = site.modal ? site.modal : site.modalLimit};
   if (request.freshLocals) {
@@ -191,6 +214,7 @@ template <typename R> void leaveCall(const ProgramSet &programs, MachineState<R>
     state.modalCalls[*frame.modal].locals = state.locals;
   state.enteredLoops = frame.callerLoops;
   state.counters = frame.callerCounters;
+  frame.callerSaved.putInto(state);
   if (frame.ownLocals)
     state.locals = frame.callerLocals;
   std::erase_if(state.variables.entries(), [&](const auto &entry) { return programs.isLocalName(entry.first); });
@@ -204,11 +228,13 @@ template <typename R> void havocCall(StepContext<R> &context, const CallRequest<
   const auto names = detail::ownNames(context.programs, state);
   const auto loops = state.enteredLoops;
   const auto counters = state.counters;
+  const auto saved = SavedModes<R>::of(state);
   context.interpretation.havoc(state, reason, context.place());
   if (request.freshLocals)
     state.locals = locals;
   state.enteredLoops = loops;
   state.counters = counters;
+  saved.putInto(state);
   for (const auto &[variable, value] : names)
     state.variables.set(variable, value);
 }

@@ -46,6 +46,9 @@ enum class Part : std::uint8_t {
   OtherModalCalls,
   EnteredLoop,
   Counter,
+  SavedCode,
+  SavedWord,
+  RestoresModes,
 };
 
 /// A part, and which of its elements: the index in an array, the number of a variable or of a loop; else 0.
@@ -116,6 +119,9 @@ constexpr PartTraits traitsOf(Part part) {
   case Part::OtherModalCalls: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
   case Part::EnteredLoop: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Yes};
   case Part::Counter: return {PartDomain::Number, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Zero};
+  case Part::SavedCode: return {PartDomain::Code, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::PowerOn};
+  case Part::SavedWord: return {PartDomain::Value, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::Vacant};
+  case Part::RestoresModes: return {PartDomain::Truth, PartEntry::Neutral, PartHavoc::Anything, PartNeutral::No};
   }
   FEEDHOLD_UNREACHABLE("the switch names every part");
 }
@@ -158,8 +164,13 @@ template <typename R> void setAnything(R &interpretation, PartId id, typename R:
 template <typename R, typename Interpretation, typename Given, typename Unknown>
 MachineState<R> entryParts(Interpretation &interpretation, Given &&given, Unknown &&unknown);
 
-/// Anything may have happened.  `keptGroup`: polar coordinates are a mapping, too, that only a code tells of.
-template <typename R> void havocParts(R &interpretation, MachineState<R> &state, std::optional<std::uint8_t> keptGroup);
+/// What stays as it is although anything else may have happened.
+struct HavocKeeps {
+  std::optional<std::uint8_t> polarGroup = {}; // polar coordinates are a mapping, too, that only a code tells of
+  bool modalCalls = false;                     // the control has none
+};
+/// Anything may have happened.
+template <typename R> void havocParts(R &interpretation, MachineState<R> &state, const HavocKeeps &keeps);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
 
@@ -186,14 +197,16 @@ template <typename Struct> auto membersOf(Struct &whole) {
   using S = std::remove_const_t<Struct>;
   if constexpr (kIsA<S, MachineState>) {
     auto &[locals, variables, havocked, codes, position, words, shift, local, lengthOffset, lengthChanged, axisTurned,
-           cycle, transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters] = whole;
+           cycle, transform, transformed, spindle, modalCalls, modalCallsUnknown, enteredLoops, counters, savedCodes,
+           savedWords, restoresModes] = whole;
     return std::tuple(
         is<Part::LocalVariable>(locals), is<Part::Variable>(variables), shape(havocked), is<Part::Code>(codes),
         is<Part::Position>(position), is<Part::ModalWord>(words), is<Part::CoordinateShift>(shift),
         is<Part::LocalShift>(local), is<Part::LengthOffset>(lengthOffset), is<Part::LengthChanged>(lengthChanged),
         is<Part::AxisTurned>(axisTurned), nested(cycle), nested(transform), is<Part::Transformed>(transformed),
         is<Part::Spindle>(spindle), nested(modalCalls), is<Part::OtherModalCalls>(modalCallsUnknown),
-        is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters));
+        is<Part::EnteredLoop>(enteredLoops), is<Part::Counter>(counters), is<Part::SavedCode>(savedCodes),
+        is<Part::SavedWord>(savedWords), is<Part::RestoresModes>(restoresModes));
   } else if constexpr (kIsA<S, CycleState>) {
     auto &[bottom, retract, initial, peck, dwell] = whole;
     return std::tuple(is<Part::CycleBottom>(bottom), is<Part::CycleRetract>(retract), is<Part::CycleInitial>(initial),
@@ -270,6 +283,16 @@ template <typename List> bool haveSameNumbers(const List &a, const List &b) {
                     [](const auto &x, const auto &y) { return x.first == y.first; });
 }
 
+/// What is saved in one of two states may be anything in the other.
+template <typename Interpretation, typename List>
+void completeSaved(Interpretation &interpretation, Part part, List &to, const List &from) {
+  for (const auto &[number, saved] : from) {
+    const auto at = std::ranges::lower_bound(to, number, {}, [](const auto &entry) { return entry.first; });
+    if (at == to.end() || at->first != number)
+      setAnything(interpretation, {part, number}, to.emplace(at, number, std::decay_t<decltype(saved)>())->second);
+  }
+}
+
 /// A loop that is not listed has been entered, a counter that is not there counts nothing.
 template <typename Interpretation, typename R>
 void completeLists(Interpretation &interpretation, MachineState<R> &to, const MachineState<R> &from) {
@@ -283,6 +306,8 @@ void completeLists(Interpretation &interpretation, MachineState<R> &to, const Ma
   }
   while (to.counters.size() < from.counters.size())
     setNeutral(interpretation, {Part::Counter}, to.counters.emplace_back());
+  completeSaved(interpretation, Part::SavedCode, to.savedCodes, from.savedCodes);
+  completeSaved(interpretation, Part::SavedWord, to.savedWords, from.savedWords);
 }
 
 } // namespace detail
@@ -316,6 +341,7 @@ template <typename R> bool haveSameModalCalls(const MachineState<R> &a, const Ma
 
 template <typename R> bool haveSameLists(const MachineState<R> &a, const MachineState<R> &b) {
   return a.counters.size() == b.counters.size() && detail::haveSameNumbers(a.enteredLoops, b.enteredLoops) &&
+         detail::haveSameNumbers(a.savedCodes, b.savedCodes) && detail::haveSameNumbers(a.savedWords, b.savedWords) &&
          haveSameModalCalls(a, b);
 }
 
@@ -390,13 +416,14 @@ MachineState<R> entryParts(Interpretation &interpretation, Given &&given, Unknow
   return state;
 }
 
-template <typename R>
-void havocParts(R &interpretation, MachineState<R> &state, std::optional<std::uint8_t> keptGroup) {
+template <typename R> void havocParts(R &interpretation, MachineState<R> &state, const HavocKeeps &keeps) {
   const bool isMapped = interpretation.mayBe(state.transformed);
   interpretation.havocVariables(state, 0, 0xffffffff);
   forEachPart(
       [&](PartId id, auto &part) {
-        if (!isMapped && id == PartId{Part::Code, keptGroup.value_or(kModalGroups)})
+        if (!isMapped && id == PartId{Part::Code, keeps.polarGroup.value_or(kModalGroups)})
+          return;
+        if (keeps.modalCalls && id == PartId{Part::OtherModalCalls})
           return;
         if constexpr (requires { setNeutral(interpretation, id, part); })
           if (!isMapped && traitsOf(id.part).havoc == PartHavoc::Mapping)

@@ -120,6 +120,10 @@ template <typename R> struct MachineState {
   Truth modalCallsUnknown;                       // there may be others than those
   std::vector<std::pair<std::uint8_t, Truth>> enteredLoops; // by number of the DO
   std::vector<Value> counters;                              // by CounterId
+  /// What the present level has saved (saved_modes.h): codes by modal group, words by their index.  Empty: nothing.
+  std::vector<std::pair<std::uint8_t, ModalCode>> savedCodes;
+  std::vector<std::pair<std::uint8_t, Value>> savedWords;
+  Truth restoresModes; // when the program returns
 
   Value &word(char letter) { return words[indexOfModalWord(letter)]; }
   const Value &word(char letter) const { return words[indexOfModalWord(letter)]; }

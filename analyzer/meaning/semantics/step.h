@@ -4,6 +4,7 @@
 
 #include "meaning/semantics/calls.h"
 #include "meaning/semantics/motion.h"
+#include "meaning/semantics/saved_modes.h"
 
 namespace feedhold {
 
@@ -23,7 +24,8 @@ template <ValueAlgebra R> typename R::Truth countDown(StepContext<R> &context, c
 /// The number that a computed GOTO looks for, rounded; alarms for numbers that no block has are the engine's.
 template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, const JumpTo &jump);
 
-/// P of an M99; absent without one.  The value of `return [..]` has been stored when this returns.
+/// P of an M99; absent without one.  The value of `return [..]` has been stored, and the modes are those that the level
+/// restores, when this returns.
 template <ValueAlgebra R>
 std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from);
 
@@ -111,6 +113,10 @@ void setNamed(StepContext<R> &context, std::string_view name, const typename R::
 template <ValueAlgebra R>
 void executeWords(StepContext<R> &context, const ExecuteWords &execute, ExecutedWords<R> &words) {
   readWords(context, execute, words);
+  for (const auto &[code, span] : words.unlisted)
+    context.interpretation.unlistedCode(context.state, code, span);
+  if (!words.unlisted.empty())
+    return;
   applyModes(context, words);
   applyMotion(context, words);
   if (words.mayTakeAxes) {
@@ -125,6 +131,10 @@ void executeWords(StepContext<R> &context, const ExecuteWords &execute, Executed
     else if (word.code->action == CodeAction::InterruptOn)
       context.interpretation.abandon("a macro interrupt is armed, and its program may run between any two blocks",
                                      word.span);
+    else if (const CodeAction action = word.code->action;
+             action == CodeAction::ModesSave || action == CodeAction::ModesDrop || action == CodeAction::ModesRestore ||
+             action == CodeAction::ModesSaveForReturn)
+      savedModes(context, words, word);
   if (words.unmodelled)
     context.interpretation.havoc(context.state, "an unknown code", context.place());
 }
@@ -208,6 +218,7 @@ template <ValueAlgebra R> typename R::Value jumpTarget(StepContext<R> &context, 
 template <ValueAlgebra R>
 std::optional<typename R::Value> returnTarget(StepContext<R> &context, const ReturnFromProgram &from) {
   R &interpretation = context.interpretation;
+  restoreModesAtReturn(context);
   if (context.dialect().grammar.namedParameters && !from.target) {
     const auto value = from.value ? interpretation.asNumber(evaluate(context, *from.value)) : context.zero();
     detail::setNamed(context, "_value", value);

@@ -23,6 +23,7 @@ constexpr std::string_view kTooLarge = "gave up: following the paths of the prog
 constexpr Budget kLittle{.search = 10'000, .z3 = 0, .cvc5 = 0};
 constexpr std::uint32_t kLongestPath = 20'000; // instructions
 constexpr std::uint64_t kStepsOfForgetting = 400'000'000;
+constexpr std::uint64_t kWorkOfForgetting = 300'000; // of all its questions: behind them every branch is taken
 constexpr std::string_view kValueTooLarge = "a value whose formula is too large, and which is taken as any number";
 
 /// Of going one instruction further, and of the copy of a state.
@@ -83,8 +84,11 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
     : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), options_(options),
       merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   interpretation_.usePath(this);
-  if (merging != PathMerging::Forget) // its steps are the limit there
-    entails_.allow(options.mostWork);
+  using UnlistedCodes = SymbolicInterpretation::UnlistedCodes;
+  interpretation_.treatUnlisted(options.missing != MissingPrograms::Return ? UnlistedCodes::DoAnything
+                                : options.missingChangeNothing             ? UnlistedCodes::ChangeNothing
+                                                                           : UnlistedCodes::Return);
+  entails_.allow(merging == PathMerging::Forget ? std::min(kWorkOfForgetting, options.mostWork) : options.mostWork);
   if (interpretation.arithmetic() != Arithmetic::Exact)
     entails_.spendAtMost(kLittle);
 }
@@ -100,8 +104,12 @@ Exploration Explorer::run(Callee entry, const SymbolicState &start) {
             .loops = {},
             .moved = store_.no()};
   if (options_.moves != KeepMoves::No) {
-    path.state.variables.set(kBesidePath, interpretation_.number(0));
+    auto context = contextOf(path);
+    const TermId isOff = toolPointOf(context, entry_).withoutCompensation.term;
+    path.state.variables.set(kBesidePath, {store_.no(), store_.ite(isOff, interpretation_.number(0).number,
+                                                                   interpretation_.number(1).number)});
     takeMoves(path);
+    path_ = nullptr;
   }
   // One path for each place: what that takes grows with the program alone.
   const std::uint64_t share = merging_ == PathMerging::Forget ? kStepsOfForgetting : options_.mostWork * kStepsOfWork;
@@ -353,6 +361,8 @@ bool Explorer::takeStops(Path &path) {
     giveUp(*reason);
   if (interpretation_.takeTooLarge())
     interpretation_.unmodelled(kValueTooLarge, fileOf(path).tree->blocks[nodeOf(path).block].span());
+  for (std::string &code : interpretation_.takeReturning())
+    recordUnmodelledCall(path, {ownPlace(path), path.conditions, {}, code + " is not a code of this control", code});
   for (const auto &[reason, span] : interpretation_.takeNotes())
     if (purpose_ == Purpose::Record)
       result_.unmodelled.push_back({reason, path.at, span});
@@ -428,6 +438,8 @@ std::vector<Path> Explorer::straight(Path path) {
   const bool isBlock = std::holds_alternative<ExecuteWords>(node.instruction);
   const Condition moves =
       isBlock && !interpretation_.stopped() ? movesAxis(context, words_) : interpretation_.truth(false);
+  if (isBlock && !words_.unlisted.empty() && programs_.node({path.at.file, node.next}).block == node.block)
+    giveUp("a G code that the control does not have may take the other codes of its block as arguments");
   if (!takeStops(path))
     return {};
   if (writes)
@@ -538,13 +550,13 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
       share.emplace(steps, smt::Steps::AtEnd::GoOn);
     return Explorer(interpretation, programs, limits, merging).run(entry, start);
   };
-  Exploration found = explored(first, PathMerging::No, left / 5);
+  Exploration found = explored(first, PathMerging::No, left / 10);
   if (!found.isTooLarge)
     return found;
-  Exploration merged = explored(options, PathMerging::Yes, left / 4);
+  Exploration merged = explored(options, PathMerging::Yes, left / 10);
   if (!merged.isTooLarge)
     return merged;
-  return explored(options, PathMerging::Forget, left / 4);
+  return explored(options, PathMerging::Forget, left / 3);
 }
 
 } // namespace

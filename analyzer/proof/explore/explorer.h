@@ -64,6 +64,8 @@ private:
                                 std::optional<std::size_t> modal, std::string_view reason, std::string why);
   std::vector<Path> missingCall(Path path, const CallRequest<SymbolicInterpretation> &request,
                                 std::optional<std::size_t> modal, const std::string &name);
+  std::vector<Path> enterOneOf(const Path &path, const CallRequest<SymbolicInterpretation> &request,
+                               const std::map<std::uint32_t, Callee> &callees);
   void recordUnmodelledCall(const Path &path, UnmodelledCall call);
   /// Of the program that the block calls, or that the modal call does; empty where its number is computed.
   std::string nameOfCallee(const Path &path, std::optional<std::size_t> modal) const;
@@ -85,6 +87,7 @@ private:
   bool settleCutter(Path &path, CutterTrack &track, std::size_t first, bool wasOff);
   std::optional<PathOffset> offsetOf(Path &path, const SymbolicValue &number);
   void giveCentre(MoveInstance &move);
+  bool mayRestoreSide(Path &path);
   void decideVacancies(const Path &path, MoveInstance &instance);
   bool startsThere(const MoveInstance &move, const std::array<smt::TermId, 2> &end) const;
   void stopInCutter(const Path &path, const CutterTrack &track);

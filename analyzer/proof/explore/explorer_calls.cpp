@@ -12,6 +12,19 @@ using smt::TermId;
 namespace {
 
 constexpr double kMostRepeats = 100;
+constexpr std::size_t kMostCallees = 16; // of a computed number
+
+/// By number; absent where a number is that of several programs, or where there are too many.
+std::optional<std::map<std::uint32_t, Callee>> byNumber(const ProgramSet &programs,
+                                                        const std::vector<Callee> &callees) {
+  std::map<std::uint32_t, Callee> found;
+  for (const Callee &callee : callees) {
+    const auto number = programs.file(callee.file).model->programs[callee.program].name.number;
+    if (!number || found.size() == kMostCallees || !found.emplace(*number, callee).second)
+      return std::nullopt;
+  }
+  return found;
+}
 
 } // namespace
 
@@ -168,14 +181,14 @@ void Explorer::recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpret
     SymbolicFrame frame = enterCall(programs_, state, request, {path.at, modal, limit}, 1, interpretation_, record);
     if (repeatsOf(interpretation_, request) == 1.0)
       continue;
-    havocParts(interpretation_, state, std::nullopt); // by the repetitions before
+    havocParts(interpretation_, state, {}); // by the repetitions before
     repeatCall(programs_, state, frame, interpretation_, record);
   }
   const auto innermost = modalCallOf(path.state, modal ? modal : limit);
   if (!innermost)
     return;
   SymbolicState inside = path.state;
-  havocParts(interpretation_, inside, std::nullopt);
+  havocParts(interpretation_, inside, {});
   for (std::size_t i = 0; i <= *innermost; ++i) {
     auto context = contextOf(path);
     const auto modalRequest = prepareModalCall(context, inside.modalCalls[i]);
@@ -188,10 +201,13 @@ void Explorer::recordUnmodelledEntries(Path &path, CallRequest<SymbolicInterpret
 std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpretation> &request,
                                   std::optional<std::size_t> modal) {
   const NodeId next = nodeOf(path).next;
+  if (!request.callee && request.number && !request.possible.empty())
+    if (const auto callees = byNumber(programs_, request.possible))
+      return enterOneOf(std::move(path), request, *callees);
   if (!request.callee) {
     const std::string name = nameOfCallee(path, modal);
     if (request.possible.empty() && !request.isLocal && options_.missing == MissingPrograms::Return)
-      return missingCall(std::move(path), request, modal, name.empty() ? "the called program" : name);
+      return missingCall(std::move(path), request, modal, name.empty() ? std::string(kComputedCallee) : name);
     const auto times = repeatsOf(interpretation_, request);
     const bool isCertain = request.possible.empty() && (request.isLocal || options_.missing == MissingPrograms::Stop) &&
                            times && !callsNothing(*times); // with L0 nothing is looked for
@@ -225,6 +241,29 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
   path.frames.push_back(std::move(frame));
   path.at = {request.callee->file, request.callee->entry};
   return {std::move(path)};
+}
+
+/// A path for each program that the number may be, and one for all other numbers.
+std::vector<Path> Explorer::enterOneOf(const Path &path, const CallRequest<SymbolicInterpretation> &request,
+                                       const std::map<std::uint32_t, Callee> &callees) {
+  std::vector<Path> paths;
+  CallRequest<SymbolicInterpretation> one = request;
+  one.number.reset();
+  one.possible.clear();
+  const auto enterWhere = [&](TermId condition, std::optional<Callee> callee) {
+    Path there = path;
+    if (!isPossible(path, condition) || !there.assume(store_, condition))
+      return;
+    one.callee = callee;
+    std::ranges::move(enter(std::move(there), one, std::nullopt), std::back_inserter(paths));
+  };
+  std::vector<TermId> known;
+  for (const auto &[number, callee] : callees) {
+    known.push_back(store_.equal(request.number->number, interpretation_.number(number).number));
+    enterWhere(known.back(), callee);
+  }
+  enterWhere(store_.logicalNot(store_.logicalOr(known)), std::nullopt);
+  return paths;
 }
 
 std::vector<Path> Explorer::follow(Path path, const ReturnFromProgram &from) {

@@ -84,6 +84,8 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
   auto context = contextOf(path);
   const bool begins = std::any_of(words_.codes.begin(), words_.codes.end(),
                                   [](const CodeWord &word) { return detail::setsSide(*word.code); });
+  if (isBlock && !path.cutter && mayRestoreSide(path))
+    return false;
   if (!isBlock || (!path.cutter && (!begins || !mayCompensate(context)))) {
     if (!moves.empty() && path.cutter)
       loseCutter(path, "cutter compensation through a move that is not modelled");
@@ -111,6 +113,24 @@ bool Explorer::takeCutter(Path &path, const std::vector<MoveInstance> &moves, Te
     track->end = {moves.back().move.end[0].number, moves.back().move.end[1].number};
   track->walk.take(host, block, {path.at, path.frames.size() - 1}, first, track->next);
   return settleCutter(path, *track, first, wasOff);
+}
+
+/// `G#7`, where #7 holds what #4007 said: which offset and which side it restores is not followed.
+bool Explorer::mayRestoreSide(Path &path) {
+  auto context = contextOf(path);
+  const CodeMask sides =
+      context.modes.maskOf(ModalKind::Compensation, {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+  const bool restores = std::any_of(words_.computed.begin(), words_.computed.end(), [&](const auto &each) {
+    return each.first == context.modes.groupOf(ModalKind::Compensation) &&
+           isPossible(path, interpretation_.isOneOf(each.second, sides).term);
+  });
+  if (!restores)
+    return false;
+  if (purpose_ == Purpose::Record)
+    result_.cutterClaims.push_back(
+        {path.at, path.conditions, store_.no(), std::nullopt, "cutter compensation that a computed code restores"});
+  path.state.variables.set(kBesidePath, interpretation_.number(1));
+  return true;
 }
 
 /// `X#8` moves where #8 is not vacant: what the path says of it needs no case in the coordinates.
@@ -181,8 +201,8 @@ bool Explorer::settleCutter(Path &path, CutterTrack &track, std::size_t first, b
     path.cutter.reset();
     return hasBegun;
   }
-  if (wasOff && track.walk.began())
-    claim(store_.yes(), {});
+  if (wasOff && track.walk.began()) // the tool stands on its path at the start
+    claim(track.rests, {});
   for (std::size_t i = first; i < track.next; ++i)
     if (track.open.contains(i) && !track.walk.awaits(i)) { // not yet begun, or no move along the path
       MoveInstance move = track.open.extract(i).mapped();
@@ -190,11 +210,8 @@ bool Explorer::settleCutter(Path &path, CutterTrack &track, std::size_t first, b
       if (purpose_ == Purpose::Record)
         result_.moves.push_back(std::move(move));
     }
-  if (track.walk.isOff()) {
-    if (track.next > first) // the move that ends it
-      path.state.variables.set(kBesidePath, interpretation_.number(0));
+  if (track.walk.isOff())
     path.cutter.reset();
-  }
   return true;
 }
 

@@ -47,7 +47,10 @@ std::string nameOfPart(PartId id) {
   case Part::LengthChanged:
   case Part::AxisTurned:
   case Part::EnteredLoop:
-  case Part::Counter: return "";
+  case Part::Counter:
+  case Part::SavedCode:
+  case Part::SavedWord:
+  case Part::RestoresModes: return "";
   }
   FEEDHOLD_UNREACHABLE("the switch names every part");
 }
@@ -95,7 +98,7 @@ void forEachModalPart(const ExploredProgram &program, const ModalPreserved &clau
       [&](const SymbolicCode &a, const SymbolicCode &b) { return store.equal(a.index, b.index); },
       [&](const Condition &a, const Condition &b) { return store.ite(a.term, b.term, store.logicalNot(b.term)); }};
   forEachPart<Part::LocalVariable, Part::Variable, Part::Position, Part::LengthChanged, Part::AxisTurned,
-              Part::EnteredLoop, Part::Counter>(
+              Part::EnteredLoop, Part::Counter, Part::SavedCode, Part::SavedWord, Part::RestoresModes>(
       [&](PartId id, const auto &a, const auto &b) {
         const bool isNoGroup = id.part == Part::Code && (id.key == 0 || modes.group(id.key).codes.empty());
         const bool isExcepted =

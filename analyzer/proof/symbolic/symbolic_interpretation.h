@@ -152,6 +152,11 @@ public:
   /// A variable is written of which the state keeps nothing: it may hold anything at the next read.
   void writesUnkept(std::uint32_t variable) { unkeptWrites_.push_back(variable); }
   const std::vector<std::uint32_t> &unkeptWrites() const { return unkeptWrites_; }
+  /// What an unlisted G code is: an alarm or anything; a macro that returns; one that changes nothing, too.
+  enum class UnlistedCodes : std::uint8_t { DoAnything, Return, ChangeNothing };
+  void treatUnlisted(UnlistedCodes codes) { unlistedCodes_ = codes; }
+  /// The names of those that were taken to return, since the last call.
+  std::vector<std::string> takeReturning() { return std::exchange(returning_, {}); }
   /// What was not modelled since the last call.
   std::vector<std::pair<std::string_view, Span>> takeNotes() { return std::exchange(notes_, {}); }
   /// Whether a formula was too large to keep since the last call.
@@ -217,6 +222,7 @@ public:
   Truth isOneOf(ModalCode code, CodeMask mask);
   std::optional<std::uint8_t> onlyCode(ModalCode code);
   ModalCode selectCode(Truth truth, ModalCode first, ModalCode second);
+  bool isSameCode(ModalCode a, ModalCode b) const { return a == b; }
   Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group);
   std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &value, const ModalTable &modes) const;
 
@@ -239,6 +245,7 @@ public:
   /// Why no claim on the program is made.
   std::optional<std::string_view> abandoned() const { return abandoned_; }
   void havoc(State &state, std::string_view reason, Span place);
+  void unlistedCode(State &state, const CodeName &code, Span place);
   void hold(Value &value, const Expression &expression);
   void holdSum(Value &, OperatorKind, const Value &, const Value &) const {}
   void evaluated(ExpressionId, const Value &) const {}
@@ -281,6 +288,8 @@ private:
   std::vector<PossibleStop> possibleStops_;
   std::optional<std::string_view> abandoned_;
   std::vector<std::pair<std::string_view, Span>> notes_;
+  UnlistedCodes unlistedCodes_ = UnlistedCodes::DoAnything;
+  std::vector<std::string> returning_;
   std::vector<std::uint32_t> unkeptWrites_;
   std::vector<Move<Value>> moves_;
   std::vector<smt::TermId> facts_;

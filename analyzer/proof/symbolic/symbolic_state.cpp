@@ -110,7 +110,7 @@ TermId SymbolicInterpretation::isVariable(const Value &index, std::uint32_t firs
   const TermId half = store_.number(Number(1) / Number(2));
   const TermId low = store_.subtract(store_.number(Number(static_cast<std::int64_t>(first))), half);
   const TermId high = store_.add(store_.number(Number(static_cast<std::int64_t>(last))), half);
-  return store_.logicalAnd(store_.lessOrEqual(low, index.number), store_.lessOrEqual(index.number, high));
+  return store_.logicalAnd(store_.lessOrEqual(low, index.number), store_.less(index.number, high));
 }
 
 void SymbolicInterpretation::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
@@ -162,9 +162,23 @@ bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const 
 void SymbolicInterpretation::havoc(State &state, std::string_view reason, Span place) {
   unmodelled(reason, place);
   Move<Value> anywhere{.kind = MoveKind::Unmodelled, .start = state.position};
-  havocParts(*this, state, polarGroup_);
+  havocParts(*this, state, {.polarGroup = polarGroup_, .modalCalls = !hasModalCalls(*dialect_)});
   anywhere.end = state.position;
   move(anywhere);
+}
+
+/// A macro that returns begins no modal call and ends none.
+void SymbolicInterpretation::unlistedCode(State &state, const CodeName &code, Span place) {
+  if (unlistedCodes_ == UnlistedCodes::DoAnything) {
+    alarm(unknownTruth(), {AlarmKind::GCodeNotUsable, place});
+    return havoc(state, kUnlistedCode, place);
+  }
+  returning_.push_back(textOf(code));
+  if (unlistedCodes_ == UnlistedCodes::ChangeNothing)
+    return;
+  const Truth modalCalls = state.modalCallsUnknown;
+  havoc(state, kUnlistedCode, place);
+  state.modalCallsUnknown = modalCalls;
 }
 
 } // namespace feedhold::prove

@@ -182,7 +182,7 @@ private:
   template <typename Rank>
   bool rankOnceNegative(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
     std::vector<Outcome> evidence;
-    if (!std::all_of(iterations.begin(), iterations.end(), [&](std::size_t iteration) {
+    if (!isOfState(decreasing) || !std::all_of(iterations.begin(), iterations.end(), [&](std::size_t iteration) {
           return decreases(decreaseOf(decreasing, iteration), iteration, evidence);
         }))
       return false;
@@ -241,6 +241,8 @@ private:
   /// Takes away the iterations that lower a ranking function which no other iteration raises.
   bool lower(std::vector<std::size_t> &iterations, const std::vector<TermId> &candidates) {
     for (const TermId ranking : candidates) {
+      if (!isOfState(ranking))
+        continue;
       std::vector<Outcome> evidence;
       std::vector<std::size_t> lowering;
       std::optional<TermId> firstDecrease;
@@ -296,6 +298,8 @@ private:
   bool mayLower(TermId decrease) const { return !store_.isNumber(decrease) || store_[decrease].number.sign() > 0; }
 
   bool isConstant(TermId term) const { return loop_.isConstant(interpretation_, store_, term); }
+  /// What an iteration reads anew may be another number in the next one, whatever the state is: it ranks nothing.
+  bool isOfState(TermId term) const { return loop_.isOfState(interpretation_, store_, term); }
   bool holds(std::size_t iteration, TermId goal, std::vector<Outcome> &evidence) {
     if (goal == store_.yes())
       return true;
