@@ -88,7 +88,10 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
   interpretation_.treatUnlisted(options.missing != MissingPrograms::Return ? UnlistedCodes::DoAnything
                                 : options.missingChangeNothing             ? UnlistedCodes::ChangeNothing
                                                                            : UnlistedCodes::Return);
-  entails_.allow(merging == PathMerging::Forget ? std::min(kWorkOfForgetting, options.mostWork) : options.mostWork);
+  if (merging != PathMerging::Forget)
+    entails_.allow(options.mostWork);
+  else if (options.leavesSteps) // elsewhere its steps are the limit
+    entails_.allow(std::min(kWorkOfForgetting, options.mostWork));
   if (interpretation.arithmetic() != Arithmetic::Exact)
     entails_.spendAtMost(kLittle);
 }
