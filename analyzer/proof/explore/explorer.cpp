@@ -15,7 +15,6 @@ namespace feedhold::prove {
 
 using smt::Number;
 using smt::TermId;
-using smt::TermKind;
 
 namespace {
 constexpr std::string_view kTooLarge = "gave up: following the paths of the program takes too many steps";
