@@ -242,7 +242,7 @@ private:
       tool.corner = reader_.value("a radius");
     }
     if (isRead())
-      setOnce(contract_.tool, std::move(tool), "the tool");
+      setOnce(contract_.tool, tool, "the tool");
   }
 
   void offset() {
@@ -262,7 +262,7 @@ private:
                                             [&](const RadiusOffset &each) { return !each.number && !offset.number; });
     if (first != contract_.offsets.end())
       return refuseSecond(first->clause, "the offset of every D");
-    contract_.offsets.push_back(std::move(offset));
+    contract_.offsets.push_back(offset);
   }
 
   // ---- geometry ----

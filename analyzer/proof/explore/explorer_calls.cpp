@@ -203,7 +203,7 @@ std::vector<Path> Explorer::enter(Path path, const CallRequest<SymbolicInterpret
   const NodeId next = nodeOf(path).next;
   if (!request.callee && request.number && !request.possible.empty())
     if (const auto callees = byNumber(programs_, request.possible))
-      return enterOneOf(std::move(path), request, *callees);
+      return enterOneOf(path, request, *callees);
   if (!request.callee) {
     const std::string name = nameOfCallee(path, modal);
     if (request.possible.empty() && !request.isLocal && options_.missing == MissingPrograms::Return)

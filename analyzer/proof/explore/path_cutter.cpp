@@ -105,7 +105,7 @@ std::optional<CutterOffset<TermLength>> PathCutter::offsetOf(Context &, const Va
 
 const Move<SymbolicValue> &PathCutter::moveOf(std::size_t index) const { return track_.open.at(index).move; }
 
-void PathCutter::follow(std::size_t index, std::vector<Move<Value>> centre) {
+void PathCutter::follow(std::size_t index, const std::vector<Move<Value>> &centre) {
   auto node = track_.open.extract(index);
   MoveInstance &programmed = node.mapped();
   programmed.point.withoutCompensation.term = track_.rests;
@@ -114,8 +114,8 @@ void PathCutter::follow(std::size_t index, std::vector<Move<Value>> centre) {
   ofCentre.radius.reset();
   programmed.path = MovePath::Programmed;
   explored_.record(std::move(programmed));
-  for (Move<Value> &move : centre) {
-    ofCentre.move = std::move(move);
+  for (const Move<Value> &move : centre) {
+    ofCentre.move = move;
     explored_.record(ofCentre);
   }
 }

@@ -101,7 +101,7 @@ public:
 
   // ---- moves ----
   const Move<Value> &moveOf(std::size_t index) const;
-  void follow(std::size_t index, std::vector<Move<Value>> centre);
+  void follow(std::size_t index, const std::vector<Move<Value>> &centre);
   void leave(std::size_t index, std::string_view why);
   bool areInOneSpace(std::size_t a, std::size_t b) const;
   void shift(Value &value, Length length) { value.number = store_.add(value.number, term(length)); }

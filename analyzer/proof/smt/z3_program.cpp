@@ -92,7 +92,7 @@ Answer askZ3(const std::string &smtlib, Arithmetic, std::uint64_t resources) {
   if (!output)
     return {NoAnswer{output.error().message}};
   if (output.value().end == ProcessOutput::End::Killed)
-    return {NoAnswer{"Z3 did not obey its budget and was stopped"}, 3 * resources};
+    return {NoAnswer{"Z3 did not obey its budget and was stopped"}, resources}; // as z3_solver.cpp has it
   return answerIn(output.value().output);
 }
 

@@ -150,8 +150,10 @@ Answer askZ3(const std::string &smtlib, Arithmetic arithmetic, std::uint64_t res
   Result<ProcessOutput> output = runInChild(inTheChild, limitsFor(resources), gate());
   if (!output)
     return {noAnswer(output.error().message)};
+  // The same effort, whichever comes first: a slow machine is stopped by the clock where a fast one comes to the limit
+  // of memory, and what is left for the next questions must not depend on that.
   if (output.value().end == ProcessOutput::End::Killed)
-    return {noAnswer("it did not obey its budget and was stopped"), 3 * resources};
+    return {noAnswer("it did not obey its budget and was stopped"), resources};
   if (output.value().exitCode != 0)
     return {noAnswer("it takes more memory than goes with its budget"), resources};
   return readAnswer(output.value().output);
