@@ -61,7 +61,7 @@ std::optional<bool> ContractOnRun::condition(ExpressionId expression, const Entr
     state.variables.set(positionVariable(letterOf(axis)), now.at(axis));
     state.variables.set(entryVariable(letterOf(axis)), entry.state.at(axis));
   }
-  for (const std::uint32_t variable : {1, 2, 3, 10, 11, 12, 100, 101, 102, 500})
+  for (const auto &[variable, given] : entry.given.entries())
     state.variables.set(oldVariable(variable), valueOf(entry.given, entry.state, variable));
   return inContract(machine_, contracts_, entry, state,
                     [&](auto &context) { return evaluateCondition(context, expression); });

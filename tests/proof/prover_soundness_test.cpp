@@ -3,6 +3,7 @@
 #include "base/support/parallel.h"
 #include "proof/sample_proofs.h"
 #include "proof/short_programs.h"
+#include "proof/table_programs.h"
 #include "soundness/macro_programs.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,12 @@ ProofTally holdsOf(const SampleKind &kind, std::uint64_t usualPrograms) {
 
 TEST(ProverSoundness, ShortPrograms) {
   const ProofTally tally = holdsOf({"short", shortSample, shortEntry}, 90);
+  EXPECT_LT(tally.obligations / 2, tally.proved + tally.refuted);
+}
+
+/// Variables chosen by indices.
+TEST(ProverSoundness, TablePrograms) {
+  const ProofTally tally = holdsOf({"table", tableSample, tableEntry}, 60);
   EXPECT_LT(tally.obligations / 2, tally.proved + tally.refuted);
 }
 

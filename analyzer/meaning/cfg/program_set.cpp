@@ -229,4 +229,12 @@ bool ProgramSet::isLocalName(std::uint32_t variable) const {
   return variable >= kFirstNamedVariable && variable - kFirstNamedVariable < names_.size() && !isGlobalName(variable);
 }
 
+std::vector<std::uint32_t> ProgramSet::localNames() const {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t i = 0; i < names_.size(); ++i)
+    if (isLocalName(kFirstNamedVariable + i))
+      numbers.push_back(kFirstNamedVariable + i);
+  return numbers;
+}
+
 } // namespace feedhold

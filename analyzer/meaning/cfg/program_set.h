@@ -92,6 +92,8 @@ public:
   bool isGlobalName(std::uint32_t variable) const;
   /// A named variable that each level of calls has for itself (`#<depth>`).
   bool isLocalName(std::uint32_t variable) const;
+  /// All of them.
+  std::vector<std::uint32_t> localNames() const;
 
 private:
   void findNames(const ProgramFile &file);

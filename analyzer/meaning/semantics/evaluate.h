@@ -79,7 +79,8 @@ private:
     const Value index = value(variable.index);
     if (const auto number = variableAt(context_, index, place))
       return readVariable(context_, *number, place);
-    return interpretation_.readAnyOf(context_.state, interpretation_.asNumber(index), place);
+    const Value any = interpretation_.readAnyOf(context_.state, interpretation_.asNumber(index), place);
+    return context_.behaviour().variablesMayBeVacant ? any : interpretation_.asNumber(any);
   }
   Value named(const NamedVariable &variable, Span place) {
     if (const auto number = context_.programs.variableOf(context_.file.file, variable.name))

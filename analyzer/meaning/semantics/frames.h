@@ -165,9 +165,9 @@ template <typename R> void beginLevel(const ProgramSet &programs, MachineState<R
   state.enteredLoops.clear();
   state.counters.clear();
   SavedModes<R>{.restores = interpretation.truth(false)}.putInto(state);
-  for (auto &[variable, value] : state.variables.entries())
-    if (programs.isLocalName(variable))
-      value = interpretation.vacant();
+  // Those that the state does not list may hold anything, and not what they hold in the calling level.
+  for (const std::uint32_t variable : programs.localNames())
+    state.variables.set(variable, interpretation.vacant());
 }
 
 } // namespace detail

@@ -1,6 +1,7 @@
 #include "proof/context/proof_start.h"
 
 #include "meaning/semantics/mappings.h"
+#include "proof/context/index_ranges.h"
 #include "proof/obligation/obligation_kinds.h"
 #include "proof/replay/exact_run.h"
 #include "proof/replay/start_inputs.h"
@@ -76,6 +77,8 @@ ProofStart::ProofStart(const ProofSubject &subject, const GivenVariables *given)
     interpretation_.assumeInputs(writtenInputs(*subject.contracts, *subject.contract()));
   if (given)
     startExactly(interpretation_, *given);
+  else
+    interpretation_.suggestIndices(indexRangesOf(subject.programs, subject.program, subject.contracts));
   entry_ = symbolicEntry(interpretation_);
   if (given)
     setStart(interpretation_, entry_, given->start);

@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace feedhold::prove {
@@ -50,7 +51,8 @@ public:
   std::uint64_t work() const { return work_; }
   /// Nothing is asked any more.
   bool isExhausted() const { return work_ >= allowed_; }
-  void spendAtMost(const Budget &budget) { budget_ = budget; }
+  /// Of a question from now on; what it was before.
+  Budget spendAtMost(const Budget &budget) { return std::exchange(budget_, budget); }
 
 private:
   smt::TermStore &store_;

@@ -167,6 +167,7 @@ struct Exploration {
   std::vector<UnmodelledCall> unmodelledCalls;
   std::vector<smt::TermId> facts;        // about all variables
   std::set<Place> inexact;               // results that were taken as exact, and may be too large for that
+  std::set<IndexPlace> unbounded;        // indices that may be outside of the range that is told for them
   std::optional<std::string> incomplete; // why paths are missing; then nothing is proved
   bool isTooLarge = false;               // there were too many paths; merged, they may be few enough
   /// Merged paths have forgotten conditions (PathMerging::Forget): they stand for all runs, and for others that are

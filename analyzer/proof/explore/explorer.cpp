@@ -20,6 +20,10 @@ namespace {
 constexpr std::string_view kTooLarge = "gave up: following the paths of the program takes too many steps";
 /// Of a question where results are rounded: many are not decided, and more does not decide them.
 constexpr Budget kLittle{.search = 10'000, .z3 = 0, .cvc5 = 0};
+/// Without a contract, of a question whether a branch may be taken, and of other questions.  Linear reasoning takes
+/// less; products that no contract bounds take all they get, and prove nothing.
+constexpr Budget kOfBranch{.search = 1'000, .z3 = 0, .cvc5 = 0};
+constexpr Budget kOfInvariant{.search = 4'000, .z3 = 0, .cvc5 = 0};
 constexpr std::uint32_t kLongestPath = 20'000; // instructions
 constexpr std::uint64_t kStepsOfForgetting = 400'000'000;
 constexpr std::uint64_t kWorkOfForgetting = 300'000; // of all its questions: behind them every branch is taken
@@ -79,10 +83,11 @@ void LoopInstance::findDeciding(const smt::TermStore &store) {
 // ---- Explorer ----
 
 Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
-                   PathMerging merging)
+                   PathMerging merging, std::set<IndexPlace> unbounded)
     : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), options_(options),
       merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   interpretation_.usePath(this);
+  result_.unbounded = std::move(unbounded);
   using UnlistedCodes = SymbolicInterpretation::UnlistedCodes;
   interpretation_.treatUnlisted(options.missing != MissingPrograms::Return ? UnlistedCodes::DoAnything
                                 : options.missingChangeNothing             ? UnlistedCodes::ChangeNothing
@@ -91,7 +96,9 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
     entails_.allow(options.mostWork);
   else if (options.leavesSteps) // elsewhere its steps are the limit
     entails_.allow(std::min(kWorkOfForgetting, options.mostWork));
-  if (interpretation.arithmetic() != Arithmetic::Exact)
+  if (options.leavesSteps)
+    entails_.spendAtMost(kOfInvariant);
+  else if (interpretation.arithmetic() != Arithmetic::Exact)
     entails_.spendAtMost(kLittle);
 }
 
@@ -181,7 +188,12 @@ bool Explorer::isPossible(const Path &path, TermId condition) {
   const TermId opposite = store_.logicalNot(condition);
   if (condition == store_.no() || path.says(store_, opposite))
     return false;
-  return !entails_(interpretation_.facts(), path.conditions, opposite);
+  if (!options_.leavesSteps)
+    return !entails_(interpretation_.facts(), path.conditions, opposite);
+  const Budget before = entails_.spendAtMost(kOfBranch);
+  const bool isExcluded = entails_(interpretation_.facts(), path.conditions, opposite);
+  entails_.spendAtMost(before);
+  return !isExcluded;
 }
 
 StepContext<SymbolicInterpretation> Explorer::contextOf(Path &path) {
@@ -538,7 +550,7 @@ namespace {
 Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                         const SymbolicState &start, const ExploreOptions &options) {
   if (options.loops == LoopTreatment::EachIteration)
-    return Explorer(interpretation, programs, options, PathMerging::No).run(entry, start);
+    return exploreWithRanges(interpretation, programs, entry, start, options, PathMerging::No);
   ExploreOptions first = options;
   first.mostSteps /= 4;
   first.mostPaths /= 4;
@@ -550,7 +562,7 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
     std::optional<smt::Steps> share;
     if (options.leavesSteps)
       share.emplace(steps, smt::Steps::AtEnd::GoOn);
-    return Explorer(interpretation, programs, limits, merging).run(entry, start);
+    return exploreWithRanges(interpretation, programs, entry, start, limits, merging);
   };
   Exploration found = explored(first, PathMerging::No, left / 10);
   if (!found.isTooLarge)

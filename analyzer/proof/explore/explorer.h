@@ -17,13 +17,14 @@ class PathCutter;
 class Explorer : public PathKnowledge {
 public:
   Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
-           PathMerging merging);
+           PathMerging merging, std::set<IndexPlace> unbounded = {});
 
   Exploration run(Callee entry, const SymbolicState &start);
 
   // ---- PathKnowledge ----
   bool says(smt::TermId condition) const override;
   bool proves(smt::TermId condition) override;
+  bool mayRelyOn(IndexPlace index, smt::TermId condition) override;
 
 private:
   friend class LoopSummarizer;
@@ -103,6 +104,7 @@ private:
   std::optional<StepWrites> beginWrites(const Path &path) const;
   /// What a step that has not stopped has written.
   void takeWrites(const Path &path, const StepWrites &step);
+  void takeRegionWrites(const Path &path, const SymbolicState &before);
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicInterpretation> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
@@ -135,6 +137,7 @@ private:
   smt::GroundTruth groundTruth_;
   const Path *path_ = nullptr; // on which the present step is made
   Purpose purpose_ = Purpose::Record;
+  std::set<IndexPlace> relied_; // on their ranges, in trials
   Exploration result_;
   SymbolicState entry_;                                                          // as it was at the start
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Wto>> wtos_; // by file and entry
@@ -142,5 +145,9 @@ private:
   ExecutedWords<SymbolicInterpretation> words_;
   std::vector<LoopShape> shapes_; // by Exploration::loops
 };
+
+/// Explores with the ranges that are told for indices, and again without those that were relied on and are not shown.
+Exploration exploreWithRanges(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
+                              const SymbolicState &start, const ExploreOptions &options, PathMerging merging);
 
 } // namespace feedhold::prove

@@ -71,7 +71,7 @@ bool LoopSummarizer::isKeptBy(const LoopPart &part, TermId left, const smt::Subs
                               const std::vector<TermId> &conditions) {
   smt::TermStore &store = explorer_.store_;
   switch (part.kind) {
-  case PartKind::Kept: return left == part.arrival;
+  case PartKind::Kept: return isSame(part.arrival, left, conditions);
   case PartKind::Free: return isSymbolOf(part.symbol, left);
   case PartKind::Closed: {
     const TermId off = store.subtract(store.subtract(left, part.generic), part.step);
@@ -86,6 +86,18 @@ bool LoopSummarizer::isKeptBy(const LoopPart &part, TermId left, const smt::Subs
   case PartKind::Derived: return left == smt::substitute(store, part.step, closed);
   }
   FEEDHOLD_UNREACHABLE("the switch names every kind of part");
+}
+
+/// A choice whose other cases do not come, such as a limit that the value keeps already, leaves it as it was.
+bool LoopSummarizer::isSame(TermId before, TermId left, const std::vector<TermId> &conditions) {
+  smt::TermStore &store = explorer_.store_;
+  if (left == before)
+    return true;
+  const smt::Term choice = store[left];
+  if (choice.kind != TermKind::Ite || (choice.arguments[1] != before && choice.arguments[2] != before))
+    return false;
+  const TermId leaves = choice.arguments[1] == before ? choice.arguments[0] : store.logicalNot(choice.arguments[0]);
+  return explorer_.entails_(explorer_.interpretation_.facts(), conditions, leaves);
 }
 
 /// Whole numbers, and multiples of a power of two, stay such.
@@ -286,10 +298,11 @@ bool LoopSummarizer::findChanged(Work &work) {
       continue;
     }
     bool changed = false;
-    for (const std::vector<TermId> &left : work.left)
+    for (std::size_t iteration = 0; iteration < work.left.size(); ++iteration) {
+      const std::vector<TermId> &left = work.left[iteration];
       for (std::size_t i = 0; i < left.size(); ++i) {
         LoopPart &part = work.parts()[i];
-        if (left[i] == part.generic)
+        if (isSame(part.generic, left[i], work.found[iteration].conditions))
           continue;
         if (part.kind == PartKind::Free && isSymbolOf(part.symbol, left[i]))
           continue;
@@ -297,6 +310,7 @@ bool LoopSummarizer::findChanged(Work &work) {
         part.symbol = this->part(part.arrival, left[i]);
         changed = true;
       }
+    }
     if (!changed)
       return true;
   }

@@ -91,6 +91,7 @@ private:
   bool isKeptBy(const LoopPart &part, smt::TermId left, const smt::Substitution &closed,
                 const std::vector<smt::TermId> &conditions);
   void addErrorsBehind(const LoopPart &part, smt::TermId left, smt::Substitution &next);
+  bool isSame(smt::TermId before, smt::TermId left, const std::vector<smt::TermId> &conditions);
   bool isSymbolOf(smt::TermId symbol, smt::TermId left);
   smt::Substitution atIteration(const Work &work, int distance) const;
   smt::Substitution atArrival(const Work &work) const;

@@ -441,8 +441,26 @@ GivenVariables WitnessSearch::inputsOf(const smt::Model &model) const {
     else if (vacant != model.end())
       given.set(variable, ConcreteValue::of(0));
   }
+  addStartReads(given, model);
   given.start = open_.startOf(store, model);
   return given;
+}
+
+/// Of a variable that an index chooses, what the model says; but not against what it says of it by its number.
+void WitnessSearch::addStartReads(GivenVariables &given, const smt::Model &model) const {
+  const smt::TermStore &store = interpretation_.store();
+  for (const auto &[index, value] : interpretation_.startReads()) {
+    const auto number = model.find(store[value.number].name);
+    const auto chosen = number == model.end() ? std::nullopt : smt::evaluate(store, index, model);
+    const double cell = chosen ? std::floor(std::get<smt::Number>(*chosen).toDouble() + 0.5) : 0;
+    if (!(cell > kLocalVariables) || !(cell < kFirstNamedVariable))
+      continue;
+    const auto variable = static_cast<std::uint32_t>(cell);
+    const double held = std::get<smt::Number>(number->second).toDouble();
+    if (!interpretation_.entryValues().contains(variable) && !given.find(variable) && std::isfinite(held) &&
+        !smt::isTrue(store, value.vacant, model))
+      given.set(variable, ConcreteValue::of(held));
+  }
 }
 
 /// The model says what the reads of a path give, by their places; which read of the run that is, the run tells.  A read

@@ -103,6 +103,7 @@ public:
 private:
   std::vector<std::uint32_t> inputs() const;
   std::vector<double> plainNumbers() const;
+  void addStartReads(GivenVariables &given, const smt::Model &model) const;
   GivenVariables inputsOf(const smt::Model &model) const;
   std::set<std::uint32_t> inputsRead() const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;

@@ -88,7 +88,8 @@ SymbolicValue SymbolicInterpretation::atEntry(std::uint32_t variable) {
       return vacant();
   }
   const Value value = named(fmt::format("#{}", variable), isNumber ? MayBeVacant::No : MayBeVacant::Yes);
-  if (entryValues_.emplace(variable, value).second) {
+  entryValues_.emplace(variable, value);
+  if (assumesTyped_ && typed_.insert(variable).second) {
     const WrittenInput &written = written_[variable];
     const std::vector<TermId> typed = typedInput(variable, written, value.number);
     facts_.insert(facts_.end(), typed.begin(), typed.end());

@@ -12,6 +12,7 @@
 #include "meaning/semantics/step.h"
 #include "proof/smt/term.h"
 #include "proof/symbolic/grids.h"
+#include "proof/symbolic/region_memory.h"
 
 #include <map>
 #include <set>
@@ -21,11 +22,6 @@
 
 namespace feedhold::prove {
 
-struct SymbolicValue {
-  smt::TermId vacant{1};
-  smt::TermId number{0};
-  friend bool operator==(const SymbolicValue &, const SymbolicValue &) = default;
-};
 struct Condition {
   smt::TermId term{0};
   friend bool operator==(const Condition &, const Condition &) = default;
@@ -85,6 +81,9 @@ public:
   virtual bool says(smt::TermId condition) const = 0;
   /// By a proof, which costs more.
   virtual bool proves(smt::TermId condition) = 0;
+  /// The index at the place is in the range that is told for it.  Taken for granted while invariants are looked for,
+  /// and proved on every recorded path.
+  virtual bool mayRelyOn(IndexPlace index, smt::TermId condition) = 0;
 };
 
 class SymbolicInterpretation {
@@ -140,6 +139,15 @@ public:
   std::vector<smt::TermId> typedInput(std::uint32_t variable, smt::TermId number) {
     return typedInput(variable, written_[variable], number);
   }
+  /// Where an index is thought to be.
+  void suggestIndices(IndexRanges ranges) { indexRanges_ = std::move(ranges); }
+  std::set<IndexPlace> suggestedIndices() const;
+  /// What variables held at the start of the run that an index chose, by the index.
+  const std::map<smt::TermId, Value> &startReads() const { return startReads_; }
+  /// The changes that have led from one state to another, the last first.  Absent: they are not known.
+  std::optional<std::vector<const RegionChange *>> changesBetween(const State &before, const State &after) const;
+  /// The index chooses the variable.
+  smt::TermId isCell(smt::TermId index, std::uint32_t variable) { return isAmong(index, {variable, variable}); }
   /// Begins a step.
   void start();
   bool stopped() const { return stopped_; }
@@ -270,9 +278,24 @@ private:
   Value freshValue(MayBeVacant mayBeVacant);
   bool isNeverNegative(smt::TermId term);
   bool hasFormNeverNegative(smt::TermId term);
-  smt::TermId isVariable(const Value &index, std::uint32_t first, std::uint32_t last);
   enum class Use : std::uint8_t { Read, Write };
   void alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place);
+  // ---- indices of which a range is known (indirect_variables.cpp) ----
+  using Cells = std::vector<std::pair<std::uint32_t, Value>>;
+  std::optional<VariableSpan> spanOf(const Value &index, Span place);
+  smt::TermId isAmong(smt::TermId index, VariableSpan span);
+  bool isStored(VariableSpan span) const;
+  MayBeVacant vacancyIn(VariableSpan span) const;
+  Value heldIn(const State &state, std::uint32_t variable);
+  Value chosen(smt::TermId index, const Cells &cells, Value otherwise);
+  Value readAmong(const State &state, smt::TermId index, VariableSpan span);
+  Value regionAt(smt::TermId token, smt::TermId index, VariableSpan span, int depth);
+  Value startAt(smt::TermId index);
+  Value regionCell(smt::TermId token, std::uint32_t variable, int depth);
+  bool writeAmong(State &state, smt::TermId index, const Value &value, VariableSpan span);
+  bool writeRow(State &state, const VariableRange &row, const RegionWrite &write);
+  bool writeAnywhere(State &state, const Value &index);
+  void changeRegion(State &state, RegionChange change);
 
   smt::TermStore &store_;
   const Dialect *dialect_;
@@ -296,8 +319,13 @@ private:
   std::map<smt::TermId, std::pair<std::uint8_t, ModalCode>> codeNumbers_; // what #4003 read, by its term
   std::map<smt::TermId, bool> neverNegative_;
   std::map<ControlQuestion, smt::TermId> answers_;
+  IndexRanges indexRanges_;
+  std::map<smt::TermId, Value> startReads_;
+  std::map<smt::TermId, RegionChange> regionChanges_; // by token
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
+  std::set<std::uint32_t> typed_; // of entryValues_: taken to be numbers that can be typed
+  bool assumesTyped_ = true;
   std::map<std::uint32_t, WrittenInput> written_;
   std::set<smt::TermId> entry_;
   std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from

@@ -12,16 +12,6 @@ using smt::TermId;
 
 namespace {
 
-template <typename Values, typename Make> void fillWith(Values &values, Make &&make) {
-  for (auto &value : values)
-    value = make();
-}
-
-bool isHavocked(const SymbolicState &state, std::uint32_t variable) {
-  return std::any_of(state.havocked.begin(), state.havocked.end(),
-                     [&](const auto &range) { return range.first <= variable && variable <= range.second; });
-}
-
 void shareHavocked(SymbolicState &to, const SymbolicState &from) {
   for (const auto &range : from.havocked)
     if (std::find(to.havocked.begin(), to.havocked.end(), range) == to.havocked.end())
@@ -61,12 +51,6 @@ bool alignAll(SymbolicInterpretation &interpretation, SymbolicState &a, Symbolic
   return haveSameCalls;
 }
 
-SymbolicValue SymbolicInterpretation::unwritten(const State &state, std::uint32_t variable) {
-  if (!isHavocked(state, variable))
-    return atEntry(variable);
-  return isSystemVariable(*dialect_, variable) ? anyNumber() : anything();
-}
-
 SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
   if (readings_ && !isContract_) {
     const std::vector<TermId> &script = (*readings_)[variable];
@@ -79,12 +63,6 @@ SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
   return of(number);
 }
 SymbolicValue SymbolicInterpretation::toolLength(const State &, const Value &) { return anyNumber(); }
-
-void SymbolicInterpretation::havocVariables(State &state, std::uint32_t first, std::uint32_t last) {
-  state.havocked.emplace_back(first, last);
-  std::erase_if(state.variables.entries(),
-                [&](const auto &entry) { return first <= entry.first && entry.first <= last; });
-}
 
 void SymbolicInterpretation::join(State &state, Truth truth, const State &second) {
   if (truth.term == store_.no())
@@ -102,59 +80,6 @@ void SymbolicInterpretation::join(State &state, Truth truth, const State &second
                            mine.term = store_.ite(truth.term, theirs.term, mine.term);
                          }},
               state, other);
-}
-
-// ---- variables whose number is not one constant ----
-
-TermId SymbolicInterpretation::isVariable(const Value &index, std::uint32_t first, std::uint32_t last) {
-  const TermId half = store_.number(Number(1) / Number(2));
-  const TermId low = store_.subtract(store_.number(Number(static_cast<std::int64_t>(first))), half);
-  const TermId high = store_.add(store_.number(Number(static_cast<std::int64_t>(last))), half);
-  return store_.logicalAnd(store_.lessOrEqual(low, index.number), store_.less(index.number, high));
-}
-
-void SymbolicInterpretation::alarmsOfAnyOf(const Value &index, Use use, const Value &value, Span place) {
-  std::vector<TermId> rows;
-  std::vector<TermId> guarded;
-  TermId stops = store_.no();
-  for (const VariableRange &row : dialect_->variables) {
-    rows.push_back(isVariable(index, row.first, row.last));
-    if (row.access == (use == Use::Read ? VariableAccess::WriteOnly : VariableAccess::ReadOnly))
-      guarded.push_back(rows.back());
-    if (use == Use::Write && row.role == VariableRole::Alarm)
-      stops = store_.logicalOr(stops, rows.back());
-  }
-  alarm({store_.logicalNot(store_.logicalOr(rows))}, {AlarmKind::VariableNotAvailable, place});
-  alarm({store_.logicalOr(guarded)}, {use == Use::Read ? AlarmKind::ReadProtected : AlarmKind::WriteProtected, place});
-  if (mayBe({stops}) && !stopped_)
-    possibleStops_.push_back({{stops}, std::nullopt, value, place});
-}
-
-SymbolicValue SymbolicInterpretation::readAnyOf(State &, const Value &index, Span place) {
-  alarmsOfAnyOf(index, Use::Read, index, place);
-  return anything();
-}
-
-bool SymbolicInterpretation::writeAnyOf(State &state, const Value &index, const Value &value, Span place) {
-  alarmsOfAnyOf(index, Use::Write, value, place);
-  bool mayMoveZero = false;
-  for (const VariableRange &row : dialect_->variables) {
-    if (row.access == VariableAccess::ReadOnly)
-      continue;
-    if (path_ && path_->proves(store_.logicalNot(isVariable(index, row.first, row.last))))
-      continue;
-    if (row.kind == VariableKind::Local) {
-      fillWith(state.locals, [&] { return anything(); });
-      state.locals[0] = vacant();
-      continue;
-    }
-    havocVariables(state, row.first, row.last);
-    const std::vector<VariableSpan> beside = cellsBeside(*dialect_, row.first, row.last);
-    for (const VariableSpan &other : beside)
-      havocVariables(state, other.first, other.last);
-    mayMoveZero |= (row.role != VariableRole::Plain && row.role != VariableRole::Stored) || !beside.empty();
-  }
-  return mayMoveZero;
 }
 
 // ---- havoc ----

@@ -165,7 +165,7 @@ RankingSynthesis::RankingSynthesis(const SymbolicInterpretation &interpretation,
   const smt::Purified pure =
       smt::purify(store, formulas, iterations_.size() == 1 ? smt::Hold::Together : smt::Hold::Apart);
   for (const smt::Definition &definition : pure.definitions)
-    applications_.emplace_back(definition.variable, definition.application);
+    applications_.emplace(definition.variable, definition.application);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < iterations_.size(); ++i) {
     const auto first = pure.formulas.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -199,18 +199,22 @@ void RankingSynthesis::nameConstants(std::vector<TermId> &formulas) {
       continue;
     const TermId name = store_.variable("constant " + std::to_string(term.index()), store_.sort(term));
     names.emplace(term, name);
-    applications_.emplace_back(name, term);
+    applications_.emplace(name, term);
   }
   for (TermId &formula : formulas)
     formula = smt::substitute(store_, formula, names);
 }
 
 /// No iteration changes it.
-bool RankingSynthesis::isSteady(Atom atom) const {
-  TermId term = atom;
-  for (auto known = applications_.rbegin(); known != applications_.rend(); ++known)
-    term = smt::substitute(store_, term, {{known->first, known->second}});
-  return loop_.isConstant(interpretation_, store_, term);
+bool RankingSynthesis::isSteady(Atom atom) {
+  if (const auto known = steady_.find(atom); known != steady_.end())
+    return known->second;
+  const bool is = std::ranges::all_of(smt::variablesOf(store_, atom), [&](TermId variable) {
+    const auto named = applications_.find(variable);
+    return named == applications_.end() ? loop_.isConstant(interpretation_, store_, variable) : isSteady(named->second);
+  });
+  steady_.emplace(atom, is);
+  return is;
 }
 
 // ---- cases ----

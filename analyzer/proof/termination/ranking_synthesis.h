@@ -64,7 +64,7 @@ private:
   Row expanded(smt::TermId term) const;
   std::optional<Row> rowOf(smt::TermId literal) const;
   bool isPossible(const Case &path);
-  bool isSteady(Atom atom) const;
+  bool isSteady(Atom atom);
   smt::TermId ranking(const Program &program, std::size_t component);
   void makePlain(Program &program, std::size_t components);
 
@@ -72,8 +72,9 @@ private:
   smt::TermStore &store_;
   const LoopInstance &loop_;
   std::vector<std::size_t> iterations_;
-  std::vector<Atom> variables_;                            // numbers that iterations change
-  std::vector<std::pair<Atom, smt::TermId>> applications_; // that count as numbers
+  std::vector<Atom> variables_;              // numbers that iterations change
+  std::map<Atom, smt::TermId> applications_; // that count as numbers
+  std::map<smt::TermId, bool> steady_;       // isSteady(), where it was asked
   std::vector<Case> cases_;
   std::vector<Atom> products_; // of variables
   std::vector<Atom> atoms_;    // that a ranking function may speak of

@@ -6,6 +6,7 @@
 #include "proof/termination/ranking_synthesis.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace feedhold::prove {
@@ -21,6 +22,7 @@ constexpr std::size_t kMostPhases = 3;
 constexpr std::size_t kMostDecreasing = 16;
 constexpr std::size_t kLikely = 4;      // ranking functions, the first of them
 constexpr std::size_t kMostModels = 24; // of an iteration, the latest
+constexpr std::size_t kMostChoices = 4; // of what an iteration takes of a ranking function
 /// A ranking function that needs more is seldom the right one; what is linear takes less.
 constexpr Budget kEffort{.search = 200'000, .z3 = 0, .cvc5 = 0};
 /// Of one that is only tried.
@@ -43,7 +45,8 @@ public:
       all.push_back(i);
     models_.resize(all.size());
     candidates_ = candidateRankings();
-    result_.proved = attempt([&] { return rank(all); }) || rankWithSupport(all);
+    result_.proved = attempt([&] { return rankQuickly(all); }) || rankWithSupport([&] { return rankQuickly(all); }) ||
+                     attempt([&] { return rank(all); }) || rankWithSupport([&] { return rank(all); });
     if (!result_.proved)
       result_.reason = "no ranking function was found: no value provably falls at every iteration";
     return std::move(result_);
@@ -61,6 +64,14 @@ private:
     return false;
   }
 
+  /// By the conditions of the loop alone.
+  bool rankQuickly(std::vector<std::size_t> iterations) {
+    return withLittle([&] {
+      while (!iterations.empty() && lower(iterations, likely())) {
+      }
+      return iterations.empty();
+    });
+  }
   /// Iterations that can follow one another in a cycle are ranked together.
   bool rank(std::vector<std::size_t> iterations) {
     if (!phases_.empty())
@@ -120,13 +131,11 @@ private:
   }
 
   /// With more facts that hold before every iteration.
-  bool rankWithSupport(const std::vector<std::size_t> &iterations) {
-    const EventualInvariants lasting(interpretation_, store_, loop_);
-    const EventualInvariants::Found found = lasting.fromArrival(kMostWork / 4);
+  template <typename Rank> bool rankWithSupport(Rank &&rankIt) {
+    if (!support_)
+      support_ = EventualInvariants(interpretation_, store_, loop_).fromArrival(kMostWork / 4);
     work_ = 0;
-    if (found.facts.empty())
-      return false;
-    return within(found, [&] { return rank(iterations); });
+    return !support_->facts.empty() && within(*support_, rankIt);
   }
 
   /// An iteration that is made again and again is made once: what it leaves, and every iteration keeps, holds from then
@@ -183,7 +192,7 @@ private:
   bool rankOnceNegative(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
     std::vector<Outcome> evidence;
     if (!isOfState(decreasing) || !std::all_of(iterations.begin(), iterations.end(), [&](std::size_t iteration) {
-          return decreases(decreaseOf(decreasing, iteration), iteration, evidence);
+          return decreases(decreaseOf(decreasing, iteration), iteration, evidence).has_value();
         }))
       return false;
     phases_.push_back(store_.less(decreasing, store_.number(Number(-1))));
@@ -243,57 +252,114 @@ private:
     for (const TermId ranking : candidates) {
       if (!isOfState(ranking))
         continue;
-      std::vector<Outcome> evidence;
-      std::vector<std::size_t> lowering;
-      std::optional<TermId> firstDecrease;
-      bool raised = false;
-      for (const std::size_t iteration : iterations) {
-        const TermId decrease = decreaseOf(ranking, iteration);
-        if (lowers(ranking, decrease, iteration, evidence)) {
-          lowering.push_back(iteration);
-          firstDecrease = firstDecrease.value_or(decrease);
-        } else if (!holds(iteration, store_.lessOrEqual(zero(), decrease), evidence)) {
-          raised = true;
-          break;
-        }
-      }
-      if (raised || lowering.empty())
-        continue;
-      std::erase_if(iterations, [&](std::size_t iteration) {
-        return std::find(lowering.begin(), lowering.end(), iteration) != lowering.end();
-      });
-      result_.rankings.push_back({ranking, *firstDecrease, std::move(lowering), !phases_.empty()});
-      std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
-      return true;
+      if (lower(iterations, ranking, {}) || (isChosen(ranking, iterations) && lower(iterations, ranking, iterations)))
+        return true;
     }
     return false;
+  }
+  /// What some iteration takes of it depends on conditions.
+  bool isChosen(TermId ranking, const std::vector<std::size_t> &iterations) {
+    return std::ranges::any_of(iterations, [&](std::size_t iteration) {
+      const TermId exact = smt::withoutRounding(store_, decreaseOf(ranking, iteration));
+      return std::ranges::any_of(smt::reachable(store_, std::array{exact}),
+                                 [&](TermId part) { return store_[part].kind == TermKind::Ite; });
+    });
+  }
+  /// Asks with what is known of the state behind the iteration because one of the followers comes next.  A run without
+  /// end has no last iteration: what the last one does to a ranking function does not matter, such as a depth that is
+  /// set to its limit.
+  template <typename Ask> auto followed(std::size_t iteration, const std::vector<std::size_t> &followers, Ask &&ask) {
+    const std::size_t before = phases_.size();
+    if (!followers.empty())
+      phases_.push_back(conditionsBehind(iteration, followers));
+    auto answer = ask();
+    phases_.resize(before, store_.yes());
+    return answer;
+  }
+  /// `followers`: behind each iteration comes one of these; empty: or none.
+  bool lower(std::vector<std::size_t> &iterations, TermId ranking, const std::vector<std::size_t> &followers) {
+    std::vector<Outcome> evidence;
+    RankingFunction found{.value = ranking, .isLate = !phases_.empty(), .isFollowed = !followers.empty()};
+    for (const std::size_t iteration : iterations) {
+      const TermId decrease = decreaseOf(ranking, iteration);
+      const std::optional<TermId> amount =
+          isBounded(ranking, decrease, iteration, evidence)
+              ? followed(iteration, followers, [&] { return decreases(decrease, iteration, evidence); })
+              : std::nullopt;
+      if (amount) {
+        found.decrease = found.iterations.empty() ? *amount : found.decrease;
+        found.iterations.push_back(iteration);
+      } else if (!followed(iteration, followers,
+                           [&] { return holds(iteration, store_.lessOrEqual(zero(), decrease), evidence); })) {
+        return false;
+      }
+    }
+    if (found.iterations.empty())
+      return false;
+    std::erase_if(iterations, [&](std::size_t iteration) {
+      return std::find(found.iterations.begin(), found.iterations.end(), iteration) != found.iterations.end();
+    });
+    result_.rankings.push_back(std::move(found));
+    std::move(evidence.begin(), evidence.end(), std::back_inserter(result_.evidence));
+    return true;
+  }
+  /// Of the conditions of one of the followers those that speak of the state alone.
+  TermId conditionsBehind(std::size_t iteration, const std::vector<std::size_t> &followers) {
+    std::vector<TermId> any;
+    for (const std::size_t follower : followers) {
+      std::vector<TermId> all;
+      for (const TermId condition : loop_.transitions[follower].conditions)
+        if (isOfState(condition))
+          all.push_back(smt::substitute(store_, condition, loop_.transitions[iteration].next));
+      any.push_back(store_.logicalAnd(all));
+    }
+    return store_.logicalOr(any);
   }
   TermId decreaseOf(TermId ranking, std::size_t iteration) {
     return store_.subtract(ranking, smt::substitute(store_, ranking, loop_.transitions[iteration].next));
   }
-  /// By an amount that no iteration changes and that is positive, or by a fixed one.
-  bool lowers(TermId ranking, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
-    return mayLower(decrease) && holds(iteration, store_.lessOrEqual(zero(), ranking), evidence) &&
-           decreases(decrease, iteration, evidence);
+  bool isBounded(TermId ranking, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+    return mayLower(decrease) && holds(iteration, store_.lessOrEqual(zero(), ranking), evidence);
   }
-  bool decreases(TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+  /// By an amount that no iteration changes and that is positive, or by a fixed one.  The decrease itself where it is
+  /// told.
+  std::optional<TermId> decreases(TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+    const auto told = [&](bool does) { return does ? std::optional(decrease) : std::nullopt; };
     if (!mayLower(decrease))
-      return false;
+      return std::nullopt;
     if (isConstant(decrease))
-      return holds(iteration, store_.less(zero(), decrease), evidence);
+      return told(holds(iteration, store_.less(zero(), decrease), evidence));
     const TermId exact = smt::withoutRounding(store_, decrease);
-    if (exact != decrease && isConstant(exact)) {
-      const TermId half = store_.scale(Number(1) / Number(2), exact); // rounding takes less of it
-      return holds(iteration, store_.less(zero(), exact), evidence) &&
-             holds(iteration, store_.lessOrEqual(half, decrease), evidence);
-    }
+    if (exact != decrease && isConstant(exact))
+      return told(decreasesByHalf(exact, decrease, iteration, evidence));
+    for (const TermId choice : constantChoices(exact))
+      if (decreasesByHalf(choice, decrease, iteration, evidence))
+        return decrease;
     for (const int parts : {1, 10, 1000, 1'000'000}) {
       if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), decrease), evidence))
-        return true;
+        return decrease;
       if (store_.sort(decrease) == smt::Sort::Int)
-        return false;
+        return std::nullopt;
     }
-    return false;
+    return std::nullopt;
+  }
+  /// Rounding takes less of it than half.
+  bool decreasesByHalf(TermId amount, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
+    const TermId half = store_.scale(Number(1) / Number(2), amount);
+    return holds(iteration, store_.less(zero(), amount), evidence) &&
+           holds(iteration, store_.lessOrEqual(half, decrease), evidence);
+  }
+  /// What a number that depends on conditions is in one of the cases, where no iteration changes that.
+  std::vector<TermId> constantChoices(TermId term) {
+    std::vector<TermId> found;
+    for (const TermId part : smt::reachable(store_, std::array{term}))
+      if (store_[part].kind == TermKind::Ite && store_.sort(part) != smt::Sort::Bool)
+        for (const std::size_t i : {1u, 2u}) {
+          const TermId choice = smt::substitute(store_, term, {{part, store_[part].arguments[i]}});
+          if (isConstant(choice) && mayLower(choice) && found.size() < kMostChoices)
+            found.push_back(choice);
+        }
+    return found;
   }
   bool mayLower(TermId decrease) const { return !store_.isNumber(decrease) || store_[decrease].number.sign() > 0; }
 
@@ -343,9 +409,14 @@ private:
     };
     for (const TermId hint : loop_.rankingHints)
       offer(hint);
-    for (const Transition &transition : loop_.transitions)
-      for (const TermId condition : transition.conditions)
-        offerSides(condition, offer);
+    const auto offerConditions = [&](bool areInvariant) { // what the loop itself tests tells more about its end
+      for (const Transition &transition : loop_.transitions)
+        for (const TermId condition : transition.conditions)
+          if ((std::ranges::find(loop_.facts, condition) != loop_.facts.end()) == areInvariant)
+            offerSides(condition, offer);
+    };
+    offerConditions(false);
+    offerConditions(true);
     for (const TermId variable : loop_.variables)
       if (store_.sort(variable) != smt::Sort::Bool && loop_.deciding.contains(variable)) {
         offer(variable);
@@ -473,9 +544,10 @@ private:
   std::span<const AwaitedRead> awaited_;
   FactIndex index_;
   std::vector<TermId> candidates_;
-  std::vector<TermId> phases_;                  // hold from some iteration on
-  std::vector<std::vector<smt::Model>> models_; // by iteration: states before it
-  Budget effort_ = kEffort;                     // of one question
+  std::vector<TermId> phases_;                       // hold from some iteration on
+  std::optional<EventualInvariants::Found> support_; // what holds before every iteration, once it was looked for
+  std::vector<std::vector<smt::Model>> models_;      // by iteration: states before it
+  Budget effort_ = kEffort;                          // of one question
   std::uint64_t work_ = 0;
   Termination result_;
 };

@@ -15,9 +15,10 @@ namespace feedhold::prove {
 /// One ranking function and the iterations (by number) that lower it.
 struct RankingFunction {
   smt::TermId value;
-  smt::TermId decrease; // of the first of its iterations
-  std::vector<std::size_t> iterations;
-  bool isLate = false; // decreases only from some iteration on
+  smt::TermId decrease{0}; // of the first of its iterations
+  std::vector<std::size_t> iterations{};
+  bool isLate = false;     // decreases only from some iteration on
+  bool isFollowed = false; // decreases only where another iteration follows
 };
 
 struct Termination {

@@ -40,7 +40,7 @@ public:
       return {inTurn(end), ""};
     const RankingFunction &ranking = end.rankings.front();
     const bool isSteady =
-        isConstant(ranking.decrease) &&
+        !ranking.isFollowed && isConstant(ranking.decrease) &&
         std::all_of(loop_.transitions.begin(), loop_.transitions.end(), [&](const Transition &iteration) {
           return store_.subtract(ranking.value, smt::substitute(store_, ranking.value, iteration.next)) ==
                  ranking.decrease;
@@ -60,7 +60,7 @@ private:
       if (!isMetWith(store_.lessOrEqual(one, most)))
         return ""; // such a loop has one iteration at least, however small the number is
     }
-    if (store_.isNumber(most) && Number(kMostUsefulBound) < store_[most].number)
+    if (Number(kMostUsefulBound) < store_.linear(most).constant)
       return ""; // true, and of no use to anybody
     return roundedText(most).value_or("");
   }
@@ -164,7 +164,9 @@ private:
   }
   std::string unsteady(const RankingFunction &ranking) {
     const auto text = shopText(store_, ranking.value, namesBeforeIteration());
-    return text ? fmt::format("`{}` falls at every iteration and is never negative before one", *text) : "";
+    return text ? fmt::format("`{}` falls at every iteration{} and is never negative before one", *text,
+                              ranking.isFollowed ? " that another one follows" : "")
+                : "";
   }
   /// Of a loop with phases: what ends the last one.
   std::string late(const Termination &end) {

@@ -16,7 +16,7 @@ STOPS = ("no-control-alarm", "compensation", "alarm-unreachable", "loop-ends", "
 
 
 def feedhold(*arguments):
-    return subprocess.run([FEEDHOLD, *arguments], cwd=CORPUS, capture_output=True, text=True, timeout=900)
+    return subprocess.run([FEEDHOLD, *arguments], cwd=CORPUS, capture_output=True, text=True, timeout=1800)
 
 
 def programs():
