@@ -35,11 +35,13 @@ constexpr std::array kPlanet = {
     LanguageHint{TextSignal::OWord, 30},
     LanguageHint{TextSignal::AngleName, 30},
     LanguageHint{TextSignal::PlanetMark, 40},
+    LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kGrbl = {
     LanguageHint{TextSignal::OWord, 30},
     LanguageHint{TextSignal::AngleName, 30},
     LanguageHint{TextSignal::GrblCommand, 40},
+    LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kSyntec = {
     LanguageHint{TextSignal::SyntecMarker, 40},
@@ -74,6 +76,7 @@ constexpr std::array kCLike = {
     LanguageHint{TextSignal::BareCondition, 4},
     LanguageHint{TextSignal::CentroidStatement, 20},
     LanguageHint{TextSignal::EdingStatement, 12},
+    LanguageHint{TextSignal::LoneEndWhile, 12},
 };
 /// Its macros are Macro B with variables of their own; comparisons by characters are common, words are accepted.
 constexpr std::array kDdcs = {
@@ -85,6 +88,10 @@ constexpr std::array kDdcs = {
 };
 constexpr std::array kCompiler = {
     LanguageHint{TextSignal::CompilerDirective, 25},
+};
+constexpr std::array kSimulator = {
+    LanguageHint{TextSignal::SimulatorSection, 40},
+    LanguageHint{TextSignal::SimulatorCall, 8},
 };
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
@@ -117,6 +124,7 @@ constexpr std::array kLanguages = {
                     "its variables mean something else than on a Macro B control; exclude these files", kDdcs,
                     Resemblance::MacroB},
     ForeignLanguage{"macro compiler source", "check the part programs, or the compiled text", kCompiler},
+    ForeignLanguage{"a macro of a machine simulator", "parts of it are for the simulator; exclude these files", kSimulator},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };

@@ -1,5 +1,5 @@
 // dead-assignment: `#3=5.` and then `#3=7.`, with nothing between that reads it.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/loop_view.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -75,7 +75,68 @@ bool isCleared(const FileContext &context, const Assignment &assignment) {
   return isVacant(context, assignment.value) || (literal && literal->isZero());
 }
 
-void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+/// `#106=250.` alone in a block that is always executed.
+struct Setting {
+  Span target;
+  std::uint32_t variable;
+  Decimal value;
+};
+
+std::optional<Setting> settingIn(const FlowFacts &facts, const FileContext &context, BlockId id) {
+  const Block &block = context.tree.blocks[id];
+  const auto statements = context.tree.statementsOf(id);
+  const auto *assignment = statements.size() == 1 ? std::get_if<Assignment>(&statements.front().node) : nullptr;
+  const bool isAlone =
+      std::ranges::all_of(context.tree.wordsOf(id), [](const Word &word) { return word.address() == 'N'; });
+  if (!assignment || !isAlone || block.has(Block::kSkip) || block.has(Block::kSkipInside) || block.has(Block::kBroken))
+    return std::nullopt;
+  const auto variable = variableOf(facts, assignment->target);
+  const auto value = literalValue(context.tree, assignment->value);
+  if (!variable || !value || !isPlain(facts.file, *variable))
+    return std::nullopt;
+  return Setting{context.tree.expressions[assignment->target].span, *variable, *value};
+}
+
+/// The next block that holds more than a comment.
+BlockId contentBehind(const FileContext &context, BlockId block, BlockId end) {
+  block = block.next();
+  while (block < end && isEmpty(context.tree, block))
+    block = block.next();
+  return block;
+}
+
+/// `#106=250.` and, as the next thing, `#106=62.5`: of any variable that only programs read.
+void checkSettings(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const Program &program = context.model.programs[facts.program];
+  const auto targets = context.model.jumpTargetsOf(facts.program);
+  for (const BlockId block : blocksOf(facts.file, facts.program)) {
+    const auto first = settingIn(facts, context, block);
+    if (!first || first->value.isZero() || !reachedNode(facts, block))
+      continue;
+    const BlockId next = contentBehind(context, block, program.last);
+    const auto second = next < program.last && !targets.contains(next) ? settingIn(facts, context, next) : std::nullopt;
+    if (!second || second->variable != first->variable || second->value == first->value)
+      continue;
+    reporter.report(
+        {.message = fmt::format("this value of {} is overwritten by the next block", context.quoted(first->target)),
+         .span = first->target,
+         .labels = {{context.tree.blocks[next].span(), "overwritten here"}},
+         .notes = {"nothing reads the first value; one of the two may have the wrong variable number"}},
+        Severity::Warning);
+  }
+}
+
+/// By checkSettings.
+bool isTold(const FlowFacts &facts, const FileContext &context, NodeId first, NodeId second) {
+  const BlockId block = facts.node(first).block;
+  const BlockId next = facts.node(second).block;
+  const auto one = settingIn(facts, context, block);
+  const auto two = settingIn(facts, context, next);
+  return one && two && one->value != two->value && !context.model.jumpTargetsOf(facts.program).contains(next) &&
+         contentBehind(context, block, context.model.programs[facts.program].last) == next;
+}
+
+void checkLocals(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (isTooLarge(facts) || !isTransparent(facts))
     return;
   const DeadAssignments dead(facts, context);
@@ -85,7 +146,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (!facts.isReached(node) || !variable || !isLocal(facts.file, *variable) || isCleared(context, assignment))
         continue;
       const auto overwriter = dead.overwriter(node, *variable);
-      if (!overwriter || *overwriter == node)
+      if (!overwriter || *overwriter == node || isTold(facts, context, node, *overwriter))
         continue;
       const Span span = context.tree.expressions[assignment.target].span;
       reporter.report(
@@ -96,11 +157,16 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     }
 }
 
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  checkSettings(facts, context, reporter);
+  checkLocals(facts, context, reporter);
+}
+
 } // namespace
 
 extern const Rule deadAssignment;
 const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::Info,
-                                   "Reports a value of a local variable that is overwritten before it is read."},
+                                   "Reports a value of a variable that is overwritten before it is read."},
                           .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::dead_assignment

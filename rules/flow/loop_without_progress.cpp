@@ -7,6 +7,16 @@
 namespace feedhold::rules::loop_without_progress {
 namespace {
 
+/// A common variable that is vacant when the machine is switched on, and that no program of the run sets.
+bool isUnsetCommon(const FlowFacts &facts, std::uint32_t variable) {
+  const VariableRange *range =
+      variable >= kFirstNamedVariable ? nullptr : findVariable(*facts.file.dialect, variable);
+  const auto isUnseen = [&](const Call &call) { return !facts.programs.callGraph().callee(facts.file.file, call); };
+  return range && range->kind == VariableKind::Common && isMainProgram(facts) && !isWrittenInAny(facts, variable) &&
+         !isTested(facts.file, facts.program, variable) &&
+         std::ranges::none_of(facts.file.model->callsOf(facts.program), isUnseen);
+}
+
 /// `#5=#5-#104` where `#104` is 0: the block changes nothing.
 bool isStepOfZero(const FlowFacts &facts, const LoopWrite &write, std::uint32_t variable) {
   const auto step = stepOf(facts, write.assignment, variable);
@@ -14,6 +24,8 @@ bool isStepOfZero(const FlowFacts &facts, const LoopWrite &write, std::uint32_t 
   if (!size)
     return false;
   const auto name = variableOf(facts, step->size);
+  if (name && isUnsetCommon(facts, *name))
+    return true;
   if (size->isVacant())
     return name && !isNeverSet(facts, *name); // else another rule's
   return size->isNumber() && size->number().interval().lo == 0 && size->number().interval().hi == 0;

@@ -44,17 +44,41 @@ bool isAsked(const FlowFacts &facts, NodeId at, ExpressionId difference, std::op
   return false;
 }
 
-/// The difference that the divisor is, or that its variable holds.
-std::optional<ExpressionId> differenceBehind(const FlowFacts &facts, NodeId node, ExpressionId divisor) {
-  if (isDifference(*facts.file.tree, divisor))
-    return unwrapped(*facts.file.tree, divisor);
-  const auto variable = variableOf(facts, divisor);
+constexpr int kMostCopies = 4;
+
+/// The difference that makes the expression 0 where it is 0: itself, a factor, or behind a variable.
+std::optional<ExpressionId> differenceBehind(const FlowFacts &facts, NodeId node, ExpressionId divisor,
+                                             int copies = 0) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const ExpressionId inner = withoutAbs(tree, divisor);
+  if (isDifference(tree, inner))
+    return inner;
+  if (const auto *product = as<BinaryOperation>(tree, inner)) {
+    if (product->op != OperatorKind::Multiply && product->op != OperatorKind::Divide)
+      return std::nullopt;
+    if (const auto left = differenceBehind(facts, node, product->left, copies))
+      return left;
+    return product->op == OperatorKind::Multiply ? differenceBehind(facts, node, product->right, copies) : std::nullopt;
+  }
+  const auto variable = copies < kMostCopies ? variableOf(facts, inner) : std::nullopt;
   const auto known = variable ? definitionsOf(facts, *variable, node) : std::nullopt;
   if (!known || known->fromEntry || known->nodes.size() != 1)
     return std::nullopt;
   const auto assignment = assignmentTo(facts, known->nodes.front(), *variable);
-  return assignment && isDifference(*facts.file.tree, assignment->value) ? std::optional(assignment->value)
-                                                                         : std::nullopt;
+  return assignment ? differenceBehind(facts, known->nodes.front(), assignment->value, copies + 1) : std::nullopt;
+}
+
+/// `IF[#3-#2EQ0]`: the program knows that two of its values may be equal.
+bool guardsDifferences(const FlowFacts &facts) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+    const auto *relation =
+        test && test->condition ? asInside<BinaryOperation>(*facts.file.tree, *test->condition) : nullptr;
+    const auto zero = relation ? literalValue(*facts.file.tree, relation->right) : std::nullopt;
+    if (zero && zero->isZero() && isDifference(*facts.file.tree, withoutAbs(*facts.file.tree, relation->left)))
+      return true;
+  }
+  return false;
 }
 
 /// `ATAN[#1/[#2-#3]]`: of a line along an axis the difference is 0, and there its angle is as good as any.
@@ -93,7 +117,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!alarm.place.contains(context.tree.expressions[*difference].span))
       diagnostic.labels.push_back({context.tree.expressions[*difference].span, "computed here"});
     reporter.report(std::move(diagnostic),
-                    isSlope(context, facts, alarm.node, *place) ? Severity::Warning : Severity::Info);
+                    isSlope(context, facts, alarm.node, *place) || guardsDifferences(facts) ? Severity::Warning
+                                                                                    : Severity::Info);
   }
 }
 

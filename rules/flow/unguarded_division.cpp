@@ -15,6 +15,46 @@ std::optional<std::uint32_t> argumentIn(const FlowFacts &facts, std::uint32_t va
   return argumentBehind(facts, variable);
 }
 
+constexpr int kMostCopies = 3;
+
+/// The only assignment to a local variable, which each run makes; absent when there is none or another one.
+std::optional<ExpressionId> onlyValue(const FlowFacts &facts, std::uint32_t variable) {
+  std::optional<ExpressionId> value;
+  for (const BlockId block : blocksOf(facts.file, facts.program))
+    for (const Statement &statement : facts.file.tree->statementsOf(block))
+      if (const auto *assignment = std::get_if<Assignment>(&statement.node);
+          assignment && variableNumber(*facts.file.tree, unwrapped(*facts.file.tree, assignment->target)) == variable) {
+        if (value || statement.nested)
+          return std::nullopt;
+        value = assignment->value;
+      }
+  return value;
+}
+
+/// `[2*#17]`, `ABS[#17]`, and `#30` with `#30=#17*#2`: 0 where the argument is.
+std::optional<std::uint32_t> factorIn(const FlowFacts &facts, ExpressionId id, int copies = 0) {
+  const SyntaxTree &tree = *facts.file.tree;
+  const ExpressionId inner = unwrapped(tree, id);
+  if (const auto *call = as<FunctionCall>(tree, inner))
+    return call->function == FunctionKind::Abs && !call->arguments().empty()
+               ? factorIn(facts, call->arguments().front(), copies)
+               : std::nullopt;
+  if (const auto *product = as<BinaryOperation>(tree, inner)) {
+    if (product->op != OperatorKind::Multiply && product->op != OperatorKind::Divide)
+      return std::nullopt;
+    if (const auto left = factorIn(facts, product->left, copies))
+      return left;
+    return product->op == OperatorKind::Multiply ? factorIn(facts, product->right, copies) : std::nullopt;
+  }
+  const auto variable = variableNumber(tree, inner);
+  if (!variable || !isLocal(facts.file, *variable) || isTested(facts.file, facts.program, *variable))
+    return std::nullopt;
+  if (const auto argument = argumentBehind(facts, *variable))
+    return isTested(facts.file, facts.program, *argument) ? std::nullopt : argument;
+  const auto value = copies < kMostCopies ? onlyValue(facts, *variable) : std::nullopt;
+  return value ? factorIn(facts, *value, copies + 1) : std::nullopt;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<std::uint32_t> done;
   if (isMainProgram(facts))
@@ -26,10 +66,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const auto divisor = expressionAt(facts, block, alarm.place);
     const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
     const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
-    const auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
-    if (!argument || !variable || std::ranges::find(done, *argument) != done.end() ||
-        isTested(facts.file, facts.program, *argument) || isTested(facts.file, facts.program, *variable) ||
-        mayHoldCallersValue(facts, *argument))
+    auto argument = value && isLocal(facts.file, *variable) ? argumentIn(facts, *variable, *value) : std::nullopt;
+    const bool isFactor = !argument && divisor && !isTooLarge(facts);
+    if (isFactor)
+      argument = factorIn(facts, *divisor);
+    if (!argument || std::ranges::find(done, *argument) != done.end() ||
+        isTested(facts.file, facts.program, *argument) ||
+        (variable && isTested(facts.file, facts.program, *variable)) || mayHoldCallersValue(facts, *argument))
       continue;
     done.push_back(*argument);
     const PassedValues passed = passedFor(*argument, facts, context);
@@ -38,7 +81,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     Diagnostic diagnostic{.message = fmt::format("{} may be 0 or vacant: nothing checks it before this division",
                                                  describeVariable(context.dialect, *argument)),
                           .span = alarm.place,
-                          .label = "divides by it",
+                          .label = isFactor ? "divides by a multiple of it" : "divides by it",
                           .flow = pathFromEntry(facts, alarm.node),
                           .notes = {fmt::format("if it is not passed, or is 0, the control {}",
                                                 stopsWith(context.dialect, AlarmKind::DivideByZero)),

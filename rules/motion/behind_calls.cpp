@@ -63,6 +63,16 @@ bool hadOther(NodeId call, const MotionView &view, const LeftOn &mode) {
   return false;
 }
 
+/// The last code in the text before the call that decides the mode puts it on.
+bool hadSame(NodeId call, const MotionView &view, const LeftOn &mode) {
+  for (NodeId node = call; node != view.cfg().entryOf(view.program());) {
+    node = NodeId(node.index() - 1);
+    if (decides(mode, view, node))
+      return switchedBy(mode, view, node) != nullptr;
+  }
+  return false;
+}
+
 /// Where the program goes on behind one call.
 BehindCalls behindCall(NodeId call, const CallProgram &instruction, const ProgramFile &file, const LeftOn &mode,
                        const FileContext &context) {
@@ -99,6 +109,9 @@ BehindCalls behindCall(NodeId call, const CallProgram &instruction, const Progra
       open.push_back(next);
     });
   }
+  // The caller moves on in the mode that it has itself: nothing changes for it.
+  if (isLocal && hadSame(call, view, mode))
+    return BehindCalls::PutRight;
   // An entry macro leaves compensation on for its caller; nobody wants G91 so.
   const bool isUnwanted = mode.kind == ModalKind::Distance && (isSetAgain || hadOther(call, view, mode));
   if (moves && (isLeft || isUnwanted))

@@ -19,13 +19,13 @@ public:
     mayBeStartedUnseen_ = mayBeStartedUnseen_ || hasOtherSpindleCode(node);
     if (!state.spindle.mayBeAtEntry() && !state.spindle.contains(kStopped))
       return;
-    if (isHavocked(state) || view_.modalMotionWords(node).empty() || !cuts(state) || isAbovePart(node, state))
+    if (isHavocked(state) || !movesTool(node) || !cuts(state) || isAbovePart(node, state))
       return;
     first_.note(node);
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeStartedUnseen_)
+    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts))
       return;
     const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
     Diagnostic diagnostic{.message = {},
@@ -65,6 +65,23 @@ private:
         return Stop{stop, std::move(*path)};
     }
     return std::nullopt;
+  }
+  /// A tool, its length or a speed stands before the move.  Grinders, warm-ups and running-in move their axes by G01, and
+  /// nothing is cut.
+  bool preparesTool(const FlowFacts &facts) const {
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
+      if (std::ranges::any_of(view_.wordsOf(node), [](const Word *word) {
+            return word->address() == 'T' || word->address() == 'S' || word->address() == 'H' ||
+                   (word->address() == 'M' && word->isCode() && word->integer() == 6);
+          }))
+        return true;
+    return false;
+  }
+  /// Not an axis of a table, a dresser or a wheelhead alone.
+  bool movesTool(NodeId node) const {
+    return std::ranges::any_of(view_.modalMotionWords(node), [](const Word *word) {
+      return word->address() == 'X' || word->address() == 'Y' || word->address() == 'Z';
+    });
   }
   /// Without any word about it the machine may be a plotter or a laser, and the text a piece of a program.
   bool speaksOfSpindle(const FlowFacts &facts) const {

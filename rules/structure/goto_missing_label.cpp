@@ -91,7 +91,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       checkReturn(jump, *number, context, reporter);
     } else if (jump.kind == JumpKind::CallAt) {
       checkStart(jump, *number, context, reporter);
-    } else if (!jump.target) {
+    } else if (!jump.target && !isMotionCodeWithLetter(context, jump.block, jump.span)) {
       if (!dead)
         dead.emplace(context, program);
       // code-after-end-of-tape speaks of jumps to blocks behind the closing `%`.

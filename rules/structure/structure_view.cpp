@@ -1,6 +1,8 @@
 // Dead blocks, loops and IF structures, by the text alone.
 #include "rules/structure/structure_view.h"
 
+#include "base/support/text.h"
+
 #include <algorithm>
 
 namespace feedhold::rules {
@@ -86,6 +88,14 @@ bool BranchBlocks::contains(BlockId block) const {
 
 bool isInside(const Loop &loop, BlockId block) {
   return loop.endBlock && loop.doBlock < block && block <= *loop.endBlock;
+}
+
+bool isMotionCodeWithLetter(const FileContext &context, BlockId block, Span jump) {
+  const std::string_view text = context.text(jump);
+  const bool isCode = text.size() == 3 && toUpper(text.substr(0, 2)) == "GO" && text[2] >= '0' && text[2] <= '3';
+  return isCode && std::ranges::any_of(context.tree.wordsOf(block), [&](const Word &word) {
+           return formatOf(context.dialect, word.address()).kind == AddressKind::Length;
+         });
 }
 
 bool hasCondition(const FileContext &context, const Loop &loop) {

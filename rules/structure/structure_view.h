@@ -49,6 +49,9 @@ private:
   std::vector<std::pair<BlockId, BlockId>> reach_;
 };
 
+/// `GO1 X20.`: the letter O in a motion code, which the control reads as `GOTO 1`.
+bool isMotionCodeWithLetter(const FileContext &context, BlockId block, Span jump);
+
 /// A DO that follows a WHILE.
 bool hasCondition(const FileContext &context, const Loop &loop);
 

@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "rules/expressions/expression_view.h"
+#include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,15 @@ std::string stopsAtMixed(const FileContext &context) {
   return fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::MixedBlock));
 }
 
+void reportLetter(Span code, const FileContext &context, const Reporter &reporter) {
+  const Span letter{code.begin + 1, code.begin + 2};
+  reporter.report({.message = fmt::format("{} has the letter O in place of the digit 0", context.quoted(code)),
+                   .span = letter,
+                   .notes = {fmt::format("the control reads it as `GOTO {}` and {}", context.text(code).back(),
+                                         stopsWith(context.dialect, AlarmKind::MixedBlock))},
+                   .fixes = {{.title = "write the digit 0", .edits = {{letter, "0"}}}}});
+}
+
 void checkStatement(const Statement &statement, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (statement.nested || context.dialect.grammar.macroWithWords || takesWords(statement) ||
       firstStatement(context.tree, block) != &statement)
@@ -30,6 +40,10 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
   for (const Word &word : context.tree.wordsOf(block)) {
     if (mayStandBeside(word))
       continue;
+    if (isMotionCodeWithLetter(context, block, statement.span)) {
+      reportLetter(statement.span, context, reporter);
+      return;
+    }
     reporter.report(
         {.message = fmt::format("{} is in the same block as a macro statement", context.quoted(word.span())),
          .span = word.span(),

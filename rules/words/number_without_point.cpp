@@ -13,8 +13,20 @@ namespace {
 constexpr std::size_t kHabit = 10;
 // A zero in front says more: there are controls whose programs have numbers of a fixed width, all without a point.
 constexpr std::size_t kHabitOfZeros = 3;
+// The same coordinate stands elsewhere with its point.
+constexpr std::size_t kHabitOfTwins = 5;
 
-void reportWord(const Word &word, const FileContext &context, const Reporter &reporter) {
+/// A word of the file with the same address and the same number, and with a point.
+const Word *twinOf(const Word &word, const FileContext &context) {
+  for (std::size_t i = 0; i < context.tree.blockCount(); ++i)
+    for (const Word &other : context.tree.wordsOf(BlockId(i)))
+      if (other.address() == word.address() && other.isNumber() && other.has(Word::kPoint) &&
+          !other.has(Word::kArgument) && !other.has(Word::kComma) && other.number() == word.number())
+        return &other;
+  return nullptr;
+}
+
+void reportWord(const Word &word, const Word *twin, const FileContext &context, const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
   const std::string_view unless = context.dialect.hasFanucParameters
                                       ? "with parameter 3401#0 (DPI) off "
@@ -22,8 +34,10 @@ void reportWord(const Word &word, const FileContext &context, const Reporter &re
   const auto two = [](const Decimal &increment) { return Decimal(2, increment.scale()).toString(); };
   const LeastIncrements increments = leastIncrementsOf(context.dialect);
   reporter.report(
-      {.message = fmt::format("{} has no decimal point, but the lengths around it do", context.quoted(word.span())),
+      {.message = fmt::format("{} has no decimal point, but {}", context.quoted(word.span()),
+                              twin ? "has one elsewhere" : "the lengths around it do"),
        .span = word.span(),
+       .labels = twin ? std::vector<Label>{{twin->span(), "with a point"}} : std::vector<Label>{},
        .notes = {fmt::format("{}the control reads it in least increments: `2` is {} mm or {} inch", sure ? "" : unless,
                              two(increments.metric), two(increments.inch))},
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
@@ -55,10 +69,14 @@ void check(const FileContext &context, const Reporter &reporter) {
   lengths.withoutPoint.erase(odd.begin(), odd.end());
   if (context.dialect.switches.dpi == Switch::On)
     return;
-  if (lengths.wholeWithPoint < kHabit * lengths.withoutPoint.size())
-    return;
-  for (const WordId word : lengths.withoutPoint)
-    reportWord(context.tree.words[word], context, reporter);
+  if (lengths.wholeWithPoint >= kHabit * lengths.withoutPoint.size()) {
+    for (const WordId word : lengths.withoutPoint)
+      reportWord(context.tree.words[word], nullptr, context, reporter);
+  } else if (lengths.withPoint >= kHabitOfTwins * lengths.withoutPoint.size()) {
+    for (const WordId word : lengths.withoutPoint)
+      if (const Word *twin = twinOf(context.tree.words[word], context))
+        reportWord(context.tree.words[word], twin, context, reporter);
+  }
 }
 
 } // namespace

@@ -99,6 +99,7 @@ private:
   bool scanPair(std::string_view run);
   std::optional<TextSignal> pairSignal(std::string_view run, bool isFirst, bool isJoined) const;
   void scanKeyword(const Keyword &keyword);
+  void noteBranch();
   void scanCondition();
   void scanWord(char letter);
   void scanNumberedWord(char letter, const Number &number);
@@ -118,6 +119,7 @@ private:
   void countGCodeSystem();
   bool hasAnyCode(std::size_t first, std::size_t last) const;
   bool isBareIf() const;
+  bool isSimulatorCall() const;
   void countCombinations();
   void sortLine();
 

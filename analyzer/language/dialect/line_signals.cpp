@@ -109,12 +109,26 @@ void LineScanner::scanLongRun(std::string_view run) {
     takeNumber();
     return;
   }
+  if (isSimulatorCall()) {
+    count(TextSignal::SimulatorCall);
+    stop();
+    return;
+  }
   if (equalsUpper(run, "DPRNT") || equalsUpper(run, "BPRNT")) {
     hasWord_ = true;
     stop(); // everything up to the bracket is text
     return;
   }
   scanJammed(run);
+}
+
+/// `(FALSE);` or `("#100");` and the end of the line behind a name: in NC programs parentheses hold remarks.
+bool LineScanner::isSimulatorCall() const {
+  if (peek() != '(')
+    return false;
+  const std::string_view call = trimmed(rest());
+  const std::string_view last = call.substr(0, call.rfind(");"));
+  return call.ends_with(");") && (last.ends_with('"') || last.ends_with("FALSE") || last.ends_with("TRUE"));
 }
 
 /// Keywords without blanks between them, with an address at the end: `THENGOTO`, `ANDG`.
@@ -206,6 +220,9 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
     scanCondition();
   } else if (keyword.spelling == "THEN") {
     endsWithThen_ = true;
+    noteBranch();
+  } else if (keyword.spelling == "GOTO") {
+    noteBranch();
   } else if (keyword.spelling == "DO" && !hasOWord_) {
     skipBlanks();
     if (isDigit(peek()))
@@ -213,6 +230,11 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
   } else if (keyword.spelling == "ENDIF" && !hasOWord_) {
     count(TextSignal::BlockIf);
   }
+}
+
+void LineScanner::noteBranch() {
+  if (hasIf_ && !hasOWord_)
+    note(TextSignal::MacroBranch);
 }
 
 void LineScanner::scanCondition() {

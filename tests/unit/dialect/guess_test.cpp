@@ -41,6 +41,11 @@ TEST(Guess, MitsubishiAndRelatives) {
   EXPECT_EQ(guessed("IF [#11 EQ #0] THEN (NO ARGUMENT)\n#3006=1(NO H)\nENDIF\nM99\n", "CHECK.EIA"), "mitsubishi-m700");
 }
 
+TEST(Guess, NamesBesideMacroBranches) {
+  EXPECT_EQ(guessed("O12\nN5 #<SIZE>=#110\nN6 IF [#<SIZE> GT 4] GOTO 9\nN7 #111=2\nN9 M30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("#<size>=4\no10 if [#<size> gt 2]\nG0 X1\no10 endif\nM2\n"), "linuxcnc");
+}
+
 TEST(Guess, ThenWithAStatementIsNoBlockIf) {
   EXPECT_EQ(guessed("WHILE [#1 GT 2] DO1\nIF [#1 LT 4] THEN #1=#5\n#1=#1-1\nEND1\nM99\n"), "fanuc-30i");
 }

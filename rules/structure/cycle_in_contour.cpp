@@ -1,0 +1,77 @@
+// cycle-in-contour: a second `G71`, or a call by `M98`, between the blocks that P and Q of a contour cycle name.
+#include "findings/rule/rule.h"
+
+#include "rules/structure/structure_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules::cycle_in_contour {
+namespace {
+
+struct Contour {
+  const Jump *cycle; // its P
+  BlockId first;
+  BlockId last;
+};
+
+/// Contours that stand behind their cycle.
+std::vector<Contour> contoursOf(ProgramId program, const FileContext &context) {
+  std::vector<Contour> contours;
+  const auto jumps = context.model.jumpsOf(program);
+  for (const Jump &from : jumps) {
+    if (from.kind != JumpKind::ContourFrom || !from.target || *from.target <= from.block)
+      continue;
+    const auto to = std::ranges::find_if(
+        jumps, [&](const Jump &jump) { return jump.kind == JumpKind::ContourTo && jump.block == from.block; });
+    if (to != jumps.end() && to->target && *to->target >= *from.target)
+      contours.push_back({&from, *from.target, *to->target});
+  }
+  return contours;
+}
+
+/// The first thing in the contour that is no part of one.
+std::optional<Span> strangerIn(const Contour &contour, ProgramId program, const FileContext &context) {
+  std::optional<Span> first;
+  const auto note = [&](BlockId block, Span span) {
+    if (block >= contour.first && block <= contour.last && (!first || span.begin < first->begin))
+      first = span;
+  };
+  for (const Jump &jump : context.model.jumpsOf(program))
+    if (jump.kind == JumpKind::ContourFrom)
+      if (const Word *code = findCode(context.tree, jump.block, context.dialect, CodeRole::Contour))
+        note(jump.block, code->span());
+  for (const Call &call : context.model.callsIn(contour.first, contour.last.next()))
+    if (call.kind == CallKind::Subprogram || call.kind == CallKind::Local)
+      note(call.block, call.span);
+  return first;
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  std::vector<Span> told;
+  for (const Contour &contour : contoursOf(program, context)) {
+    const auto stranger = strangerIn(contour, program, context);
+    if (!stranger || std::ranges::find(told, *stranger) != told.end())
+      continue;
+    told.push_back(*stranger);
+    const auto lineOf = [&](BlockId block) { return context.source.lineOf(context.tree.blocks[block].begin); };
+    reporter.report({.message = fmt::format("{} stands inside the contour of another cycle", context.quoted(*stranger)),
+                     .span = *stranger,
+                     .labels = {{context.tree.blocks[contour.cycle->block].span(),
+                                 fmt::format("its contour is lines {} to {}", lineOf(contour.first),
+                                             lineOf(contour.last))}},
+                     .notes = {"a contour consists of moves only: the control stops when it reads the contour",
+                               "close the first contour before it, or correct P and Q"}});
+  }
+}
+
+} // namespace
+
+extern const Rule cycleInContour;
+const Rule cycleInContour{.info = {"cycle-in-contour", Category::Structure, Severity::Error,
+                                   "Reports a contour cycle, or a call by `M98`, between the blocks that P and Q of a "
+                                   "contour cycle name."},
+                          .hooks = {.program = check}};
+
+} // namespace feedhold::rules::cycle_in_contour
