@@ -23,10 +23,8 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node()) {
-      checkContours(facts, context, reporter);
+    if (!first_.node())
       return;
-    }
     const auto feeds = [&](NodeId node) { return hasFeed(node); };
     const auto path = hasFeed(*first_.node()) ? std::nullopt : findPath(facts, facts.entry(), *first_.node(), feeds);
     // A retentive variable that may be vacant is a feed all the same.
@@ -43,26 +41,6 @@ public:
   }
 
 private:
-  /// The moves of a contour are those of its cycle.  A program without any F cannot have the right one.
-  void checkContours(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) const {
-    if (!isMain_ || !comesToItsEnd(facts) || !context.model.callsOf(facts.program).empty())
-      return;
-    const Word *cycle = nullptr;
-    for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
-      if (hasFeed(node) || std::holds_alternative<Havoc>(facts.node(node).instruction))
-        return;
-      for (const Word *word : view_.wordsOf(node))
-        if (const Code *code = codeOf(*word, context.dialect); !cycle && code && code->role == CodeRole::Contour)
-          cycle = word;
-    }
-    if (cycle)
-      reporter.report({.message = fmt::format("no `F` comes before {}, and none stands in this program",
-                                              context.quoted(cycle->span())),
-                       .span = cycle->span(),
-                       .notes = {"the cycle cuts at the feed of the previous program, or the control stops because "
-                                 "there is none",
-                                 "write F in the block of the cycle"}});
-  }
   bool hasFeed(NodeId node) const {
     return std::ranges::any_of(view_.wordsOf(node), [](const Word *word) { return word->address() == 'F'; });
   }

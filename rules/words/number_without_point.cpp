@@ -15,6 +15,7 @@ constexpr std::size_t kHabit = 10;
 constexpr std::size_t kHabitOfZeros = 3;
 // The same coordinate stands elsewhere with its point.
 constexpr std::size_t kHabitOfTwins = 5;
+constexpr std::size_t kMostSlips = 10; // each is compared with the whole file
 
 /// A word of the file with the same address and the same number, and with a point.
 const Word *twinOf(const Word &word, const FileContext &context) {
@@ -72,7 +73,8 @@ void check(const FileContext &context, const Reporter &reporter) {
   if (lengths.wholeWithPoint >= kHabit * lengths.withoutPoint.size()) {
     for (const WordId word : lengths.withoutPoint)
       reportWord(context.tree.words[word], nullptr, context, reporter);
-  } else if (lengths.withPoint >= kHabitOfTwins * lengths.withoutPoint.size()) {
+  } else if (lengths.withoutPoint.size() <= kMostSlips &&
+             lengths.withPoint >= kHabitOfTwins * lengths.withoutPoint.size()) {
     for (const WordId word : lengths.withoutPoint)
       if (const Word *twin = twinOf(context.tree.words[word], context))
         reportWord(context.tree.words[word], twin, context, reporter);
