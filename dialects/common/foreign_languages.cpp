@@ -72,10 +72,8 @@ constexpr std::array kFadal = {
     LanguageHint{TextSignal::FadalLine, 12},
 };
 constexpr std::array kCLike = {
-    LanguageHint{TextSignal::CLikeOperator, 6},
-    LanguageHint{TextSignal::BareCondition, 4},
-    LanguageHint{TextSignal::CentroidStatement, 20},
-    LanguageHint{TextSignal::EdingStatement, 12},
+    LanguageHint{TextSignal::CLikeOperator, 6},      LanguageHint{TextSignal::BareCondition, 4},
+    LanguageHint{TextSignal::CentroidStatement, 20}, LanguageHint{TextSignal::EdingStatement, 12},
     LanguageHint{TextSignal::LoneEndWhile, 12},
 };
 /// Its macros are Macro B with variables of their own; comparisons by characters are common, words are accepted.
@@ -124,7 +122,8 @@ constexpr std::array kLanguages = {
                     "its variables mean something else than on a Macro B control; exclude these files", kDdcs,
                     Resemblance::MacroB},
     ForeignLanguage{"macro compiler source", "check the part programs, or the compiled text", kCompiler},
-    ForeignLanguage{"a macro of a machine simulator", "parts of it are for the simulator; exclude these files", kSimulator},
+    ForeignLanguage{"a macro of a machine simulator", "parts of it are for the simulator; exclude these files",
+                    kSimulator},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };

@@ -59,10 +59,10 @@ constexpr std::array kFunctions = {
 
 /// What no Macro B control reads: `o100 sub`, `#<name>`.  G65 and #3000 speak against it.
 constexpr std::array kHints = {
-    LanguageHint{TextSignal::OWord, 30},       LanguageHint{TextSignal::AngleName, 30},
-    LanguageHint{TextSignal::RsComment, 3},    LanguageHint{TextSignal::NgcFile, 10},
-    LanguageHint{TextSignal::NgcCode, 8},      LanguageHint{TextSignal::MacroCall, -30},
-    LanguageHint{TextSignal::MacroAlarm, -30}, LanguageHint{TextSignal::NumberedLoop, -30},
+    LanguageHint{TextSignal::OWord, 30},        LanguageHint{TextSignal::AngleName, 30},
+    LanguageHint{TextSignal::RsComment, 3},     LanguageHint{TextSignal::NgcFile, 10},
+    LanguageHint{TextSignal::NgcCode, 8},       LanguageHint{TextSignal::MacroCall, -30},
+    LanguageHint{TextSignal::MacroAlarm, -30},  LanguageHint{TextSignal::NumberedLoop, -30},
     LanguageHint{TextSignal::MacroBranch, -60},
 };
 

@@ -57,8 +57,9 @@ void check(const Comment &comment, BlockId, const FileContext &context, const Re
 } // namespace
 
 extern const Rule unclosedNameInMessage;
-const Rule unclosedNameInMessage{.info = {"unclosed-name-in-message", Category::Comment, Severity::Warning,
-                                          "Reports the name of a parameter without `<` or `>` in a message of LinuxCNC."},
-                                 .hooks = {.comment = check}};
+const Rule unclosedNameInMessage{
+    .info = {"unclosed-name-in-message", Category::Comment, Severity::Warning,
+             "Reports the name of a parameter without `<` or `>` in a message of LinuxCNC."},
+    .hooks = {.comment = check}};
 
 } // namespace feedhold::rules::unclosed_name_in_message

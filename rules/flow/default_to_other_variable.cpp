@@ -83,14 +83,13 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!use)
       continue;
     const std::string argument = describeVariable(context.dialect, found->argument);
-    reporter.report(
-        {.message = fmt::format("the default of {} goes to {}, and nothing uses the argument itself", argument,
-                                context.quoted(found->span)),
-         .span = found->span,
-         .labels = {{*use, "used here"}},
-         .notes = {fmt::format("if {} is passed, `#{}` keeps what an earlier call left there, or is vacant", argument,
-                               found->target),
-                   fmt::format("write `#{}` in one of the two places", found->argument)}});
+    reporter.report({.message = fmt::format("the default of {} goes to {}, and nothing uses the argument itself",
+                                            argument, context.quoted(found->span)),
+                     .span = found->span,
+                     .labels = {{*use, "used here"}},
+                     .notes = {fmt::format("if {} is passed, `#{}` keeps what an earlier call left there, or is vacant",
+                                           argument, found->target),
+                               fmt::format("write `#{}` in one of the two places", found->argument)}});
   }
 }
 

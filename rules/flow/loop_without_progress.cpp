@@ -9,8 +9,7 @@ namespace {
 
 /// A common variable that is vacant when the machine is switched on, and that no program of the run sets.
 bool isUnsetCommon(const FlowFacts &facts, std::uint32_t variable) {
-  const VariableRange *range =
-      variable >= kFirstNamedVariable ? nullptr : findVariable(*facts.file.dialect, variable);
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(*facts.file.dialect, variable);
   const auto isUnseen = [&](const Call &call) { return !facts.programs.callGraph().callee(facts.file.file, call); };
   return range && range->kind == VariableKind::Common && isMainProgram(facts) && !isWrittenInAny(facts, variable) &&
          !isTested(facts.file, facts.program, variable) &&

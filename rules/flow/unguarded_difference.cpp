@@ -116,9 +116,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
                   "a divisor of 0"}};
     if (!alarm.place.contains(context.tree.expressions[*difference].span))
       diagnostic.labels.push_back({context.tree.expressions[*difference].span, "computed here"});
-    reporter.report(std::move(diagnostic),
-                    isSlope(context, facts, alarm.node, *place) || guardsDifferences(facts) ? Severity::Warning
-                                                                                    : Severity::Info);
+    reporter.report(std::move(diagnostic), isSlope(context, facts, alarm.node, *place) || guardsDifferences(facts)
+                                               ? Severity::Warning
+                                               : Severity::Info);
   }
 }
 

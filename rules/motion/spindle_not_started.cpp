@@ -66,8 +66,8 @@ private:
     }
     return std::nullopt;
   }
-  /// A tool, its length or a speed stands before the move.  Grinders, warm-ups and running-in move their axes by G01, and
-  /// nothing is cut.
+  /// A tool, its length or a speed stands before the move.  Grinders, warm-ups and running-in move their axes by G01,
+  /// and nothing is cut.
   bool preparesTool(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       if (std::ranges::any_of(view_.wordsOf(node), [](const Word *word) {

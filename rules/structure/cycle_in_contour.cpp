@@ -56,13 +56,13 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     told.push_back(*stranger);
     const auto lineOf = [&](BlockId block) { return context.source.lineOf(context.tree.blocks[block].begin); };
-    reporter.report({.message = fmt::format("{} stands inside the contour of another cycle", context.quoted(*stranger)),
-                     .span = *stranger,
-                     .labels = {{context.tree.blocks[contour.cycle->block].span(),
-                                 fmt::format("its contour is lines {} to {}", lineOf(contour.first),
-                                             lineOf(contour.last))}},
-                     .notes = {"a contour consists of moves only: the control stops when it reads the contour",
-                               "close the first contour before it, or correct P and Q"}});
+    reporter.report(
+        {.message = fmt::format("{} stands inside the contour of another cycle", context.quoted(*stranger)),
+         .span = *stranger,
+         .labels = {{context.tree.blocks[contour.cycle->block].span(),
+                     fmt::format("its contour is lines {} to {}", lineOf(contour.first), lineOf(contour.last))}},
+         .notes = {"a contour consists of moves only: the control stops when it reads the contour",
+                   "close the first contour before it, or correct P and Q"}});
   }
 }
 

@@ -19,12 +19,12 @@ void check(const FileContext &context, const Reporter &reporter) {
     if (isNew || known->second == nullptr)
       continue;
     const Span span = context.tree.statements[head.statement].span;
-    reporter.report({.message = fmt::format("{} has the label of an earlier o-word of this program",
-                                            context.quoted(span)),
-                     .span = span,
-                     .labels = {{context.tree.statements[known->second->statement].span, "first used here"}},
-                     .notes = {"what the interpreter does with a label that is used twice is not defined",
-                               "give each o-word block its own number"}});
+    reporter.report(
+        {.message = fmt::format("{} has the label of an earlier o-word of this program", context.quoted(span)),
+         .span = span,
+         .labels = {{context.tree.statements[known->second->statement].span, "first used here"}},
+         .notes = {"what the interpreter does with a label that is used twice is not defined",
+                   "give each o-word block its own number"}});
     known->second = nullptr; // once for each label
   }
 }

@@ -24,8 +24,8 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
     if (isSame(each))
       found.fixes.front().edits.push_back({each.other, ""});
   if (const std::size_t more = found.fixes.front().edits.size() - 1; more != 0)
-    found.notes.push_back(fmt::format("{} more block{} of the file {} it", more, more == 1 ? "" : "s",
-                                      more == 1 ? "has" : "have"));
+    found.notes.push_back(
+        fmt::format("{} more block{} of the file {} it", more, more == 1 ? "" : "s", more == 1 ? "has" : "have"));
   reporter.report(std::move(found));
 }
 

@@ -112,8 +112,8 @@ void LineScanner::scanDollar() {
   stop();
 }
 
-/// A line whose `#` is followed by no number: macro lines of Fadal, commands of ISG, sections for a simulator, a heading,
-/// a remark.
+/// A line whose `#` is followed by no number: macro lines of Fadal, commands of ISG, sections for a simulator, a
+/// heading, a remark.
 void LineScanner::scanHashHead() {
   static constexpr std::string_view kFadal[] = {"PRINT", "INPUT", "GOTO", "WAIT", "CLEAR", "RETURN"};
   static constexpr std::string_view kIsg[] = {"VAR", "ENDVAR", "MSG", "COMMENT", "ERROR", "CS", "TRAFO", "SLOPE"};
