@@ -55,18 +55,34 @@ bool isSetOnce(const FlowFacts &facts, std::uint32_t variable) {
   return writes == 1;
 }
 
-/// The program asks whether the argument is there, and does nothing with its value.
-bool isOnlyAsked(const FlowFacts &facts, std::uint32_t argument) {
+bool isBehind(const FlowFacts &facts, BlockId block, const Read &read) {
+  const auto from = reachedNode(facts, block);
+  const auto to = nodeOf(facts, read.block, read.expression);
+  return from && to && findPath(facts, *from, *to, [](NodeId) { return false; });
+}
+
+/// `#[#198]`, where the number may be that of the argument.
+bool mayRead(const FlowFacts &facts, const Read &read, std::uint32_t argument) {
+  if (read.number)
+    return *read.number == argument;
+  const auto *indirect = as<IndirectVariable>(*facts.file.tree, read.expression);
+  const AbstractValue *index = indirect ? facts.valueOf(indirect->index) : nullptr;
+  return !index || !index->isNumber() || index->number().interval().contains(argument);
+}
+
+/// The program asks whether the argument is there, and does nothing with its value from there on.
+bool isOnlyAsked(const FlowFacts &facts, std::uint32_t argument, BlockId block) {
   return isParameter(facts, argument) && !maySet(facts, argument) &&
          std::ranges::all_of(readsOf(facts), [&](const Read &read) {
-           return read.number && (*read.number != argument || read.use == ReadUse::Equality);
+           return !mayRead(facts, read, argument) || read.use == ReadUse::Equality || !isBehind(facts, block, read);
          });
 }
 
 /// Where the value counts: in a word or in arithmetic.
-std::optional<Span> useOf(const FlowFacts &facts, std::uint32_t variable) {
+std::optional<Span> useOf(const FlowFacts &facts, std::uint32_t variable, BlockId block) {
   for (const Read &read : readsOf(facts))
-    if (read.number == variable && (read.use == ReadUse::Word || read.use == ReadUse::Computed))
+    if (read.number == variable && (read.use == ReadUse::Word || read.use == ReadUse::Computed) &&
+        isBehind(facts, block, read))
       return facts.file.tree->expressions[read.expression].span;
   return std::nullopt;
 }
@@ -77,9 +93,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   for (const BlockId block : blocksOf(facts.file, facts.program)) {
     const auto found = defaultIn(context, block);
     if (!found || !isCommon(context, found->target) || isTested(facts.file, facts.program, found->target) ||
-        !isOnlyAsked(facts, found->argument) || !isSetOnce(facts, found->target))
+        !isOnlyAsked(facts, found->argument, block) || !isSetOnce(facts, found->target))
       continue;
-    const auto use = useOf(facts, found->target);
+    const auto use = useOf(facts, found->target, block);
     if (!use)
       continue;
     const std::string argument = describeVariable(context.dialect, found->argument);

@@ -63,8 +63,10 @@ bool hadOther(NodeId call, const MotionView &view, const LeftOn &mode) {
   return false;
 }
 
-/// The last code in the text before the call that decides the mode puts it on.
-bool hadSame(NodeId call, const MotionView &view, const LeftOn &mode) {
+/// The last code in the text before the call that decides the mode puts it on: nothing changes for the caller.
+bool hasItself(NodeId call, const ProgramFile &file, const LeftOn &mode, const FileContext &context) {
+  const FileContext its = contextOf(file, context);
+  const MotionView view(file.model->programOf(file.cfg.nodes[call].block), its);
   for (NodeId node = call; node != view.cfg().entryOf(view.program());) {
     node = NodeId(node.index() - 1);
     if (decides(mode, view, node))
@@ -109,9 +111,6 @@ BehindCalls behindCall(NodeId call, const CallProgram &instruction, const Progra
       open.push_back(next);
     });
   }
-  // The caller moves on in the mode that it has itself: nothing changes for it.
-  if (isLocal && hadSame(call, view, mode))
-    return BehindCalls::PutRight;
   // An entry macro leaves compensation on for its caller; nobody wants G91 so.
   const bool isUnwanted = mode.kind == ModalKind::Distance && (isSetAgain || hadOther(call, view, mode));
   if (moves && (isLeft || isUnwanted))
@@ -139,8 +138,13 @@ CallersOfMode behindCalls(const LeftOn &mode, const FlowFacts &facts, const File
     found.allInFile = found.allInFile && caller.file == context.file;
     for (NodeId node = file.cfg.nodeOf(block);
          node.index() < file.cfg.nodes.size() && file.cfg.nodes[node].block == block; node = node.next())
-      if (const auto *instruction = std::get_if<CallProgram>(&file.cfg.nodes[node].instruction))
-        found.behind = std::max(found.behind, behindCall(node, *instruction, file, mode, context));
+      if (const auto *instruction = std::get_if<CallProgram>(&file.cfg.nodes[node].instruction)) {
+        const BehindCalls behind = behindCall(node, *instruction, file, mode, context);
+        found.behind = std::max(found.behind, behind);
+        if (file.model->calls[instruction->call].kind == CallKind::Local)
+          found.behindLocal =
+              std::max(found.behindLocal, hasItself(node, file, mode, context) ? BehindCalls::PutRight : behind);
+      }
   }
   return found;
 }

@@ -13,6 +13,7 @@ enum class BehindCalls : std::uint8_t {
 };
 struct CallersOfMode {
   BehindCalls behind = BehindCalls::NotKnown;
+  BehindCalls behindLocal = BehindCalls::NotKnown; // of M97 alone; a caller that has the mode on itself keeps it
   bool allInFile = false; // the calls stand in the file of the program: no others are to be expected
 };
 CallersOfMode behindCalls(const LeftOn &mode, const FlowFacts &facts, const FileContext &context);

@@ -81,6 +81,11 @@ bool isCancelledElsewhere(const LeftOn &mode, const FileContext &context) {
   });
 }
 
+/// Only M97 leads to this return: those who call the program do not see it.
+bool isOfLocalCall(const ExitFact &exit, const FlowFacts &facts) {
+  return exit.end == PathEnd::Returns && !findPath(facts, facts.entry(), exit.node, [](NodeId) { return false; });
+}
+
 /// How much it matters; absent: it is as it should be.
 std::optional<Severity> severityAt(const ExitFact &exit, const LeftOn &mode, const CallersOfMode &callers) {
   if (exit.end == PathEnd::Ends)
@@ -128,7 +133,8 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {
     const auto severity = leaves(exit, mode, view) ? severityAt(exit, mode, callers) : std::nullopt;
-    if (!severity)
+    const bool isKept = callers.behindLocal == BehindCalls::PutRight && isOfLocalCall(exit, facts);
+    if (!severity || isKept)
       continue;
     std::optional<Leaving> leaving;
     for (auto node = switching.rbegin(); node != switching.rend() && !leaving; ++node)
