@@ -3,6 +3,7 @@
 #include "language/model/internal.h"
 
 #include <map>
+#include <utility>
 
 namespace feedhold {
 
@@ -18,8 +19,10 @@ public:
       const BlockId block(i);
       if (tree.blocks[block].has(Block::kAfterEnd) || tree.blocks[block].has(Block::kLeader))
         continue;
-      if (headerOf(context_, block))
+      if (headerOf(context_, block)) {
         leaveSubroutine();
+        open_.clear();
+      }
       for (const Statement &statement : tree.statementsOf(block))
         if (const auto *oWord = std::get_if<OWord>(&statement.node))
           add(*oWord, block, tree.idOf(statement));
@@ -38,6 +41,8 @@ private:
   void pair(OWordId id, OWordUse &use) {
     switch (use.kind) {
     case OWordKind::Sub:
+      if (!sub_)
+        openAround_ = std::exchange(open_, {});
       open_.clear();
       sub_ = begin(id, use);
       return;
@@ -73,8 +78,9 @@ private:
     }
   }
 
+  /// A branch of the program may hold a subroutine: `o1 if`, `o<a> sub`, `o<a> endsub`, `o1 endif` (rs274 runs it).
   void leaveSubroutine() {
-    open_.clear();
+    open_ = std::exchange(openAround_, {});
     sub_.reset();
   }
 
@@ -110,7 +116,8 @@ private:
 
   const ResolveContext &context_;
   ProgramModel &model_;
-  std::map<std::string, ConstructId> open_; // of the subroutine, by label
+  std::map<std::string, ConstructId> open_;       // of the subroutine, by label
+  std::map<std::string, ConstructId> openAround_; // of the program around the subroutine
   std::optional<ConstructId> sub_;
 };
 
