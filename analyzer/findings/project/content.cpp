@@ -20,8 +20,8 @@ bool isStrange(char byte) {
 } // namespace
 
 std::optional<std::string_view> whyNotText(std::string_view bytes) {
-  if (bytes.empty())
-    return "the file is empty";
+  if (bytes.find_first_not_of(" \t\r\n") == bytes.npos)
+    return kEmptyFile;
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
     return "UTF-16 text, which no control reads; save it as ASCII or UTF-8";
   const std::string_view sample = bytes.substr(0, kSample);

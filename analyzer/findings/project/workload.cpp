@@ -234,7 +234,7 @@ public:
     if (!candidate.skipReason)
       candidate.skipReason = whySkipped(candidate, settings.choice);
     if (candidate.skipReason) {
-      const bool isOther = candidate.found.foundBy == FoundBy::Content;
+      const bool isOther = candidate.found.foundBy == FoundBy::Content || candidate.skipReason == kEmptyFile;
       result_.skipped.push_back(
           {candidate.found.shown, *candidate.skipReason, isOther ? SkipKind::NoProgram : SkipKind::Refused});
       return;
