@@ -56,7 +56,8 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   if (!isNamed(program) && !isWholeProgram(context, program))
     return;
   const auto last = openEnd(context, id);
-  if (!last || (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)) ||
+  if (!last || program.isEncrypted ||
+      (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)) ||
       isStructureBroken(context, id))
     return;
   const bool maySkip = (context.tree.blocks[*last].flags & (Block::kSkip | Block::kSkipInside)) != 0;

@@ -11,6 +11,8 @@ namespace feedhold {
 
 namespace {
 
+constexpr std::string_view kFolderLine = "&F="; // of a dump
+
 /// Offset of the first `%` that is the first sign on its line; npos when there is none.
 std::size_t firstTapeMark(std::string_view text, std::size_t from) {
   for (std::size_t at = text.find('%', from); at != std::string_view::npos; at = text.find('%', at + 1)) {
@@ -145,16 +147,33 @@ void Parser::readRawLine(std::uint32_t begin, int flags) {
 /// encrypted text of protected programs, `G10L60P1[*..*]` and `[*..*]`.
 bool Parser::readDumpLine() {
   const std::string_view line = text_.substr(token_.begin, lexer_.lineEnd(token_.begin) - token_.begin);
-  const bool isFolder = line.starts_with("&F=");
-  const bool isEncrypted =
-      line.starts_with("[*") || ((line.starts_with("G10L60") || line.starts_with("G10 L60")) && line.ends_with("*]"));
+  const bool isFolder = line.starts_with(kFolderLine);
+  const bool begins = (line.starts_with("G10L60") || line.starts_with("G10 L60")) && line.find("[*") != line.npos;
+  const bool isEncrypted = line.starts_with("[*") || begins || isEncryptedTextOpen_;
   if (!isFolder && (!isEncrypted || tape_ == Tape::Closed))
     return false;
+  isEncryptedTextOpen_ = !isFolder && !trimmed(line).ends_with("*]") && isEncryptedTextClosed(token_.begin);
   if (tape_ == Tape::Closed)
     tape_ = Tape::Open;
   readRawLine(token_.begin, isFolder ? Block::kLeader | Block::kFolder : Block::kBroken | Block::kEncrypted);
   contentSinceMark_ = true;
   token_ = lexer_.next();
+  return true;
+}
+
+/// The encrypted text that begins here may go on over further lines; it ends before the next program does.
+bool Parser::isEncryptedTextClosed(std::uint32_t from) const {
+  const std::size_t close = text_.find("*]", from);
+  if (close == text_.npos)
+    return false;
+  const std::string_view between = text_.substr(from, close - from);
+  for (std::size_t at = between.find('\n'); at != between.npos; at = between.find('\n', at + 1)) {
+    const std::string_view line = between.substr(at + 1);
+    const bool isHead = line.size() > 1 && toUpper(line[0]) == 'O' && isDigit(line[1]);
+    if (isHead || line.starts_with('%') || line.starts_with(kFolderLine) || line.starts_with("M99") ||
+        line.starts_with("G10"))
+      return false;
+  }
   return true;
 }
 
@@ -167,14 +186,15 @@ bool Parser::readDirective() {
   return true;
 }
 
-/// `M99O0810(NEXT)`: dumps run programs together where a line end is missing.
+/// `M99O0810(NEXT)`, `M30&F=/USER/`: dumps run programs together where a line end is missing.
 bool Parser::beginsNextProgram() const {
-  if (!at(TokenKind::Address) || token_.letter() != 'O' || grammar_.oWords ||
-      tree_.words.size() <= block_.firstWord.index())
+  const bool isFolder = token_.begin < text_.size() && text_.substr(token_.begin).starts_with(kFolderLine);
+  const bool isHead = at(TokenKind::Address) && token_.letter() == 'O';
+  if ((!isFolder && !isHead) || grammar_.oWords || tree_.words.size() <= block_.firstWord.index())
     return false;
   const Word &last = tree_.words[WordId(tree_.words.size() - 1)];
   const std::optional<std::uint32_t> code = last.address() == 'M' ? last.integer() : std::nullopt;
-  return (code == 99 || code == 30 || code == 2) && peek().kind == TokenKind::Number;
+  return (code == 99 || code == 30 || code == 2) && (isFolder || peek().kind == TokenKind::Number);
 }
 
 /// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened.  The

@@ -41,6 +41,7 @@ private:
   void readTapeMark();
   bool readDumpLine();
   bool readDirective();
+  bool isEncryptedTextClosed(std::uint32_t from) const;
   bool beginsNextProgram() const;
 
   // blocks.cpp
@@ -151,6 +152,7 @@ private:
   int operatorsInBlock_ = 0;
   int itemsInBlock_ = 0;
   enum class Tape { Unmarked, Open, Closed } tape_ = Tape::Unmarked;
+  bool isEncryptedTextOpen_ = false;
   bool contentSinceMark_ = false;
 };
 
