@@ -25,10 +25,13 @@ constexpr std::array kErosion = {
     LanguageHint{TextSignal::ErosionSwitch, 12},
     LanguageHint{TextSignal::ErosionValue, 4},
 };
+/// The name of a file is only a hint: FANUC programs are named so, too.  LAP, "lathe auto-programming", is called by
+/// `G85 NLAP1`, and its contour begins with `NLAP1 G81` (OSP programming manual).
 constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaVariable, 12},   LanguageHint{TextSignal::OkumaControl, 12},
     LanguageHint{TextSignal::OkumaWorkOffset, 12}, LanguageHint{TextSignal::OkumaLabel, 4},
-    LanguageHint{TextSignal::OkumaFile, 30},
+    LanguageHint{TextSignal::OkumaFile, 30},       LanguageHint{TextSignal::OkumaFileName, 8},
+    LanguageHint{TextSignal::OkumaLap, 12},
 };
 /// O-words alone are LinuxCNC's, which is read.
 constexpr std::array kPlanet = {

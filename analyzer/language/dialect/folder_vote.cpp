@@ -91,7 +91,11 @@ LanguageGuess FolderVote::decide(const LanguageGuess &own) const {
   for (std::size_t i = 0; i < scores.size(); ++i)
     scores[i] += std::max(others[i] - most, -kMostOfFolder);
   const Dialect *dialect = likeliestDialect(scores, *registry_);
-  if (dialect != own.dialect) {
+  // A control with o-words has no `GOTO`, and no lathe stands in a folder `mill`: what the programs beside it say does
+  // not hold for this one.
+  const bool becomesNgc = dialect->grammar.oWords && !own.dialect->grammar.oWords;
+  const bool becomesLathe = dialect->machine == MachineKind::Turning && own.dialect->machine != MachineKind::Turning;
+  if (dialect != own.dialect && !(becomesNgc && own.hasJumps) && !(becomesLathe && own.isNamedForMilling)) {
     guess.dialect = dialect;
     guess.basis = GuessBasis::Neighbours;
     guess.reasons = {"the other programs of the folder"};

@@ -118,6 +118,7 @@ private:
   void countLatheMarks();
   void countGCodeSystem();
   bool hasAnyCode(std::size_t first, std::size_t last) const;
+  bool hasLapCode() const;
   bool isBareIf() const;
   bool isSimulatorCall() const;
   void countCombinations();

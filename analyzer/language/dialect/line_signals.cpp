@@ -179,6 +179,16 @@ bool LineScanner::scanPair(std::string_view run) {
   return true;
 }
 
+/// `G85 NLAP1`, `NLAP1 G81`.
+bool LineScanner::hasLapCode() const {
+  if (hasAnyCode(81, 88))
+    return true;
+  const std::string_view behind =
+      trimmed(rest().substr(std::min(rest().find_first_not_of("0123456789"), rest().size())));
+  return behind.size() >= 3 && beginsUpper(behind, "G8") && behind[2] >= '1' && behind[2] <= '8' &&
+         (behind.size() == 3 || !isDigit(behind[3]));
+}
+
 /// `run` is in front of at_, where blanks have been skipped; `isJoined`: a digit directly follows it.
 std::optional<TextSignal> LineScanner::pairSignal(std::string_view run, bool isFirst, bool isJoined) const {
   static constexpr std::string_view kTypes[] = {"REAL", "INT", "BOOL", "STRING", "CHAR", "AXIS", "FRAME"};
@@ -201,8 +211,12 @@ std::optional<TextSignal> LineScanner::pairSignal(std::string_view run, bool isF
   const bool isSystemVariable = run.size() >= 4 && toUpper(run[0]) == 'V' && peek() == '[';
   if (isSystemVariable || (equalsUpper(run, "VC") && isDigit(peek())))
     return TextSignal::OkumaVariable;
-  if (run.size() >= 2 && toUpper(run[0]) == 'N' && isFirst && isJoined)
-    return TextSignal::OkumaLabel;
+  if (run.size() >= 2 && toUpper(run[0]) == 'N' && isJoined && (isFirst || run.size() >= 3)) {
+    if (run.size() >= 3 && hasLapCode())
+      return TextSignal::OkumaLap;
+    if (isFirst)
+      return TextSignal::OkumaLabel;
+  }
   if (equalsUpper(run, "AR") && peek() == '[')
     return TextSignal::HuazhongFunction;
   if (isOneOf(run, kTextParameters) && isDigit(peek()))

@@ -104,6 +104,8 @@ LanguageGuess guessLanguage(std::string_view text, std::string_view path, const 
   if (scan.isMarkup || scan.isBinary)
     return guess;
   guess.hasCodes = hasCodes(scan);
+  guess.isNamedForMilling = scan.count(TextSignal::MillName) != 0 && scan.count(TextSignal::LatheName) == 0;
+  guess.hasJumps = scan.count(TextSignal::MacroControl) != 0 && scan.count(TextSignal::OWord) == 0;
   std::vector<int> scores = scoresOf(scan, registry);
   const int best = *std::max_element(scores.begin(), scores.end());
   const Best<ForeignLanguage> foreign = bestForeign(scan, registry);

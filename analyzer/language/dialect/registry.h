@@ -28,6 +28,8 @@ struct LanguageGuess {
   const Dialect *dialect = nullptr;         // best dialect; null when `foreign` is set or nothing was recognised
   const ForeignLanguage *foreign = nullptr; // a language that is refused
   bool looksLikeProgram = false;            // false: the text is no NC program at all
+  bool isNamedForMilling = false;           // by its file name or its folder
+  bool hasJumps = false;                    // `IF`, `GOTO`, `WHILE`, `DO` without o-words
   bool hasCodes = false;                    // holds what only NC programs hold, not just words such as `T1 X5`
   GuessBasis basis = GuessBasis::Nothing;   // Nothing: the text fits several controls alike
   std::vector<std::string_view> reasons;    // the signals that decided, strongest first

@@ -12,15 +12,19 @@ namespace {
 
 constexpr std::size_t kRemarkSample = std::size_t{256} * 1024;
 
-/// What stands behind the first `;` that is in no comment; empty: nothing.
-std::string_view behindSemicolon(std::string_view line) {
+struct Remark {
+  std::string_view text; // behind the first `;` that is in no comment; empty: nothing
+  bool isWholeLine = false;
+};
+
+Remark remarkOf(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == ';')
-      return trimmed(line.substr(i + 1));
+      return {trimmed(line.substr(i + 1)), trimmed(line.substr(0, i)).empty()};
     if (line[i] == '(')
       i += commentLength(line.substr(i)) - 1;
   }
-  return "";
+  return {};
 }
 
 } // namespace
@@ -36,16 +40,19 @@ bool isSimulatorDirective(std::string_view line) {
 }
 
 bool hasSemicolonRemarks(std::string_view text) {
-  TextScan behind;
+  TextScan behind; // code in front of the `;`, or prose
+  TextScan lines;  // nothing in front of it
   text = text.substr(0, kRemarkSample);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    if (const std::string_view rest = behindSemicolon(text.substr(0, end)); !rest.empty() && rest.front() != ';')
-      scanLine(rest, behind);
+    if (const Remark remark = remarkOf(text.substr(0, end)); !remark.text.empty() && remark.text.front() != ';')
+      scanLine(remark.text, remark.isWholeLine ? lines : behind);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
-  // Program text behind `;` is a block of its own, or one that was taken out.
-  return behind.otherLines > 0 && behind.otherLines * 2 >= behind.programLines;
+  // Program text behind `;` is a block of its own, or one that was taken out.  In a text with remarks, a line that
+  // begins with `;` was taken out: nobody begins a line by ending a block.
+  const std::uint32_t prose = behind.otherLines + lines.otherLines;
+  return prose > 0 && prose * 2 >= behind.programLines;
 }
 
 } // namespace feedhold

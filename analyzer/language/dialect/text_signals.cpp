@@ -20,8 +20,8 @@ struct NamedSignal {
 };
 
 constexpr NamedSignal kExtensions[] = {
-    {"mpf", TextSignal::SinumerikFile}, {"spf", TextSignal::SinumerikFile}, {"min", TextSignal::OkumaFile},
-    {"ssb", TextSignal::OkumaFile},     {"eia", TextSignal::EiaFile},       {"ngc", TextSignal::NgcFile},
+    {"mpf", TextSignal::SinumerikFile}, {"spf", TextSignal::SinumerikFile}, {"min", TextSignal::OkumaFileName},
+    {"ssb", TextSignal::OkumaFileName}, {"eia", TextSignal::EiaFile},       {"ngc", TextSignal::NgcFile},
 };
 
 /// Documents, source code, data, pictures, archives, and the tables and settings of controls and simulators.
