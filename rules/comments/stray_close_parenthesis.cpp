@@ -2,26 +2,39 @@
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
+#include "language/dialect/line_signals.h"
 
 #include <fmt/format.h>
 
 namespace feedhold::rules::stray_close_parenthesis {
 namespace {
 
-/// The `)` stands directly behind a comment: a slip of the finger, nothing else can be meant.
-bool followsComment(const FileContext &context, Span parenthesis) {
+/// The comment directly behind which the `)` stands: a slip of the finger, nothing else can be meant.
+const Comment *commentBefore(const FileContext &context, Span parenthesis) {
   for (const Comment &comment : context.tree.commentsOf(context.tree.blockAt(parenthesis.begin)))
     if (comment.span.end <= parenthesis.begin && trimmed(context.text({comment.span.end, parenthesis.begin})).empty())
-      return true;
-  return false;
+      return &comment;
+  return nullptr;
+}
+
+/// A block that was taken out by hand, `(M98P100))`: the line holds nothing else.
+bool isTakenOut(const FileContext &context, const Comment &comment) {
+  const BlockId block = context.tree.blockAt(comment.span.begin);
+  if (!context.tree.wordsOf(block).empty() || comment.span.size() < 3)
+    return false;
+  TextScan scan;
+  scanLine(context.text({comment.span.begin + 1, comment.span.end - 1}), scan);
+  return scan.programLines == 1 && (scan.codeLines == 1 || scan.count(TextSignal::MacroControl) != 0);
 }
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  const bool direct = followsComment(context, issue.span);
+  const Comment *comment = commentBefore(context, issue.span);
+  const bool direct = comment != nullptr;
   reporter.report({.message = "this `)` has no matching `(`",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
-                   .fixes = {{direct ? FixSafety::Safe : FixSafety::NeedsReview, "remove `)`", {{issue.span, ""}}}}});
+                   .fixes = {{direct ? FixSafety::Safe : FixSafety::NeedsReview, "remove `)`", {{issue.span, ""}}}}},
+                  direct && isTakenOut(context, *comment) ? Severity::Info : Severity::Error);
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::StrayCloseParenthesis};

@@ -128,8 +128,18 @@ private:
   std::vector<Comparison> comparisons_;
 };
 
+/// Of `o1 if`, `o1 elseif` and `o1 while`, too.
+std::optional<ExpressionId> anyConditionOf(const Statement &statement, const SyntaxTree &tree) {
+  const auto *oWord = std::get_if<OWord>(&statement.node);
+  if (!oWord)
+    return conditionOf(statement);
+  const bool asks = oWord->kind == OWordKind::If || oWord->kind == OWordKind::ElseIf || oWord->kind == OWordKind::While;
+  const auto arguments = tree.argumentsOf(*oWord);
+  return asks && !arguments.empty() ? std::optional(arguments.front()) : std::nullopt;
+}
+
 void check(const Statement &statement, BlockId, const FileContext &context, const Reporter &reporter) {
-  const auto condition = conditionOf(statement);
+  const auto condition = anyConditionOf(statement, context.tree);
   if (!condition)
     return;
   const Combination combination(context, *condition);

@@ -469,8 +469,11 @@ bool mayAssign(const FlowFacts &facts, const Assignment &assignment, std::uint32
   const ExpressionId target = unwrapped(tree, assignment.target);
   if (const auto number = variableNumber(tree, target))
     return *number == variable;
+  if (as<NamedVariable>(tree, target))
+    return variableOf(facts, target) == variable;
   const auto *indirect = as<IndirectVariable>(tree, target);
-  return indirect && (!isLocal(facts.file, variable) || mayNameLocal(tree, indirect->index));
+  return indirect && variable < kFirstNamedVariable &&
+         (!isLocal(facts.file, variable) || mayNameLocal(tree, indirect->index));
 }
 
 bool maySetAt(const FlowFacts &facts, NodeId node, std::uint32_t variable) {
@@ -506,8 +509,13 @@ void UnsetPaths::walk() {
   const std::size_t first = facts_.entry().index();
   const auto isWhile = [&](NodeId node) {
     const auto statements = facts_.file.tree->statementsOf(facts_.node(node).block);
+    if (std::holds_alternative<CountDown>(facts_.node(node).instruction)) // `o1 repeat`
+      return true;
     return std::holds_alternative<Test>(facts_.node(node).instruction) &&
-           std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+           std::ranges::any_of(statements, [](const Statement &s) {
+             const auto *oWord = std::get_if<OWord>(&s.node);
+             return std::holds_alternative<While>(s.node) || (oWord && oWord->kind == OWordKind::While);
+           });
   };
   // Whether a node is left on all its paths: a WHILE that was not come to from inside leads into its body only.
   std::vector<bool> leftFully(reached_.size());

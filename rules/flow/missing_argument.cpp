@@ -2,6 +2,7 @@
 #include "rules/flow/flow_view.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <set>
 
@@ -38,7 +39,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (call.kind != CallKind::Macro || !callee || callee->file != vacant.read.file || callee->program != reader ||
         passed || !isRelied(facts, vacant) || !done.insert({vacant.call.index(), vacant.variable}).second)
       continue;
-    const std::string name = toString(file.model->programs[reader].name);
+    const ProgramName &named = file.model->programs[reader].name;
+    const std::string name =
+        named.empty() ? std::filesystem::path(file.source->path()).filename().generic_string() : toString(named);
     reporter.report(
         {.message =
              fmt::format("{} computes with `#{}` ({}), but this call does not pass it", name, vacant.variable, *letter),

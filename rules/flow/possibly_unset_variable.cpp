@@ -9,6 +9,8 @@ namespace {
 
 /// Nothing but the program itself can have set the variable before: it is a main program, or no letter passes it.
 bool startsVacant(const FlowFacts &facts, bool isMain, std::uint32_t variable) {
+  if (facts.programs.isLocalName(variable))
+    return isMain || !isCalledAsSubprogram(facts);
   if (variable == kVacantVariable || !isLocal(facts.file, variable))
     return false;
   return isMain || (!letterOfArgument(*facts.file.dialect, variable) && !isCalledAsSubprogram(facts));
@@ -37,9 +39,26 @@ bool passesCases(const FlowFacts &facts, const UnsetPaths &paths, std::span<cons
   });
 }
 
-void checkRead(const Read &read, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+/// `EXISTS[#<depth>]`
+bool isAskedFor(const FlowFacts &facts, std::uint32_t variable) {
+  const SyntaxTree &tree = *facts.file.tree;
+  for (std::size_t i = 0; i < tree.expressions.size(); ++i)
+    if (const auto *call = as<FunctionCall>(tree, ExpressionId(i));
+        call && call->function == FunctionKind::Exists && !call->arguments().empty() &&
+        variableOf(facts, unwrapped(tree, call->arguments().front())) == variable)
+      return true;
+  return false;
+}
+
+/// By its number, or a name.
+std::optional<std::uint32_t> readVariable(const FlowFacts &facts, const Read &read) {
+  return read.number ? read.number : variableOf(facts, read.expression);
+}
+
+void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts, const FileContext &context,
+               const Reporter &reporter) {
   const auto node = nodeOf(facts, read.block, read.expression);
-  const UnsetPaths paths(facts, *read.number);
+  const UnsetPaths paths(facts, variable);
   const auto setting = firstSetting(facts, paths);
   if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
     return;
@@ -52,7 +71,9 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
        .span = span,
        .labels = {{*setting, "set here"}},
        .flow = describePathPast(facts, *path, [&](NodeId each) { return paths.sets(each); }),
-       .notes = {"without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
+       .notes = {facts.programs.isLocalName(variable)
+                     ? "the interpreter stops with an error when it reads a named parameter that was never set"
+                     : "without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
                  "set it before the conditions, or close the gap between them"}},
       passesCases(facts, paths, *path) ? Severity::Info : Severity::Warning);
 }
@@ -60,19 +81,22 @@ void checkRead(const Read &read, const FlowFacts &facts, const FileContext &cont
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const bool isMain = isMainProgram(facts);
   const bool returns = facts.file.model->programs[facts.program].returns;
-  if ((!isMain && !returns) || isTooLarge(facts))
+  const bool hasNames = context.dialect.grammar.namedParameters;
+  if ((!isMain && !returns && !hasNames) || isTooLarge(facts))
     return;
   std::vector<std::uint32_t> done;
   for (const Read &read : readsOf(facts)) {
-    if (!read.number || read.use == ReadUse::Equality || std::ranges::find(done, *read.number) != done.end() ||
-        !startsVacant(facts, isMain, *read.number))
+    const auto variable = readVariable(facts, read);
+    if (!variable || read.use == ReadUse::Equality || std::ranges::find(done, *variable) != done.end() ||
+        !startsVacant(facts, isMain, *variable))
       continue;
+    const bool isName = facts.programs.isLocalName(*variable);
     const AbstractValue *value = facts.valueOf(read.expression);
-    if (!value || !value->mayBeVacant() || !maySet(facts, *read.number))
+    if (!value || (!isName && (!value->mayBeVacant() || !maySet(facts, *variable))))
       continue;
-    done.push_back(*read.number);
-    if (!isTestedForVacancy(facts.file, facts.program, *read.number))
-      checkRead(read, facts, context, reporter);
+    done.push_back(*variable);
+    if (isName ? !isAskedFor(facts, *variable) : !isTestedForVacancy(facts.file, facts.program, *variable))
+      checkRead(read, *variable, facts, context, reporter);
   }
 }
 

@@ -8,9 +8,9 @@
 namespace feedhold::rules::vacant_passes_guard {
 namespace {
 
-/// `#18EQ0` or `0EQ#18`: the variable.
+/// `#18EQ0` or `0EQ#18`, `#18NE0`: the variable.
 std::optional<ExpressionId> comparedWithZero(const SyntaxTree &tree, const BinaryOperation &relation) {
-  if (relation.op != OperatorKind::Equal)
+  if (relation.op != OperatorKind::Equal && relation.op != OperatorKind::NotEqual)
     return std::nullopt;
   for (const auto &[variable, zero] :
        {std::pair{relation.left, relation.right}, std::pair{relation.right, relation.left}})
@@ -69,24 +69,27 @@ struct Guard {
 };
 
 /// The comparison lets the variable pass that it is to stop.
-std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &context, BlockId block,
-                                  ExpressionId part) {
+std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &context, NodeId test, ExpressionId part) {
+  const BlockId block = facts.node(test).block;
   const auto *relation = as<BinaryOperation>(context.tree, part);
   const auto variable = relation ? comparedWithZero(context.tree, *relation) : std::nullopt;
   const AbstractValue *value = variable ? facts.valueOf(*variable) : nullptr;
   const auto number = variable ? variableNumber(context.tree, *variable) : std::nullopt;
   if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
     return std::nullopt;
+  if (relation->op == OperatorKind::NotEqual && alarmWhenTrue(facts, test) != false)
+    return std::nullopt;
   const Span span = context.tree.expressions[part].span;
   if (!isLocal(facts.file, *number))
-    return leadsToAlarm(facts, block) && isSetByOperator(facts, context, *number, block)
+    return (relation->op == OperatorKind::NotEqual || leadsToAlarm(facts, block)) &&
+                   isSetByOperator(facts, context, *number, block)
                ? std::optional(Guard{span, *number, GuardKind::Operator})
                : std::nullopt;
   if (isMainProgram(facts) || mayHoldCallersValue(facts, *number))
     return std::nullopt;
-  if (givesDefault(facts, block, *number))
+  if (relation->op == OperatorKind::Equal && givesDefault(facts, block, *number))
     return Guard{span, *number, GuardKind::Default};
-  return leadsToAlarm(facts, block) && argumentBehind(facts, *number)
+  return (relation->op == OperatorKind::NotEqual || leadsToAlarm(facts, block)) && argumentBehind(facts, *number)
              ? std::optional(Guard{span, *number, GuardKind::Alarm})
              : std::nullopt;
 }
@@ -129,7 +132,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (!test || !test->condition || !facts.isReached(node))
       continue;
     for (const ExpressionId part : subexpressions(context.tree, *test->condition))
-      if (const auto guard = passingGuard(facts, context, facts.node(node).block, part))
+      if (const auto guard = passingGuard(facts, context, node, part))
         guards[guard->kind].push_back(*guard);
   }
   for (const auto &[kind, found] : guards)

@@ -1,5 +1,6 @@
 // approach-before-length-offset: a Z behind M06 and before G43.
 #include "rules/flow/loop_view.h"
+#include "rules/motion/folder_programs.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,45 @@ namespace {
 
 constexpr std::initializer_list<CodeAction> kOffsets = {CodeAction::LengthPlus, CodeAction::LengthMinus,
                                                         CodeAction::Unmodelled};
+
+/// Behind how many tool changes of a folder the first block with a Z is the one with G43, and behind how many not.
+struct Approaches {
+  int withOffset = 0;
+  int before = 0;
+};
+
+void count(const ProgramFile &file, const FileContext &context, Approaches &approaches) {
+  const FileContext here = contextOf(file, context);
+  bool isNew = false; // the tool
+  for (std::size_t i = 0; i < file.tree->blockCount(); ++i) {
+    const BlockId block(i);
+    const auto has = [&](std::initializer_list<CodeAction> actions) {
+      return findAction(*file.tree, block, *file.dialect, actions) != nullptr;
+    };
+    const auto words = here.tree.wordsOf(block);
+    const bool changes = has({CodeAction::ToolChange});
+    isNew = isNew || changes;
+    if (!isNew)
+      continue;
+    if (has(kOffsets)) {
+      approaches.withOffset += 1;
+      isNew = false;
+    } else if (!changes && !has({CodeAction::MachineMove, CodeAction::Incremental, CodeAction::ReferenceReturn}) &&
+               std::ranges::any_of(words, [](const Word &word) { return word.address() == 'Z'; })) {
+      approaches.before += 1;
+      isNew = false;
+    }
+  }
+}
+
+/// What a shop does in all its programs is no slip: its tools are long enough for it, or set some other way.
+bool isHabit(const FileContext &context) {
+  constexpr int kHabit = 3;
+  Approaches approaches;
+  for (const FileId file : filesOfFolder(context))
+    count(context.programs->file(file), context, approaches);
+  return approaches.before >= kHabit && approaches.withOffset == 0;
+}
 
 class ApproachBeforeLengthOffset final : public FlowRule {
 public:
@@ -101,7 +141,8 @@ private:
          .labels = {{view_.findAction(change, {CodeAction::ToolChange})->span(), "tool change"}},
          .flow = describePath(facts, *findPath(facts, change, *node, isOver)),
          .notes = {"the length offset is that of the previous tool, or none: the new tool may hit the part",
-                   "write G43 and H in the first block that moves Z"}});
+                   "write G43 and H in the first block that moves Z"}},
+        isHabit(context) ? Severity::Info : Severity::Warning);
   }
 
   MotionView view_;

@@ -1,4 +1,5 @@
-// mode-changed-by-call: a called program returns with another F, G94, G95, G20 or G21 than it was called with.
+// mode-changed-by-call: a called program returns with another F, G94, G95, G20 or G21 than it was called with, or
+// without the length offset, the cutter compensation or the rotation of its caller.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,9 @@ constexpr std::initializer_list<CodeAction> kFeeding = {CodeAction::Linear, Code
 struct InForce {
   CodeSet feedMode;
   CodeSet units;
+  CodeSet length;
+  CodeSet compensation;
+  CodeSet rotation;
   std::optional<double> feed; // one number in all states
 };
 
@@ -25,7 +29,8 @@ InForce inForceIn(const MotionView &view, const AbstractState &state) {
   const auto codes = [&](ModalKind kind) { return view.inForce(state, kind).value_or(CodeSet::atEntry()); };
   const AbstractValue &feed = state.word('F');
   return {codes(ModalKind::FeedMode), codes(ModalKind::Units),
-          feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
+          codes(ModalKind::Length),   codes(ModalKind::Compensation),
+          codes(ModalKind::Rotation), feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
 }
 
 void joinInto(std::map<NodeId, InForce> &places, NodeId node, const InForce &found) {
@@ -34,7 +39,8 @@ void joinInto(std::map<NodeId, InForce> &places, NodeId node, const InForce &fou
     return;
   InForce &old = known->second;
   old = {join(old.feedMode, found.feedMode), join(old.units, found.units),
-         old.feed == found.feed ? old.feed : std::nullopt};
+         join(old.length, found.length),     join(old.compensation, found.compensation),
+         join(old.rotation, found.rotation), old.feed == found.feed ? old.feed : std::nullopt};
 }
 
 class ModeChangedByCall final : public FlowRule {
@@ -61,6 +67,9 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     std::ranges::sort(moves_);
     std::ranges::sort(feeds_);
+    std::ranges::sort(numberedFeeds_);
+    std::ranges::sort(cuts_);
+    std::ranges::sort(inLength_);
     for (const auto &entry : after_) {
       const NodeId call = entry.first;
       const InForce &later = entry.second;
@@ -72,7 +81,17 @@ public:
               [&](NodeId node) { return view_.sets(node, kind); }, facts, context, reporter);
       };
       code(ModalKind::Units, earlier.units, later.units, moves_);
-      code(ModalKind::FeedMode, earlier.feedMode, later.feedMode, feeds_);
+      code(ModalKind::FeedMode, earlier.feedMode, later.feedMode, feedsOf(later.feedMode));
+      const auto cancelled = [&](ModalKind kind, CodeSet was, CodeSet is, std::initializer_list<CodeAction> off,
+                                 const std::vector<NodeId> &uses) {
+        const CodeMask mask = view_.modes().groupOf(kind) ? view_.modes().maskOf(kind, off) : 0;
+        if ((is.codes() & mask) != 0 && (was.codes() & mask) == 0)
+          code(kind, was, is, uses);
+      };
+      cancelled(ModalKind::Length, earlier.length, later.length, {CodeAction::LengthOff}, inLength_);
+      cancelled(ModalKind::Compensation, earlier.compensation, later.compensation, {CodeAction::CompensationOff},
+                cuts_);
+      cancelled(ModalKind::Rotation, earlier.rotation, later.rotation, {CodeAction::RotationOff}, cuts_);
       if (earlier.feed && later.feed && earlier.feed != later.feed)
         tellFeed(call, *earlier.feed, *later.feed, facts, context, reporter);
     }
@@ -84,8 +103,31 @@ private:
     const auto index = static_cast<std::size_t>(std::countr_zero(only.codes()));
     return fmt::format("G{}", codes[index]->tenths / 10);
   }
+  /// A block with an F of its own counts where the number fits the other mode only: 5 mm per revolution is too much for
+  /// any tool, and 1 mm per minute too little.
+  std::vector<NodeId> feedsOf(CodeSet mode) const {
+    constexpr double kMostPerRevolution = 5;
+    constexpr double kLeastPerMinute = 1;
+    const auto group = view_.modes().groupOf(ModalKind::FeedMode);
+    const bool perRevolution =
+        group && (mode.codes() & view_.modes().maskOf(ModalKind::FeedMode, {CodeAction::FeedPerRevolution})) != 0;
+    std::vector<NodeId> nodes = feeds_;
+    for (const auto &[node, feed] : numberedFeeds_)
+      if (perRevolution ? feed > kMostPerRevolution : feed > 0 && feed < kLeastPerMinute)
+        nodes.push_back(node);
+    std::ranges::sort(nodes);
+    return nodes;
+  }
   void noteMove(NodeId node, const AbstractState &state) {
     moves_.push_back(node);
+    if (view_.mayHave(node, 'Z'))
+      inLength_.push_back(node);
+    if ((view_.mayHave(node, 'X') || view_.mayHave(node, 'Y')) && view_.surely(state, ModalKind::Motion, kFeeding))
+      cuts_.push_back(node);
+    if (const AbstractValue &feed = state.word('F');
+        view_.mayHave(node, 'F') && view_.surely(state, ModalKind::Motion, kFeeding) && feed.isNumber())
+      if (const auto number = feed.number().constantValue())
+        numberedFeeds_.emplace_back(node, *number);
     if (!view_.mayHave(node, 'F') && view_.surely(state, ModalKind::Motion, kFeeding) &&
         !view_.mayBe(state, ModalKind::Cycle, {CodeAction::OtherCycle}))
       feeds_.push_back(node);
@@ -119,6 +161,9 @@ private:
   std::map<NodeId, InForce> after_;
   std::vector<NodeId> moves_;
   std::vector<NodeId> feeds_; // without F
+  std::vector<std::pair<NodeId, double>> numberedFeeds_;
+  std::vector<NodeId> cuts_;     // by feed in X or Y
+  std::vector<NodeId> inLength_; // with a Z
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -129,8 +174,8 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 
 extern const Rule modeChangedByCall;
 const Rule modeChangedByCall{.info = {"mode-changed-by-call", Category::Motion, Severity::Warning,
-                                      "Reports a move with the feed rate, the feed mode or the units that a called "
-                                      "program has left instead of those of its caller."},
+                                      "Reports a move with the feed rate or a mode that a called program has left "
+                                      "instead of those of its caller."},
                              .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::mode_changed_by_call

@@ -1,4 +1,4 @@
-// mode-saved-too-late: `G91`, then `#3=#4003`, and `G#3` at the end.
+// mode-saved-too-late: `G91`, then `#3=#4003`, and `G#3` at the end; or `G#4003` there.
 #include "rules/motion/saved_mode.h"
 
 #include <fmt/format.h>
@@ -30,6 +30,10 @@ public:
       if (change && isOnlySaving(savings_[i]))
         tell(savings_[i], *saving, *change, facts, context, reporter);
     }
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+      if (const auto live = facts.isReached(node) ? liveMode(node) : std::nullopt)
+        if (const auto change = changeBefore(node, live->second, facts))
+          tellLive(*live->first, *change, context, reporter);
   }
 
 private:
@@ -42,6 +46,24 @@ private:
         return node;
     }
     return std::nullopt;
+  }
+  /// `G#4003`, with the group.
+  std::optional<std::pair<const Word *, std::uint8_t>> liveMode(NodeId node) const {
+    const FileContext &context = view_.context();
+    for (const Word *word : view_.wordsOf(node))
+      if (word->address() == 'G' && word->form() == WordForm::Expression)
+        if (const auto group = groupReadBy(word->expression(), context))
+          return std::pair{word, *group};
+    return std::nullopt;
+  }
+  void tellLive(const Word &word, NodeId change, const FileContext &context, const Reporter &reporter) const {
+    reporter.report(
+        {.message =
+             fmt::format("{} programs the mode that is in force: it restores nothing", context.quoted(word.span())),
+         .span = word.span(),
+         .labels = {{view_.blockSpan(change), "set here"}},
+         .notes = {"the variable is read when the block is executed, not at the head of the program",
+                   "save the mode in a variable at the head of the program, before the first block that sets it"}});
   }
   /// A second saving restores a mode of the program itself.
   bool isOnlySaving(const Saving &saving) const {
@@ -85,7 +107,7 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 extern const Rule modeSavedTooLate;
 const Rule modeSavedTooLate{.info = {"mode-saved-too-late", Category::Motion, Severity::Warning,
                                      "Reports a called program that saves a mode of its caller after it has set the "
-                                     "mode itself."},
+                                     "mode itself, or reads it only where it restores it."},
                             .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::mode_saved_too_late

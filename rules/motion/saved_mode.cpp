@@ -6,15 +6,6 @@
 namespace feedhold::rules {
 namespace {
 
-std::optional<std::uint8_t> groupReadBy(ExpressionId value, const FileContext &context) {
-  const auto number = variableNumber(context.tree, unwrapped(context.tree, value));
-  const VariableRange *range = number ? findVariable(context.dialect, *number) : nullptr;
-  if (!range || range->role != VariableRole::ModalCode)
-    return std::nullopt;
-  const std::uint32_t group = *number - range->first + 1;
-  return group < kModalGroups ? std::optional(static_cast<std::uint8_t>(group)) : std::nullopt;
-}
-
 bool isRestored(std::uint32_t variable, const Program &program, const FileContext &context) {
   for (BlockId block = program.first; block < program.last; block = block.next())
     for (const Word &word : context.tree.wordsOf(block))
@@ -25,6 +16,15 @@ bool isRestored(std::uint32_t variable, const Program &program, const FileContex
 }
 
 } // namespace
+
+std::optional<std::uint8_t> groupReadBy(ExpressionId value, const FileContext &context) {
+  const auto number = variableNumber(context.tree, unwrapped(context.tree, value));
+  const VariableRange *range = number ? findVariable(context.dialect, *number) : nullptr;
+  if (!range || range->role != VariableRole::ModalCode)
+    return std::nullopt;
+  const std::uint32_t group = *number - range->first + 1;
+  return group < kModalGroups ? std::optional(static_cast<std::uint8_t>(group)) : std::nullopt;
+}
 
 std::vector<Saving> savingsOf(ProgramId id, const FileContext &context) {
   std::vector<Saving> savings;

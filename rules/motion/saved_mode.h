@@ -15,6 +15,9 @@ struct Saving {
   Span place;
 };
 
+/// The modal group whose code the expression reads, `#4003`.
+std::optional<std::uint8_t> groupReadBy(ExpressionId value, const FileContext &context);
+
 std::vector<Saving> savingsOf(ProgramId program, const FileContext &context);
 
 /// The node executes a G code of the group that is written as a number.

@@ -1,5 +1,5 @@
-// undefined-named-parameter: `#<dept>` is read, and only `#<depth>` is set.
-#include "rules/expressions/expression_view.h"
+// undefined-named-parameter: `#<dept>` is read, and only `#<depth>` is set, or set later.
+#include "rules/flow/flow_view.h"
 
 #include "base/support/text.h"
 
@@ -62,6 +62,14 @@ std::set<std::string> namesSetIn(ProgramId program, const FileContext &context) 
   return names;
 }
 
+/// Another program of the file sets a parameter of the name, which is not this one.
+bool isSetElsewhere(const FlowFacts &facts, const FileContext &context, const std::string &name) {
+  for (std::size_t i = 0; i < context.model.programs.size(); ++i)
+    if (ProgramId(i) != facts.program && namesSetIn(ProgramId(i), context).contains(name))
+      return true;
+  return false;
+}
+
 /// Asked for by `EXISTS`: the program knows that it may not be there.
 bool isAskedFor(const FileContext &context, std::string_view name) {
   for (std::size_t i = 0; i < context.tree.expressions.size(); ++i) {
@@ -75,10 +83,39 @@ bool isAskedFor(const FileContext &context, std::string_view name) {
   return false;
 }
 
+/// M02 or M30: the text is no piece of a program.
+bool comesToEnd(const FlowFacts &facts) {
+  return std::ranges::any_of(facts.exits(), [&](const ExitFact &exit) {
+    return std::holds_alternative<EndProgram>(facts.node(exit.node).instruction);
+  });
+}
+
+/// Names that no program sets may be given by the control or a remap (the prologue of a remapped code sets parameters
+/// of the subroutine), unless the text shows who starts the program: an `o.. call` in the checked files, or, where no
+/// subroutine is begun, the operator.
+bool isStartKnown(const FlowFacts &facts, const FileContext &context) {
+  const Program &program = context.model.programs[facts.program];
+  if (program.name.isSubroutine)
+    return context.callGraph.isCalled({context.file, facts.program});
+  return !program.returns && comesToEnd(facts);
+}
+
+/// Where the parameter is read and surely not set yet.  A global name keeps what the run before has left, so it counts
+/// only where nothing else may have set it.
+bool isReadBeforeSet(const FlowFacts &facts, const VariableUse &use, std::uint32_t variable) {
+  const auto node = nodeOf(facts, use.block, use.expression);
+  if (!node || isTooLarge(facts))
+    return false;
+  const UnsetPaths unset(facts, variable);
+  return unset.reach(*node) && unset.isFirstUse(*node);
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.grammar.namedParameters)
     return;
   const std::set<std::string> known = namesSetIn(facts.program, context);
+  const bool isStarted = isStartKnown(facts, context);
+  const auto calls = context.model.callsOf(facts.program);
   std::set<std::string> done;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {
     const auto *named = as<NamedVariable>(context.tree, use.expression);
@@ -87,16 +124,28 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const std::string name = canonical(context.text(named->name));
     // A global name may be set by the control, its screen, a remap or another program.
-    if (name.starts_with('_') || known.contains(name) || !done.insert(name).second || isAskedFor(context, name))
+    const bool isGlobal = name.starts_with('_');
+    if (done.contains(name) || isAskedFor(context, name) || (isGlobal && !known.contains(name)))
       continue;
+    const auto variable = variableOf(facts, use.expression);
+    const bool isEarly = known.contains(name) && variable && isStarted && (!isGlobal || calls.empty()) &&
+                         isReadBeforeSet(facts, use, *variable);
     const auto meant = std::ranges::find_if(known, [&](const std::string &each) { return isAlike(name, each); });
-    if (meant == known.end())
+    const bool isMeant = !known.contains(name) && meant != known.end();
+    const bool isNeverSet = !known.contains(name) && isStarted;
+    if ((!isEarly && !isMeant && !isNeverSet) || !done.insert(name).second)
       continue;
     const Span span = context.tree.expressions[use.expression].span;
-    reporter.report({.message = fmt::format("{} is read, but nothing sets it", context.quoted(span)),
-                     .span = span,
-                     .notes = {"the interpreter stops with an error when it reads a named parameter that was never set",
-                               fmt::format("`#<{}>` is set: correct the name", toLower(*meant))}});
+    Diagnostic diagnostic{
+        .message = fmt::format("{} is read, but {}", context.quoted(span),
+                               isEarly ? "set only behind this block" : "nothing sets it"),
+        .span = span,
+        .notes = {"the interpreter stops with an error when it reads a named parameter that was never set"}};
+    if (isMeant)
+      diagnostic.notes.push_back(fmt::format("`#<{}>` is set: correct the name", toLower(*meant)));
+    else if (isNeverSet && isSetElsewhere(facts, context, name))
+      diagnostic.notes.emplace_back("a name without `_` in front is known only in the subroutine that sets it");
+    reporter.report(std::move(diagnostic));
   }
 }
 
@@ -105,7 +154,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule undefinedNamedParameter;
 const Rule undefinedNamedParameter{
     .info = {"undefined-named-parameter", Category::Variable, Severity::Warning,
-             "Reports a local named parameter that is read but never set, while one of nearly the same name is."},
+             "Reports a named parameter that is read but never set, or set only behind the block that reads it."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::undefined_named_parameter

@@ -147,9 +147,11 @@ public:
 
   void finish(bool complete) {
     facts_.complete_ = complete;
-    // Read as a vacant variable in one state, and as a number in another: that is not always.
+    // Read as a vacant variable in one state of a call, and as a number in another, or in one of which nothing is
+    // known: that is not always.
     std::erase_if(facts_.vacantReads_, [&](const VacantReadInCall &read) {
-      return readAsNumber_.contains({read.read.file.index(), read.expression.index()});
+      return readAsNumber_.contains(readIn(read.call, read.read, read.expression)) ||
+             readAsNumber_.contains(readIn(facts_.entry(), read.read, read.expression));
     });
     const auto byPlace = [](const auto &a, const auto &b) { return a.place < b.place; };
     std::stable_sort(facts_.alarms_.begin(), facts_.alarms_.end(), byPlace);
@@ -164,12 +166,16 @@ private:
     return place.file == facts_.file.file && place.node.index() >= facts_.first_ &&
            place.node.index() - facts_.first_ < facts_.reached_.size();
   }
+  using ReadInCall = std::tuple<std::size_t, std::size_t, std::size_t>;
+  static ReadInCall readIn(NodeId call, Place place, ExpressionId expression) {
+    return {call.index(), place.file.index(), expression.index()};
+  }
   void noteVacantRead(ExpressionId expression, const AbstractValue &value) {
     const ProgramFile &file = facts_.programs.file(place_.file);
     const auto variable = variableNumber(*file.tree, expression);
     if (!variable || *variable == 0 || *variable > kLocalVariables)
       return;
-    const std::pair key{place_.file.index(), expression.index()};
+    const ReadInCall key = readIn(*outer_, place_, expression);
     if (!value.isVacant()) {
       readAsNumber_.insert(key);
       return;
@@ -189,8 +195,8 @@ private:
   std::set<std::pair<NodeId, std::string_view>> unmodelledAt_;
   std::map<NodeId, std::size_t> exitAt_;
   std::map<NodeId, std::size_t> callAt_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> readAsVacant_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> readAsNumber_;
+  std::set<ReadInCall> readAsVacant_;
+  std::set<ReadInCall> readAsNumber_;
 };
 
 // A called program with as many computed jumps is costly, but bounded by the budget.
