@@ -1,6 +1,8 @@
 // possibly-unset-variable: `#31` is set under conditions, and used where none of them need hold.
 #include "rules/flow/consistent_path.h"
 
+#include "base/support/text.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -55,6 +57,40 @@ std::optional<std::uint32_t> readVariable(const FlowFacts &facts, const Read &re
   return read.number ? read.number : variableOf(facts, read.expression);
 }
 
+/// `(ABORT, ..)` ends the program.
+bool abortsBetween(const FlowFacts &facts, BlockId from, BlockId to) {
+  const auto isAbort = [&](const Comment &comment) {
+    const std::string_view text = trimmed(facts.file.source->text(comment.span).substr(1));
+    return toUpper(text.substr(0, 5)) == "ABORT";
+  };
+  for (BlockId block = from; block < to; block = block.next())
+    if (std::ranges::any_of(facts.file.tree->commentsOf(block), isAbort))
+      return true;
+  return false;
+}
+
+/// The last decision of the path passes over the setting, and no loop makes it.  Decisions behind it may ask for what
+/// the first one has asked for, which the analysis does not see in names.
+bool isPlainlyPassed(const FlowFacts &facts, const UnsetPaths &paths, std::span<const NodeId> path) {
+  for (std::size_t i = path.size(); i-- > 0;) {
+    if (std::holds_alternative<CountDown>(facts.node(path[i]).instruction))
+      return false;
+    const auto *test = std::get_if<Test>(&facts.node(path[i]).instruction);
+    if (!test)
+      continue;
+    const NodeId taken = i + 1 < path.size() ? path[i + 1] : path[i];
+    const NodeId other = taken == test->taken ? facts.node(path[i]).next : test->taken;
+    for (NodeId node = other; node != path.back(); node = facts.node(node).next) {
+      if (paths.sets(node))
+        return node > path[i] && !abortsBetween(facts, facts.node(path[i]).block, facts.node(path.back()).block);
+      if (node == facts.node(node).next || std::holds_alternative<Test>(facts.node(node).instruction))
+        return false;
+    }
+    return false;
+  }
+  return false;
+}
+
 void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts, const FileContext &context,
                const Reporter &reporter) {
   const auto node = nodeOf(facts, read.block, read.expression);
@@ -63,7 +99,7 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
   if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
     return;
   const auto path = findConsistentPath(facts, *node, [&](NodeId each) { return paths.sets(each); });
-  if (!path)
+  if (!path || (facts.programs.isLocalName(variable) && !isPlainlyPassed(facts, paths, *path)))
     return;
   const Span span = context.tree.expressions[read.expression].span;
   reporter.report(

@@ -86,7 +86,8 @@ bool isAskedFor(const FileContext &context, std::string_view name) {
 /// M02 or M30: the text is no piece of a program.
 bool comesToEnd(const FlowFacts &facts) {
   return std::ranges::any_of(facts.exits(), [&](const ExitFact &exit) {
-    return std::holds_alternative<EndProgram>(facts.node(exit.node).instruction);
+    const auto *end = std::get_if<EndProgram>(&facts.node(exit.node).instruction);
+    return end && end->end != ProgramEnd::EndOfFile;
   });
 }
 
@@ -97,7 +98,8 @@ bool isStartKnown(const FlowFacts &facts, const FileContext &context) {
   const Program &program = context.model.programs[facts.program];
   if (program.name.isSubroutine)
     return context.callGraph.isCalled({context.file, facts.program});
-  return !program.returns && comesToEnd(facts);
+  const auto isOuter = [](const Program &each) { return !each.name.isSubroutine; };
+  return !program.returns && comesToEnd(facts) && std::ranges::count_if(context.model.programs, isOuter) == 1;
 }
 
 /// Where the parameter is read and surely not set yet.  A global name keeps what the run before has left, so it counts
@@ -115,7 +117,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     return;
   const std::set<std::string> known = namesSetIn(facts.program, context);
   const bool isStarted = isStartKnown(facts, context);
-  const auto calls = context.model.callsOf(facts.program);
+  // Nothing else in the run sets global names for it.
+  const bool isAlone =
+      context.model.callsOf(facts.program).empty() && !context.model.programs[facts.program].name.isSubroutine;
   std::set<std::string> done;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {
     const auto *named = as<NamedVariable>(context.tree, use.expression);
@@ -128,11 +132,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     if (done.contains(name) || isAskedFor(context, name) || (isGlobal && !known.contains(name)))
       continue;
     const auto variable = variableOf(facts, use.expression);
-    const bool isEarly = known.contains(name) && variable && isStarted && (!isGlobal || calls.empty()) &&
+    const bool isEarly = known.contains(name) && variable && isStarted && (!isGlobal || isAlone) &&
                          isReadBeforeSet(facts, use, *variable);
     const auto meant = std::ranges::find_if(known, [&](const std::string &each) { return isAlike(name, each); });
     const bool isMeant = !known.contains(name) && meant != known.end();
-    const bool isNeverSet = !known.contains(name) && isStarted;
+    const bool isNeverSet = !known.contains(name) && isStarted && nodeOf(facts, use.block, use.expression);
     if ((!isEarly && !isMeant && !isNeverSet) || !done.insert(name).second)
       continue;
     const Span span = context.tree.expressions[use.expression].span;
