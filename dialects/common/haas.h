@@ -47,7 +47,7 @@ inline constexpr auto kHaasHints =
            std::array{
                LanguageHint{TextSignal::HaasComment, 8}, LanguageHint{TextSignal::HaasName, 4},
                LanguageHint{TextSignal::HaasLocalCall, 6}, LanguageHint{TextSignal::HaasCode, 6},
-               LanguageHint{TextSignal::HaasSetting, 8}, LanguageHint{TextSignal::HaasTimer, 9},
+               LanguageHint{TextSignal::HaasSetting, 8}, LanguageHint{TextSignal::HaasTimer, 12},
                LanguageHint{TextSignal::HaasConditionalReturn, 12}, LanguageHint{TextSignal::HaasProgramNumber, 6},
                LanguageHint{TextSignal::MitsubishiOffsetGroup, 2}, // work offsets are group 12 here too
            });
