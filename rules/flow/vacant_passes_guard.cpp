@@ -1,4 +1,4 @@
-// vacant-passes-guard: `IF[#1EQ0]` lets an argument through that was not passed.
+// vacant-passes-guard: `IF[#1EQ0]` lets an argument through that was not passed, as `IF[#1NE0]` past the alarm does.
 #include "rules/flow/flow_view.h"
 
 #include <algorithm>
@@ -66,6 +66,7 @@ struct Guard {
   Span span;
   std::uint32_t variable;
   GuardKind kind;
+  bool isNotEqual = false; // `IF[#18NE0]GOTO5` jumps past the alarm
 };
 
 /// The comparison lets the variable pass that it is to stop.
@@ -77,20 +78,20 @@ std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &con
   const auto number = variable ? variableNumber(context.tree, *variable) : std::nullopt;
   if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
     return std::nullopt;
-  if (relation->op == OperatorKind::NotEqual && alarmWhenTrue(facts, test) != false)
+  const bool isNotEqual = relation->op == OperatorKind::NotEqual;
+  if (isNotEqual && alarmWhenTrue(facts, test) != false)
     return std::nullopt;
   const Span span = context.tree.expressions[part].span;
   if (!isLocal(facts.file, *number))
-    return (relation->op == OperatorKind::NotEqual || leadsToAlarm(facts, block)) &&
-                   isSetByOperator(facts, context, *number, block)
-               ? std::optional(Guard{span, *number, GuardKind::Operator})
+    return (isNotEqual || leadsToAlarm(facts, block)) && isSetByOperator(facts, context, *number, block)
+               ? std::optional(Guard{span, *number, GuardKind::Operator, isNotEqual})
                : std::nullopt;
   if (isMainProgram(facts) || mayHoldCallersValue(facts, *number))
     return std::nullopt;
-  if (relation->op == OperatorKind::Equal && givesDefault(facts, block, *number))
+  if (!isNotEqual && givesDefault(facts, block, *number))
     return Guard{span, *number, GuardKind::Default};
-  return (relation->op == OperatorKind::NotEqual || leadsToAlarm(facts, block)) && argumentBehind(facts, *number)
-             ? std::optional(Guard{span, *number, GuardKind::Alarm})
+  return (isNotEqual || leadsToAlarm(facts, block)) && argumentBehind(facts, *number)
+             ? std::optional(Guard{span, *number, GuardKind::Alarm, isNotEqual})
              : std::nullopt;
 }
 
@@ -102,6 +103,8 @@ std::string describe(const FileContext &context, const Guard &guard) {
 
 std::vector<std::string> notesFor(const Guard &guard) {
   const std::string test = fmt::format("`[#{} EQ #0]`", guard.variable);
+  if (guard.isNotEqual)
+    return {"`NE` tells vacant from 0: the jump past the alarm is taken", fmt::format("check {} as well", test)};
   if (guard.kind == GuardKind::Operator)
     return {"a common variable that nobody has set is vacant, and `EQ` does not treat vacant as 0: no alarm is raised",
             fmt::format("check {} as well", test)};
@@ -143,8 +146,9 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 
 extern const Rule vacantPassesGuard;
 const Rule vacantPassesGuard{
-    .info = {"vacant-passes-guard", Category::Flow, Severity::Warning,
-             "Reports a check or a default by `EQ 0` that does not catch a vacant argument or common variable."},
+    .info =
+        {"vacant-passes-guard", Category::Flow, Severity::Warning,
+         "Reports a check or a default by `EQ 0` or `NE 0` that does not catch a vacant argument or common variable."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::vacant_passes_guard
