@@ -409,14 +409,9 @@ private:
     };
     for (const TermId hint : loop_.rankingHints)
       offer(hint);
-    const auto offerConditions = [&](bool areInvariant) { // what the loop itself tests tells more about its end
-      for (const Transition &transition : loop_.transitions)
-        for (const TermId condition : transition.conditions)
-          if ((std::ranges::find(loop_.facts, condition) != loop_.facts.end()) == areInvariant)
-            offerSides(condition, offer);
-    };
-    offerConditions(false);
-    offerConditions(true);
+    for (const Transition &transition : loop_.transitions)
+      for (const TermId condition : transition.conditions)
+        offerSides(condition, offer);
     for (const TermId variable : loop_.variables)
       if (store_.sort(variable) != smt::Sort::Bool && loop_.deciding.contains(variable)) {
         offer(variable);
