@@ -185,4 +185,13 @@ bool LineScanner::scanOWord() {
   return false;
 }
 
+/// `(FALSE);` or `("#100");` and the end of the line behind a name: in NC programs parentheses hold remarks.
+bool LineScanner::isSimulatorCall() const {
+  if (peek() != '(')
+    return false;
+  const std::string_view call = trimmed(rest());
+  const std::string_view last = call.substr(0, call.rfind(");"));
+  return call.ends_with(");") && (last.ends_with('"') || last.ends_with("FALSE") || last.ends_with("TRUE"));
+}
+
 } // namespace feedhold

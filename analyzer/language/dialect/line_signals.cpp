@@ -122,15 +122,6 @@ void LineScanner::scanLongRun(std::string_view run) {
   scanJammed(run);
 }
 
-/// `(FALSE);` or `("#100");` and the end of the line behind a name: in NC programs parentheses hold remarks.
-bool LineScanner::isSimulatorCall() const {
-  if (peek() != '(')
-    return false;
-  const std::string_view call = trimmed(rest());
-  const std::string_view last = call.substr(0, call.rfind(");"));
-  return call.ends_with(");") && (last.ends_with('"') || last.ends_with("FALSE") || last.ends_with("TRUE"));
-}
-
 /// Keywords without blanks between them, with an address at the end: `THENGOTO`, `ANDG`.
 void LineScanner::scanJammed(std::string_view run) {
   std::array<const Keyword *, 8> found{};

@@ -3,6 +3,7 @@
 #include "base/support/text.h"
 #include "language/dialect/comment_signals.h"
 #include "language/dialect/line_signals.h"
+#include "language/dialect/text_keywords.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -234,7 +234,7 @@ TEST_F(Session, BinaryAndEmptyFilesDoNotStopTheOthers) {
   const CheckResult result = run();
   EXPECT_EQ(names(result), (std::vector<std::string>{"part.nc"}));
   ASSERT_EQ(result.skipped.size(), 2U);
-  EXPECT_EQ(result.skipped[0].kind, SkipKind::Refused);
+  EXPECT_EQ(result.skipped[0].kind, SkipKind::NoProgram);
   EXPECT_EQ(result.skipped[0].reason, "the file is empty");
   EXPECT_EQ(result.skipped[1].reason, "a binary file");
 }
