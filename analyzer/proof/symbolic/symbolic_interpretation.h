@@ -325,7 +325,6 @@ private:
   std::map<std::string, Value> named_;
   std::map<std::uint32_t, Value> entryValues_;
   std::set<std::uint32_t> typed_; // of entryValues_: taken to be numbers that can be typed
-  bool assumesTyped_ = true;
   std::map<std::uint32_t, WrittenInput> written_;
   std::set<smt::TermId> entry_;
   std::optional<std::map<std::uint32_t, Value>> given_; // present: what the run starts from
@@ -335,6 +334,7 @@ private:
   bool isContract_ = false;
   std::uint32_t nextFresh_ = 0;
   bool stopped_ = false;
+  bool assumesTyped_ = true; // what is read at the start is taken as typed
   bool tooLarge_ = false;
   bool moved_ = false;
 };
