@@ -30,7 +30,9 @@ public:
     const Word *radius = wordOf(node, 'R');
     if (!radius)
       return;
-    incremental_[node] = view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
+    const bool isIncremental = view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
+    bool &inAll = incremental_.try_emplace(node, true).first->second;
+    inAll = inAll && isIncremental;
     const Fit fit = fitOf(node, *radius, state);
     const bool isNew = radii_.emplace(node, radius).second;
     fits_[node] = isNew || fits_[node] == fit ? fit : Fit::Other;
@@ -129,7 +131,7 @@ private:
   std::array<std::optional<double>, kAxisCount> start_; // of the node that is being executed
   std::map<NodeId, const Word *> radii_;                // of arcs
   std::map<NodeId, Fit> fits_;                          // in all states
-  std::map<NodeId, bool> incremental_;
+  std::map<NodeId, bool> incremental_;                  // in all states
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -71,7 +71,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
           .message = fmt::format("{} moves to the sum of two positions", context.quoted(word->span())),
           .span = word->span(),
           .notes = {"the middle between two positions is half of their sum: this point is twice as far from zero",
-                    "write `[#1+#2]/2`"}};
+                    fmt::format("write `[{}]/2`", context.text(span))}};
       if (!word->span().contains(span))
         diagnostic.labels = {{span, "added here"}};
       reporter.report(std::move(diagnostic));

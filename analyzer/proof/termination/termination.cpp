@@ -192,7 +192,7 @@ private:
   bool rankOnceNegative(TermId decreasing, const std::vector<std::size_t> &iterations, Rank &&rankIt) {
     std::vector<Outcome> evidence;
     if (!isOfState(decreasing) || !std::all_of(iterations.begin(), iterations.end(), [&](std::size_t iteration) {
-          return decreases(decreaseOf(decreasing, iteration), iteration, evidence).has_value();
+          return decreases(decreaseOf(decreasing, iteration), iteration, evidence);
         }))
       return false;
     phases_.push_back(store_.less(decreasing, store_.number(Number(-1))));
@@ -282,12 +282,9 @@ private:
     RankingFunction found{.value = ranking, .isLate = !phases_.empty(), .isFollowed = !followers.empty()};
     for (const std::size_t iteration : iterations) {
       const TermId decrease = decreaseOf(ranking, iteration);
-      const std::optional<TermId> amount =
-          isBounded(ranking, decrease, iteration, evidence)
-              ? followed(iteration, followers, [&] { return decreases(decrease, iteration, evidence); })
-              : std::nullopt;
-      if (amount) {
-        found.decrease = found.iterations.empty() ? *amount : found.decrease;
+      if (isBounded(ranking, decrease, iteration, evidence) &&
+          followed(iteration, followers, [&] { return decreases(decrease, iteration, evidence); })) {
+        found.decrease = found.iterations.empty() ? decrease : found.decrease;
         found.iterations.push_back(iteration);
       } else if (!followed(iteration, followers,
                            [&] { return holds(iteration, store_.lessOrEqual(zero(), decrease), evidence); })) {
@@ -321,27 +318,25 @@ private:
   bool isBounded(TermId ranking, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
     return mayLower(decrease) && holds(iteration, store_.lessOrEqual(zero(), ranking), evidence);
   }
-  /// By an amount that no iteration changes and that is positive, or by a fixed one.  The decrease itself where it is
-  /// told.
-  std::optional<TermId> decreases(TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
-    const auto told = [&](bool does) { return does ? std::optional(decrease) : std::nullopt; };
+  /// By an amount that no iteration changes and that is positive, or by a fixed one.
+  bool decreases(TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
     if (!mayLower(decrease))
-      return std::nullopt;
+      return false;
     if (isConstant(decrease))
-      return told(holds(iteration, store_.less(zero(), decrease), evidence));
+      return holds(iteration, store_.less(zero(), decrease), evidence);
     const TermId exact = smt::withoutRounding(store_, decrease);
     if (exact != decrease && isConstant(exact))
-      return told(decreasesByHalf(exact, decrease, iteration, evidence));
+      return decreasesByHalf(exact, decrease, iteration, evidence);
     for (const TermId choice : constantChoices(exact))
       if (decreasesByHalf(choice, decrease, iteration, evidence))
-        return decrease;
+        return true;
     for (const int parts : {1, 10, 1000, 1'000'000}) {
       if (holds(iteration, store_.lessOrEqual(store_.number(Number(1) / Number(parts)), decrease), evidence))
-        return decrease;
+        return true;
       if (store_.sort(decrease) == smt::Sort::Int)
-        return std::nullopt;
+        return false;
     }
-    return std::nullopt;
+    return false;
   }
   /// Rounding takes less of it than half.
   bool decreasesByHalf(TermId amount, TermId decrease, std::size_t iteration, std::vector<Outcome> &evidence) {
