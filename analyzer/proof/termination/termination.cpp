@@ -64,27 +64,35 @@ private:
     return false;
   }
 
+  /// None is left, or one that never comes twice in a row.
+  bool isOver(const std::vector<std::size_t> &iterations) {
+    return iterations.empty() || (iterations.size() == 1 && !canFollow(iterations.front(), iterations.front()));
+  }
   /// By the conditions of the loop alone.
   bool rankQuickly(std::vector<std::size_t> iterations) {
     return withLittle([&] {
-      while (!iterations.empty() && lower(iterations, likely())) {
+      while (!isOver(iterations) && (lower(iterations, likely()) || lowerChosen(iterations, likely()))) {
       }
-      return iterations.empty();
+      return isOver(iterations);
     });
   }
   /// Iterations that can follow one another in a cycle are ranked together.
   bool rank(std::vector<std::size_t> iterations) {
     if (!phases_.empty())
       std::erase_if(iterations, [&](std::size_t iteration) { return holds(iteration, store_.no(), result_.evidence); });
-    if (iterations.empty() || waitForInput(iterations))
+    if (isOver(iterations) || waitForInput(iterations))
       return true;
-    if (withLittle([&] { return lower(iterations, candidates_); }) || lowerByProgram(iterations))
+    if (withLittle([&] { return lower(iterations, candidates_) || lowerChosen(iterations, candidates_); }) ||
+        lowerByProgram(iterations))
       return rank(iterations);
     // A last step that comes to its limit as near as rounding lets it.
     if (interpretation_.arithmetic() != Arithmetic::Exact &&
         afterIteration(iterations, EventualInvariants::Tried::Conditions))
       return true;
-    if (withLittle([&] { return lower(iterations, choices()); }))
+    if (withLittle([&] {
+          const std::vector<TermId> chosen = choices();
+          return lower(iterations, chosen) || lowerChosen(iterations, chosen);
+        }))
       return rank(iterations);
     if (iterations.size() > 12 || work_ > kMostWork)
       return false;
@@ -249,13 +257,14 @@ private:
 
   /// Takes away the iterations that lower a ranking function which no other iteration raises.
   bool lower(std::vector<std::size_t> &iterations, const std::vector<TermId> &candidates) {
-    for (const TermId ranking : candidates) {
-      if (!isOfState(ranking))
-        continue;
-      if (lower(iterations, ranking, {}) || (isChosen(ranking, iterations) && lower(iterations, ranking, iterations)))
-        return true;
-    }
-    return false;
+    return std::ranges::any_of(candidates,
+                               [&](TermId ranking) { return isOfState(ranking) && lower(iterations, ranking, {}); });
+  }
+  /// By one of which an iteration that another one follows takes an amount that depends on conditions.
+  bool lowerChosen(std::vector<std::size_t> &iterations, const std::vector<TermId> &candidates) {
+    return std::ranges::any_of(candidates, [&](TermId ranking) {
+      return isOfState(ranking) && isChosen(ranking, iterations) && lower(iterations, ranking, iterations);
+    });
   }
   /// What some iteration takes of it depends on conditions.
   bool isChosen(TermId ranking, const std::vector<std::size_t> &iterations) {
