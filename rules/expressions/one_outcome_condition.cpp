@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "rules/expressions/expression_view.h"
+#include "rules/flow/system_variables.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,16 @@ struct Comparison {
   Sample limit; // absent: `#0`
 };
 
+/// Between two reads of one condition.
+bool mayChange(const FileContext &context, ExpressionId value) {
+  if (!readsLiveValue(context, value))
+    return false;
+  const auto number = variableNumber(context.tree, unwrapped(context.tree, value));
+  const VariableRole role = number ? roleOf(context, *number) : VariableRole::Volatile;
+  return role != VariableRole::ModalCode && role != VariableRole::ModalWord && !isPosition(role) &&
+         (!number || !isOffset(context, *number));
+}
+
 OperatorKind mirrored(OperatorKind op) {
   if (op == OperatorKind::GreaterThan)
     return OperatorKind::LessThan;
@@ -38,7 +49,7 @@ std::optional<Comparison> comparisonIn(const FileContext &context, const BinaryO
     return isVacant(context, side) ? std::optional(Sample()) : std::nullopt;
   };
   const auto isVariable = [&](ExpressionId side) {
-    return !isConstant(context.tree, side) && !isVacant(context, side) && !readsLiveValue(context, side);
+    return !isConstant(context.tree, side) && !isVacant(context, side) && !mayChange(context, side);
   };
   const auto left = limitOf(relation.left);
   const auto right = limitOf(relation.right);
@@ -61,54 +72,51 @@ bool holds(const Comparison &comparison, Sample value) {
   return wantsGreater == (number > limit);
 }
 
-/// A condition of nothing but comparisons of one variable, or one expression, with constants, joined by AND and OR.
+bool joins(OperatorKind op) { return op == OperatorKind::And || op == OperatorKind::Or; }
+
+/// A condition of comparisons of one variable, or one expression, with constants, joined by AND and OR.  Others may
+/// stand beside them: their outcome is taken to be any.
 class Combination {
 public:
-  Combination(const FileContext &context, ExpressionId root) : context_(context), root_(root) {
-    isReadable_ = collect(root) && comparisons_.size() > 1;
-  }
-  bool isReadable() const { return isReadable_; }
+  /// `own`: whose comparisons are looked at.
+  Combination(const FileContext &context, ExpressionId root, const std::vector<Comparison> &own)
+      : context_(context), root_(root), own_(own) {}
 
-  /// Absent: it depends on the value.
+  /// Absent: it depends on values.
   std::optional<bool> outcome() const {
-    const bool first = evaluate(root_, Sample(0));
+    const std::optional<bool> first = evaluate(root_, Sample(0));
     for (const Sample &sample : samples())
-      if (evaluate(root_, sample) != first)
+      if (!first || evaluate(root_, sample) != first)
         return std::nullopt;
     return first;
   }
 
 private:
-  static bool joins(OperatorKind op) { return op == OperatorKind::And || op == OperatorKind::Or; }
+  bool isOwn(const Comparison &comparison) const {
+    return std::ranges::any_of(own_, [&](const Comparison &each) { return each.variable == comparison.variable; });
+  }
 
-  bool collect(ExpressionId id) {
+  /// Absent: the outcome of another comparison decides.
+  std::optional<bool> evaluate(ExpressionId id, Sample value) const {
     const auto *operation = asInside<BinaryOperation>(context_.tree, id);
     if (!operation)
-      return false;
-    if (joins(operation->op))
-      return collect(operation->left) && collect(operation->right);
-    const auto comparison = isRelation(operation->op) ? comparisonIn(context_, *operation) : std::nullopt;
-    if (!comparison ||
-        (!comparisons_.empty() && !sameText(context_, spanOf(comparisons_.front()), spanOf(*comparison))))
-      return false;
-    comparisons_.push_back(*comparison);
-    return true;
-  }
-  Span spanOf(const Comparison &comparison) const { return context_.tree.expressions[comparison.variable].span; }
-
-  bool evaluate(ExpressionId id, Sample value) const {
-    const auto &operation = *asInside<BinaryOperation>(context_.tree, id);
-    if (!joins(operation.op))
-      return holds(*comparisonIn(context_, operation), value);
-    const bool left = evaluate(operation.left, value);
-    const bool right = evaluate(operation.right, value);
-    return operation.op == OperatorKind::And ? left && right : left || right;
+      return std::nullopt;
+    if (!joins(operation->op)) {
+      const auto comparison = isRelation(operation->op) ? comparisonIn(context_, *operation) : std::nullopt;
+      return comparison && isOwn(*comparison) ? std::optional(holds(*comparison, value)) : std::nullopt;
+    }
+    const auto left = evaluate(operation->left, value);
+    const auto right = evaluate(operation->right, value);
+    const bool decisive = operation->op == OperatorKind::Or;
+    if (left == decisive || right == decisive)
+      return decisive;
+    return left && right ? std::optional(!decisive) : std::nullopt;
   }
 
   /// The limits, a value between any two of them, one beyond each end, and vacant.
   std::vector<Sample> samples() const {
     std::vector<double> limits;
-    for (const Comparison &comparison : comparisons_)
+    for (const Comparison &comparison : own_)
       limits.push_back(comparison.limit.value_or(0));
     std::ranges::sort(limits);
     std::vector<Sample> all{limits.front() - 1, limits.back() + 1};
@@ -124,9 +132,45 @@ private:
 
   const FileContext &context_;
   ExpressionId root_;
-  bool isReadable_ = false;
-  std::vector<Comparison> comparisons_;
+  const std::vector<Comparison> &own_;
 };
+
+/// The comparisons of one variable, for each variable.
+std::vector<std::vector<Comparison>> comparisonsIn(const FileContext &context, ExpressionId root) {
+  std::vector<std::vector<Comparison>> groups;
+  const auto spanOf = [&](const Comparison &comparison) { return context.tree.expressions[comparison.variable].span; };
+  std::vector<ExpressionId> open{root};
+  while (!open.empty()) {
+    const auto *operation = asInside<BinaryOperation>(context.tree, open.back());
+    open.pop_back();
+    if (!operation)
+      continue;
+    if (joins(operation->op)) {
+      open.insert(open.end(), {operation->right, operation->left});
+      continue;
+    }
+    const auto comparison = isRelation(operation->op) ? comparisonIn(context, *operation) : std::nullopt;
+    if (!comparison)
+      continue;
+    const auto group = std::ranges::find_if(groups, [&](const std::vector<Comparison> &each) {
+      return sameText(context, spanOf(each.front()), spanOf(*comparison));
+    });
+    if (group == groups.end())
+      groups.push_back({*comparison});
+    else
+      group->push_back(*comparison);
+  }
+  return groups;
+}
+
+/// By the comparisons of one variable; absent: it depends on values.
+std::optional<bool> outcomeOf(const FileContext &context, ExpressionId condition) {
+  for (const std::vector<Comparison> &own : comparisonsIn(context, condition))
+    if (own.size() > 1)
+      if (const auto outcome = Combination(context, condition, own).outcome())
+        return outcome;
+  return std::nullopt;
+}
 
 /// Of `o1 if`, `o1 elseif` and `o1 while`, too.
 std::optional<ExpressionId> anyConditionOf(const Statement &statement, const SyntaxTree &tree) {
@@ -142,8 +186,7 @@ void check(const Statement &statement, BlockId, const FileContext &context, cons
   const auto condition = anyConditionOf(statement, context.tree);
   if (!condition)
     return;
-  const Combination combination(context, *condition);
-  const auto outcome = combination.isReadable() ? combination.outcome() : std::nullopt;
+  const auto outcome = outcomeOf(context, *condition);
   if (!outcome)
     return;
   const Span span = context.tree.expressions[*condition].span;

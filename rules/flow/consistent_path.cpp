@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 #include <string>
 
@@ -32,11 +33,8 @@ struct Range {
     return lo > hi || (lo == hi && !allows(lo)) || isGap;
   }
   std::string text() const {
-    std::string all = subject + '[' + std::to_string(lo) + ',' + std::to_string(hi) + (withoutLo ? '(' : '.') +
-                      (withoutHi ? ')' : '.');
-    for (const double value : excluded)
-      all += std::to_string(value) + ';';
-    return all;
+    return fmt::format("{}[{},{}{}{}{}", subject, lo, hi, withoutLo ? '(' : '.', withoutHi ? ')' : '.',
+                       fmt::join(excluded, ";"));
   }
 };
 

@@ -359,6 +359,9 @@ std::vector<ExpressionId> expressionsOf(const ProgramFile &file, BlockId block) 
     }
     if (const auto condition = conditionOf(statement))
       add(*condition);
+    if (const auto *oWord = std::get_if<OWord>(&statement.node))
+      for (const ExpressionId argument : tree.argumentsOf(*oWord))
+        add(argument);
   }
   for (const Word &word : tree.wordsOf(block))
     if (word.form() == WordForm::Expression)

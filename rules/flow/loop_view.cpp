@@ -28,6 +28,42 @@ bool mayChangeUnseen(const FlowFacts &facts, NodeId node) {
          });
 }
 
+/// Where calls of calls are not followed, they may not.
+bool alwaysReturns(const FlowFacts &facts, ProgramRef callee) {
+  const ProgramFile &file = facts.programs.file(callee.file);
+  if (!file.model->callsOf(callee.program).empty())
+    return false;
+  return std::ranges::none_of(blocksOf(file, callee.program), [&](BlockId block) {
+    return findCode(*file.tree, block, *file.dialect, CodeRole::ProgramEnd) != nullptr;
+  });
+}
+
+/// `G65 P9100`: its assignments do not reach the local variables of the caller.
+bool keepsLocals(const FlowFacts &facts, NodeId node) {
+  const auto *program = std::get_if<CallProgram>(&facts.node(node).instruction);
+  if (!program)
+    return false;
+  const Call &call = facts.file.model->calls[program->call];
+  const bool isOwnLevel = call.kind == CallKind::Macro || call.kind == CallKind::OWord || call.kind == CallKind::Code;
+  const auto callee = isOwnLevel ? facts.programs.callGraph().callee(facts.file.file, call) : std::nullopt;
+  return callee && alwaysReturns(facts, *callee);
+}
+
+/// The program that is called here may raise one.
+bool mayCallAlarm(const FlowFacts &facts, NodeId node) {
+  const auto *program = std::get_if<CallProgram>(&facts.node(node).instruction);
+  if (!program)
+    return false;
+  const auto callee = facts.programs.callGraph().callee(facts.file.file, facts.file.model->calls[program->call]);
+  if (!callee)
+    return true;
+  const ProgramFile &file = facts.programs.file(callee->file);
+  return !file.model->callsOf(callee->program).empty() ||
+         std::ranges::any_of(file.model->variablesOf(callee->program), [&](const VariableUse &use) {
+           return use.write && use.number && raisesAlarm(*file.dialect, *use.number);
+         });
+}
+
 void addExits(const FlowFacts &facts, LoopFlow &loop, NodeId node) {
   const Node &here = facts.node(node);
   const auto *test = std::get_if<Test>(&here.instruction);
@@ -46,10 +82,13 @@ void addExits(const FlowFacts &facts, LoopFlow &loop, NodeId node) {
 LoopFlow described(const FlowFacts &facts, LoopFlow loop) {
   for (const NodeId node : loop.nodes) {
     addExits(facts, loop, node);
-    loop.changesUnseen = loop.changesUnseen || mayChangeUnseen(facts, node);
+    const bool isUnseen = mayChangeUnseen(facts, node);
+    loop.changesUnseen = loop.changesUnseen || isUnseen;
+    loop.keepsLocals = loop.keepsLocals && (!isUnseen || keepsLocals(facts, node));
   }
   const auto isInside = [&](const auto &alarm) { return contains(loop, alarm.node); };
-  loop.mayStop = std::ranges::any_of(facts.alarms(), isInside) || std::ranges::any_of(facts.userAlarms(), isInside);
+  loop.mayStop = std::ranges::any_of(facts.alarms(), isInside) || std::ranges::any_of(facts.userAlarms(), isInside) ||
+                 std::ranges::any_of(loop.nodes, [&](NodeId node) { return mayCallAlarm(facts, node); });
   return loop;
 }
 

@@ -24,6 +24,8 @@ struct LoopFlow {
   bool exitsAreKnown = true;
   /// A call, a stop for the operator, or something that could not be read: variables may change unseen.
   bool changesUnseen = false;
+  /// The only such things are calls of programs that have local variables of their own and always return.
+  bool keepsLocals = true;
   /// The control may stop with an alarm in it, in some pass of some run.
   bool mayStop = false;
 };

@@ -39,17 +39,28 @@ std::optional<LoopWrite> stepOfZero(const LoopExit &exit, const LoopFlow &loop, 
   return std::nullopt;
 }
 
+/// By its number or its name.
+std::optional<std::uint32_t> numberOf(const FlowFacts &facts, const Read &read) {
+  return read.number ? read.number : variableOf(facts, read.expression);
+}
+
+/// Of this program alone.
+bool isOwn(const FlowFacts &facts, std::uint32_t variable) {
+  return isLocal(facts.file, variable) || facts.programs.isLocalName(variable);
+}
+
 /// The condition can have another outcome in a later pass, or that cannot be told.
 bool mayChange(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
   const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
   if (reads.empty())
     return true; // of constants alone: written so on purpose, or another rule's
   return std::ranges::any_of(reads, [&](const Read &read) {
-    if (!read.number || (*read.number != kVacantVariable && !isPlain(facts.file, *read.number)))
+    const auto number = numberOf(facts, read);
+    if (!number || (*number != kVacantVariable && !isPlain(facts.file, *number) && !isOwn(facts, *number)))
       return true;
-    const auto writes = writesTo(facts, loop, *read.number);
-    return !writes || !std::ranges::all_of(
-                          *writes, [&](const LoopWrite &write) { return isStepOfZero(facts, write, *read.number); });
+    const auto writes = writesTo(facts, loop, *number);
+    return !writes ||
+           !std::ranges::all_of(*writes, [&](const LoopWrite &write) { return isStepOfZero(facts, write, *number); });
   });
 }
 
@@ -64,13 +75,26 @@ bool moves(const LoopFlow &loop, const FlowFacts &facts) {
   });
 }
 
+/// Nothing but local variables and constants.
+bool readsLocals(const LoopExit &exit, const FlowFacts &facts) {
+  const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
+  return std::ranges::all_of(reads, [&](const Read &read) {
+    const auto number = numberOf(facts, read);
+    return number && (*number == kVacantVariable || isOwn(facts, *number));
+  });
+}
+
+/// Called programs do not reach the local variables of this one.
+bool mayChangeUnseen(const LoopFlow &loop, const FlowFacts &facts) {
+  return loop.changesUnseen && !(loop.keepsLocals && std::ranges::all_of(loop.exits, [&](const LoopExit &exit) {
+                                   return readsLocals(exit, facts);
+                                 }));
+}
+
 /// A loop that stands still until common variables change may wait for a robot or a computer that writes them.
 bool mayWait(const LoopFlow &loop, const FlowFacts &facts) {
-  return !moves(loop, facts) && std::ranges::none_of(loop.exits, [&](const LoopExit &exit) {
-    const auto reads = readsIn(facts.file, exit.condition, facts.node(exit.test).block);
-    return std::ranges::all_of(
-        reads, [&](const Read &read) { return *read.number == kVacantVariable || isLocal(facts.file, *read.number); });
-  });
+  return !moves(loop, facts) &&
+         std::ranges::none_of(loop.exits, [&](const LoopExit &exit) { return readsLocals(exit, facts); });
 }
 
 /// The loop is left by this test whenever it is reached: there is no second pass.
@@ -81,7 +105,7 @@ bool alwaysLeaves(const LoopExit &exit, const FlowFacts &facts) {
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::vector<NodeId> done;
   for (const LoopFlow &loop : loopsOf(facts)) {
-    if (!loop.exitsAreKnown || loop.exits.empty() || loop.changesUnseen ||
+    if (!loop.exitsAreKnown || loop.exits.empty() || mayChangeUnseen(loop, facts) ||
         std::ranges::any_of(loop.exits, [&](const LoopExit &exit) {
           return mayChange(exit, loop, facts) || alwaysLeaves(exit, facts);
         }))

@@ -60,7 +60,19 @@ bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::ui
   });
 }
 
-enum class GuardKind : std::uint8_t { Alarm, Default, Operator };
+enum class GuardKind : std::uint8_t { Alarm, Default, Operator, Division };
+
+/// `IF[#18EQ0]GOTO9` jumps past `5./#18`: a division by the variable at which it may be vacant.
+bool isForDivision(const FlowFacts &facts, const FileContext &context, std::uint32_t variable, BlockId guard) {
+  return std::ranges::any_of(facts.alarms(), [&](const AlarmFact &alarm) {
+    const BlockId block = facts.node(alarm.node).block;
+    if (alarm.kind != AlarmKind::DivideByZero || block <= guard)
+      return false;
+    const auto divisor = expressionAt(facts, block, alarm.place);
+    const AbstractValue *value = divisor ? facts.valueOf(*divisor) : nullptr;
+    return value && variableNumber(context.tree, unwrapped(context.tree, *divisor)) == variable && value->mayBeVacant();
+  });
+}
 
 struct Guard {
   Span span;
@@ -79,9 +91,12 @@ std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &con
   if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
     return std::nullopt;
   const bool isNotEqual = relation->op == OperatorKind::NotEqual;
+  const Span span = context.tree.expressions[part].span;
+  if (argumentBehind(facts, *number) && !isMainProgram(facts) && !mayHoldCallersValue(facts, *number) &&
+      !isAlwaysPassed(facts, *number) && isForDivision(facts, context, *number, block))
+    return Guard{span, *number, GuardKind::Division, isNotEqual};
   if (isNotEqual && alarmWhenTrue(facts, test) != false)
     return std::nullopt;
-  const Span span = context.tree.expressions[part].span;
   if (!isLocal(facts.file, *number))
     return (isNotEqual || leadsToAlarm(facts, block)) && isSetByOperator(facts, context, *number, block)
                ? std::optional(Guard{span, *number, GuardKind::Operator, isNotEqual})
@@ -103,6 +118,9 @@ std::string describe(const FileContext &context, const Guard &guard) {
 
 std::vector<std::string> notesFor(const Guard &guard) {
   const std::string test = fmt::format("`[#{} EQ #0]`", guard.variable);
+  if (guard.kind == GuardKind::Division)
+    return {"an argument that is not passed is vacant, and `EQ` and `NE` tell vacant from 0: the program divides by it",
+            fmt::format("check {} as well", test)};
   if (guard.isNotEqual)
     return {"`NE` tells vacant from 0: the jump past the alarm is taken", fmt::format("check {} as well", test)};
   if (guard.kind == GuardKind::Operator)

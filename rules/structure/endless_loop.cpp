@@ -1,4 +1,4 @@
-// endless-loop: a DO without WHILE that nothing ever leaves.
+// endless-loop: a DO without WHILE that nothing ever leaves, and a block that jumps to itself.
 #include "findings/rule/rule.h"
 
 #include "rules/structure/structure_view.h"
@@ -44,7 +44,20 @@ bool mayEnd(const Loop &loop, const FileContext &context) {
                              [](const VariableUse &use) { return use.write && use.number == kAlarmVariable; });
 }
 
+/// `N12GOTO12`
+void checkJump(const Jump &jump, const FileContext &context, const Reporter &reporter) {
+  if (jump.kind != JumpKind::Goto || jump.conditional || jump.target != jump.block ||
+      context.tree.blocks[jump.block].has(Block::kBroken) ||
+      std::ranges::any_of(context.tree.wordsOf(jump.block), [](const Word &word) { return word.address() != 'N'; }))
+    return;
+  reporter.report({.message = "this block jumps to itself and never ends",
+                   .span = jump.span,
+                   .notes = {"only reset stops it; end the program with M30, M99 or an alarm instead"}});
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
+  for (const Jump &jump : context.model.jumps)
+    checkJump(jump, context, reporter);
   for (const Loop &loop : context.model.loops) {
     if (!loop.endBlock || hasCondition(context, loop) || hasWayOut(loop, context) || mayEnd(loop, context))
       continue;
@@ -59,8 +72,10 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule endlessLoop;
-const Rule endlessLoop{.info = {"endless-loop", Category::Structure, Severity::Warning,
-                                "Reports a `DO` without `WHILE` that nothing inside the loop ever leaves."},
-                       .hooks = {.file = check}};
+const Rule endlessLoop{
+    .info = {"endless-loop", Category::Structure, Severity::Warning,
+             "Reports a `DO` without `WHILE` that nothing inside the loop ever leaves, and a block that "
+             "jumps to itself."},
+    .hooks = {.file = check}};
 
 } // namespace feedhold::rules::endless_loop

@@ -11,11 +11,18 @@
 namespace feedhold::rules::unreachable_block {
 namespace {
 
+/// The block that jumps were to lead to, if it raises an alarm.
+bool isAlarm(BlockId block, const FileContext &context) {
+  return std::ranges::any_of(context.model.variablesIn(block, block.next()), [&](const VariableUse &use) {
+    return use.write && use.number && raisesAlarm(context.dialect, *use.number);
+  });
+}
+
 /// `#3000=1(..)`, then M00 or M30 behind it: a belt beside the braces.  A label between them shows that the block was
-/// meant to be reached.
-bool isSecondEnd(BlockId block, const FileContext &context) {
+/// meant to be reached, and so does an alarm behind a block that raises none.
+bool isSecondEnd(BlockId block, BlockId ender, const FileContext &context) {
   const FlowAfter flow = flowAfter(context.tree, block, context.dialect);
-  return !findWord(context.tree, block, 'N') &&
+  return !findWord(context.tree, block, 'N') && (isAlarm(ender, context) || !isAlarm(block, context)) &&
          (!hasContent(context, block) || flow == FlowAfter::Ends || flow == FlowAfter::Jumps ||
           findCode(context.tree, block, context.dialect, CodeRole::ProgramStop));
 }
@@ -25,7 +32,7 @@ std::optional<BlockId> firstUnintended(const DeadBlocks::Run &run, const FileCon
   if (flowAfter(context.tree, run.ender, context.dialect) != FlowAfter::Ends)
     return run.first;
   BlockId block = run.ender.next();
-  while (block <= run.last && (!isRead(context.tree.blocks[block]) || isSecondEnd(block, context)))
+  while (block <= run.last && (!isRead(context.tree.blocks[block]) || isSecondEnd(block, run.ender, context)))
     block = block.next();
   return block <= run.last ? std::optional(block) : std::nullopt;
 }
@@ -35,13 +42,6 @@ struct DeadMessage {
   BlockId block;
   bool isAlarm; // else a stop with a remark
 };
-
-/// The block that jumps were to lead to, if it raises an alarm.
-bool isAlarm(BlockId block, const FileContext &context) {
-  return std::ranges::any_of(context.model.variablesIn(block, block.next()), [&](const VariableUse &use) {
-    return use.write && use.number && raisesAlarm(context.dialect, *use.number);
-  });
-}
 
 /// `M05`, `M09`, `G04`: what is done before an alarm is told.
 bool preparesAlarm(BlockId block, const FileContext &context) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -70,17 +71,19 @@ bool isSetElsewhere(const FlowFacts &facts, const FileContext &context, const st
   return false;
 }
 
-/// Asked for by `EXISTS`: the program knows that it may not be there.
-bool isAskedFor(const FileContext &context, std::string_view name) {
-  for (std::size_t i = 0; i < context.tree.expressions.size(); ++i) {
-    const auto *call = as<FunctionCall>(context.tree, ExpressionId(i));
-    if (!call || call->function != FunctionKind::Exists || call->arguments().empty())
-      continue;
-    const auto *named = asInside<NamedVariable>(context.tree, call->arguments().front());
-    if (named && canonical(context.text(named->name)) == name)
-      return true;
+/// Asked for by `EXISTS`: the program knows that they may not be there.
+std::set<std::string> namesAskedFor(const FlowFacts &facts, const FileContext &context) {
+  std::set<std::string> names;
+  for (const BlockId block : blocksOf(facts.file, facts.program)) {
+    for (const ExpressionId id : expressionsOf(facts.file, block)) {
+      const auto *call = as<FunctionCall>(context.tree, id);
+      if (!call || call->function != FunctionKind::Exists || call->arguments().empty())
+        continue;
+      if (const auto *named = asInside<NamedVariable>(context.tree, call->arguments().front()))
+        names.insert(canonical(context.text(named->name)));
+    }
   }
-  return false;
+  return names;
 }
 
 /// M02 or M30: the text is no piece of a program.
@@ -102,15 +105,24 @@ bool isStartKnown(const FlowFacts &facts, const FileContext &context) {
   return !program.returns && comesToEnd(facts) && std::ranges::count_if(context.model.programs, isOuter) == 1;
 }
 
-/// Where the parameter is read and surely not set yet.  A global name keeps what the run before has left, so it counts
+/// Where parameters are read and surely not set yet.  A global name keeps what the run before has left, so it counts
 /// only where nothing else may have set it.
-bool isReadBeforeSet(const FlowFacts &facts, const VariableUse &use, std::uint32_t variable) {
-  const auto node = nodeOf(facts, use.block, use.expression);
-  if (!node || isTooLarge(facts))
-    return false;
-  const UnsetPaths unset(facts, variable);
-  return unset.reach(*node) && unset.isFirstUse(*node);
-}
+class EarlyReads {
+public:
+  explicit EarlyReads(const FlowFacts &facts) : facts_(facts) {}
+
+  bool contains(const VariableUse &use, std::uint32_t variable) {
+    const auto node = nodeOf(facts_, use.block, use.expression);
+    if (!node || isTooLarge(facts_))
+      return false;
+    const UnsetPaths &unset = paths_.try_emplace(variable, facts_, variable).first->second;
+    return unset.reach(*node) && unset.isFirstUse(*node);
+  }
+
+private:
+  const FlowFacts &facts_;
+  std::map<std::uint32_t, UnsetPaths> paths_;
+};
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.grammar.namedParameters)
@@ -120,6 +132,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   // Nothing else in the run sets global names for it.
   const bool isAlone =
       context.model.callsOf(facts.program).empty() && !context.model.programs[facts.program].name.isSubroutine;
+  const std::set<std::string> asked = namesAskedFor(facts, context);
+  EarlyReads early(facts);
   std::set<std::string> done;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {
     const auto *named = as<NamedVariable>(context.tree, use.expression);
@@ -129,11 +143,11 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
     const std::string name = canonical(context.text(named->name));
     // A global name may be set by the control, its screen, a remap or another program.
     const bool isGlobal = name.starts_with('_');
-    if (done.contains(name) || isAskedFor(context, name) || (isGlobal && !known.contains(name)))
+    if (done.contains(name) || asked.contains(name) || (isGlobal && !known.contains(name)))
       continue;
     const auto variable = variableOf(facts, use.expression);
-    const bool isEarly = known.contains(name) && variable && isStarted && (!isGlobal || isAlone) &&
-                         isReadBeforeSet(facts, use, *variable);
+    const bool isEarly =
+        known.contains(name) && variable && isStarted && (!isGlobal || isAlone) && early.contains(use, *variable);
     const auto meant = std::ranges::find_if(known, [&](const std::string &each) { return isAlike(name, each); });
     const bool isMeant = !known.contains(name) && meant != known.end();
     const bool isNeverSet = !known.contains(name) && isStarted && nodeOf(facts, use.block, use.expression);

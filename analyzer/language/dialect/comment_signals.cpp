@@ -16,14 +16,16 @@ bool beginsWithAny(std::string_view text, std::span<const std::string_view> begi
   return std::any_of(begins.begin(), begins.end(), [text](std::string_view begin) { return beginsUpper(text, begin); });
 }
 
-/// `(IF (P1 EQ 2) ..)`, `(CALL 12)`, `(P12 = ..)`, `(RPT N1,N9)`, `(RET)`.
+/// `(IF (P1 EQ 2) ..)`, `(IF P100 EQ 5 GOTO N20)`, `(CALL 12)`, `(P12 = ..)`, `(RPT N1,N9)`, `(RET)`.
 bool isFagorStatement(std::string_view text) {
   static constexpr std::string_view kCalls[] = {"CALL ", "PCALL ", "MCALL ", "SUB "};
   for (const std::string_view call : kCalls)
     if (beginsUpper(text, call) && text.size() > call.size() && isDigit(text[call.size()]))
       return true;
   const bool isAssignment = beginsUpper(text, "P") && text.size() > 1 && isDigit(text[1]) && text.find('=') < 7;
-  return isAssignment || beginsUpper(text, "IF (") || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
+  const bool isCondition =
+      beginsUpper(text, "IF (") || (beginsUpper(text, "IF P") && text.size() > 4 && isDigit(text[4]));
+  return isAssignment || isCondition || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
 }
 
 /// `3" MITSUBISHI FACE MILL`, `HAAS VISE`: makers of controls also sell tools and vices.

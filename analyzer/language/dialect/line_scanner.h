@@ -113,6 +113,7 @@ private:
   void scanString();
   void scanMark(char c);
   bool scanErosion(char letter, const Number &number);
+  void scanErosionTool(const Number &number);
   bool isConditionList() const;
   void scanAt();
   void countLatheMarks();
@@ -161,6 +162,7 @@ private:
   bool hasNegativeP_ = false; // `P-1`
   bool hasM82_ = false;
   bool hasM84_ = false;
+  int erosionTools_ = 0;
   bool hasG64_ = false;
 };
 

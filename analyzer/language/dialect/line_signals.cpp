@@ -321,42 +321,20 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
     else if (number.digits == 8 && number.whole / 1000 == 10000)
       count(TextSignal::DdcsTitle);
     return;
+  case 'D': // `D00 Q1 P01 +5 *`: a function with parameters
+    if (number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
+      count(TextSignal::HeidenhainIsoBlock);
+    return;
   case 'T':
-    if (number.digits == 4)
+    if (number.digits == 4 || (number.digits == 3 && number.whole / 100 == number.whole % 100))
       count(TextSignal::TurretTool);
     else if (number.hasFraction && !hasG65_)
       count(TextSignal::FagorTool);
+    else
+      scanErosionTool(number);
     return;
   default: return;
   }
-}
-
-/// Tables of wire erosion: `C001 = 0003 0015 ..`, `E001=10 17 ..`, `H001 = +000.150`; other controls assign to no
-/// address.
-bool LineScanner::scanErosion(char letter, const Number &number) {
-  if (letter != 'E' && ((letter != 'C' && letter != 'H') || number.digits != 3))
-    return false;
-  ++at_;
-  skipBlanks();
-  if (letter == 'E' ? !isConditionList() : !isDigit(peek()) && peek() != '+' && peek() != '-')
-    return false;
-  count(TextSignal::ErosionCondition);
-  stop();
-  return true;
-}
-
-/// Three numbers and more with blanks between them: a row of a table of conditions.
-bool LineScanner::isConditionList() const {
-  std::size_t numbers = 0;
-  std::size_t i = at_;
-  while (i < line_.size() && isDigit(line_[i])) {
-    ++numbers;
-    while (i < line_.size() && (isDigit(line_[i]) || line_[i] == '.'))
-      ++i;
-    while (i < line_.size() && isBlank(line_[i]))
-      ++i;
-  }
-  return numbers >= 3;
 }
 
 void LineScanner::scanGCode(const Number &number) {
@@ -553,7 +531,7 @@ void LineScanner::countCombinations() {
     count(TextSignal::OkumaWorkOffset);
   if ((hasG4_ && hasNegativeP_) || (hasG31_ && hasLetter('L') && hasLetter('Q')))
     count(TextSignal::DdcsWord);
-  if (hasM82_ && hasM84_)
+  if ((hasM82_ && hasM84_) || erosionTools_ == 2)
     count(TextSignal::ErosionSwitch);
   if (hasM97_ && hasLetter('P'))
     count(TextSignal::HaasLocalCall);

@@ -296,9 +296,7 @@ void completeSaved(Interpretation &interpretation, Part part, List &to, const Li
 /// A loop that is not listed has been entered, a counter that is not there counts nothing.
 template <typename Interpretation, typename R>
 void completeLists(Interpretation &interpretation, MachineState<R> &to, const MachineState<R> &from) {
-  for (const auto &[number, value] : from.variables.entries())
-    if (!to.variables.find(number))
-      to.variables.set(number, interpretation.unwritten(to, number));
+  to.variables.addKeysOf(from.variables, [&](std::uint32_t number) { return interpretation.unwritten(to, number); });
   for (const auto &[number, entered] : from.enteredLoops) {
     typename R::Truth neutral;
     setNeutral(interpretation, {Part::EnteredLoop, number}, neutral);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,25 @@ public:
     const auto at = position(number);
     if (at != entries_.end() && at->first == number)
       entries_.erase(at);
+  }
+  /// Adds the numbers that only the other map has, each with the value that `missing` gives it.
+  template <typename Missing> void addKeysOf(const VariableMap &other, Missing &&missing) {
+    std::vector<Entry> added;
+    auto own = entries_.cbegin();
+    for (const auto &[number, value] : other.entries_) {
+      while (own != entries_.cend() && own->first < number)
+        ++own;
+      if (own == entries_.cend() || own->first != number)
+        added.emplace_back(number, missing(number));
+    }
+    if (added.empty())
+      return;
+    std::vector<Entry> all;
+    all.reserve(entries_.size() + added.size());
+    std::merge(std::make_move_iterator(entries_.begin()), std::make_move_iterator(entries_.end()),
+               std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()), std::back_inserter(all),
+               [](const Entry &a, const Entry &b) { return a.first < b.first; });
+    entries_ = std::move(all);
   }
   const std::vector<Entry> &entries() const { return entries_; }
   std::vector<Entry> &entries() { return entries_; }

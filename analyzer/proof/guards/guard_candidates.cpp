@@ -54,11 +54,21 @@ private:
       atoms_.push_back(std::move(*atom));
   }
   /// A machinist bounds a variable by a whole number, or by one that the program writes: `#111 LE 14.5` is neither.
+  /// Two variables are compared as they are or by a factor, or their sums are: `[2*#8] LT #4`, `[#1+#2] LE #3`, but not
+  /// `[2*#2] GE [#1+5]`.
   bool isOfShop(const GuardAtom &atom) const {
     const smt::LinearSum sum = store_.linear(atom.side);
-    if (!atom.comparison || sum.terms.size() != 1)
+    if (!atom.comparison || sum.terms.empty())
       return true;
-    const Number bound = -sum.constant / sum.terms[0].second;
+    const Number factor = abs(sum.terms[0].second);
+    const bool isPlainSum =
+        std::all_of(sum.terms.begin(), sum.terms.end(), [&](const auto &part) { return abs(part.second) == factor; });
+    if (sum.terms.size() > 1 && sum.constant.sign() == 0)
+      return isPlainSum || sum.terms.size() == 2;
+    return isPlainSum && isWritten(-sum.constant / sum.terms[0].second);
+  }
+  /// A whole number, or one that the program writes.
+  bool isWritten(const Number &bound) const {
     return bound.isInteger() || std::any_of(constants_.begin(), constants_.end(),
                                             [&](double constant) { return abs(bound) == abs(decimal(constant)); });
   }

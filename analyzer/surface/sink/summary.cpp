@@ -12,6 +12,7 @@ namespace feedhold {
 namespace {
 
 constexpr std::size_t kSkippedShown = 5;
+constexpr std::size_t kFilesShown = 5; // of a dialect
 
 struct Counts {
   SeverityCounts findings;
@@ -83,24 +84,16 @@ std::string_view choiceInWords(DialectChoice choice) {
   FEEDHOLD_UNREACHABLE("a way to choose a dialect");
 }
 
-/// One line for each dialect: of how many files, and who chose it.
-std::string dialectsPart(const CheckResult &result) {
-  std::map<std::string_view, std::map<DialectChoice, std::size_t>> chosen;
-  bool isGuessed = false;
-  for (const CheckedFile &file : result.files) {
-    if (file.isOnlyCalled || !isReadProgram(file))
-      continue;
-    ++chosen[file.dialect][file.choice];
-    isGuessed = isGuessed || file.choice >= DialectChoice::Guess;
-  }
-  std::string text;
-  for (const auto &[dialect, choices] : chosen) {
-    std::vector<std::string> parts;
-    for (const auto &[choice, files] : choices)
-      parts.push_back(fmt::format("{} {}", files, choiceInWords(choice)));
-    text += fmt::format("dialect {}: {}\n", dialect, fmt::join(parts, ", "));
-  }
-  return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
+using FilesByChoice = std::map<DialectChoice, std::vector<std::string_view>>;
+
+/// Where all files have one dialect, their number says it.
+std::string filesInWords(const std::vector<std::string_view> &files, bool isOnlyDialect) {
+  if (isOnlyDialect)
+    return "";
+  const std::vector<std::string_view> first(
+      files.begin(), files.begin() + static_cast<std::ptrdiff_t>(std::min(files.size(), kFilesShown)));
+  const std::string more = files.size() > kFilesShown ? fmt::format(" and {} more", files.size() - kFilesShown) : "";
+  return fmt::format(" ({}{})", fmt::join(first, ", "), more);
 }
 
 /// What was concluded from the programs, with the line that settles it.
@@ -116,6 +109,26 @@ std::string inferredPart(const CheckResult &result) {
 }
 
 } // namespace
+
+std::string dialectsInWords(const CheckResult &result) {
+  std::map<std::string_view, FilesByChoice> chosen;
+  bool isGuessed = false;
+  for (const CheckedFile &file : result.files) {
+    if (file.isOnlyCalled || !isReadProgram(file))
+      continue;
+    chosen[file.dialect][file.choice].push_back(file.path);
+    isGuessed = isGuessed || file.choice >= DialectChoice::Guess;
+  }
+  std::string text;
+  for (const auto &[dialect, choices] : chosen) {
+    std::vector<std::string> parts;
+    for (const auto &[choice, files] : choices)
+      parts.push_back(
+          fmt::format("{} {}{}", files.size(), choiceInWords(choice), filesInWords(files, chosen.size() == 1)));
+    text += fmt::format("dialect {}: {}\n", dialect, fmt::join(parts, ", "));
+  }
+  return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
+}
 
 std::string summary(const Report &report) {
   const Counts counts = count(report);
@@ -136,7 +149,7 @@ std::string summary(const Report &report) {
     head += fmt::format(", {} {}", counted(others, "file"), others == 1 ? "is no NC program" : "are no NC programs");
   if (!result.errors.empty())
     head += fmt::format(", {} not checked", counted(result.errors.size(), "file"));
-  return programsOverview(report) + head + "\n" + hiddenPart(counts) + fixesPart(counts) + dialectsPart(result) +
+  return programsOverview(report) + head + "\n" + hiddenPart(counts) + fixesPart(counts) + dialectsInWords(result) +
          inferredPart(result);
 }
 

@@ -189,6 +189,9 @@ TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
       "wire erosion (Sodick, Mitsubishi, Accutex)");
   EXPECT_EQ(guessed("H20=2.5\nG92 X0 Y0\nG1 XH20 YH21\nG1 XH22 Y0\nM02\n"),
             "wire erosion (Sodick, Mitsubishi, Accutex)");
+  EXPECT_EQ(guessed("T84T86\nS101D1\nC001\nG92X0Y0\nG41D1G01X5.\nM02\n"), "wire erosion (Sodick, Mitsubishi, Accutex)");
+  EXPECT_EQ(guessed("N10 D00 Q1 P01 +5 *\nN20 G00 X+10 Y+0 *\nN30 D01 Q2 P01 Q1 P02 +3 *\n"), "Heidenhain DIN/ISO");
+  EXPECT_EQ(guessed("N10 (P100=5)\nN15 (IF P100 EQ 5 GOTO N20)\nN20 G0 X1\nM30\n"), "Fagor 8055");
   EXPECT_EQ(guessed("; bore\n@100 = 25 ; size\nG43 H1 Z@820\nM10814 D@880\nM30\n"), "LNC macro");
   EXPECT_EQ(guessed("%00210\nN0 T1.1\nN10 M6\nN20 G0 G43 Z10\nN30 M30\n"), "Fagor 8055");
 }
@@ -197,6 +200,11 @@ TEST(Guess, OneMarkOfAnotherLanguageIsNotEnough) {
   EXPECT_EQ(guessed("%1234\nT0101\nG90 G54 G0 X0 Y0\nM30\n%1235\nG0 X1\nM99\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1\nT1.1 M6\nT2.1 M6\nT3.1 M6\nG43 H1 Z5.\nM30\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1\nG43 H1 XH2\nG0 Z@5\nE1=5\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, ToolsOfThreeDigitsAreOfALathe) {
+  EXPECT_EQ(guessed("O2\nG99G97S800M3\nT303\nG0X50.Z5.\nG83Z-40.Q3000F.1\nG80\nM30\n"), "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O2\nT312M6\nG90G54G0X50.Z5.\nM30\n"), "fanuc-30i");
 }
 
 TEST(Guess, LinuxCncWithoutOWords) {

@@ -109,6 +109,17 @@ TEST_F(Sink, Summary) {
   EXPECT_EQ(statistics(report(ShowSuppressed::Yes)), "      1 missing-equals\n      1 plain-style\n");
 }
 
+TEST_F(Sink, SummaryNamesTheFilesOfEachDialect) {
+  CheckedFile other = result_.files[0];
+  other.path = "bore.ngc";
+  other.dialect = "linuxcnc";
+  other.choice = DialectChoice::Config;
+  result_.files.push_back(other);
+  EXPECT_NE(summary(report()).find("dialect fanuc-30i: 1 by its text (cell 1/part.nc)\n"
+                                   "dialect linuxcnc: 1 by feedhold.toml (bore.ngc)\n"),
+            std::string::npos);
+}
+
 TEST_F(Sink, FindingsBelowTheSeverityAreCountedOnly) {
   result_.files[0].minSeverity = Severity::Warning;
   result_.files[0].findings[0].suppressed = false;
@@ -205,7 +216,9 @@ TEST_F(Sink, Github) {
   EXPECT_EQ(writeGithub(report()),
             "::error file=cell 1/part.nc,line=2,endLine=2,col=1,endColumn=8,title=missing-equals::"
             "`#510-#6` is 50%25 of a statement%0Athe control stops\n"
-            "::error file=gone.nc::no such file\n");
+            "::error file=gone.nc::no such file\n"
+            "dialect fanuc-30i: 1 by its text\n"
+            "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n");
 }
 
 } // namespace

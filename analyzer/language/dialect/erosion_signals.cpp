@@ -1,0 +1,40 @@
+// Wire erosion: tables of conditions, and codes for pumps and wire.
+#include "language/dialect/line_scanner.h"
+
+namespace feedhold {
+
+/// Tables of wire erosion: `C001 = 0003 0015 ..`, `E001=10 17 ..`, `H001 = +000.150`; other controls assign to no
+/// address.
+bool LineScanner::scanErosion(char letter, const Number &number) {
+  if (letter != 'E' && ((letter != 'C' && letter != 'H') || number.digits != 3))
+    return false;
+  ++at_;
+  skipBlanks();
+  if (letter == 'E' ? !isConditionList() : !isDigit(peek()) && peek() != '+' && peek() != '-')
+    return false;
+  count(TextSignal::ErosionCondition);
+  stop();
+  return true;
+}
+
+/// Three numbers and more with blanks between them: a row of a table of conditions.
+bool LineScanner::isConditionList() const {
+  std::size_t numbers = 0;
+  std::size_t i = at_;
+  while (i < line_.size() && isDigit(line_[i])) {
+    ++numbers;
+    while (i < line_.size() && (isDigit(line_[i]) || line_[i] == '.'))
+      ++i;
+    while (i < line_.size() && isBlank(line_[i]))
+      ++i;
+  }
+  return numbers >= 3;
+}
+
+/// `T84T86` in one block: pumps and wire of Sodick; other controls take one tool a block.
+void LineScanner::scanErosionTool(const Number &number) {
+  if (number.digits == 2 && number.whole >= 80)
+    ++erosionTools_;
+}
+
+} // namespace feedhold
