@@ -104,12 +104,24 @@ constexpr std::size_t kFewestBlocks = 3;
 
 /// How one part runs through the blocks.
 struct Course {
-  enum Kind { Same, CountedUp, Broken, Other } kind = Other;
-  std::size_t where = 0; // of Broken
+  enum Kind { Same, CountedUp, Repeated, Mistyped, Other } kind = Other;
+  std::size_t where = 0; // of Repeated, Mistyped
   std::int64_t expected = 0;
 };
 
-/// Same and counted up by one number; or so in all blocks but one, which repeats the value of an earlier one.
+/// `#502` for `#512`: one digit was not changed, or mistyped, and not the one that is counted up.
+bool isMistyped(std::int64_t value, std::int64_t expected) {
+  constexpr std::int64_t kThreeDigits = 100;
+  if (value < kThreeDigits || expected < kThreeDigits || value % 10 != expected % 10)
+    return false;
+  int differing = 0;
+  for (; value > 0 && expected > 0; value /= 10, expected /= 10)
+    differing += value % 10 != expected % 10 ? 1 : 0;
+  return differing == 1 && value == expected;
+}
+
+/// Same and counted up by one number; or so in all blocks but one, which repeats the value of an earlier one or differs
+/// in one digit.
 Course courseOf(const std::vector<std::int64_t> &values) {
   if (values.size() < kFewestBlocks)
     return {};
@@ -129,8 +141,13 @@ Course courseOf(const std::vector<std::int64_t> &values) {
     const auto distance = std::max<std::int64_t>(1, static_cast<std::int64_t>(last));
     const std::int64_t each = (values[last] - values[0]) / distance;
     const auto before = values.begin() + static_cast<std::ptrdiff_t>(but);
-    if (each != 0 && fits(each, 0, but) && std::find(values.begin(), before, values[but]) != before)
-      return {Course::Broken, but, values[0] + each * static_cast<std::int64_t>(but)};
+    const std::int64_t expected = values[0] + each * static_cast<std::int64_t>(but);
+    if (each == 0 || !fits(each, 0, but))
+      continue;
+    if (std::find(values.begin(), before, values[but]) != before)
+      return {Course::Repeated, but, expected};
+    if (each == 1 && isMistyped(values[but], expected))
+      return {Course::Mistyped, but, expected};
   }
   return {};
 }
@@ -139,9 +156,23 @@ struct Slip {
   std::size_t block;
   std::size_t part;
   std::int64_t expected;
+  bool isMistyped;
 };
 
 constexpr std::int64_t kFirstSystemVariable = 1000;
+
+/// `IF[#9EQ#0]THEN#8=50.`: in the other blocks the variable is the one that another part names.
+bool isElsewhereEqual(const std::vector<Shape> &row, const Slip &slip) {
+  for (std::size_t part = 0; part < row.front().parts.size(); ++part) {
+    const auto follows = [&](const Shape &shape) {
+      const bool isSlip = &shape == &row[slip.block];
+      return shape.parts[part].value == (isSlip ? slip.expected : shape.parts[slip.part].value);
+    };
+    if (part != slip.part && std::ranges::all_of(row, follows))
+      return true;
+  }
+  return false;
+}
 
 /// All parts run evenly through the row but those of one block; enough of them are counted up to tell what was meant.
 std::optional<Slip> slipIn(const std::vector<Shape> &row) {
@@ -152,18 +183,19 @@ std::optional<Slip> slipIn(const std::vector<Shape> &row) {
     for (const Shape &shape : row)
       values.push_back(shape.parts[part].value);
     const Course course = courseOf(values);
-    if (course.kind == Course::Other || (course.kind == Course::Broken && slip))
+    const bool isBroken = course.kind == Course::Repeated || course.kind == Course::Mistyped;
+    if (course.kind == Course::Other || (isBroken && slip))
       return std::nullopt;
-    if (course.kind == Course::Broken)
-      slip = Slip{course.where, part, course.expected};
+    if (isBroken)
+      slip = Slip{course.where, part, course.expected, course.kind == Course::Mistyped};
     counted += course.kind == Course::CountedUp ? 1 : 0;
   }
   if (!slip)
     return std::nullopt;
   const Shape &where = row[slip->block];
   // A variable that is set twice in a row loses its first value; tables of the control are read in order.
-  const bool isClear =
-      (slip->part == 0 && where.text.starts_with("#n=")) || where.parts[slip->part].value >= kFirstSystemVariable;
+  const bool isClear = (slip->part == 0 && where.text.starts_with("#n=")) ||
+                       where.parts[slip->part].value >= kFirstSystemVariable || isElsewhereEqual(row, *slip);
   return counted >= (row.size() == kFewestBlocks && !isClear ? 2U : 1U) ? slip : std::nullopt;
 }
 
@@ -172,21 +204,35 @@ std::string spelled(const FileContext &context, const Part &part, std::int64_t v
   return isAxis(first) ? std::string(1, static_cast<char>(value)) : fmt::format("{}{}", first == '#' ? "#" : "", value);
 }
 
-void tell(const std::vector<Shape> &row, const FileContext &context, const Reporter &reporter) {
-  const auto slip = slipIn(row);
-  if (!slip)
-    return;
-  const Part &part = row[slip->block].parts[slip->part];
+void tell(const std::vector<Shape> &row, const Slip &slip, const FileContext &context, const Reporter &reporter) {
+  const Part &part = row[slip.block].parts[slip.part];
   Diagnostic diagnostic{.message = fmt::format("{} breaks the row of these blocks: `{}` would continue it",
-                                               context.quoted(part.span), spelled(context, part, slip->expected)),
+                                               context.quoted(part.span), spelled(context, part, slip.expected)),
                         .span = part.span,
                         .notes = {"the other variables and axes of these blocks are counted up: the block was "
                                   "probably copied, and this one not changed",
                                   "correct it, or say in a comment why it differs"}};
   for (std::size_t i = 0; i < row.size(); ++i)
-    if (i != slip->block)
-      diagnostic.labels.push_back({row[i].parts[slip->part].span, ""});
+    if (i != slip.block)
+      diagnostic.labels.push_back({row[i].parts[slip.part].span, ""});
   reporter.report(std::move(diagnostic));
+}
+
+/// Rows that stand one below the other without anything between: `#501=#5221` .. `#503=#5223`, `#511=#5241` .. Where
+/// some part is counted up by one in each, they end where it starts anew.
+std::vector<std::vector<Shape>> splitRows(const std::vector<Shape> &row) {
+  for (std::size_t part = 0; part < row.front().parts.size(); ++part) {
+    std::vector<std::vector<Shape>> rows;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == 0 || row[i].parts[part].value != row[i - 1].parts[part].value + 1)
+        rows.emplace_back();
+      rows.back().push_back(row[i]);
+    }
+    const auto isLong = [](const std::vector<Shape> &each) { return each.size() >= kFewestBlocks; };
+    if (rows.size() > 1 && std::ranges::all_of(rows, isLong))
+      return rows;
+  }
+  return {};
 }
 
 bool isWhole(const FileContext &context, BlockId block) {
@@ -197,12 +243,28 @@ bool isWhole(const FileContext &context, BlockId block) {
 /// Consecutive blocks of one shape; longer rows are tables.
 constexpr std::size_t kMostBlocks = 12;
 
+/// A name that nothing else in the program has was not meant: the odd one is a name of its own.
+bool isKnown(const Slip &slip, ProgramId program, const FileContext &context) {
+  return !slip.isMistyped || slip.expected >= kFirstSystemVariable ||
+         std::ranges::any_of(context.model.variablesOf(program), [&](const VariableUse &use) {
+           return use.number && static_cast<std::int64_t>(*use.number) == slip.expected;
+         });
+}
+
+/// The slip of the row, or of the rows of which it consists.
+void checkRow(const std::vector<Shape> &row, ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (row.size() < kFewestBlocks || row.size() > kMostBlocks)
+    return;
+  for (const auto &each : slipIn(row) ? std::vector<std::vector<Shape>>{row} : splitRows(row))
+    if (const auto found = slipIn(each); found && isKnown(*found, program, context))
+      tell(each, *found, context, reporter);
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
   std::vector<Shape> row;
   const auto close = [&] {
-    if (row.size() >= kFewestBlocks && row.size() <= kMostBlocks)
-      tell(row, context, reporter);
+    checkRow(row, id, context, reporter);
     row.clear();
   };
   for (BlockId block = program.first; block < program.last; block = block.next()) {

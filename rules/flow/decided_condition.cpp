@@ -1,9 +1,13 @@
 // decided-condition: an IF that can have one outcome only, given what was decided or computed before it.
+#include "findings/rule/dead_blocks.h"
+#include "rules/flow/definitions.h"
 #include "rules/flow/loop_view.h"
 #include "rules/flow/void_check.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <utility>
 
 namespace feedhold::rules::decided_condition {
 namespace {
@@ -40,7 +44,60 @@ void report(const FlowFacts &facts, const FileContext &context, const Reporter &
   reporter.report(std::move(diagnostic), reason ? Severity::Warning : Severity::Info);
 }
 
+bool areOpposite(OperatorKind left, OperatorKind right) {
+  using enum OperatorKind;
+  constexpr std::array kOpposites = {std::pair{Equal, NotEqual}, std::pair{LessThan, GreaterOrEqual},
+                                     std::pair{GreaterThan, LessOrEqual}};
+  return std::ranges::any_of(kOpposites, [&](const auto &pair) {
+    return (pair.first == left && pair.second == right) || (pair.second == left && pair.first == right);
+  });
+}
+
+/// `IF[#7EQ1]GOTO20` directly above `IF[#7NE1]GOTO30`.
+std::optional<ExpressionId> oppositeAbove(const FlowFacts &facts, const FileContext &context, NodeId node) {
+  const auto conditionAt = [&](NodeId at) {
+    const auto *test = std::get_if<Test>(&facts.node(at).instruction);
+    const auto jumps = context.model.jumpsIn(facts.node(at).block, facts.node(at).block.next());
+    const bool isJump = jumps.size() == 1 && jumps.front().kind == JumpKind::Goto;
+    return test && isJump ? test->condition : std::nullopt;
+  };
+  const auto above = onlyPredecessor(facts, node);
+  const auto first = above && facts.node(*above).next == node ? conditionAt(*above) : std::nullopt;
+  const auto second = conditionAt(node);
+  const auto *left = first ? asInside<BinaryOperation>(context.tree, *first) : nullptr;
+  const auto *right = second ? asInside<BinaryOperation>(context.tree, *second) : nullptr;
+  if (!left || !right || !areOpposite(left->op, right->op) || readsLiveValue(context, *first))
+    return std::nullopt;
+  const auto spanOf = [&](ExpressionId id) { return context.tree.expressions[unwrapped(context.tree, id)].span; };
+  return sameText(context, spanOf(left->left), spanOf(right->left)) &&
+                 sameText(context, spanOf(left->right), spanOf(right->right))
+             ? first
+             : std::nullopt;
+}
+
+/// Two opposite conditions, both with a jump, and blocks behind them that nothing else leads to.
+void checkOpposites(const FlowFacts &facts, const FileContext &context, NodeId node, const Reporter &reporter) {
+  const auto above = oppositeAbove(facts, context, node);
+  const NodeId behind = facts.node(node).next;
+  if (!above || !facts.isReached(behind) || onlyPredecessor(facts, behind) != node ||
+      findWord(context.tree, facts.node(behind).block, 'N') || !hasContent(context, facts.node(behind).block))
+    return;
+  const BlockId dead = facts.node(behind).block;
+  const Span span = context.tree.expressions[*std::get<Test>(facts.node(node).instruction).condition].span;
+  reporter.report({.message = fmt::format("{} is always true here: blocks behind it never run", context.quoted(span)),
+                   .span = span,
+                   .labels = {{context.tree.expressions[*above].span, "jumps in all other cases"},
+                              {context.tree.blocks[dead].span(), "never executed"}},
+                   .notes = {"the two conditions are opposite: one of the jumps is always taken",
+                             "correct the second condition, or delete it or the blocks behind it"}},
+                  raisesAlarmAt(facts.file, dead) ? Severity::Info : Severity::Warning);
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    if (facts.isReached(node) && std::holds_alternative<Test>(facts.node(node).instruction) &&
+        facts.truthOf(node) == Truth::Maybe)
+      checkOpposites(facts, context, node, reporter);
   if (isMainProgram(facts))
     return; // settings at its head are asked on purpose
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {

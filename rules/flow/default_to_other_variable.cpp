@@ -1,5 +1,5 @@
 // default-to-other-variable: `IF[#21EQ#0]THEN#191=100.` where nothing uses what U passes.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/definitions.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,20 +61,44 @@ bool isBehind(const FlowFacts &facts, BlockId block, const Read &read) {
   return from && to && findPath(facts, *from, *to, [](NodeId) { return false; });
 }
 
+/// `100+#24*2`: a table of common variables.
+bool addsTable(const FileContext &context, ExpressionId index) {
+  return std::ranges::any_of(termsOf(context.tree, index), [&](const SumTerm &term) {
+    const auto base = literalValue(context.tree, term.value);
+    return !term.isMinus && base && *base > Decimal(kLocalVariables, 0);
+  });
+}
+
+/// Of `#[#198+1]` behind `#198=100+#24*2`.
+bool isTable(const FlowFacts &facts, const FileContext &context, const Read &read, ExpressionId index) {
+  const auto node = nodeOf(facts, read.block, read.expression);
+  return node && std::ranges::any_of(termsOf(context.tree, index), [&](const SumTerm &term) {
+           const auto variable = variableOf(facts, unwrapped(context.tree, term.value));
+           const auto known = variable ? definitionsOf(facts, *variable, *node) : std::nullopt;
+           return known && !term.isMinus && !known->fromEntry && std::ranges::all_of(known->nodes, [&](NodeId each) {
+                    const auto assignment = assignmentTo(facts, each, *variable);
+                    return assignment && addsTable(context, assignment->value);
+                  });
+         });
+}
+
 /// `#[#198]`, where the number may be that of the argument.
-bool mayRead(const FlowFacts &facts, const Read &read, std::uint32_t argument) {
+bool mayRead(const FlowFacts &facts, const FileContext &context, const Read &read, std::uint32_t argument) {
   if (read.number)
     return *read.number == argument;
-  const auto *indirect = as<IndirectVariable>(*facts.file.tree, read.expression);
+  const auto *indirect = as<IndirectVariable>(context.tree, read.expression);
+  if (indirect && (addsTable(context, indirect->index) || isTable(facts, context, read, indirect->index)))
+    return false;
   const AbstractValue *index = indirect ? facts.valueOf(indirect->index) : nullptr;
   return !index || !index->isNumber() || index->number().interval().contains(argument);
 }
 
 /// The program asks whether the argument is there, and does nothing with its value from there on.
-bool isOnlyAsked(const FlowFacts &facts, std::uint32_t argument, BlockId block) {
+bool isOnlyAsked(const FlowFacts &facts, const FileContext &context, std::uint32_t argument, BlockId block) {
   return isParameter(facts, argument) && !maySet(facts, argument) &&
          std::ranges::all_of(readsOf(facts), [&](const Read &read) {
-           return !mayRead(facts, read, argument) || read.use == ReadUse::Equality || !isBehind(facts, block, read);
+           return !mayRead(facts, context, read, argument) || read.use == ReadUse::Equality ||
+                  !isBehind(facts, block, read);
          });
 }
 
@@ -93,7 +117,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   for (const BlockId block : blocksOf(facts.file, facts.program)) {
     const auto found = defaultIn(context, block);
     if (!found || !isCommon(context, found->target) || isTested(facts.file, facts.program, found->target) ||
-        !isOnlyAsked(facts, found->argument, block) || !isSetOnce(facts, found->target))
+        !isOnlyAsked(facts, context, found->argument, block) || !isSetOnce(facts, found->target))
       continue;
     const auto use = useOf(facts, found->target, block);
     if (!use)

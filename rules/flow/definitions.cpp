@@ -18,8 +18,11 @@ struct Predecessors {
 const Predecessors &predecessorsOf(const FlowFacts &facts) {
   return facts.derived<Predecessors>([&] {
     Predecessors all{std::vector<std::vector<NodeId>>(facts.end().index() - facts.entry().index())};
+    std::vector<bool> stops(all.of.size()); // `#3000=`: nothing follows
+    for (const UserAlarmFact &alarm : facts.userAlarms())
+      stops[alarm.node.index() - facts.entry().index()] = true;
     for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
-      if (facts.isReached(node))
+      if (facts.isReached(node) && !stops[node.index() - facts.entry().index()])
         forEachSuccessor(facts.file.cfg, *facts.file.model, node, ProgramUse::Called, [&](NodeId next) {
           if (next != node && next >= facts.entry() && next < facts.end() && facts.isReached(next))
             all.of[next.index() - facts.entry().index()].push_back(node);

@@ -84,43 +84,86 @@ bool isRangeChecked(const FlowFacts &facts, std::uint32_t variable, NodeId at) {
   });
 }
 
-/// `IF[#1GT20]GOTO90`, then `#[500+#1]`: the argument that is checked above only.
-std::optional<std::uint32_t> unboundedIndex(const FlowFacts &facts, const FileContext &context,
-                                            const VariableUse &use) {
+/// An expression, and the node that evaluates it.
+struct Computed {
+  ExpressionId expression;
+  NodeId node;
+};
+
+/// Of `#[#5]` behind `#5=2000+#20`, the sum.
+Computed computedIndex(const FlowFacts &facts, const FileContext &context, ExpressionId index, NodeId node) {
+  const auto variable = variableOf(facts, unwrapped(context.tree, index));
+  const auto known = variable ? definitionsOf(facts, *variable, node) : std::nullopt;
+  const auto assignment = known && !known->fromEntry && known->nodes.size() == 1
+                              ? assignmentTo(facts, known->nodes.front(), *variable)
+                              : std::nullopt;
+  return assignment ? Computed{assignment->value, known->nodes.front()} : Computed{index, node};
+}
+
+/// `IF[#1LT1]GOTO90`, then `#[500+#1]`: the argument that is checked below only.
+std::optional<std::uint32_t> checkedBelowOnly(const FlowFacts &facts, const FileContext &context,
+                                              const Computed &computed, const Interval &numbers) {
+  constexpr double kAnyNumber = 1e6; // beyond it no test has set a bound
+  const auto reads = readsIn(facts.file, computed.expression, facts.node(computed.node).block);
+  const auto argument = reads.size() == 1 ? reads.front().number : std::nullopt;
+  const bool isOpen = argument && numbers.lo > -kAnyNumber && numbers.hi > kAnyNumber &&
+                      isParameter(facts, *argument) && argumentBehind(facts, *argument) == argument &&
+                      !isMainProgram(facts) && !mayHoldCallersValue(facts, *argument) &&
+                      passedFor(*argument, facts, context).zero != PassedZero::Never;
+  return isOpen ? argument : std::nullopt;
+}
+
+struct OpenIndex {
+  std::uint32_t argument;
+  bool isBelow; // has no lower bound; else no upper one
+};
+
+/// `IF[#1GT20]GOTO90`, then `#[500+#1]`: the argument that is checked on one side only.
+std::optional<OpenIndex> unboundedIndex(const FlowFacts &facts, const FileContext &context, const VariableUse &use) {
   const auto *indirect = as<IndirectVariable>(context.tree, use.expression);
   const AbstractValue *index = indirect ? facts.valueOf(indirect->index) : nullptr;
-  if (!index || index->number().interval().hi < 0)
+  const auto node =
+      index && index->number().interval().hi >= 0 ? nodeOf(facts, use.block, use.expression) : std::nullopt;
+  if (!node)
     return std::nullopt;
-  const bool hasBase = std::ranges::any_of(subexpressions(context.tree, indirect->index), [&](ExpressionId part) {
+  const Computed computed = computedIndex(facts, context, indirect->index, *node);
+  const bool hasBase = std::ranges::any_of(subexpressions(context.tree, computed.expression), [&](ExpressionId part) {
     const auto base = literalValue(context.tree, part);
     return base && *base > Decimal(kLocalVariables, 0);
   });
-  const auto node = hasBase ? nodeOf(facts, use.block, use.expression) : std::nullopt;
-  const auto argument = node ? checkedAboveOnly(facts, context, *node, indirect->index, *index) : std::nullopt;
-  return argument && isRangeChecked(facts, *argument, *node) ? argument : std::nullopt;
+  if (!hasBase)
+    return std::nullopt;
+  const auto below = checkedAboveOnly(facts, context, computed.node, computed.expression, *index);
+  const auto above = below ? std::nullopt : checkedBelowOnly(facts, context, computed, index->number().interval());
+  const auto argument = below ? below : above;
+  return argument && isRangeChecked(facts, *argument, *node) ? std::optional(OpenIndex{*argument, below.has_value()})
+                                                             : std::nullopt;
 }
 
-void checkLowerBounds(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+void checkBounds(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   std::set<std::uint32_t> done;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {
-    const auto argument = unboundedIndex(facts, context, use);
-    if (!argument || !done.insert(*argument).second)
+    const auto open = unboundedIndex(facts, context, use);
+    if (!open || !done.insert(open->argument).second)
       continue;
     const Span span = context.tree.expressions[use.expression].span;
     Diagnostic diagnostic{
-        .message = fmt::format("nothing checks the lower bound of {}: {} may be a variable before the table",
-                               describeVariable(context.dialect, *argument), context.quoted(span)),
+        .message = fmt::format("nothing checks the {} bound of {}: {} may be a variable {} the table",
+                               open->isBelow ? "lower" : "upper", describeVariable(context.dialect, open->argument),
+                               context.quoted(span), open->isBelow ? "before" : "behind"),
         .span = span,
-        .notes = {"if it is negative or not passed, the control uses another variable, without an alarm",
-                  "check the lower bound as well, and that the argument was passed"}};
-    addPassed(diagnostic, passedFor(*argument, facts, context), facts);
-    reporter.report(std::move(diagnostic));
+        .notes = {open->isBelow ? "if it is negative or not passed, the control uses another variable, without an alarm"
+                                : "if it is too large, the control uses another variable, without an alarm",
+                  open->isBelow ? "check the lower bound as well, and that the argument was passed"
+                                : "check the upper bound as well"}};
+    addPassed(diagnostic, passedFor(open->argument, facts, context), facts);
+    reporter.report(std::move(diagnostic), open->isBelow ? Severity::Warning : Severity::Info);
   }
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   checkTables(facts, context, reporter);
-  checkLowerBounds(facts, context, reporter);
+  checkBounds(facts, context, reporter);
 }
 
 } // namespace
@@ -128,7 +171,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule indexOutsideTable;
 const Rule indexOutsideTable{
     .info = {"index-outside-table", Category::Flow, Severity::Warning,
-             "Reports a computed variable number that lies outside of its table, or has no lower bound."},
+             "Reports a computed variable number that lies outside of its table, or is checked on one side only."},
     .hooks = {.flow = check, .flowRuns = FlowRuns::All}};
 
 } // namespace feedhold::rules::index_outside_table

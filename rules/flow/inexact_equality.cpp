@@ -4,6 +4,7 @@
 #include "rules/flow/margin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -110,13 +111,68 @@ void report(const Formulas &formulas, const Comparison &comparison, const Compar
       given.empty() ? Severity::Warning : Severity::Info);
 }
 
+/// SQRT, SIN and their like of a value that is not known, perhaps multiplied or added to: the digits of the result end
+/// where the control cuts them.
+std::optional<FunctionKind> inexactFunction(const FlowFacts &facts, ExpressionId expression, NodeId at, int depth = 0) {
+  constexpr std::array kInexact = {FunctionKind::Sqrt, FunctionKind::Sin,  FunctionKind::Cos, FunctionKind::Tan,
+                                   FunctionKind::Asin, FunctionKind::Acos, FunctionKind::Atan};
+  constexpr int kDeepest = 8;
+  const SyntaxTree &tree = *facts.file.tree;
+  const ExpressionId id = unwrapped(tree, expression);
+  const AbstractValue *value = facts.valueOf(id);
+  if (depth > kDeepest || (value && value->isNumber() && value->number().isConstant()))
+    return std::nullopt;
+  if (const auto *call = as<FunctionCall>(tree, id))
+    return std::ranges::find(kInexact, call->function) != kInexact.end() ? std::optional(call->function) : std::nullopt;
+  if (const auto *operation = as<BinaryOperation>(tree, id)) {
+    if (isRelation(operation->op) || isBitwise(operation->op))
+      return std::nullopt;
+    const auto left = inexactFunction(facts, operation->left, at, depth + 1);
+    return left ? left : inexactFunction(facts, operation->right, at, depth + 1);
+  }
+  const auto variable = variableOf(facts, id);
+  const auto known = variable ? definitionsOf(facts, *variable, at) : std::nullopt;
+  if (!known || known->fromEntry || known->nodes.size() != 1)
+    return std::nullopt;
+  const auto assignment = assignmentTo(facts, known->nodes.front(), *variable);
+  return assignment ? inexactFunction(facts, assignment->value, known->nodes.front(), depth + 1) : std::nullopt;
+}
+
+/// `IF[#5EQ#3]` behind `#5=SQRT[..]`.  Where it is compared with 0 it mostly asks for an argument that gives exactly 0;
+/// COS of 90 does not.
+void checkFunctions(const Comparison &comparison, const FlowFacts &facts, const FileContext &context,
+                    const Reporter &reporter) {
+  if (context.dialect.behaviour.equalTolerance != 0)
+    return;
+  const BinaryOperation &relation = *comparison.relation;
+  for (const auto &[side, other] :
+       {std::pair{relation.left, relation.right}, std::pair{relation.right, relation.left}}) {
+    const auto function = isVacant(context, other) ? std::nullopt : inexactFunction(facts, side, comparison.test);
+    const auto literal = literalValue(context.tree, other);
+    const bool isZero = literal && literal->isZero();
+    if (!function || (isZero && *function != FunctionKind::Cos))
+      continue;
+    return reporter.report(
+        {.message = fmt::format("{} compares the result of {} to the last digit", context.quoted(comparison.span),
+                                context.quoted(context.tree.expressions[side].span)),
+         .span = comparison.span,
+         .flow = pathFromEntry(facts, comparison.test),
+         .notes = {fmt::format("the result of {} is rounded: it may differ in the last digit from a number that is "
+                               "equal on paper",
+                               spellingOf(*function)),
+                   "compare with a margin that is smaller than any difference that matters"},
+         .fixes = isZero ? std::vector<FixIt>{} : marginFixes(context, relation, 1)},
+        isZero ? Severity::Info : Severity::Warning);
+  }
+}
+
 void checkOne(const Comparison &comparison, const FlowFacts &facts, const FileContext &context,
               const Reporter &reporter) {
   Formulas formulas(facts);
   const auto left = formulas.of(comparison.relation->left, comparison.test);
   const auto right = left ? formulas.of(comparison.relation->right, comparison.test) : std::nullopt;
   if (!right)
-    return;
+    return checkFunctions(comparison, facts, context, reporter);
   std::set<FormulaInputId> all;
   for (const FormulaId side : {*left, *right})
     for (const FormulaInputId id : formulas.inputsOf(side))
@@ -140,6 +196,8 @@ void checkOne(const Comparison &comparison, const FlowFacts &facts, const FileCo
   });
   if (setting)
     report(formulas, comparison, compared, *difference, *setting, context, reporter);
+  else
+    checkFunctions(comparison, facts, context, reporter);
 }
 
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {

@@ -1,5 +1,5 @@
 // vacant-passes-guard: `IF[#1EQ0]` lets an argument through that was not passed, as `IF[#1NE0]` past the alarm does.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/definitions.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -62,23 +62,12 @@ bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::ui
 
 enum class GuardKind : std::uint8_t { Alarm, Default, Operator, Division };
 
-/// `IF[#18EQ0]GOTO9` jumps past `5./#18`: a division by the variable at which it may be vacant.
-bool isForDivision(const FlowFacts &facts, const FileContext &context, std::uint32_t variable, BlockId guard) {
-  return std::ranges::any_of(facts.alarms(), [&](const AlarmFact &alarm) {
-    const BlockId block = facts.node(alarm.node).block;
-    if (alarm.kind != AlarmKind::DivideByZero || block <= guard)
-      return false;
-    const auto divisor = expressionAt(facts, block, alarm.place);
-    const AbstractValue *value = divisor ? facts.valueOf(*divisor) : nullptr;
-    return value && variableNumber(context.tree, unwrapped(context.tree, *divisor)) == variable && value->mayBeVacant();
-  });
-}
-
 struct Guard {
   Span span;
   std::uint32_t variable;
   GuardKind kind;
   bool isNotEqual = false; // `IF[#18NE0]GOTO5` jumps past the alarm
+  Span division = {};      // the divisor that it should protect
 };
 
 /// The comparison lets the variable pass that it is to stop.
@@ -91,12 +80,9 @@ std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &con
   if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
     return std::nullopt;
   const bool isNotEqual = relation->op == OperatorKind::NotEqual;
-  const Span span = context.tree.expressions[part].span;
-  if (argumentBehind(facts, *number) && !isMainProgram(facts) && !mayHoldCallersValue(facts, *number) &&
-      !isAlwaysPassed(facts, *number) && isForDivision(facts, context, *number, block))
-    return Guard{span, *number, GuardKind::Division, isNotEqual};
   if (isNotEqual && alarmWhenTrue(facts, test) != false)
     return std::nullopt;
+  const Span span = context.tree.expressions[part].span;
   if (!isLocal(facts.file, *number))
     return (isNotEqual || leadsToAlarm(facts, block)) && isSetByOperator(facts, context, *number, block)
                ? std::optional(Guard{span, *number, GuardKind::Operator, isNotEqual})
@@ -110,16 +96,47 @@ std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &con
              : std::nullopt;
 }
 
+/// `IF[#7EQ0]GOTO9`, then `5./#7`: the test that keeps 0 from the divisor, and lets the vacant variable through.
+std::optional<Guard> guardOfDivision(const FlowFacts &facts, const FileContext &context, const AlarmFact &alarm) {
+  const BlockId block = facts.node(alarm.node).block;
+  const auto divisor = expressionAt(facts, block, alarm.place);
+  const auto variable = divisor ? variableNumber(context.tree, unwrapped(context.tree, *divisor)) : std::nullopt;
+  const AbstractValue *value = variable ? facts.valueOf(*divisor) : nullptr;
+  if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *variable))
+    return std::nullopt;
+  const auto known = definitionsOf(facts, *variable, alarm.node);
+  if (!known || !known->fromEntry || !known->nodes.empty())
+    return std::nullopt;
+  for (const PassedTest &passed : testsBefore(facts, alarm.node)) {
+    const auto *test = std::get_if<Test>(&facts.node(passed.node).instruction);
+    const auto *relation =
+        test && test->condition ? asInside<BinaryOperation>(context.tree, *test->condition) : nullptr;
+    const auto asked = relation ? comparedWithZero(context.tree, *relation) : std::nullopt;
+    const bool passesZero = relation && passed.isTrue == (relation->op == OperatorKind::Equal);
+    if (!asked || passesZero || variableNumber(context.tree, *asked) != variable)
+      continue;
+    const bool isOpen = isLocal(facts.file, *variable)
+                            ? !isMainProgram(facts) && !mayHoldCallersValue(facts, *variable) &&
+                                  argumentBehind(facts, *variable) && !isAlwaysPassed(facts, *variable)
+                            : isSetByOperator(facts, context, *variable, block);
+    if (isOpen && !alarmWhenTrue(facts, passed.node))
+      return Guard{context.tree.expressions[unwrapped(context.tree, *test->condition)].span, *variable,
+                   GuardKind::Division, relation->op == OperatorKind::NotEqual, alarm.place};
+  }
+  return std::nullopt;
+}
+
 std::string describe(const FileContext &context, const Guard &guard) {
-  return guard.kind == GuardKind::Operator
+  return guard.variable > kLocalVariables
              ? fmt::format("vacant `#{}`", guard.variable)
              : fmt::format("missing {}", describeVariable(context.dialect, guard.variable));
 }
 
-std::vector<std::string> notesFor(const Guard &guard) {
+std::vector<std::string> notesFor(const Guard &guard, const FileContext &context) {
   const std::string test = fmt::format("`[#{} EQ #0]`", guard.variable);
   if (guard.kind == GuardKind::Division)
-    return {"an argument that is not passed is vacant, and `EQ` and `NE` tell vacant from 0: the program divides by it",
+    return {fmt::format("`EQ` and `NE` tell vacant from 0, a division does not: there the control {}",
+                        stopsWith(context.dialect, AlarmKind::DivideByZero)),
             fmt::format("check {} as well", test)};
   if (guard.isNotEqual)
     return {"`NE` tells vacant from 0: the jump past the alarm is taken", fmt::format("check {} as well", test)};
@@ -138,7 +155,9 @@ void tell(const std::vector<Guard> &guards, const FileContext &context, const Re
   Diagnostic diagnostic{.message =
                             fmt::format("{} does not catch a {}", context.quoted(first.span), describe(context, first)),
                         .span = first.span,
-                        .notes = notesFor(first)};
+                        .notes = notesFor(first, context)};
+  if (first.kind == GuardKind::Division)
+    diagnostic.labels.push_back({first.division, "divides by it"});
   for (std::size_t i = 1; i < guards.size(); ++i)
     diagnostic.labels.push_back({guards[i].span, fmt::format("nor this a {}", describe(context, guards[i]))});
   reporter.report(std::move(diagnostic));
@@ -156,6 +175,12 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       if (const auto guard = passingGuard(facts, context, node, part))
         guards[guard->kind].push_back(*guard);
   }
+  for (const AlarmFact &alarm : facts.alarms())
+    if (alarm.kind == AlarmKind::DivideByZero && !alarm.always)
+      if (const auto guard = guardOfDivision(facts, context, alarm))
+        if (auto &same = guards[guard->kind];
+            std::ranges::none_of(same, [&](const Guard &each) { return each.span == guard->span; }))
+          same.push_back(*guard);
   for (const auto &[kind, found] : guards)
     tell(found, context, reporter);
 }
