@@ -113,14 +113,15 @@ bool mayNameLocal(const SyntaxTree &tree, ExpressionId index) {
   });
 }
 
-/// Programs that work on the local variables of one: itself and what it reaches by M98.  Absent: that cannot be told.
+/// Programs that work on the local variables of one: itself, of which M97 calls a part, and what it reaches by M98.
+/// Absent: that cannot be told.
 std::optional<std::vector<ProgramRef>> sharersOf(const ProgramSet &programs, ProgramRef start) {
   std::vector<ProgramRef> found{start};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const ProgramRef here = found[i];
     const ProgramFile &file = programs.file(here.file);
     for (const Call &call : file.model->callsOf(here.program)) {
-      if (call.kind != CallKind::Subprogram && call.kind != CallKind::Local && call.kind != CallKind::External)
+      if (call.kind != CallKind::Subprogram && call.kind != CallKind::External)
         continue;
       const auto callee = programs.callGraph().callee(here.file, call);
       if (!callee)

@@ -2,6 +2,7 @@
 #include "rules/flow/consistent_path.h"
 
 #include "base/support/text.h"
+#include "rules/motion/folder_programs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,6 +17,40 @@ bool startsVacant(const FlowFacts &facts, bool isMain, std::uint32_t variable) {
   if (variable == kVacantVariable || !isLocal(facts.file, variable))
     return false;
   return isMain || (!letterOfArgument(*facts.file.dialect, variable) && !isCalledAsSubprogram(facts));
+}
+
+/// A common variable with one assignment in the programs of the folder, which stands in this one: what it holds where
+/// that is passed over, none of them has put there.
+bool isSetOnlyHere(const FlowFacts &facts, const FileContext &context, std::uint32_t variable) {
+  const VariableRange *range = variable >= kFirstNamedVariable ? nullptr : findVariable(context.dialect, variable);
+  if (!range || range->kind != VariableKind::Common || context.dialect.grammar.oWords ||
+      isPromised(facts, context, variable))
+    return false;
+  const auto mayWrite = [&](const VariableUse &use) { return use.write && (!use.number || *use.number == variable); };
+  const auto calls = context.model.callsOf(facts.program);
+  return std::ranges::count_if(context.model.variablesOf(facts.program), mayWrite) == 1 &&
+         std::ranges::count_if(context.model.variables, mayWrite) == 1 &&
+         std::ranges::none_of(filesOfFolder(context),
+                              [&](FileId file) {
+                                return file != context.file &&
+                                       std::ranges::any_of(facts.programs.file(file).model->variables, mayWrite);
+                              }) &&
+         std::ranges::all_of(calls, [&](const Call &call) {
+           return call.kind == CallKind::ModalCancel || call.kind == CallKind::Local ||
+                  (context.callGraph.callee(context.file, call) &&
+                   !context.callGraph.reachesEncrypted(context.file, call));
+         });
+}
+
+/// `IF[#26NE#0]THEN#101=#26`: kept for the next call, in which the argument may be left out.
+bool isKeptArgument(const FlowFacts &facts, const UnsetPaths &paths, std::uint32_t variable) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    for (const Assignment &assignment : paths.sets(node) ? assignmentsOf(facts, node) : std::vector<Assignment>{})
+      if (variableOf(facts, assignment.target) == variable) {
+        const auto source = variableOf(facts, assignment.value);
+        return source && isParameter(facts, *source);
+      }
+  return false;
 }
 
 /// Where it is set, and the variable is not only carried on from pass to pass.
@@ -96,7 +131,9 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
   const auto node = nodeOf(facts, read.block, read.expression);
   const UnsetPaths paths(facts, variable);
   const auto setting = firstSetting(facts, paths);
-  if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node))
+  const bool isCommon = !facts.programs.isLocalName(variable) && !isLocal(facts.file, variable);
+  if (!node || !setting || !paths.reach(*node) || paths.isFirstUse(*node) ||
+      (isCommon && isKeptArgument(facts, paths, variable)))
     return;
   const auto path = findConsistentPath(facts, *node, [&](NodeId each) { return paths.sets(each); });
   if (!path || (facts.programs.isLocalName(variable) && !isPlainlyPassed(facts, paths, *path)))
@@ -109,6 +146,8 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
        .flow = describePathPast(facts, *path, [&](NodeId each) { return paths.sets(each); }),
        .notes = {facts.programs.isLocalName(variable)
                      ? "the interpreter stops with an error when it reads a named parameter that was never set"
+                 : isCommon
+                     ? "there it holds what an earlier run or another program has left, or is vacant"
                      : "without a value it is vacant: arithmetic reads it as 0, and the control ignores a word with it",
                  "set it before the conditions, or close the gap between them"}},
       passesCases(facts, paths, *path) ? Severity::Info : Severity::Warning);
@@ -117,16 +156,17 @@ void checkRead(const Read &read, std::uint32_t variable, const FlowFacts &facts,
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   const bool isMain = isMainProgram(facts);
   const bool returns = facts.file.model->programs[facts.program].returns;
-  const bool hasNames = context.dialect.grammar.namedParameters;
-  if ((!isMain && !returns && !hasNames) || isTooLarge(facts))
+  if (isTooLarge(facts))
     return;
   std::vector<std::uint32_t> done;
   for (const Read &read : readsOf(facts)) {
     const auto variable = readVariable(facts, read);
-    if (!variable || read.use == ReadUse::Equality || std::ranges::find(done, *variable) != done.end() ||
-        !startsVacant(facts, isMain, *variable))
+    if (!variable || read.use == ReadUse::Equality || std::ranges::find(done, *variable) != done.end())
       continue;
     const bool isName = facts.programs.isLocalName(*variable);
+    const bool isOwn = (isMain || returns || isName) && startsVacant(facts, isMain, *variable);
+    if (!isOwn && !isSetOnlyHere(facts, context, *variable))
+      continue;
     const AbstractValue *value = facts.valueOf(read.expression);
     if (!value || (!isName && (!value->mayBeVacant() || !maySet(facts, *variable))))
       continue;
@@ -139,8 +179,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule possiblyUnsetVariable;
-const Rule possiblyUnsetVariable{.info = {"possibly-unset-variable", Category::Flow, Severity::Warning,
-                                          "Reports a local variable that is not set on every path to its use."},
-                                 .hooks = {.flow = check}};
+const Rule possiblyUnsetVariable{
+    .info = {"possibly-unset-variable", Category::Flow, Severity::Warning,
+             "Reports a local variable, or a common one that a single block sets, that is not set "
+             "on every path to its use."},
+    .hooks = {.flow = check}};
 
 } // namespace feedhold::rules::possibly_unset_variable

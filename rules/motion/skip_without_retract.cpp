@@ -13,7 +13,7 @@ namespace {
 
 /// A skip move along one axis.
 struct SkipMove {
-  const Word *code;
+  std::uint16_t tenths; // of its code
   const Word *axis;
 };
 
@@ -58,13 +58,13 @@ private:
   static bool isAway(const Code &code) { return code.tenths == 384 || code.tenths == 385; }
 
   std::optional<SkipMove> skipAt(NodeId node) const {
-    const Word *code = nullptr;
+    std::optional<std::uint16_t> tenths;
     for (const Word *word : view_.wordsOf(node))
-      if (const Code *its = word->isCode() ? codeOf(*word, view_.context().dialect) : nullptr;
-          its && isSkip(its->role) && its->action == CodeAction::Skip && !isAway(*its))
-        code = word;
-    const auto axes = code ? view_.axisWords(node) : std::vector<const Word *>{};
-    return axes.size() == 1 ? std::optional(SkipMove{code, axes.front()}) : std::nullopt;
+      if (const Code *code = word->isCode() ? codeOf(*word, view_.context().dialect) : nullptr;
+          code && isSkip(code->role) && code->action == CodeAction::Skip && !isAway(*code))
+        tenths = code->tenths;
+    const auto axes = tenths ? view_.axisWords(node) : std::vector<const Word *>{};
+    return axes.size() == 1 ? std::optional(SkipMove{*tenths, axes.front()}) : std::nullopt;
   }
 
   /// Nothing moves there, is decided, or is left to the operator.
@@ -96,7 +96,7 @@ private:
     const FileContext &context = view_.context();
     const Mode mode = modes_.at(node);
     if (mode == Mode::Other || modes_.at(before) != mode || first.axis->address() != second.axis->address() ||
-        first.code->tenths() != second.code->tenths())
+        first.tenths != second.tenths)
       return false;
     if (sameText(context, first.axis->span(), second.axis->span()))
       return true;
