@@ -271,6 +271,12 @@ class ArithmeticOfTheControl(Scratch):
         self.assertNotIn("call-meets-contract", self.in_control("O1\nG65P2A1.5B2.\nM30\nO2\n#4=#1+#2\nM99\n"))
         self.assertNotIn("call-meets-contract", self.in_exact(PASSES_A_PRODUCT.format("1000000000.")))
 
+    def test_without_a_contract_only_ordinary_numbers_show_one_that_cannot_be_typed(self):
+        row = self.in_control("O1\nG65P2A[#2*1000000000.]\nM99\nO2\nG0X#1\nM99\n")["call-meets-contract"]
+        self.assertEqual(row["verdict"], "refuted")
+        # 99999999 and more, or the difference of two numbers that are nearly the same.
+        self.assertNotIn("call-meets-contract", self.in_control("O1\nG65P2A[#2+1]B[#3*#4]\nM99\nO2\nG0X#1Y#2\nM99\n"))
+
     def test_sturdy_programs_stay_proved(self):
         for text in (WHOLE_COUNTER, QUARTERS, CLAMPED_PECKS, LEVELS, ROOT_OF_SQUARES):
             with self.subTest(text):

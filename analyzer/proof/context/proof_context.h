@@ -59,6 +59,8 @@ struct Question {
   std::string open = {};
   /// What is missing when it is not proved; empty: what the search says.
   std::string whyOpen = {};
+  /// An assumption that a sampled run may break.  It is a row only then, and not asked of paths.
+  bool isToldByRuns = false;
 };
 using Questions = std::vector<Question>;
 

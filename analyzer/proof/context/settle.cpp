@@ -115,6 +115,33 @@ std::vector<Query> queriesOf(ProofStart &start, const Question &question) {
   return queries;
 }
 
+namespace {
+
+/// In the words of the exact run.
+void sayHowBroken(const ProofContext &context, const Question &question, Obligation &row) {
+  const Witness *witness = row.verdict.witness();
+  if (!witness || !question.isJudgedExactly)
+    return;
+  if (std::string how = context.promises.howBroken(witness->variables, row); !how.empty()) {
+    Witness shown = *witness;
+    shown.happened = std::move(how);
+    row.verdict = std::move(shown);
+  }
+}
+
+/// Absent: no sampled run breaks what is assumed.
+std::optional<Obligation> toldByRuns(const ProofContext &context, const Question &question) {
+  auto witness = context.witnesses.amongSamples(violationOf(context, question));
+  if (!witness)
+    return std::nullopt;
+  Obligation row = question.row;
+  row.verdict = *std::move(witness);
+  sayHowBroken(context, question, row);
+  return row;
+}
+
+} // namespace
+
 Obligation settle(const ProofContext &context, const Question &question) {
   Obligation row = question.row;
   if (!question.open.empty()) {
@@ -132,12 +159,7 @@ Obligation settle(const ProofContext &context, const Question &question) {
   if (row.verdict == Verdict::Unknown && isRounded && question.isJudgedExactly)
     if (auto witness = context.witnesses.amongDecimals(violation))
       row.verdict = *std::move(witness);
-  if (const Witness *witness = row.verdict.witness(); witness && question.isJudgedExactly)
-    if (std::string how = context.promises.howBroken(witness->variables, row); !how.empty()) {
-      Witness shown = *witness;
-      shown.happened = std::move(how);
-      row.verdict = std::move(shown);
-    }
+  sayHowBroken(context, question, row);
   if (row.verdict == Verdict::Unknown && !question.whyOpen.empty())
     row.verdict = Verdict::unknown(question.whyOpen);
   return row;
@@ -145,6 +167,11 @@ Obligation settle(const ProofContext &context, const Question &question) {
 
 void settleAll(const ProofContext &context, Questions questions, SettledRows &into) {
   for (Question &question : questions) {
+    if (question.isToldByRuns) {
+      if (auto row = toldByRuns(context, question))
+        into.rows.push_back(*std::move(row));
+      continue;
+    }
     into.denials.push_back(denialOf(question));
     const Obligation *known = context.decidedAs(question.row);
     into.rows.push_back(known ? *known : settle(context, question));

@@ -3,6 +3,7 @@
 #include "meaning/cfg/reached_programs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -42,6 +43,18 @@ std::optional<std::string> brokenByNumber(const RunResult &run, const GivenVaria
   return "the call passes a number that nobody can type";
 }
 
+/// As shops type them; larger ones show nothing that a machinist would change.
+constexpr double kLargestOrdinary = 100'000;
+
+bool isOrdinary(const GivenVariables &given) {
+  return std::ranges::all_of(given.entries(),
+                             [](const auto &each) { return std::abs(each.second.number) <= kLargestOrdinary; });
+}
+
+std::optional<std::string> brokenByOrdinaryNumbers(const RunResult &run, const GivenVariables &given) {
+  return isOrdinary(given) ? brokenByNumber(run, given) : std::nullopt;
+}
+
 class InputQuestions {
 public:
   explicit InputQuestions(const ExploredProgram &program)
@@ -51,15 +64,21 @@ public:
   Questions take() {
     for (const CallInstance &call : found_.calls)
       ask(call);
-    if (found_.incomplete)
+    if (found_.incomplete && hasContract())
       askOfTheText();
     Questions questions;
-    for (auto &[key, question] : asked_)
+    for (auto &[key, question] : asked_) {
+      question.isToldByRuns = !hasContract();
       questions.push_back(std::move(question));
+    }
     return questions;
   }
 
 private:
+  /// Without one nothing bounds the inputs of the program itself, and sums of the largest have too many digits: that
+  /// what it passes can be typed is assumed then, and only a run on ordinary numbers that breaks it is told.
+  bool hasContract() const { return subject_.contract() != nullptr; }
+
   void ask(const CallInstance &call) {
     SymbolicInterpretation &interpretation = start_.interpretation();
     const Dialect &dialect = *subject_.programs.file(call.callee.file).dialect;
@@ -71,6 +90,8 @@ private:
     for (const std::uint32_t variable : usedBy(call.callee)) {
       const TermId number = heldBy(interpretation, dialect, variable, call.state).number;
       std::vector<TermId> typed = interpretation.typedInput(variable, written[cellOf(dialect, variable)], number);
+      if (!hasContract())
+        std::erase_if(typed, [&](TermId each) { return store_[each].kind == smt::TermKind::Or; }); // not too small
       std::erase_if(typed, [&](TermId each) { return each == store_.yes() || known_.contains(each); });
       if (!typed.empty())
         questionOf(call.own, call.callee)
@@ -110,7 +131,7 @@ private:
                                                      fmt::format("this call passes numbers of at most 8 digits to {}",
                                                                  subject_.nameOf(callee))),
                           .goals = {},
-                          .broken = brokenByNumber,
+                          .broken = hasContract() ? brokenByNumber : brokenByOrdinaryNumbers,
                           .isJudgedExactly = true})
         .first->second;
   }

@@ -227,8 +227,8 @@ std::string messageOf(const Obligation &obligation, const Dialect &dialect) {
     return isRefuted ? "a call outside the contract gets past the guards"
                      : "it is not known whether the guards stop every call outside the contract";
   case ObligationKind::CallMeetsContract:
-    return isRefuted ? "this call breaks the contract of the program that it calls"
-                     : "it is not known whether this call always keeps the contract of the program that it calls";
+    return isRefuted ? "this call breaks what the called program relies on"
+                     : "it is not known whether this call always keeps to what the called program relies on";
   case ObligationKind::ContractSatisfiable: return "no call satisfies this contract";
   case ObligationKind::KeepIn:
     return isRefuted
