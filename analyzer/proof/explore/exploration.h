@@ -152,6 +152,13 @@ struct UnmodelledCall {
 /// which ends only where the number of iterations is known, or where a path returns to an earlier state.
 enum class LoopTreatment : std::uint8_t { AnyIteration, EachIteration };
 
+/// Whether paths that meet continue as one (merging.h): fewer paths, and less precise ones.
+enum class PathMerging : std::uint8_t {
+  No,
+  Yes,
+  Forget, // what they do not have in common is forgotten where it grows: one path for each place
+};
+
 struct Exploration {
   std::vector<StopSite> stopSites;
   std::vector<LoopInstance> loops;
@@ -173,6 +180,7 @@ struct Exploration {
   /// Merged paths have forgotten conditions (PathMerging::Forget): they stand for all runs, and for others that are
   /// none.
   bool forgets = false;
+  PathMerging merging = PathMerging::No; // of its paths
   std::size_t paths = 0;
   std::size_t steps = 0;
   std::uint64_t work = 0; // of all questions on paths
@@ -192,13 +200,6 @@ struct PathOffset {
 /// Of a D on a path, whose conditions prove what is asked.  Absent: nothing gives it.
 using OffsetOfCutter = std::function<std::optional<PathOffset>(const SymbolicValue &number,
                                                                const std::function<bool(smt::TermId)> &proves)>;
-
-/// Whether paths that meet continue as one (merging.h): fewer paths, and less precise ones.
-enum class PathMerging : std::uint8_t {
-  No,
-  Yes,
-  Forget, // what they do not have in common is forgotten where it grows: one path for each place
-};
 
 /// Whether movements are kept, and how deep the tool has cut where it stands.
 enum class KeepMoves : std::uint8_t { No, Yes, WithColumn };
@@ -233,6 +234,8 @@ struct ExploreOptions {
   bool keepWrites = false;
   /// Some of the steps are left for the claims, and for runs that refute them, if there are too many paths.
   bool leavesSteps = false;
+  /// The least: known to be needed from another exploration of the same program.
+  PathMerging merging = PathMerging::No;
   std::size_t mostSteps = 100'000;
   std::size_t mostPaths = 5'000;
   std::uint64_t mostWork = 6'000'000;
@@ -242,6 +245,6 @@ struct ExploreOptions {
 /// Explores every path of the program.  Paths are merged if there are too many for a share of the budget, unless loops
 /// are unrolled: programs that call large macros one after another are long, but have few paths.
 Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
-                    const SymbolicState &start, const ExploreOptions &options);
+                    const SymbolicState &start, ExploreOptions options);
 
 } // namespace feedhold::prove

@@ -562,14 +562,16 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
     std::optional<smt::Steps> share;
     if (options.leavesSteps)
       share.emplace(steps, smt::Steps::AtEnd::GoOn);
-    return exploreWithRanges(interpretation, programs, entry, start, limits, merging);
-  };
-  Exploration found = explored(first, PathMerging::No, left / 10);
-  if (!found.isTooLarge)
+    Exploration found = exploreWithRanges(interpretation, programs, entry, start, limits, merging);
+    found.merging = merging;
     return found;
-  Exploration merged = explored(options, PathMerging::Yes, left / 10);
-  if (!merged.isTooLarge)
-    return merged;
+  };
+  if (options.merging == PathMerging::No)
+    if (Exploration found = explored(first, PathMerging::No, left / 10); !found.isTooLarge)
+      return found;
+  if (options.merging != PathMerging::Forget)
+    if (Exploration merged = explored(options, PathMerging::Yes, left / 10); !merged.isTooLarge)
+      return merged;
   return explored(options, PathMerging::Forget, left / 3);
 }
 
@@ -577,12 +579,13 @@ Exploration exploreOnce(SymbolicInterpretation &interpretation, const ProgramSet
 
 /// Results are taken as exact where they may be, until it turns out that one may be too large.
 Exploration explore(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
-                    const SymbolicState &start, const ExploreOptions &options) {
+                    const SymbolicState &start, ExploreOptions options) {
   constexpr int kMostRounds = 4;
   for (int round = 0;; ++round) {
     Exploration found = exploreOnce(interpretation, programs, entry, start, options);
     if (found.inexact.empty() || found.incomplete)
       return found;
+    options.merging = found.merging; // terms only grow: with less merging there would be too many paths again
     for (const Place place : found.inexact)
       interpretation.roundAlways(place);
     if (round == kMostRounds) {

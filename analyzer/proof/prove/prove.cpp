@@ -288,6 +288,7 @@ Exploration Work::exploreWidely() {
   addRelationsOfGoals(context, stage_->settled.open, relations);
   ExploreOptions options = start_.exploreOptions(subject_);
   options.search = InvariantSearch::Wide;
+  options.merging = stage_->found.merging;
   options.invariants = [&, before = options.invariants](Place head, const SymbolicState &state) {
     std::vector<smt::TermId> all = relations.in(start_.store(), head, state);
     if (before)
