@@ -71,7 +71,7 @@ private:
   /// By the conditions of the loop alone.
   bool rankQuickly(std::vector<std::size_t> iterations) {
     return withLittle([&] {
-      while (!isOver(iterations) && (lower(iterations, likely()) || lowerChosen(iterations, likely()))) {
+      while (!iterations.empty() && (lower(iterations, likely()) || lowerChosen(iterations, likely()))) {
       }
       return isOver(iterations);
     });

@@ -32,7 +32,9 @@ public:
     if (end.awaited)
       return {"without end, it would read a value at last that ends it (`@EVENTUALLY`)", ""};
     if (end.rankings.empty())
-      return {"no iteration leads back to the head of the loop", ""};
+      return {loop_.transitions.empty() ? "no iteration leads back to the head of the loop"
+                                        : "no path through the loop is taken twice",
+              ""};
     if (std::any_of(end.rankings.begin(), end.rankings.end(),
                     [](const RankingFunction &ranking) { return ranking.isLate; }))
       return {late(end), ""};
