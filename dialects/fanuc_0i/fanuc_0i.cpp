@@ -32,6 +32,7 @@ Limits limitsOf0i() {
   limits.totalCallDepth = 15;
   limits.lastSequenceNumber = 99999;
   limits.lastProgramNumber = 9999;
+  limits.packsRepeats = true;
   limits.literalDigits = 8;
   limits.alarmMessageLength = 26;
   return limits;

@@ -44,6 +44,7 @@ Limits limitsOf30i() {
   limits.totalCallDepth = 15;
   limits.lastSequenceNumber = 99999999;
   limits.lastProgramNumber = 99999999; // eight digits by parameter, on by default in new machines
+  limits.packsRepeats = true;
   limits.literalDigits = 12;
   limits.alarmMessageLength = 31;
   return limits;

@@ -295,6 +295,7 @@ struct Limits {
   std::uint8_t totalCallDepth = 15;
   std::uint32_t lastSequenceNumber = 99999;
   std::uint32_t lastProgramNumber = 9999;
+  bool packsRepeats = false;          // `M98 P30100`: O0100, three times
   std::uint8_t literalDigits = 8;     // of a number in a macro statement, zeros included
   std::uint32_t firstAlarmNumber = 0; // of `#3000=`
   std::uint32_t lastAlarmNumber = 200;

@@ -106,6 +106,8 @@ struct CallGraph::Impl {
   void indexPrograms();
   void indexCalls();
   std::vector<ProgramRef> find(ProgramRef from, const ProgramName &name) const;
+  bool isPacked(FileId file, const Call &call) const;
+  std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
   int distance(ProgramRef from, ProgramRef to) const;
   const Program &program(ProgramRef ref) const { return file(ref.file).model->programs[ref.program]; }
   void computeDepths(ProgramRef start);
@@ -162,13 +164,23 @@ std::vector<ProgramRef> CallGraph::Impl::find(ProgramRef from, const ProgramName
   return programs;
 }
 
+bool CallGraph::Impl::isPacked(FileId file, const Call &call) const {
+  const ProgramRef caller{file, call.caller};
+  return call.packed && find(caller, call.callee).empty() && !find(caller, {call.packed->program, ""}).empty();
+}
+
+std::vector<ProgramRef> CallGraph::Impl::candidates(FileId file, const Call &call) const {
+  const ProgramName name = isPacked(file, call) ? ProgramName{call.packed->program, ""} : call.callee;
+  return find({file, call.caller}, name);
+}
+
 void CallGraph::Impl::indexCalls() {
   for (const ModelledFile &each : files)
     for (std::size_t i = 0; i < each.model->calls.size(); ++i) {
       const Call &call = each.model->calls[CallId(i)];
       if (!transfersControl(call.kind))
         continue;
-      for (const ProgramRef &target : find({each.file, call.caller}, call.callee)) {
+      for (const ProgramRef &target : candidates(each.file, call)) {
         callees[{each.file, call.caller}].push_back({target, call.kind});
         callers[target].push_back({each.file, CallId(i)});
       }
@@ -234,9 +246,10 @@ std::optional<ProgramRef> CallGraph::callee(FileId file, const Call &call) const
 }
 
 std::vector<ProgramRef> CallGraph::candidates(FileId file, const Call &call) const {
-  return impl_ && transfersControl(call.kind) ? impl_->find({file, call.caller}, call.callee)
-                                              : std::vector<ProgramRef>();
+  return impl_ && transfersControl(call.kind) ? impl_->candidates(file, call) : std::vector<ProgramRef>();
 }
+
+bool CallGraph::isPacked(FileId file, const Call &call) const { return impl_ && impl_->isPacked(file, call); }
 
 bool CallGraph::reachesEncrypted(FileId file, const Call &call) const {
   const std::vector<ProgramRef> programs = candidates(file, call);

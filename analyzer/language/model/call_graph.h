@@ -35,6 +35,8 @@ public:
   /// The programs that a call may reach: several where one number is given twice, so that which of them the control
   /// has in its memory is not known.
   std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
+  /// None of the files has the program whose number `M98 P30100` names: it calls O0100, three times.
+  bool isPacked(FileId file, const Call &call) const;
   /// Whether a call may reach an encrypted program, of which nothing is known.
   bool reachesEncrypted(FileId file, const Call &call) const;
   /// The other programs of its file and its folder that have the name of a program.

@@ -48,7 +48,10 @@ bool passesArguments(CallKind kind) {
   return kind == CallKind::Macro || kind == CallKind::Modal || kind == CallKind::ModalEach || kind == CallKind::Code;
 }
 
-/// `P9010`, `<NAME>`; packed `P 68003` of M98 (repeats before the last four digits) where programs have four digits.
+constexpr std::uint32_t kPack = 10'000; // four digits for the program
+
+/// `P9010`, `<NAME>`; packed `P 68003` of M98 (repeats before the last four digits) where programs have four digits, or
+/// may have.
 void readCallee(const ResolveContext &context, const Word &word, Call &call) {
   call.programWord = context.tree.idOf(word);
   if (word.form() == WordForm::Name) {
@@ -59,11 +62,16 @@ void readCallee(const ResolveContext &context, const Word &word, Call &call) {
   const std::optional<std::uint32_t> number = word.integer();
   if (!number)
     return;
-  const bool packed =
-      call.kind == CallKind::Subprogram && context.dialect.limits.lastProgramNumber <= 9999 && *number > 9999;
-  call.callee.number = packed ? *number % 10000 : *number;
-  if (packed)
-    call.repeats = *number / 10000;
+  call.callee.number = number;
+  if (call.kind != CallKind::Subprogram || !context.dialect.limits.packsRepeats || *number < kPack)
+    return;
+  const PackedCall packed{*number % kPack, *number / kPack};
+  if (context.dialect.limits.lastProgramNumber >= kPack) {
+    call.packed = packed;
+    return;
+  }
+  call.callee.number = packed.program;
+  call.repeats = packed.repeats;
 }
 
 /// `G65 H01 P#100 Q..`: the operation stands first, and P is the variable for its result; from H80 on P is the target

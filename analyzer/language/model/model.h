@@ -123,6 +123,11 @@ struct Argument {
   ArgumentRole role;
   bool fromSet = false; // by argument assignment II (second and later I, J, K)
 };
+/// `M98 P30100` where it may mean O0100, three times.
+struct PackedCall {
+  std::uint32_t program;
+  std::uint32_t repeats;
+};
 struct Call {
   CallKind kind;
   ProgramId caller;
@@ -135,6 +140,8 @@ struct Call {
   Span span = {};                        // the code and the program that it names
   bool isLast = false;                   // behind it only the end of the calling program
   std::vector<ExpressionId> values = {}; // of an o-word call: #1, #2 ..
+  /// What is called where no program has the number `callee`: see CallGraph::isPacked().
+  std::optional<PackedCall> packed = {};
 };
 
 struct VariableUse {

@@ -208,6 +208,8 @@ private:
       request.repeats = interpretation_.number(*call_.repeats);
       return;
     }
+    if (context_.programs.callGraph().isPacked(context_.file.file, call_))
+      request.repeats = interpretation_.number(call_.packed->repeats);
     if (call_.kind == CallKind::OWord)
       return; // has no words
     const Span code = context_.tree().words[call_.code].span();
