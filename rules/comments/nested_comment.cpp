@@ -35,10 +35,11 @@ std::vector<Parts> nestedIn(const FileContext &context) {
   return found;
 }
 
-/// Haas controls save such comments themselves; what they make of text behind the first `)` is not documented.
+/// Haas controls save such comments themselves; what they make of text behind the first `)` is not documented.  Nor is
+/// what others make of a lone `)`, which shops have in programs that run.
 Severity severityFor(bool isHarmless, const FileContext &context) {
   if (!context.dialect.grammar.commentsMayNest)
-    return Severity::Error;
+    return isHarmless && !context.dialect.grammar.oWords ? Severity::Warning : Severity::Error;
   return isHarmless ? Severity::Info : Severity::Warning;
 }
 

@@ -97,7 +97,8 @@ void LineScanner::scanDollar() {
   ++at_;
   const std::string_view run = takeRun();
   const bool isPath = run.size() > 1 && peek() == '/' && isLetter(peek(1));
-  const bool isCommand = isOneOf(run, kGrbl) && (atEnd() || peek() == '=' || isBlank(peek()));
+  const bool isReading = peek() == '=' && beginsUpper(rest().substr(1), "READ"); // `$TCS=READ id=0`: uCNC
+  const bool isCommand = isReading || (isOneOf(run, kGrbl) && (atEnd() || peek() == '=' || isBlank(peek())));
   if (isPath || isCommand) {
     count(TextSignal::GrblCommand);
   } else if (isOneOf(run, kControl)) {

@@ -163,6 +163,7 @@ private:
   bool hasM82_ = false;
   bool hasM84_ = false;
   int erosionTools_ = 0;
+  bool hasDecimalD_ = false;
   bool hasG64_ = false;
 };
 

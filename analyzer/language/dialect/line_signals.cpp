@@ -322,6 +322,7 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
       count(TextSignal::DdcsTitle);
     return;
   case 'D': // `D00 Q1 P01 +5 *`: a function with parameters
+    hasDecimalD_ = hasDecimalD_ || number.hasFraction;
     if (number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
       count(TextSignal::HeidenhainIsoBlock);
     return;
@@ -541,6 +542,10 @@ void LineScanner::countCombinations() {
     count(TextSignal::SurfaceSpeed);
   if (hasTurningCycle_ && !hasLetter('Y') && ((hasLetter('P') && hasLetter('Q')) || hasLetter('U')))
     count(TextSignal::TurningCycle);
+  // `G71 P10 Q20 U.02 W.005 D.05`, the cycle in one block; `G12 I.5 K1. Q.2`, a pocket in several turns.
+  if ((hasTurningCycle_ && hasDecimalD_ && hasLetter('P') && hasLetter('Q')) ||
+      ((gCodes_[12] || gCodes_[13]) && hasLetter('I') && hasLetter('K') && hasLetter('Q')))
+    count(TextSignal::HaasCode);
   if (hasG64_ && hasNumber('P'))
     count(TextSignal::NgcCode);
   if (!hasG65_) { // whose letters are arguments

@@ -54,8 +54,8 @@ private:
       atoms_.push_back(std::move(*atom));
   }
   /// A machinist bounds a variable by a whole number, or by one that the program writes: `#111 LE 14.5` is neither.
-  /// Two variables are compared as they are or by a factor, or their sums are: `[2*#8] LT #4`, `[#1+#2] LE #3`, but not
-  /// `[2*#2] GE [#1+5]`.
+  /// A few variables are compared as they are or by factors, such as those between radius and diameter: `[2*#8] LT #4`,
+  /// `#2 GE [#1+2*#7]`; with a number beside them only as they are, not `[2*#2] GE [#1+5]`.
   bool isOfShop(const GuardAtom &atom) const {
     const smt::LinearSum sum = store_.linear(atom.side);
     if (!atom.comparison || sum.terms.empty())
@@ -64,7 +64,7 @@ private:
     const bool isPlainSum =
         std::all_of(sum.terms.begin(), sum.terms.end(), [&](const auto &part) { return abs(part.second) == factor; });
     if (sum.terms.size() > 1 && sum.constant.sign() == 0)
-      return isPlainSum || sum.terms.size() == 2;
+      return isPlainSum || sum.terms.size() <= 3;
     return isPlainSum && isWritten(-sum.constant / sum.terms[0].second);
   }
   /// A whole number, or one that the program writes.

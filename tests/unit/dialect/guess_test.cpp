@@ -192,6 +192,7 @@ TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
   EXPECT_EQ(guessed("T84T86\nS101D1\nC001\nG92X0Y0\nG41D1G01X5.\nM02\n"), "wire erosion (Sodick, Mitsubishi, Accutex)");
   EXPECT_EQ(guessed("N10 D00 Q1 P01 +5 *\nN20 G00 X+10 Y+0 *\nN30 D01 Q2 P01 Q1 P02 +3 *\n"), "Heidenhain DIN/ISO");
   EXPECT_EQ(guessed("N10 (P100=5)\nN15 (IF P100 EQ 5 GOTO N20)\nN20 G0 X1\nM30\n"), "Fagor 8055");
+  EXPECT_NE(guessed("G21\n$TCS=READ id=0 p=tcs\no100 sub\nG0 X1\no100 endsub\nM2\n"), "linuxcnc");
   EXPECT_EQ(guessed("; bore\n@100 = 25 ; size\nG43 H1 Z@820\nM10814 D@880\nM30\n"), "LNC macro");
   EXPECT_EQ(guessed("%00210\nN0 T1.1\nN10 M6\nN20 G0 G43 Z10\nN30 M30\n"), "Fagor 8055");
 }
@@ -205,6 +206,16 @@ TEST(Guess, OneMarkOfAnotherLanguageIsNotEnough) {
 TEST(Guess, ToolsOfThreeDigitsAreOfALathe) {
   EXPECT_EQ(guessed("O2\nG99G97S800M3\nT303\nG0X50.Z5.\nG83Z-40.Q3000F.1\nG80\nM30\n"), "fanuc-30i-lathe");
   EXPECT_EQ(guessed("O2\nT312M6\nG90G54G0X50.Z5.\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, CyclesInOneBlockWithADecimalDepthAreOfHaas) {
+  EXPECT_EQ(guessed("O1\nT101\nG50 S2000\nG96 S200 M03\nG00 X2. Z.1\nG71 P10 Q20 U.02 W.005 D.05 F.01\n"
+                    "N10 G00 X1.\nG01 Z-1.\nN20 X2.\nM30\n"),
+            "haas-ngc-lathe");
+  EXPECT_EQ(guessed("O1\nT101\nG50 S2000\nG96 S200 M03\nG00 X2. Z.1\nG71 U.05 R.02\nG71 P10 Q20 U.02 W.005 F.01\n"
+                    "N10 G00 X1.\nG01 Z-1.\nN20 X2.\nM30\n"),
+            "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nT1 M6\nG43 H1 Z1.\nG13 I.25 K1. Q.25 D1 F20.\nM30\n"), "haas-ngc");
 }
 
 TEST(Guess, LinuxCncWithoutOWords) {
