@@ -128,6 +128,8 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   if (std::ranges::none_of(facts.exits(), [&](const ExitFact &exit) { return leaves(exit, mode, view); }))
     return;
   const std::vector<NodeId> switching = switchingNodes(mode, view, facts);
+  if (switching.empty())
+    return; // before the whole folder is looked through
   const CallersOfMode callers = behindCalls(mode, facts, context);
   const bool isForgotten = mode.followsHabit && isCancelledElsewhere(mode, context);
   std::vector<const Word *> told;
