@@ -323,7 +323,7 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
     return;
   case 'D': // `D00 Q1 P01 +5 *`: a function with parameters
     hasDecimalD_ = hasDecimalD_ || number.hasFraction;
-    if (number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
+    if (!hasCode_ && number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
       count(TextSignal::HeidenhainIsoBlock);
     return;
   case 'T':

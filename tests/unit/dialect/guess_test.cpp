@@ -192,7 +192,7 @@ TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
   EXPECT_EQ(guessed("T84T86\nS101D1\nC001\nG92X0Y0\nG41D1G01X5.\nM02\n"), "wire erosion (Sodick, Mitsubishi, Accutex)");
   EXPECT_EQ(guessed("N10 D00 Q1 P01 +5 *\nN20 G00 X+10 Y+0 *\nN30 D01 Q2 P01 Q1 P02 +3 *\n"), "Heidenhain DIN/ISO");
   EXPECT_EQ(guessed("N10 (P100=5)\nN15 (IF P100 EQ 5 GOTO N20)\nN20 G0 X1\nM30\n"), "Fagor 8055");
-  EXPECT_NE(guessed("G21\n$TCS=READ id=0 p=tcs\no100 sub\nG0 X1\no100 endsub\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("G21\n$TCS=READ id=0 p=tcs\no100 sub\nG0 X1\no100 endsub\nM2\n"), "RS274NGC of grblHAL or FluidNC");
   EXPECT_EQ(guessed("; bore\n@100 = 25 ; size\nG43 H1 Z@820\nM10814 D@880\nM30\n"), "LNC macro");
   EXPECT_EQ(guessed("%00210\nN0 T1.1\nN10 M6\nN20 G0 G43 Z10\nN30 M30\n"), "Fagor 8055");
 }
@@ -216,6 +216,9 @@ TEST(Guess, CyclesInOneBlockWithADecimalDepthAreOfHaas) {
                     "N10 G00 X1.\nG01 Z-1.\nN20 X2.\nM30\n"),
             "fanuc-30i-lathe");
   EXPECT_EQ(guessed("O1\nT1 M6\nG43 H1 Z1.\nG13 I.25 K1. Q.25 D1 F20.\nM30\n"), "haas-ngc");
+  EXPECT_EQ(guessed("O1\nT1 M6\nG43 H1 Z1.\nG13 I.25 K1. D01 Q.25\nG13 I.25 K2. D01 Q.25\nG13 I.25 K3. D01 Q.25\n"
+                    "M30\n"),
+            "haas-ngc");
 }
 
 TEST(Guess, LinuxCncWithoutOWords) {
