@@ -30,18 +30,20 @@ bool isStepOfZero(const FlowFacts &facts, const LoopWrite &write, std::uint32_t 
   return size->isNumber() && size->number().interval().lo == 0 && size->number().interval().hi == 0;
 }
 
-/// The first block of the loop that counts a variable of the condition, by 0.
-std::optional<LoopWrite> stepOfZero(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
-  for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block))
-    if (const auto writes = read.number ? writesTo(facts, loop, *read.number) : std::nullopt;
-        writes && !writes->empty())
-      return writes->front();
-  return std::nullopt;
-}
-
 /// By its number or its name.
 std::optional<std::uint32_t> numberOf(const FlowFacts &facts, const Read &read) {
   return read.number ? read.number : variableOf(facts, read.expression);
+}
+
+/// The first block of the loop that counts a variable of the condition, by 0.
+std::optional<LoopWrite> stepOfZero(const LoopExit &exit, const LoopFlow &loop, const FlowFacts &facts) {
+  for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block))
+    if (const auto number = numberOf(facts, read)) {
+      const auto writes = writesTo(facts, loop, *number);
+      if (writes && !writes->empty())
+        return writes->front();
+    }
+  return std::nullopt;
 }
 
 /// Of this program alone.
