@@ -166,8 +166,10 @@ private:
   }
   std::string unsteady(const RankingFunction &ranking) {
     const auto text = shopText(store_, ranking.value, namesBeforeIteration());
-    return text ? fmt::format("`{}` falls at every iteration{} and is never negative before one", *text,
-                              ranking.isFollowed ? " that another one follows" : "")
+    const bool isPartial = ranking.iterations.size() < loop_.transitions.size();
+    return text ? fmt::format("`{}` falls at every iteration{} and is never negative before one{}", *text,
+                              ranking.isFollowed ? " that another one follows" : "",
+                              isPartial ? ", but for paths that are not taken twice in a row" : "")
                 : "";
   }
   /// Of a loop with phases: what ends the last one.
