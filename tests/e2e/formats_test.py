@@ -54,6 +54,7 @@ class Formats(Scratch):
 
     def test_github_names_file_and_line(self):
         self.assertIn("::error file=bad.nc,line=3", self.output("github"))
+        self.assertIn("\ndialect fanuc-30i: 2 by its text\n", self.output("github"))
 
     def test_way_to_a_finding(self):
         self.write("way.nc", UNSET_ON_A_WAY)

@@ -160,7 +160,8 @@ std::vector<const Rule *> rulesOf(const CheckArguments &arguments) {
 /// Prints the findings; returns the exit code.
 int present(const CheckResult &result, const CheckArguments &arguments) {
   const Format format = *formatFromName(arguments.format);
-  const bool isForPeople = format == Format::Text || format == Format::Concise;
+  // The log of a workflow is for people, too; annotations are few.
+  const bool isForPeople = format == Format::Text || format == Format::Concise || format == Format::Github;
   int exitCode = exitCodeOf(result, arguments);
   const Report report{.result = result,
                       .rules = allRules(),

@@ -48,7 +48,7 @@ std::string writeGithub(const Report &report) {
   }
   for (const PathProblem &problem : report.result.errors)
     text += fmt::format("::error file={}::{}\n", asProperty(problem.path), asMessage(problem.message));
-  return text + dialectsInWords(report.result); // in the log: annotations are few
+  return text;
 }
 
 } // namespace feedhold

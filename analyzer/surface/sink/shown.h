@@ -33,9 +33,6 @@ template <typename Visit> void forEachShown(const Report &report, Visit visit) {
 /// The programs with findings, worst first; empty for fewer than two.
 std::string programsOverview(const Report &report);
 
-/// A line for each dialect: how many files, or which where there are several dialects, and who chose it.
-std::string dialectsInWords(const CheckResult &result);
-
 struct TextRegion {
   Position begin;
   Position end; // just behind the last character

@@ -96,20 +96,7 @@ std::string filesInWords(const std::vector<std::string_view> &files, bool isOnly
   return fmt::format(" ({}{})", fmt::join(first, ", "), more);
 }
 
-/// What was concluded from the programs, with the line that settles it.
-std::string inferredPart(const CheckResult &result) {
-  std::string text;
-  for (const InferredSetting &setting : result.inferred) {
-    const std::string folder = setting.folder.empty() ? "." : setting.folder;
-    const std::string where = setting.table.empty() ? "" : fmt::format(" under [{}]", setting.table);
-    text += fmt::format("{}: read as a machine with `{}` ({}); to settle it, write this line{} in feedhold.toml\n",
-                        folder, setting.line, setting.evidence, where);
-  }
-  return text;
-}
-
-} // namespace
-
+/// A line for each dialect: how many files, or which where there are several dialects, and who chose it.
 std::string dialectsInWords(const CheckResult &result) {
   std::map<std::string_view, FilesByChoice> chosen;
   bool isGuessed = false;
@@ -129,6 +116,20 @@ std::string dialectsInWords(const CheckResult &result) {
   }
   return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
 }
+
+/// What was concluded from the programs, with the line that settles it.
+std::string inferredPart(const CheckResult &result) {
+  std::string text;
+  for (const InferredSetting &setting : result.inferred) {
+    const std::string folder = setting.folder.empty() ? "." : setting.folder;
+    const std::string where = setting.table.empty() ? "" : fmt::format(" under [{}]", setting.table);
+    text += fmt::format("{}: read as a machine with `{}` ({}); to settle it, write this line{} in feedhold.toml\n",
+                        folder, setting.line, setting.evidence, where);
+  }
+  return text;
+}
+
+} // namespace
 
 std::string summary(const Report &report) {
   const Counts counts = count(report);

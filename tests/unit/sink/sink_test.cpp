@@ -216,9 +216,7 @@ TEST_F(Sink, Github) {
   EXPECT_EQ(writeGithub(report()),
             "::error file=cell 1/part.nc,line=2,endLine=2,col=1,endColumn=8,title=missing-equals::"
             "`#510-#6` is 50%25 of a statement%0Athe control stops\n"
-            "::error file=gone.nc::no such file\n"
-            "dialect fanuc-30i: 1 by its text\n"
-            "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n");
+            "::error file=gone.nc::no such file\n");
 }
 
 } // namespace
