@@ -71,12 +71,11 @@ std::optional<FactsAtCursor> knownBefore(const View &view, BlockId block) {
   if (!states || (states->isCutShort && !one))
     return std::nullopt;
   FactsAtCursor known;
-  const ModalTable modes(programs.dialect());
   std::vector<const ContextStates *> contexts;
   for (const ContextStates &context : (one ? *one : *states).contexts)
     if (const auto found = context.blocks.find(block); context.file == kDocument && found != context.blocks.end()) {
       known.contexts.push_back(
-          {callerOf(programs, context), factsOf(found->second.state(), context, *programs.set, modes)});
+          {callerOf(programs, context), FactsOfStates(context, *programs.set).at(found->second.state())});
       contexts.push_back(&context);
     }
   known.assumed = assumedBy(programs, contexts, view.file().model.programOf(block));

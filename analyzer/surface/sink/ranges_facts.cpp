@@ -30,8 +30,8 @@ constexpr std::initializer_list<CodeAction> kCycles = {
 class FactWriter {
 public:
   FactWriter(const AbstractState &state, const ContextStates &context, const ProgramSet &programs,
-             const ModalTable &modes)
-      : state_(state), context_(context), programs_(programs), modes_(modes) {}
+             const ModalTable &modes, const std::bitset<kLocalVariables + 1> &mentioned)
+      : state_(state), context_(context), programs_(programs), modes_(modes), mentioned_(mentioned) {}
 
   StateFacts write() {
     variables();
@@ -53,7 +53,7 @@ private:
   void variables() {
     for (std::uint32_t local = 1; local <= kLocalVariables; ++local) {
       const AbstractValue &value = state_.locals[local];
-      if (isMentioned(local) || !(value.isVacant() || isAnything(value)))
+      if (mentioned_[local] || !(value.isVacant() || isAnything(value)))
         variable(local, value);
     }
     for (const auto &[number, value] : state_.variables.entries())
@@ -77,10 +77,6 @@ private:
       const CallKind kind = programs_.file(place.file).model->calls[node->call].kind;
       return kind == CallKind::Subprogram || kind == CallKind::Local || kind == CallKind::External;
     });
-  }
-  bool isMentioned(std::uint32_t variable) const {
-    const auto uses = programs_.file(context_.file).model->variablesOf(context_.program);
-    return std::any_of(uses.begin(), uses.end(), [&](const VariableUse &use) { return use.number == variable; });
   }
   /// Unless it is as it was at the start, when nothing was known of it but perhaps that it is a number.  `own`: the
   /// symbol of the thing itself at the start.
@@ -227,6 +223,7 @@ private:
   const ContextStates &context_;
   const ProgramSet &programs_;
   const ModalTable &modes_;
+  const std::bitset<kLocalVariables + 1> &mentioned_;
   std::map<std::uint32_t, std::pair<std::string, Rational>> firstOf_; // of a symbol: its first value
   StateFacts facts_;
 };
@@ -240,9 +237,15 @@ std::string listed(const std::vector<std::string> &words) {
 
 } // namespace
 
-StateFacts factsOf(const AbstractState &state, const ContextStates &context, const ProgramSet &programs,
-                   const ModalTable &modes) {
-  return FactWriter(state, context, programs, modes).write();
+FactsOfStates::FactsOfStates(const ContextStates &context, const ProgramSet &programs)
+    : context_(context), programs_(programs), modes_(*programs.file(context.file).dialect) {
+  for (const VariableUse &use : programs.file(context.file).model->variablesOf(context.program))
+    if (use.number && *use.number <= kLocalVariables)
+      mentioned_.set(*use.number);
+}
+
+StateFacts FactsOfStates::at(const AbstractState &state) const {
+  return FactWriter(state, context_, programs_, modes_, mentioned_).write();
 }
 
 std::string textOf(const KnownRelation &relation) {

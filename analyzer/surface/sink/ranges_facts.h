@@ -3,6 +3,7 @@
 
 #include "inference/absint/block_states.h"
 
+#include <bitset>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,8 +43,18 @@ struct StateFacts {
   bool maybeOtherModalCalls = false;
 };
 
-StateFacts factsOf(const AbstractState &state, const ContextStates &context, const ProgramSet &programs,
-                   const ModalTable &modes);
+/// The facts of the states of one context, which has to outlive it.
+class FactsOfStates {
+public:
+  FactsOfStates(const ContextStates &context, const ProgramSet &programs);
+  StateFacts at(const AbstractState &state) const;
+
+private:
+  const ContextStates &context_;
+  const ProgramSet &programs_;
+  ModalTable modes_;
+  std::bitset<kLocalVariables + 1> mentioned_; // local variables that the text of the program names
+};
 
 bool isUnknown(const ValueFact &fact);
 /// `= #1 + 17`, `as at start`, `= X at start - 5`.

@@ -45,7 +45,7 @@ public:
 private:
   std::string contextText(const ContextStates &context) const {
     const ProgramFile &file = report_.programs.file(context.file);
-    const ModalTable modes(*file.dialect);
+    const FactsOfStates facts(context, report_.programs);
     Json calls = Json::array();
     for (const Place call : context.calls)
       calls.push_back(placeToJson(call));
@@ -58,7 +58,7 @@ private:
     for (const auto &[block, state] : context.blocks) {
       Json row = {{"line", file.source->lineOf(file.tree->blocks[block].begin)},
                   {"text", trimmed(file.source->utf8(file.tree->blocks[block].span()))}};
-      row.update(factsToJson(factsOf(state.state(), context, report_.programs, modes)));
+      row.update(factsToJson(facts.at(state.state())));
       text += (isFirst ? "\n      " : ",\n      ") + json::compactText(row);
       isFirst = false;
     }

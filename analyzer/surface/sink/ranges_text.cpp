@@ -136,7 +136,7 @@ public:
 private:
   void writeContext(const ContextStates &context) {
     const ProgramFile &file = report_.programs.file(context.file);
-    const ModalTable modes(*file.dialect);
+    const FactsOfStates facts(context, report_.programs);
     if (!text_.empty())
       text_ += '\n';
     text_ += heading(context);
@@ -149,7 +149,7 @@ private:
         continue;
       }
       writeBlock(file, block, "");
-      Lines now = linesOf(factsOf(state->second.state(), context, report_.programs, modes));
+      Lines now = linesOf(facts.at(state->second.state()));
       writeFacts(report_.line ? now : changesFrom(before, now));
       before = std::move(now);
     }
