@@ -74,6 +74,14 @@ constexpr std::array kDollar = {
 constexpr std::array kFadal = {
     LanguageHint{TextSignal::FadalLine, 12},
 };
+constexpr std::array kFadalProgram = {
+    LanguageHint{TextSignal::FadalOffset, 6},
+    LanguageHint{TextSignal::FadalSubprogram, 2}, // Sinumerik calls subprograms in this way, too
+};
+constexpr std::array kBeagle = {
+    LanguageHint{TextSignal::BeagleLoop, 14},
+    LanguageHint{TextSignal::CLikeOperator, 6},
+};
 constexpr std::array kCLike = {
     LanguageHint{TextSignal::CLikeOperator, 6},      LanguageHint{TextSignal::BareCondition, 4},
     LanguageHint{TextSignal::CentroidStatement, 20}, LanguageHint{TextSignal::EdingStatement, 12},
@@ -119,8 +127,13 @@ constexpr std::array kLanguages = {
     ForeignLanguage{"LNC macro", "variables such as `@100` are not supported", kLnc},
     ForeignLanguage{"ISG or Fagor 8060 (`$IF`)", "control statements with `$` are not supported", kDollar},
     ForeignLanguage{"Fadal macro", "macro lines that begin with `#` are not supported", kFadal},
+    ForeignLanguage{"a program for Fadal",
+                    "`E` is the fixture offset there, and `L` alone begins or calls a subprogram; exclude these files",
+                    kFadalProgram},
     ForeignLanguage{"a macro language with C operators (Centroid, Eding)",
                     "only Macro B comparisons such as `EQ` and conditions in brackets are supported", kCLike},
+    ForeignLanguage{"a macro for BeagleG", "its loops and operators are not those of Macro B; exclude these files",
+                    kBeagle},
     ForeignLanguage{"a macro for DDCS",
                     "its variables mean something else than on a Macro B control; exclude these files", kDdcs,
                     Resemblance::MacroB},

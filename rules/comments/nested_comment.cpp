@@ -1,8 +1,6 @@
 // nested-comment: `(A (B) C)`: `C)` is read as program.
 #include "findings/rule/dead_blocks.h"
 
-#include "base/support/text.h"
-
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -11,6 +9,7 @@ namespace {
 
 /// `(A (B) C)` as a control reads it.
 struct Parts {
+  Span whole; // as it was meant
   Span open;  // the inner `(`
   Span close; // the `)` that ends the comment
   Span rest;  // behind it
@@ -18,12 +17,20 @@ struct Parts {
 
 Parts partsOf(const SyntaxIssue &issue, const FileContext &context) {
   const std::uint32_t end = issue.other.begin + static_cast<std::uint32_t>(context.text(issue.other).find(')')) + 1;
-  return {issue.span, {end - 1, end}, {end, issue.other.end}};
+  return {issue.other, issue.span, {end - 1, end}, {end, issue.other.end}};
 }
 
-/// Only the last `)` is left over.
+/// Only a `)` is left over, or several.
 bool losesNothing(const Parts &parts, const FileContext &context) {
-  return trimmed(context.text({parts.rest.begin, parts.rest.end - 1})).empty();
+  return context.text(parts.rest).find_first_not_of(") \t") == std::string_view::npos;
+}
+
+/// Takes out all parentheses but the outer ones.
+void unnest(const Parts &parts, const FileContext &context, FixIt &fix) {
+  const std::string_view text = context.text(parts.whole);
+  for (std::uint32_t i = 1; i + 1 < text.size(); ++i)
+    if (text[i] == '(' || text[i] == ')')
+      fix.edits.push_back({{parts.whole.begin + i, parts.whole.begin + i + 1}, ""});
 }
 
 std::vector<Parts> nestedIn(const FileContext &context) {
@@ -62,17 +69,16 @@ void check(const FileContext &context, const Reporter &reporter) {
     diagnostic.message = fmt::format("{} is outside the comment", context.quoted(first.rest));
     diagnostic.span = first.rest;
     diagnostic.labels = {{first.open, "this `(` does not open a comment"}, {first.close, "the comment ends here"}};
-    diagnostic.notes = {context.dialect.grammar.commentsMayNest
+    diagnostic.notes = {isHarmless ? "some controls stop at a `)` outside a comment, others ignore it"
+                        : context.dialect.grammar.commentsMayNest
                             ? "comments do not nest: the control may read the text after the first `)` as program"
                             : "comments do not nest: the control reads the text after the first `)` as program"};
   }
   if (found.size() > 1)
     diagnostic.notes.push_back(fmt::format("{} comments of this file have parentheses inside", found.size()));
   FixIt fix{isHarmless ? FixSafety::Safe : FixSafety::NeedsReview, "remove the inner parentheses", {}};
-  for (const Parts &parts : found) {
-    fix.edits.push_back({parts.open, ""});
-    fix.edits.push_back({parts.close, ""});
-  }
+  for (const Parts &parts : found)
+    unnest(parts, context, fix);
   diagnostic.fixes.push_back(std::move(fix));
   reporter.report(std::move(diagnostic), severityFor(isHarmless, context));
 }

@@ -27,14 +27,27 @@ bool isTakenOut(const FileContext &context, const Comment &comment) {
   return scan.programLines == 1 && (scan.codeLines == 1 || scan.count(TextSignal::MacroControl) != 0);
 }
 
+/// What controls make of it is told as nested-comment tells it, which is the same mistake.
+void reportBehind(const Comment &comment, const SyntaxIssue &issue, const FileContext &context,
+                  const Reporter &reporter) {
+  const bool stops = context.dialect.grammar.oWords;
+  const std::string stop = fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat));
+  const Severity severity = isTakenOut(context, comment) ? Severity::Info : Severity::Warning;
+  reporter.report({.message = "`)` is outside the comment",
+                   .span = issue.span,
+                   .labels = {{{comment.span.end - 1, comment.span.end}, "the comment ends here"}},
+                   .notes = {stops ? stop : "some controls stop at a `)` outside a comment, others ignore it"},
+                   .fixes = {{FixSafety::Safe, "remove `)`", {{issue.span, ""}}}}},
+                  stops ? Severity::Error : severity);
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  const Comment *comment = commentBefore(context, issue.span);
-  const bool direct = comment != nullptr;
+  if (const Comment *comment = commentBefore(context, issue.span))
+    return reportBehind(*comment, issue, context, reporter);
   reporter.report({.message = "this `)` has no matching `(`",
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
-                   .fixes = {{direct ? FixSafety::Safe : FixSafety::NeedsReview, "remove `)`", {{issue.span, ""}}}}},
-                  direct && isTakenOut(context, *comment) ? Severity::Info : Severity::Error);
+                   .fixes = {{FixSafety::NeedsReview, "remove `)`", {{issue.span, ""}}}}});
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::StrayCloseParenthesis};

@@ -65,6 +65,16 @@ bool leaves(const ExitFact &exit, const LeftOn &mode, const MotionView &view) {
   return isHavocked(exit.state) || view.wasSet(exit.state, mode.kind, mode.actions);
 }
 
+/// M73: the modes that the caller had are in force again at the return.  Not so the motion code, nor origins.
+bool isRestoredAtReturn(const LeftOn &mode, const MotionView &view, const FlowFacts &facts) {
+  if (mode.special || mode.kind == ModalKind::Cycle)
+    return false;
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    if (facts.isReached(node) && view.findAction(node, {CodeAction::ModesSaveForReturn}) != nullptr)
+      return true;
+  return false;
+}
+
 bool cancels(const LeftOn &mode, const FileContext &context) {
   if (context.model.programs.empty())
     return false;
@@ -131,12 +141,13 @@ void reportLeftOn(const LeftOn &mode, const FlowFacts &facts, const FileContext 
   if (switching.empty())
     return; // before the whole folder is looked through
   const CallersOfMode callers = behindCalls(mode, facts, context);
+  const bool isRestored = isRestoredAtReturn(mode, view, facts);
   const bool isForgotten = mode.followsHabit && isCancelledElsewhere(mode, context);
   std::vector<const Word *> told;
   for (const ExitFact &exit : facts.exits()) {
     const auto severity = leaves(exit, mode, view) ? severityAt(exit, mode, callers) : std::nullopt;
     const bool isKept = callers.behindLocal == BehindCalls::PutRight && isOfLocalCall(exit, facts);
-    if (!severity || isKept)
+    if (!severity || isKept || (isRestored && exit.end == PathEnd::Returns))
       continue;
     std::optional<Leaving> leaving;
     for (auto node = switching.rbegin(); node != switching.rend() && !leaving; ++node)

@@ -53,6 +53,11 @@ private:
     hasSignal_ = true;
   }
 
+  void countCLike() {
+    count(TextSignal::CLikeOperator);
+    hasCLike_ = true;
+  }
+
   /// A mark that says nothing about the language of the line.
   void note(TextSignal signal) { ++scan_.counts[static_cast<std::size_t>(signal)]; }
 
@@ -120,6 +125,7 @@ private:
   void countGCodeSystem();
   bool hasAnyCode(std::size_t first, std::size_t last) const;
   bool hasLapCode() const;
+  void countFadalMarks();
   bool isBareIf() const;
   bool isSimulatorCall() const;
   void countCombinations();
@@ -164,6 +170,10 @@ private:
   bool hasM84_ = false;
   int erosionTools_ = 0;
   bool hasDecimalD_ = false;
+  bool hasOffsetE_ = false;     // `E1`: a whole number of at most two digits
+  bool hasSubprogramL_ = false; // `L100`: a whole number of at least three digits
+  bool hasCLike_ = false;       // an operator that Macro B does not have
+  bool hasBareDo_ = false;      // `DO` without a number, at the end
   bool hasG64_ = false;
 };
 

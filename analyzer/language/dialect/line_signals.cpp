@@ -59,10 +59,12 @@ void LineScanner::scanMark(char c) {
   const bool isAngle = c == '>' && hasHash_ && hasCondition_;
   if (isComparison || isJunction || isAssignment) {
     ++at_;
-    if (hasHash_)
-      count(isAssignment ? TextSignal::ColonAssignment : TextSignal::CLikeOperator);
+    if (isAssignment && hasHash_)
+      count(TextSignal::ColonAssignment);
+    else if (hasHash_)
+      countCLike();
   } else if (isAngle) {
-    count(TextSignal::CLikeOperator);
+    countCLike();
   } else if (static_cast<unsigned char>(c) >= 0x20 && c != '=') {
     hasUnknown_ = true; // blanks of other kinds and tape leader bytes are nothing
   }
@@ -232,6 +234,7 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
     skipBlanks();
     if (isDigit(peek()))
       count(TextSignal::NumberedLoop);
+    hasBareDo_ = atEnd() || peek() == ';' || peek() == '(';
   } else if (keyword.spelling == "ENDIF" && !hasOWord_) {
     count(TextSignal::BlockIf);
   }
@@ -326,6 +329,8 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
     if (!hasCode_ && number.digits == 2 && peek() == ' ' && (peek(1) == 'Q' || peek(1) == 'q'))
       count(TextSignal::HeidenhainIsoBlock);
     return;
+  case 'E': hasOffsetE_ = !number.hasFraction && number.digits <= 2 && line_[after - 1] != '.'; return;
+  case 'L': hasSubprogramL_ = !number.hasFraction && number.digits >= 3 && line_[after - 1] != '.'; return;
   case 'T':
     if (number.digits == 4 || (number.digits == 3 && number.whole / 100 == number.whole % 100))
       count(TextSignal::TurretTool);
@@ -489,7 +494,7 @@ void LineScanner::scanAngle() {
                       name.find_first_not_of(kNameCharacters) == std::string_view::npos;
   if (!isName) {
     if (hasHash_ && hasCondition_)
-      count(TextSignal::CLikeOperator);
+      countCLike();
     else
       hasUnknown_ = true;
     ++at_;
@@ -548,6 +553,9 @@ void LineScanner::countCombinations() {
     count(TextSignal::HaasCode);
   if (hasG64_ && hasNumber('P'))
     count(TextSignal::NgcCode);
+  if (hasBareDo_ && hasCLike_)
+    count(TextSignal::BeagleLoop);
+  countFadalMarks();
   if (!hasG65_) { // whose letters are arguments
     countLatheMarks();
     countGCodeSystem();

@@ -50,9 +50,10 @@ bool hasSemicolonRemarks(std::string_view text) {
       scanLine(remark.text, remark.isWholeLine ? lines : behind);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
-  // Program text behind `;` is a block of its own, or one that was taken out.  In a text with remarks, a line that
-  // begins with `;` was taken out: nobody begins a line by ending a block.
-  const std::uint32_t prose = behind.otherLines + lines.otherLines;
+  // Prose may hold a letter or a number that means something: `; size of #2`.  Program text behind `;` is a block of
+  // its own, or one that was taken out.  In a text with remarks, a line that begins with `;` was taken out: nobody
+  // begins a line by ending a block.
+  const std::uint32_t prose = behind.otherLines + behind.signalLines + lines.otherLines + lines.signalLines;
   return prose > 0 && prose * 2 >= behind.programLines;
 }
 

@@ -257,12 +257,30 @@ Token Lexer::endOfBlock(std::uint32_t begin) {
   return make(TokenKind::EndOfBlock, begin, lineEnds ? afterLineEnd(behind) : begin + 1);
 }
 
-/// `<NAME>`, or the sign alone.  Names of parameters may hold any sign, blanks too.
+/// Whether nothing but a program number stands in front of it on its line.
+bool Lexer::followsProgramNumber(std::uint32_t offset) const {
+  const auto isBlankAt = [this](std::uint32_t i) { return text_[i] == ' ' || text_[i] == '\t'; };
+  std::uint32_t i = offset;
+  while (i > 0 && isBlankAt(i - 1))
+    --i;
+  const std::uint32_t digitsEnd = i;
+  while (i > 0 && isDigit(text_[i - 1]))
+    --i;
+  if (i == digitsEnd || i == 0 || toUpper(text_[--i]) != 'O')
+    return false;
+  while (i > 0 && isBlankAt(i - 1))
+    --i;
+  return i == 0 || text_[i - 1] == '\n' || text_[i - 1] == '\r';
+}
+
+/// `<NAME>`, or the sign alone.  Names of parameters may hold any sign, blanks too, and so may the title behind a
+/// program number: `O9123<FACE AND BORE>`.
 Token Lexer::angle(std::uint32_t begin) {
   std::uint32_t end = begin + 1;
-  const auto inName = [this](char c) {
-    return grammar_->namedParameters ? c != '>' && c != '\n' && c != '\r' && c != '('
-                                     : isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '_' || c == '.';
+  const bool holdsAnySign = grammar_->namedParameters || followsProgramNumber(begin);
+  const auto inName = [holdsAnySign](char c) {
+    return holdsAnySign ? c != '>' && c != '\n' && c != '\r' && c != '('
+                        : isLetter(c) || isDigit(c) || c == '+' || c == '-' || c == '_' || c == '.';
   };
   while (end < size() && inName(text_[end]))
     ++end;

@@ -51,6 +51,7 @@ private:
   std::optional<std::uint32_t> endOfParagraph(std::uint32_t from) const;
   Token star(std::uint32_t begin);
   Token endOfBlock(std::uint32_t begin);
+  bool followsProgramNumber(std::uint32_t offset) const;
   Token angle(std::uint32_t begin);
   Token other(std::uint32_t begin);
   Token make(TokenKind kind, std::uint32_t begin, std::uint32_t end);

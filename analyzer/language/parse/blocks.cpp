@@ -2,6 +2,9 @@
 #include "base/support/text.h"
 #include "language/parse/parser.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace feedhold {
 
 namespace {
@@ -240,14 +243,11 @@ void Parser::readComment() {
   const std::size_t open = inner.find('(');
   // `(A (B) C)`: the comment ends at the first `)`, and ` C)` would be read as program text.
   if (open != std::string_view::npos && closed && !atEnd()) {
-    const std::string_view rest = text_.substr(span.end, kRecoveryWindow);
-    const std::size_t close = rest.find_first_of("()\r\n");
-    if (close != std::string_view::npos && rest[close] == ')') {
+    if (const std::optional<std::uint32_t> end = endOfNesting(span)) {
       const auto inside = static_cast<std::uint32_t>(span.begin + 1 + open);
-      issue(SyntaxIssueKind::NestedComment, {inside, inside + 1},
-            {span.begin, span.end + static_cast<std::uint32_t>(close) + 1}, Broken::No);
+      issue(SyntaxIssueKind::NestedComment, {inside, inside + 1}, {span.begin, *end}, Broken::No);
       const std::uint32_t begin = token_.begin;
-      moveTo(span.end + static_cast<std::uint32_t>(close) + 1);
+      moveTo(*end);
       addStatement(begin, BrokenStatement{});
       block_.flags |= Block::kCommentTail;
       return;
@@ -255,6 +255,25 @@ void Parser::readComment() {
   }
   if (!closed)
     issue(SyntaxIssueKind::UnclosedComment, span, {}, Broken::No);
+}
+
+/// Where the comment was meant to end: behind the `)` that belongs to its first `(`, or, where none does, behind one
+/// that follows without another `(` before it.
+std::optional<std::uint32_t> Parser::endOfNesting(Span comment) const {
+  const std::string_view rest = text_.substr(comment.end, kRecoveryWindow);
+  const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+  const auto endAt = [&](std::size_t i) { return comment.end + static_cast<std::uint32_t>(i) + 1; };
+  const std::string_view inside = text_.substr(comment.begin, comment.size());
+  auto depth = std::ranges::count(inside, '(') - 1; // the comment holds one `)`
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    depth += line[i] == '(' ? 1 : line[i] == ')' ? -1 : 0;
+    if (depth == 0)
+      return endAt(i);
+  }
+  const std::size_t next = line.find_first_of("()");
+  if (next == std::string_view::npos || line[next] != ')')
+    return std::nullopt;
+  return endAt(next);
 }
 
 void Parser::readStrayCloseParenthesis() {

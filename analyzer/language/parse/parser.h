@@ -56,6 +56,7 @@ private:
   void readCommaWord();
   void readBlockSkip();
   void readComment();
+  std::optional<std::uint32_t> endOfNesting(Span comment) const;
   void readStrayCloseParenthesis();
   void skipBrokenRest();
   void noteBlockCodes();

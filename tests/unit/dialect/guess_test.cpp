@@ -194,6 +194,14 @@ TEST(Guess, PlainTextsOfOtherLanguagesAreRefused) {
   EXPECT_EQ(guessed("N10 (P100=5)\nN15 (IF P100 EQ 5 GOTO N20)\nN20 G0 X1\nM30\n"), "Fagor 8055");
   EXPECT_EQ(guessed("G21\n$TCS=READ id=0 p=tcs\no100 sub\nG0 X1\no100 endsub\nM2\n"), "RS274NGC of grblHAL or FluidNC");
   EXPECT_EQ(guessed("; bore\n@100 = 25 ; size\nG43 H1 Z@820\nM10814 D@880\nM30\n"), "LNC macro");
+  EXPECT_EQ(guessed("N1 O7 (PLATE)\nN2 M6 T1\nN3 G0 G90 X0 Y0 E1 S900 M3\nN4 H1 Z20. M8\nN5 G1 Z-1. F90.\n"
+                    "N6 G90 H0 Z0.\nN7 E0 X0. Y200.\nN8 M2\n"),
+            "a program for Fadal");
+  EXPECT_EQ(guessed("N1 L300\nN2 X5. Y5.\nN3 M17\nN4 M30\nN5 G0 G90 E2 X0 Y0\nN6 G81 Z-2. R1. F50. L0\nN7 L301\n"
+                    "N8 L301\nN9 M2\n"),
+            "a program for Fadal");
+  EXPECT_EQ(guessed("#2=12\n#3=[360/#2]\n#4=0\nWHILE [#4 < #2] DO\nG1 X[10*#4]\n#4=[#4+1]\nEND\n"),
+            "a macro for BeagleG");
   EXPECT_EQ(guessed("%00210\nN0 T1.1\nN10 M6\nN20 G0 G43 Z10\nN30 M30\n"), "Fagor 8055");
 }
 
@@ -201,6 +209,10 @@ TEST(Guess, OneMarkOfAnotherLanguageIsNotEnough) {
   EXPECT_EQ(guessed("%1234\nT0101\nG90 G54 G0 X0 Y0\nM30\n%1235\nG0 X1\nM99\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1\nT1.1 M6\nT2.1 M6\nT3.1 M6\nG43 H1 Z5.\nM30\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1\nG43 H1 XH2\nG0 Z@5\nE1=5\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("G21 G90\nM68 E3 Q0\nM66 P0 E1\nM68 E0 Q1\nG64 P0.01\nG0 X0 Y0\nM2\n"), "linuxcnc");
+  EXPECT_EQ(guessed("O1\nT0101\nG50 S2000\nG97 S500 M3\nG0 X20. Z5.\nG32 Z-20. E2\nG0 X30.\nG32 Z-20. E2\nM30\n"),
+            "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\n#1=1\nWHILE [#1 LT 5] DO\n#1=#1+1\nEND\nM30\n"), "fanuc-30i");
 }
 
 TEST(Guess, ToolsOfThreeDigitsAreOfALathe) {
