@@ -3,50 +3,95 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <string_view>
+#include <vector>
 
 namespace feedhold::rules::reference_through_work_zero {
 namespace {
 
+/// `Z0` makes the tool dive.  `X0` and `Y0` are a habit of some, on which only those who write `G91` elsewhere agree
+/// that it is a mistake.
 class ReferenceThroughWorkZero final : public FlowRule {
 public:
   ReferenceThroughWorkZero(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!depthWord(node))
+    if (zeroWords(node).empty())
       return;
-    const bool absolute = !isHavocked(state) && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute});
-    const auto [at, isNew] = places_.emplace(node, absolute);
-    at->second = at->second && (isNew || absolute);
+    const bool isKnown = !isHavocked(state);
+    const Modes modes{isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}),
+                      isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Incremental})};
+    const auto [at, isNew] = places_.emplace(node, modes);
+    if (!isNew)
+      at->second = {at->second.absolute && modes.absolute, at->second.incremental && modes.incremental};
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    for (const auto &[node, absolute] : places_) {
-      if (!absolute)
+    for (const auto &[node, modes] : places_) {
+      const Word *word = modes.absolute ? wrongWord(node) : nullptr;
+      if (!word)
         continue;
-      const Word &word = *depthWord(node);
+      const bool dives = word->address() == 'Z';
       reporter.report(
-          {.message = fmt::format("{} under `G90` makes part zero the intermediate point", context.quoted(word.span())),
-           .span = word.span(),
+          {.message =
+               fmt::format("{} under `G90` makes part zero the intermediate point", context.quoted(word->span())),
+           .span = word->span(),
            .flow = pathFromEntry(facts, node),
-           .notes = {"the tool moves down to Z0 at rapid before it goes to the reference point",
+           .notes = {dives ? "the tool moves down to Z0 at rapid before it goes to the reference point"
+                           : "the axis moves to part zero at rapid before it goes to the reference point; the other "
+                             "returns of this axis in the program stand under G91",
                      "write G91 in this block: the intermediate point is then the current position"},
-           .fixes = {{.title = "insert `G91`", .edits = {{{word.span().begin, word.span().begin}, "G91"}}}}});
+           .fixes = {fixFor(node, *word)}});
     }
   }
 
 private:
-  const Word *depthWord(NodeId node) const {
+  struct Modes {
+    bool absolute;
+    bool incremental;
+  };
+
+  FixIt fixFor(NodeId node, const Word &word) const {
+    if (const Word *absolute = view_.findAction(node, {CodeAction::Absolute}))
+      return {.title = "write `G91`", .edits = {{absolute->span(), "G91"}}};
+    return {.title = "insert `G91`", .edits = {{{word.span().begin, word.span().begin}, "G91"}}};
+  }
+  std::vector<const Word *> zeroWords(NodeId node) const {
+    std::vector<const Word *> words;
     if (!view_.findAction(node, {CodeAction::ReferenceReturn, CodeAction::SecondReference}))
-      return nullptr;
+      return words;
     for (const Word *word : view_.wordsOf(node))
-      if (word->address() == 'Z' && word->isNumber() && word->number().isZero())
+      if (std::string_view("XYZ").find(word->address()) != std::string_view::npos && word->isNumber() &&
+          word->number().isZero())
+        words.push_back(word);
+    return words;
+  }
+  const Word *wrongWord(NodeId node) const {
+    const auto words = zeroWords(node);
+    for (const Word *word : words)
+      if (word->address() == 'Z')
         return word;
-    return nullptr;
+    const auto isHabit = [&](const Word *word) { return isIncrementalElsewhere(word->address()); };
+    const auto found = std::ranges::find_if(words, isHabit);
+    return found == words.end() ? nullptr : *found;
+  }
+  /// Two returns of the axis under G91 and more, and no second one under G90.
+  bool isIncrementalElsewhere(char axis) const {
+    int incremental = 0;
+    int absolute = 0;
+    for (const auto &[node, modes] : places_) {
+      const bool moves =
+          std::ranges::any_of(zeroWords(node), [&](const Word *word) { return word->address() == axis; });
+      incremental += moves && modes.incremental ? 1 : 0;
+      absolute += moves && modes.absolute ? 1 : 0;
+    }
+    return incremental >= 2 && absolute == 1;
   }
 
   MotionView view_;
-  std::map<NodeId, bool> places_;
+  std::map<NodeId, Modes> places_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -56,8 +101,10 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule referenceThroughWorkZero;
-const Rule referenceThroughWorkZero{.info = {"reference-through-work-zero", Category::Motion, Severity::Warning,
-                                             "Reports a reference return with `Z0` while `G90` is active."},
-                                    .hooks = {.watch = watch}};
+const Rule referenceThroughWorkZero{
+    .info = {"reference-through-work-zero", Category::Motion, Severity::Warning,
+             "Reports a reference return with `Z0` while `G90` is active, and one with `X0` or `Y0` "
+             "where the other returns of the axis stand under `G91`."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::reference_through_work_zero

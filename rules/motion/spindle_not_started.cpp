@@ -1,8 +1,11 @@
 // spindle-not-started: a cutting move of a main program with the spindle at rest.
 #include "rules/motion/motion_view.h"
 
+#include "base/support/text.h"
+
 #include <algorithm>
 #include <fmt/format.h>
+#include <string>
 
 namespace feedhold::rules::spindle_not_started {
 namespace {
@@ -10,14 +13,15 @@ namespace {
 class SpindleNotStarted final : public FlowRule {
 public:
   SpindleNotStarted(ProgramId program, const FileContext &context)
-      : view_(program, context),
-        asked_(startedBy(context, program) == StartedBy::Operator && context.dialect.machine == MachineKind::Milling) {}
+      : view_(program, context), asked_(startedBy(context, program) == StartedBy::Operator),
+        isLathe_(context.dialect.machine == MachineKind::Turning) {}
 
   void after(NodeId node, const AbstractState &state) override {
     if (!asked_)
       return;
     mayBeStartedUnseen_ = mayBeStartedUnseen_ || hasOtherSpindleCode(node);
-    if (!state.spindle.mayBeAtEntry() && !state.spindle.contains(kStopped))
+    // A lathe pulls bars, and taps, with the spindle stopped.
+    if (!state.spindle.mayBeAtEntry() && (isLathe_ || !state.spindle.contains(kStopped)))
       return;
     if (isHavocked(state) || !movesTool(node) || !cuts(state) || isAbovePart(node, state))
       return;
@@ -25,13 +29,13 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts))
+    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts) || (isLathe_ && !isLateOnLathe(facts)))
       return;
     const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
     Diagnostic diagnostic{.message = {},
                           .span = view_.modalMotionWords(*first_.node()).front()->span(),
                           .notes = {"the tool is fed into the part with the spindle stopped"}};
-    if (const auto stop = stopBefore(facts)) {
+    if (const auto stop = isLathe_ ? std::nullopt : stopBefore(facts)) {
       diagnostic.message = fmt::format("the spindle is stopped at the cutting move to {}", move);
       diagnostic.labels = {{view_.findAction(stop->node, {CodeAction::SpindleStop})->span(), "stopped here"}};
       diagnostic.flow = describePath(facts, stop->path);
@@ -40,6 +44,8 @@ public:
       diagnostic.message = fmt::format("no `M03` or `M04` comes before the cutting move to {}", move);
       diagnostic.flow = pathFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
       diagnostic.notes.push_back("start the spindle with S and M03 before the first cut");
+      if (const Word *mistyped = mistypedStart(facts))
+        diagnostic.labels = {{mistyped->span(), "this code does not start the spindle"}};
     }
     reporter.report(std::move(diagnostic),
                     speaksOfSpindle(facts) || isStartedInFile() ? Severity::Warning : Severity::Info);
@@ -76,6 +82,42 @@ private:
           }))
         return true;
     return false;
+  }
+  /// A speed stands before the first cut, and the spindle is started behind it, for another tool.
+  bool isLateOnLathe(const FlowFacts &facts) const {
+    bool hasSpeed = false;
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next()) {
+      const auto words = view_.wordsOf(node);
+      hasSpeed = hasSpeed || std::ranges::any_of(words, [](const Word *word) { return word->address() == 'S'; });
+      if (starts(node))
+        return false; // on another path
+    }
+    bool startsLater = false;
+    for (NodeId node = *first_.node(); node < facts.end(); node = node.next())
+      startsLater = startsLater || starts(node);
+    return hasSpeed && startsLater;
+  }
+  const Word *mistypedStart(const FlowFacts &facts) const {
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
+      for (const Word *word : view_.wordsOf(node))
+        if (isMistypedStart(*word, node))
+          return word;
+    return nullptr;
+  }
+  /// `S800 M93 (SPINDLE ON)`: one digit is not that of M03 or M04.  M13 and M14 start it together with the coolant.
+  bool isMistypedStart(const Word &word, NodeId node) const {
+    const auto number = word.address() == 'M' && word.isNumber() ? word.integer() : std::nullopt;
+    if (!number || *number < 20 || *number > 99 || (*number % 10 != 3 && *number % 10 != 4) ||
+        codeOf(word, view_.context().dialect))
+      return false;
+    const FileContext &context = view_.context();
+    const auto comments = context.tree.commentsOf(view_.node(node).block);
+    return findWord(context.tree, view_.node(node).block, 'S') != nullptr &&
+           std::ranges::any_of(comments, [&](const Comment &comment) {
+             const std::string text = toUpper(context.text(comment.span));
+             const auto has = [&](std::string_view part) { return text.find(part) != std::string::npos; };
+             return has("SPINDLE") && (has("ON") || has("START")) && !has("SUB") && !has("LIVE") && !has("MILL");
+           });
   }
   /// Not an axis of a table, a dresser or a wheelhead alone.
   bool movesTool(NodeId node) const {
@@ -122,7 +164,7 @@ private:
       return false;
     for (const Word *word : view_.wordsOf(node)) {
       const Code *code = codeOf(*word, view_.context().dialect);
-      if (word->address() == 'M' && !code)
+      if (word->address() == 'M' && !code && !isMistypedStart(*word, node))
         return true;
       if (code && isSkip(code->role))
         return true;
@@ -132,6 +174,7 @@ private:
 
   MotionView view_;
   bool asked_;
+  bool isLathe_;
   bool mayBeStartedUnseen_ = false;
   FirstSeen first_;
 };
@@ -143,9 +186,10 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule spindleNotStarted;
-const Rule spindleNotStarted{.info = {"spindle-not-started", Category::Motion, Severity::Warning,
-                                      "Reports the first cutting move of a main program on a mill when no `M03` or "
-                                      "`M04` comes before it on some path."},
-                             .hooks = {.watch = watch}};
+const Rule spindleNotStarted{
+    .info = {"spindle-not-started", Category::Motion, Severity::Warning,
+             "Reports the first cutting move of a main program when no `M03` or `M04` comes before "
+             "it on some path, on a lathe where they come only for a later tool."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::spindle_not_started

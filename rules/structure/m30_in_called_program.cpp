@@ -5,6 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 namespace feedhold::rules::m30_in_called_program {
 namespace {
 
@@ -31,7 +35,81 @@ void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileConte
                                  : "return with M99; where the job must stop, raise an alarm with `#3000=`"}});
 }
 
+/// The ends to which the ways from a block lead.
+class LocalEnds {
+public:
+  LocalEnds(ProgramId program, const FileContext &context) : program_(program), context_(context) {}
+
+  /// The M02 or M30 with which all of them end; null: one may return, or it cannot be told.
+  const Word *from(BlockId start) {
+    std::vector<BlockId> open{start};
+    const Word *end = nullptr;
+    while (!open.empty()) {
+      const BlockId block = open.back();
+      open.pop_back();
+      if (!seen_.insert(block).second)
+        continue;
+      if (block >= context_.model.programs[program_].last || isUnclear(block))
+        return nullptr;
+      const Word *own = findCode(context_.tree, block, context_.dialect, CodeRole::ProgramEnd);
+      end = end ? end : own;
+      for (const Jump &jump : context_.model.jumpsIn(block, block.next()))
+        open.push_back(*jump.target);
+      if (!leavesForGood(context_, block))
+        open.push_back(block.next());
+    }
+    return end;
+  }
+
+private:
+  /// A return, a jump that is not followed, a block that could not be read.
+  bool isUnclear(BlockId block) const {
+    const auto jumps = context_.model.jumpsIn(block, block.next());
+    return findCode(context_.tree, block, context_.dialect, CodeRole::Return) != nullptr ||
+           context_.tree.blocks[block].has(Block::kBroken) ||
+           std::ranges::any_of(jumps, [](const Jump &jump) { return !jump.target; });
+  }
+
+  ProgramId program_;
+  const FileContext &context_;
+  std::set<BlockId> seen_;
+};
+
+/// A block with content behind the call, which no jump reaches without it: the call is not the way to the end.
+bool goesOnBehind(const Jump &jump, ProgramId program, const FileContext &context) {
+  BlockId block = jump.block.next();
+  while (block < context.model.programs[program].last && !hasContent(context, block))
+    block = block.next();
+  const bool isEnd = leavesForGood(context, block);
+  return block < context.model.programs[program].last && !isEnd &&
+         !context.model.jumpTargetsOf(program).contains(block);
+}
+
+/// `M97 P5` of a subprogram that ends with M30 in the place of M99.
+void checkLocal(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  std::vector<const Word *> told;
+  for (const Jump &jump : context.model.jumpsOf(id)) {
+    if (jump.kind != JumpKind::LocalCall || !jump.target || jump.conditional || !goesOnBehind(jump, id, context))
+      continue;
+    const Word *end = LocalEnds(id, context).from(*jump.target);
+    if (!end || std::ranges::find(told, end) != told.end())
+      continue;
+    told.push_back(end);
+    const Call *call = nullptr;
+    for (const Call &each : context.model.callsIn(jump.block, jump.block.next()))
+      call = &each;
+    const Span place = call ? call->span : jump.span;
+    reporter.report(
+        {.message = fmt::format("{} ends the program in a subprogram that never returns", context.quoted(end->span())),
+         .span = end->span(),
+         .labels = {{place, "called here"}},
+         .notes = {"the blocks after the call are never executed", "return with M99"}},
+        Severity::Warning);
+  }
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  checkLocal(id, context, reporter);
   const auto caller = foreignCaller(context, id);
   if (!caller)
     return;

@@ -9,7 +9,33 @@
 namespace feedhold::rules::repeated_o_word {
 namespace {
 
+/// `o103 sub` and, outside of subroutines, `o103 while`: the interpreter keeps one place for both (LinuxCNC,
+/// interp_o_word.cc).  Within a subroutine labels are its own.
+void checkSubs(const FileContext &context, const Reporter &reporter) {
+  std::map<std::string, const OWordUse *> subs;
+  for (const Construct &construct : context.model.constructs)
+    if (const OWordUse &head = context.model.oWords[construct.parts.front()];
+        construct.kind == OWordKind::Sub && !head.label.empty())
+      subs.try_emplace(head.label, &head);
+  for (const Construct &construct : context.model.constructs) {
+    const OWordUse &head = context.model.oWords[construct.parts.front()];
+    const auto sub = subs.find(head.label);
+    if (construct.kind == OWordKind::Sub || sub == subs.end() || sub->second == nullptr ||
+        context.model.programs[head.program].name.isSubroutine)
+      continue;
+    const Span span = context.tree.statements[head.statement].span;
+    reporter.report({.message = fmt::format("{} has the label of a subroutine", context.quoted(span)),
+                     .span = span,
+                     .labels = {{context.tree.statements[sub->second->statement].span, "the subroutine"}},
+                     .notes = {"the interpreter stops when it has met both: duplicate O-word label",
+                               "give the block a number of its own"}},
+                    Severity::Warning);
+    sub->second = nullptr; // once for each label
+  }
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
+  checkSubs(context, reporter);
   std::map<std::pair<ProgramId, std::string>, const OWordUse *> first;
   for (const Construct &construct : context.model.constructs) {
     const OWordUse &head = context.model.oWords[construct.parts.front()];
@@ -32,8 +58,10 @@ void check(const FileContext &context, const Reporter &reporter) {
 } // namespace
 
 extern const Rule repeatedOWord;
-const Rule repeatedOWord{.info = {"repeated-o-word", Category::Structure, Severity::Info,
-                                  "Reports an o-word block with the label of an earlier one in the same program."},
-                         .hooks = {.file = check}};
+const Rule repeatedOWord{
+    .info = {"repeated-o-word", Category::Structure, Severity::Info,
+             "Reports an o-word block with the label of a subroutine, or of an earlier block in the "
+             "same program."},
+    .hooks = {.file = check}};
 
 } // namespace feedhold::rules::repeated_o_word

@@ -1,0 +1,101 @@
+// rpm-at-constant-surface-speed: `G96`, `M03 S1000 (1000 RPM)`.
+#include "findings/rule/rule.h"
+
+#include "base/support/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace feedhold::rules::rpm_at_constant_surface_speed {
+namespace {
+
+constexpr std::array<std::string_view, 3> kRevolutions = {"RPM", "U/MIN", "1/MIN"};
+constexpr std::array<std::string_view, 8> kSurface = {"SFM", "SFPM", "SMM", "M/MIN", "MPM", "FPM", "CSS", "SURFACE"};
+
+bool mentions(std::string_view text, std::span<const std::string_view> units) {
+  return std::ranges::any_of(units, [&](std::string_view unit) { return text.find(unit) != std::string_view::npos; });
+}
+
+/// `(1000 RPM)`, `(RPM = 4*250/1 = 1000)`: the number of the word is given in revolutions.
+bool givesRevolutions(std::string_view comment, const std::string &number) {
+  const std::string text = toUpper(trimmed(comment.substr(1, comment.size() - 2)));
+  if (mentions(text, kSurface))
+    return false;
+  for (std::size_t at = text.find(number); at != std::string::npos; at = text.find(number, at + 1)) {
+    const std::size_t end = at + number.size();
+    const bool isWhole = (at == 0 || (!isDigit(text[at - 1]) && text[at - 1] != '.')) &&
+                         (end == text.size() || (!isDigit(text[end]) && text[end] != '.'));
+    const std::string_view behind = trimmed(std::string_view(text).substr(end));
+    const auto follows = [&](std::string_view unit) { return behind.starts_with(unit); };
+    const bool isResult = behind.empty() && text.starts_with("RPM");
+    if (isWhole && (isResult || std::ranges::any_of(kRevolutions, follows)))
+      return true;
+  }
+  return false;
+}
+
+/// The S of a block whose comment gives it in revolutions; not one that limits the speed.
+const Word *revolutionsIn(BlockId block, const FileContext &context) {
+  const Word *speed = findWord(context.tree, block, 'S');
+  const auto number = speed && speed->isNumber() ? speed->integer() : std::nullopt;
+  const auto comments = context.tree.commentsOf(block);
+  if (!number || std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
+        return word.address() == 'G' && (word.integer() == 50 || word.integer() == 92);
+      }))
+    return nullptr;
+  const bool gives = std::ranges::any_of(comments, [&](const Comment &comment) {
+    return comment.span.size() > 2 && givesRevolutions(context.text(comment.span), std::to_string(*number));
+  });
+  return gives ? speed : nullptr;
+}
+
+void tell(const Word &speed, const Word &mode, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = fmt::format("the comment gives {} in revolutions, but under {} it is a surface speed",
+                                          context.quoted(speed.span()), context.quoted(mode.span())),
+                   .span = speed.span(),
+                   .labels = {{mode.span(), "constant surface speed from here"}},
+                   .notes = {"the spindle turns at another speed, and faster towards the centre, up to its limit",
+                             "program `G97` for revolutions per minute, or the surface speed as S"}});
+}
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const Word *constant = nullptr; // the G96 in force
+  const Word *speed = nullptr;    // an S in revolutions that a G96 behind it may take
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next()) {
+    const bool isUnclear = !context.model.callsIn(block, block.next()).empty() ||
+                           !context.model.jumpsIn(block, block.next()).empty() ||
+                           context.tree.blocks[block].has(Block::kSkip);
+    if (isUnclear)
+      constant = speed = nullptr;
+    const Word *begins = findAction(context.tree, block, context.dialect, {CodeAction::ConstantSurface});
+    if (begins)
+      constant = begins;
+    else if (findAction(context.tree, block, context.dialect, {CodeAction::ConstantSpeed}))
+      constant = speed = nullptr;
+    const bool hasSpeed = findWord(context.tree, block, 'S') != nullptr;
+    if (const Word *own = revolutionsIn(block, context)) {
+      if (constant)
+        tell(*own, *constant, context, reporter);
+      speed = constant ? nullptr : own;
+    } else if (begins && !hasSpeed && speed) {
+      tell(*speed, *begins, context, reporter);
+      speed = nullptr;
+    } else if (hasSpeed || findAction(context.tree, block, context.dialect, {CodeAction::ToolChange})) {
+      speed = nullptr;
+    }
+  }
+}
+
+} // namespace
+
+extern const Rule rpmAtConstantSurfaceSpeed;
+const Rule rpmAtConstantSurfaceSpeed{
+    .info = {"rpm-at-constant-surface-speed", Category::Motion, Severity::Warning,
+             "Reports an `S` that its comment gives in revolutions per minute while `G96` is active."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules::rpm_at_constant_surface_speed
