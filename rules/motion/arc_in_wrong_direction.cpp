@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace feedhold::rules::arc_in_wrong_direction {
 namespace {
@@ -46,21 +48,16 @@ bool turnsBack(const Move &first, const Move &second) {
 class ArcInWrongDirection final : public FlowRule {
 public:
   ArcInWrongDirection(ProgramId program, const FileContext &context)
-      : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling) {}
+      : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling && hasArcs()) {}
 
-  void before(NodeId, const AbstractState &state) override {
-    start_ = isAsked_ && isPlain(state) ? pointOf(state) : std::nullopt;
+  void before(NodeId node, const AbstractState &state) override {
+    start_ = isAsked_ && movesInPlane(node) && isPlain(state) ? pointOf(state) : std::nullopt;
   }
   void after(NodeId node, const AbstractState &state) override {
-    if (!isAsked_ || !std::holds_alternative<ExecuteWords>(view_.node(node).instruction)) {
-      forget();
-      return;
-    }
-    if (view_.modalMotionWords(node).empty()) {
-      if (!view_.axisWords(node).empty()) // G28, G53
-        forget();
-      return;
-    }
+    if (!isAsked_ || !std::holds_alternative<ExecuteWords>(view_.node(node).instruction))
+      return forget();
+    if (!movesInPlane(node))
+      return movesElsewhere(node) ? forget() : void();
     const auto end = isPlain(state) ? pointOf(state) : std::nullopt;
     const auto arc = start_ && end ? arcFrom(node, state, *end) : std::nullopt;
     const auto move = arc ? std::optional(arc->move) : start_ && end ? lineTo(node, state, *end) : std::nullopt;
@@ -76,9 +73,27 @@ public:
   }
 
 private:
+  bool hasArcs() const {
+    const auto isArc = [&](NodeId node) { return view_.mayHave(node, 'I') || view_.mayHave(node, 'J'); };
+    for (NodeId node(0); node.index() < view_.cfg().nodes.size(); node = node.next())
+      if (isArc(node))
+        return true;
+    return false;
+  }
   void forget() {
     last_ = std::nullopt;
     pending_ = std::nullopt;
+  }
+  /// A tool path has a million blocks: few questions need a look at the words.
+  bool movesInPlane(NodeId node) const {
+    if (!view_.mayHave(node, 'X') && !view_.mayHave(node, 'Y'))
+      return false;
+    return !view_.mayHave(node, 'G') ||
+           view_.mayDo(node, {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
+           !view_.modalMotionWords(node).empty();
+  }
+  bool movesElsewhere(NodeId node) const {
+    return std::ranges::any_of(std::string_view("XYZIJG"), [&](char letter) { return view_.mayHave(node, letter); });
   }
   /// `move` follows the arc that waits for it.
   void judge(const std::optional<Move> &move) {

@@ -16,11 +16,12 @@ void LineScanner::countFadalMarks() {
     return;
   if (hasSubprogramL_ && hasOnly("LN"))
     count(TextSignal::FadalSubprogram);
-  // Elsewhere E is the lead of a thread, an output (`M68 E1`) or a length of filament.
+  // Elsewhere E is the lead of a thread, an output (`M68 E1`), a length of filament, or, alone, a pack of conditions of
+  // wire erosion.
   std::bitset<100> others = gCodes_;
   for (const std::size_t code : {0, 8, 9, 17, 40, 49, 80, 90})
     others.reset(code);
-  const bool isPosition = hasLetter('X') || hasLetter('Y') || !hasLetter('M');
+  const bool isPosition = hasLetter('X') || hasLetter('Y') || hasLetter('Z') || hasLetter('H');
   if (hasOffsetE_ && others.none() && isPosition && hasOnly("ABDEGHMNSTXYZ"))
     count(TextSignal::FadalOffset);
 }
