@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/cycles.h"
+#include "meaning/semantics/tool_length.h"
 
 #include <bit>
 
@@ -285,8 +286,12 @@ private:
       else if (action == CodeAction::LengthGiven)
         setLength(wordOr('Z', state_.lengthOffset), interpretation_.truth(true));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
-        setLength(interpretation_.toolLength(state_, wordOr('H', state_.word('H'))), interpretation_.truth(true));
+        setLength(lengthByNumber(action), interpretation_.truth(true));
     }
+  }
+  Value lengthByNumber(CodeAction action) {
+    const Value length = toolLengthOf(context_, wordOr('H', state_.word('H')));
+    return action == CodeAction::LengthMinus ? interpretation_.negate(length) : length;
   }
   void setLength(const Value &length, Truth isNew) {
     const Value moved = interpretation_.subtract(state_.lengthOffset, length);

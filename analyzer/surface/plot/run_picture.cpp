@@ -74,6 +74,7 @@ Gouges gougesOf(const PicturedRun &run, const geometry::PlainSpace &space) {
     look(SpaceClaim::KeepOut, i);
   look(SpaceClaim::Clearance, 0);
   look(SpaceClaim::Travel, 0);
+  look(SpaceClaim::Machine, 0);
   std::stable_sort(gouges.all.begin(), gouges.all.end(),
                    [](const PlottedGouge &a, const PlottedGouge &b) { return a.gouge.depth > b.gouge.depth; });
   return gouges;
