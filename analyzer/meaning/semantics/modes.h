@@ -26,6 +26,8 @@ public:
   void run() {
     if (!words_.codes.empty() || !words_.computed.empty())
       codes();
+    else
+      otherNumber();
     modalWords();
   }
 
@@ -279,6 +281,7 @@ private:
   }
   /// The tip of the tool gets another coordinate while the machine stands still.
   void length(Truth wasOff) {
+    bool isNamed = false;
     for (const CodeWord &word : words_.codes) {
       const CodeAction action = word.code->action;
       if (action == CodeAction::LengthOff)
@@ -287,6 +290,23 @@ private:
         setLength(wordOr('Z', state_.lengthOffset), interpretation_.truth(true));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
         setLength(lengthByNumber(action), interpretation_.truth(true));
+      else
+        continue;
+      isNamed = true;
+    }
+    if (!isNamed)
+      otherNumber();
+  }
+  /// `H2` alone: under G43 and G44 the length of another offset number comes into force.
+  void otherNumber() {
+    const auto *entry = words_.find('H');
+    if (!entry || context_.behaviour().lengthOffsets.count == 0)
+      return;
+    for (const CodeAction action : {CodeAction::LengthPlus, CodeAction::LengthMinus}) {
+      const Truth changes = interpretation_.both(
+          entry->present, context_.inForce(ModalKind::Length, {action}, interpretation_.truth(false)));
+      if (interpretation_.mayBe(changes))
+        setLength(interpretation_.select(changes, lengthByNumber(action), state_.lengthOffset), changes);
     }
   }
   Value lengthByNumber(CodeAction action) {

@@ -3,6 +3,8 @@
 
 #include "meaning/semantics/coordinates.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace feedhold {
@@ -17,6 +19,17 @@ inline std::optional<std::uint32_t> lengthOffsetNumber(const Dialect &dialect, d
 inline std::array<std::uint32_t, 2> lengthVariables(const Dialect &dialect, std::uint32_t number) {
   const OffsetMemory &memory = dialect.behaviour.lengthOffsets;
   return {cellOf(dialect, memory.geometry.front() + number - 1), cellOf(dialect, memory.wear.front() + number - 1)};
+}
+
+/// One of the variables of lengths, by the number of its cell.
+inline bool isLengthVariable(const Dialect &dialect, std::uint32_t cell) {
+  const OffsetMemory &memory = dialect.behaviour.lengthOffsets;
+  return std::ranges::any_of(std::array{memory.geometry.front(), memory.wear.front()}, [&](std::uint32_t first) {
+    const auto isOneFrom = [&](std::uint32_t low) { // only the first numbers may have other names
+      return low <= cell && cell - low < memory.count && cellOf(dialect, first + (cell - low)) == cell;
+    };
+    return isOneFrom(first) || isOneFrom(cellOf(dialect, first));
+  });
 }
 
 /// The length of an offset number.  Where it is not known which one, or the control keeps none in variables, a run has
@@ -46,10 +59,8 @@ template <ValueAlgebra R> void forgetLength(StepContext<R> &context) {
 /// A cell of the memory is written: a parameter decides whether the length in force changes with it (FANUC 5001#6,
 /// EVO), or stays until the next H.
 template <ValueAlgebra R> void changeLengthOffset(StepContext<R> &context, std::uint32_t cell) {
-  const OffsetMemory &memory = context.behaviour().lengthOffsets;
-  for (const std::uint32_t first : {memory.geometry.front(), memory.wear.front()})
-    if (const std::uint32_t low = cellOf(context.dialect(), first); low <= cell && cell < low + memory.count)
-      forgetLength(context);
+  if (isLengthVariable(context.dialect(), cell))
+    forgetLength(context);
 }
 
 } // namespace feedhold
