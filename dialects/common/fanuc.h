@@ -102,8 +102,10 @@ inline Dialect makeFanuc(MachineKind machine) {
   dialect.argumentVariables = kArgumentVariables;
   dialect.behaviour.scalesByIncrements = true;
   dialect.behaviour.cutterBlocks = 3; // the fewest that a parameter chooses (19625 of Series 30i)
-  if (machine == MachineKind::Milling)
+  if (machine == MachineKind::Milling) {
     dialect.behaviour.cutterOffsets = {{13001, 0}, {12001, 0}, 999};
+    dialect.behaviour.lengthOffsets = {{11001, 0}, {10001, 0}, 999};
+  }
   dialect.hasFanucParameters = true;
   dialect.switches.pointArcStops = Switch::Off; // an arc of 0 degrees
   return dialect;

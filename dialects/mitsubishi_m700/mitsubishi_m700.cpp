@@ -78,8 +78,10 @@ Dialect make(MachineKind machine) {
   dialect.grammar.wordMayBeUnbracketed = true;
   dialect.behaviour.machineMoveByMode = true;
   dialect.behaviour.cutterBlocks = 5;
-  if (machine == MachineKind::Milling)
+  if (machine == MachineKind::Milling) {
     dialect.behaviour.cutterOffsets = {{2401, 12001}, {2601, 13001}, 200};
+    dialect.behaviour.lengthOffsets = {{2001, 10001}, {2201, 11001}, 200};
+  }
   dialect.behaviour.machineIncrement = MachineIncrement::Distance;
   dialect.behaviour.absoluteBehindMappings = true;
   dialect.numbers = NumberModel::Either;

@@ -296,6 +296,8 @@ void ReplayedProgram::addGouges(std::vector<Break> &breaks, const Run &run) cons
     addGougesOf(breaks, run, space, {ObligationKind::Clearance, SpaceClaim::Clearance, 0, ""});
   if (space.travel)
     addGougesOf(breaks, run, space, {ObligationKind::Travel, SpaceClaim::Travel, 0, ""});
+  if (space.machine)
+    addGougesOf(breaks, run, space, {ObligationKind::Travel, SpaceClaim::Machine, 0, "MACHINE"});
 }
 
 /// Of each block that breaks it: the deepest of all blocks, then of all the others.

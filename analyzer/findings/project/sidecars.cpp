@@ -1,9 +1,12 @@
 #include "findings/project/sidecars.h"
 
+#include "findings/project/config.h"
 #include "findings/project/content.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace feedhold {
@@ -13,6 +16,27 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kExtension = ".contract";
+constexpr std::string_view kMachineFile = "machine.contract";
+
+bool isThere(const fs::path &path, const std::shared_ptr<const OpenTexts> &open) {
+  std::error_code ignored; // what cannot be asked for is not there
+  return (open && open->contains(fs::absolute(path).lexically_normal())) || fs::exists(path, ignored);
+}
+
+/// The names of the set-up's file: in the folder of the program, then in those above, up to that of the project.
+std::vector<fs::path> machineNames(const fs::path &file) {
+  std::vector<fs::path> names;
+  std::error_code ignored;
+  fs::path shown = file.parent_path();
+  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty();
+       folder = folder.parent_path(), shown /= "..") {
+    names.push_back((shown / kMachineFile).lexically_normal());
+    const bool isTop = fs::exists(folder / kConfigFileName, ignored) || fs::exists(folder / ".git", ignored);
+    if (isTop || folder == folder.parent_path())
+      break;
+  }
+  return names;
+}
 
 /// Calls `visit(path, program)` for each; a name may come twice.
 template <typename Visit> void forEachName(const fs::path &file, const ProgramModel &model, Visit visit) {
@@ -40,6 +64,7 @@ Sidecar read(const fs::path &path, std::optional<std::uint32_t> program, const s
 std::vector<fs::path> sidecarNames(const fs::path &file, const ProgramModel &model) {
   std::vector<fs::path> names;
   forEachName(file, model, [&](fs::path path, std::optional<std::uint32_t>) { names.push_back(std::move(path)); });
+  std::ranges::move(machineNames(file), std::back_inserter(names));
   return names;
 }
 
@@ -52,11 +77,15 @@ std::vector<Sidecar> sidecarsOf(const fs::path &file, const ProgramModel &model,
   std::vector<Sidecar> found;
   std::set<fs::path> seen;
   forEachName(file, model, [&](const fs::path &path, std::optional<std::uint32_t> program) {
-    std::error_code ignored; // what cannot be asked for is not there
-    const bool isOpen = open && open->contains(fs::absolute(path).lexically_normal());
-    if (seen.insert(path).second && (isOpen || fs::exists(path, ignored)))
+    if (seen.insert(path).second && isThere(path, open))
       found.push_back(read(path, program, open));
   });
+  const std::vector<fs::path> ofMachine = machineNames(file);
+  const auto nearest = std::ranges::find_if(ofMachine, [&](const fs::path &path) { return isThere(path, open); });
+  if (nearest != ofMachine.end() && seen.insert(*nearest).second) {
+    found.push_back(read(*nearest, std::nullopt, open));
+    found.back().scope = SidecarScope::Machine;
+  }
   return found;
 }
 

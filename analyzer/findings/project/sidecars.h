@@ -14,8 +14,8 @@ std::vector<std::filesystem::path> sidecarNames(const std::filesystem::path &fil
 /// `part.contract`
 bool isSidecarName(const std::filesystem::path &file);
 
-/// Of `part.nc`: `O9100.contract` for each of its programs, then `part.contract` and `part.nc.contract`.  One that is
-/// there and cannot be read is in the list with the reason.
+/// Of `part.nc`: `O9100.contract` for each of its programs, then `part.contract` and `part.nc.contract`; last the
+/// nearest `machine.contract`, the set-up.  One that is there and cannot be read is in the list with the reason.
 std::vector<Sidecar> sidecarsOf(const std::filesystem::path &file, const ProgramModel &model,
                                 const std::shared_ptr<const OpenTexts> &open);
 

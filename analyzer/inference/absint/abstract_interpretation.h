@@ -121,7 +121,6 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable) const;
   Value volatileRead(std::uint32_t) { return AbstractValue::anyNumber(); }
-  Value toolLength(const State &, const Value &) const { return AbstractValue::anyNumber(); }
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void havocVariables(State &state, std::uint32_t first, std::uint32_t last);

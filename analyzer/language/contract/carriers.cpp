@@ -57,7 +57,12 @@ void findInComments(const ContractReading &reading, std::vector<RawClause> &foun
       continue;
     const BlockId block = reading.programTree.blockAt(span.begin);
     const std::optional<BlockId> place = placer.placeOf(block);
-    found.push_back({kProgramText, bodyOf(text, span), reading.model.programOf(place.value_or(block)), place, {}});
+    found.push_back({kProgramText,
+                     bodyOf(text, span),
+                     reading.model.programOf(place.value_or(block)),
+                     place,
+                     {},
+                     SidecarScope::Program});
   }
 }
 
@@ -79,11 +84,7 @@ void takePlace(std::string_view text, RawClause &clause) {
   clause.span.begin = word(clause.number->end).begin;
 }
 
-void findInSidecar(const ContractReading &reading, ContractSourceId id, const Sidecar &sidecar,
-                   std::vector<RawClause> &found) {
-  const std::optional<ProgramId> program = programOf(reading.model, sidecar);
-  if (!program)
-    return;
+void findInSidecar(ContractSourceId id, const Sidecar &sidecar, ProgramId program, std::vector<RawClause> &found) {
   const std::string_view text = sidecar.source.text();
   for (std::uint32_t line = 1; line <= sidecar.source.lineCount(); ++line) {
     Span span = sidecar.source.lineSpan(line);
@@ -93,7 +94,7 @@ void findInSidecar(const ContractReading &reading, ContractSourceId id, const Si
     const std::size_t remark = text.substr(span.begin, span.size()).find(';');
     if (remark != std::string_view::npos)
       span.end = span.begin + static_cast<std::uint32_t>(remark);
-    RawClause clause{id, bodyOf(text, span), *program, {}, {}};
+    RawClause clause{id, bodyOf(text, span), program, {}, {}, sidecar.scope};
     if (clause.span.empty())
       continue;
     takePlace(text, clause);
@@ -116,7 +117,17 @@ std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sid
   std::vector<RawClause> found;
   findInComments(reading, found);
   for (std::size_t i = 0; i < sidecars.size(); ++i)
-    findInSidecar(reading, ContractSourceId(i + 1), sidecars[i], found);
+    if (const auto program = programOf(reading.model, sidecars[i]);
+        program && sidecars[i].scope == SidecarScope::Program)
+      findInSidecar(ContractSourceId(i + 1), sidecars[i], *program, found);
+  return found;
+}
+
+std::vector<RawClause> findSetUp(std::span<const Sidecar> sidecars, ProgramId program) {
+  std::vector<RawClause> found;
+  for (std::size_t i = 0; i < sidecars.size(); ++i)
+    if (sidecars[i].scope == SidecarScope::Machine)
+      findInSidecar(ContractSourceId(i + 1), sidecars[i], program, found);
   return found;
 }
 

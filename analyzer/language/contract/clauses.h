@@ -11,12 +11,15 @@ struct RawClause {
   ContractSourceId source;
   Span span; // from `@` on
   ProgramId program;
-  std::optional<BlockId> place; // of a comment: its block or the next one that does something
-  std::optional<Span> number;   // of `@AT N30`: `N30`
+  std::optional<BlockId> place;               // of a comment: its block or the next one that does something
+  std::optional<Span> number;                 // of `@AT N30`: `N30`
+  SidecarScope scope = SidecarScope::Program; // Machine: a clause of the program itself goes before it
 };
 
-/// Comments of the program, then the lines of the sidecar files.
+/// Comments of the program, then the lines of its sidecar files.
 std::vector<RawClause> findClauses(ContractReading &reading, std::span<const Sidecar> sidecars);
+/// The set-up of the machine, for one program.
+std::vector<RawClause> findSetUp(std::span<const Sidecar> sidecars, ProgramId program);
 
 /// Whose contract a sidecar file holds; absent: no program of the file has its number.
 std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sidecar);
@@ -28,6 +31,18 @@ void readClause(ContractReading &reading, const RawClause &raw);
 decltype(Region::shape) readShape(ClauseReader &reader);
 Box readBox(ClauseReader &reader);
 std::vector<AxisValue> readAxisValues(ClauseReader &reader, std::string_view axes);
+
+/// What a variable holds on entry by a clause of the set-up.
+struct SetUpValue {
+  std::uint32_t variable;
+  AllowedValues values;
+};
+/// Of `@OFFSET G54 X-400..-300 Z-350.`, behind the keyword; `EXT`: of the external offset.
+std::vector<SetUpValue> readWorkOffset(ClauseReader &reader, const ContractReading &reading);
+/// Of `@LENGTH H1 50..200`
+LengthRange readLength(ClauseReader &reader, const ContractReading &reading, ClauseId clause);
+/// Behind HOME: to where G28 returns.  Machine zero, unless the control keeps it in variables.
+std::vector<SetUpValue> readHome(ClauseReader &reader, const ContractReading &reading);
 
 /// What can only be seen in the whole contract.
 void checkContracts(ContractReading &reading);

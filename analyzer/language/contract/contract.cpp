@@ -78,9 +78,11 @@ void addNoBlocks(SyntaxTree &tree) {
 }
 
 void refuseUnreadable(ContractReading &reading, ContractSourceId id, const Sidecar &sidecar) {
-  if (!sidecar.problem)
+  if (!sidecar.problem || (sidecar.scope == SidecarScope::Machine && reading.result.contracts.empty()))
     return;
-  const ProgramId program = programOf(reading.model, sidecar).value_or(ProgramId(0));
+  const ProgramId program = sidecar.scope == SidecarScope::Machine
+                                ? reading.result.contracts.front().program
+                                : programOf(reading.model, sidecar).value_or(ProgramId(0));
   contractOf(reading, program).isSound = false;
   addIssue(reading, {ContractIssueKind::Malformed,
                      id,
@@ -88,6 +90,13 @@ void refuseUnreadable(ContractReading &reading, ContractSourceId id, const Sidec
                      "a text file with one clause a line: " + *sidecar.problem,
                      std::nullopt,
                      program});
+}
+
+/// To each program with a contract of its own.
+void addSetUp(ContractReading &reading, std::span<const Sidecar> sidecars) {
+  for (std::size_t i = 0; i < reading.result.contracts.size(); ++i)
+    for (const RawClause &raw : findSetUp(sidecars, reading.result.contracts[i].program))
+      readClause(reading, raw);
 }
 
 std::vector<BlockId> jumpHeads(const ProgramModel &model) {
@@ -108,15 +117,16 @@ FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, co
   reading.result.sources.push_back(source);
   for (const Sidecar &sidecar : sidecars)
     reading.result.sources.push_back(sidecar.source);
-  for (std::size_t i = 0; i < sidecars.size(); ++i)
-    refuseUnreadable(reading, ContractSourceId(i + 1), sidecars[i]);
   const std::vector<RawClause> clauses = findClauses(reading, sidecars);
-  if (clauses.empty())
-    return std::move(reading.result);
-  reading.jumpHeads = jumpHeads(model);
+  if (!clauses.empty())
+    reading.jumpHeads = jumpHeads(model);
   for (const RawClause &raw : clauses)
     readClause(reading, raw);
-  checkContracts(reading);
+  addSetUp(reading, sidecars);
+  for (std::size_t i = 0; i < sidecars.size(); ++i)
+    refuseUnreadable(reading, ContractSourceId(i + 1), sidecars[i]);
+  if (!clauses.empty())
+    checkContracts(reading);
   const auto place = [](const ContractIssue &issue) { return std::tuple(issue.source, issue.span.begin); };
   std::ranges::stable_sort(reading.result.issues, {}, place);
   return std::move(reading.result);

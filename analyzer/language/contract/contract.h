@@ -61,7 +61,8 @@ std::string_view nameOf(Unit unit);
 /// Whether a variable may be vacant on entry.
 enum class Vacancy : std::uint8_t { Never, Possible };
 
-/// `@PARAM`, `@GLOBAL`: what a variable holds on entry.  A unit of Unit::Integer says that it is a whole number.
+/// `@PARAM`, `@GLOBAL`, and the variables that `@OFFSET G54` and HOME of `@MACHINE` stand for: what one holds on entry.
+/// A unit of Unit::Integer says that it is a whole number.
 struct EntryValue {
   ClauseId clause;
   std::uint32_t variable;
@@ -120,6 +121,13 @@ struct RadiusOffset {
   Range radius;                       // both ends are the same: a single value
 };
 
+/// `@LENGTH H1 50..200`: the tool length of this H, geometry and wear together, in the units of the start.
+struct LengthRange {
+  ClauseId clause;
+  std::optional<std::uint32_t> number; // of H; absent: any, `H*`
+  Range length;
+};
+
 /// A side that is not named is unbounded.
 struct Box {
   std::vector<AxisRange> sides;
@@ -159,6 +167,12 @@ struct Clearance {
 };
 /// `@TRAVEL`
 struct Travel {
+  ClauseId clause;
+  Box box;
+};
+/// `@MACHINE X-762..0`: between which machine coordinates the axes can move, in the units of the start.  At the start
+/// they stand between them.
+struct MachineRange {
   ClauseId clause;
   Box box;
 };
@@ -236,10 +250,12 @@ struct Contract {
   std::optional<StartPosition> start;
   std::optional<ContractTool> tool;
   std::vector<RadiusOffset> offsets; // one with `D*` at most
+  std::vector<LengthRange> lengths;  // each H once
   std::vector<Region> keepIn;        // each name is the union of its regions
   std::vector<Region> keepOut;
   std::optional<Clearance> clearance;
   std::optional<Travel> travel;
+  std::optional<MachineRange> machine;
   std::vector<WordLimit> limits;
   std::vector<Ensure> ensures;
   std::optional<EqualTolerance> tolerance;
@@ -296,11 +312,16 @@ struct FileContracts {
   const SourceFile &source(ContractSourceId id) const { return sources[id.index()]; }
 };
 
+/// Whose clauses a sidecar file holds: those of one program, or the set-up of a machine, for each program that has a
+/// contract of its own.
+enum class SidecarScope : std::uint8_t { Program, Machine };
+
 /// A file beside the program, one clause a line.
 struct Sidecar {
   SourceFile source;
   std::optional<std::uint32_t> program;    // of `O9100.contract`; absent: the first program of the file
   std::optional<std::string> problem = {}; // why it could not be read; its text is empty then
+  SidecarScope scope = SidecarScope::Program;
 };
 
 FileContracts readContracts(const SourceFile &source, const SyntaxTree &tree, const ProgramModel &model,

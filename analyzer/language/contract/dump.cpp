@@ -140,6 +140,12 @@ private:
       line(fmt::format("offset of {} radius {}", each.number ? "D " + writes.text(*each.number) : "every D",
                        each.radius.low == each.radius.high ? writes.text(*each.radius.low) : writes.text(each.radius)));
     }
+    for (const LengthRange &each : contract.lengths) {
+      const Writer writes = writer(each.clause);
+      const Range &length = each.length;
+      line(fmt::format("length of {} {}", each.number ? fmt::format("H{}", *each.number) : "every H",
+                       length.low == length.high ? writes.text(*length.low) : writes.text(length)));
+    }
     for (const auto &[kind, list] : {std::pair("keep in", &contract.keepIn), std::pair("keep out", &contract.keepOut)})
       for (const Region &each : *list)
         line(fmt::format("{} {}: {}", kind, each.name, writer(each.clause).shape(each)));
@@ -148,6 +154,8 @@ private:
                        writer(clearance->clause).text(clearance->height.value)));
     if (contract.travel)
       line("travel" + writer(contract.travel->clause).text(contract.travel->box));
+    if (contract.machine)
+      line("machine" + writer(contract.machine->clause).text(contract.machine->box));
     for (const WordLimit &each : contract.limits)
       line(fmt::format("limit {}: {}", each.address, writer(each.clause).text(each.range)));
   }

@@ -46,7 +46,9 @@ private:
     case ClauseKind::Modal: return modal();
     case ClauseKind::Start: return start();
     case ClauseKind::Tool: return tool();
-    case ClauseKind::Offset: return offset();
+    case ClauseKind::Offset: return reader_.at("EXT") || reader_.peekLetter("G") ? workOffset() : offset();
+    case ClauseKind::Length: return length();
+    case ClauseKind::Machine: return machine();
     case ClauseKind::KeepIn: return region(contract_.keepIn);
     case ClauseKind::KeepOut: return region(contract_.keepOut);
     case ClauseKind::Clearance: return clearance();
@@ -76,6 +78,8 @@ private:
     place = std::move(part);
   }
   void refuseSecond(ClauseId first, std::string what) {
+    if (raw_.scope == SidecarScope::Machine)
+      return; // that of the program goes before it
     ContractIssue issue{ContractIssueKind::Repeated,
                         reading_.result.clauses[id_].source,
                         reading_.result.clauses[id_].span,
@@ -100,8 +104,10 @@ private:
     readUnit(value);
     if (reader_.take("OPTIONAL"))
       value.vacancy = Vacancy::Possible;
-    if (!isRead())
-      return;
+    if (isRead())
+      addOnce(entries, std::move(value));
+  }
+  void addOnce(std::vector<EntryValue> &entries, EntryValue value) {
     for (const std::vector<EntryValue> *list : {&contract_.params, &contract_.globals})
       if (const auto first = std::ranges::find(*list, value.variable, &EntryValue::variable); first != list->end())
         return refuseSecond(first->clause, fmt::format("`#{}`", value.variable));
@@ -263,6 +269,37 @@ private:
     if (first != contract_.offsets.end())
       return refuseSecond(first->clause, "the offset of every D");
     contract_.offsets.push_back(offset);
+  }
+
+  // ---- the set-up ----
+
+  void workOffset() { addValues(readWorkOffset(reader_, reading_)); }
+  void length() {
+    const LengthRange length = readLength(reader_, reading_, id_);
+    if (!isRead())
+      return;
+    const auto first = std::ranges::find(contract_.lengths, length.number, &LengthRange::number);
+    if (first != contract_.lengths.end())
+      return refuseSecond(first->clause,
+                          length.number ? fmt::format("the length of H{}", *length.number) : "the length of every H");
+    contract_.lengths.push_back(length);
+  }
+  void machine() {
+    Box box = readBox(reader_);
+    std::vector<SetUpValue> home;
+    if (reader_.take("HOME"))
+      home = readHome(reader_, reading_);
+    if (!isRead())
+      return;
+    setOnce(contract_.machine, MachineRange{id_, std::move(box)}, "the range of the machine");
+    addValues(std::move(home));
+  }
+  void addValues(std::vector<SetUpValue> values) {
+    if (!isRead())
+      return;
+    const Span span = reading_.result.clauses[id_].span;
+    for (SetUpValue &value : values)
+      addOnce(contract_.globals, {id_, value.variable, span, {}, std::move(value.values)});
   }
 
   // ---- geometry ----
@@ -556,6 +593,10 @@ void readClause(ContractReading &reading, const RawClause &raw) {
     return refuse(reading, raw, *raw.number,
                   fmt::format("no `@AT`, since `{}` applies to the whole program", head.name));
   }
+  const bool isOfSetUp = kind == ClauseKind::Offset || kind == ClauseKind::Length || kind == ClauseKind::Machine;
+  if (raw.scope == SidecarScope::Machine && !isOfSetUp)
+    return refuse(reading, raw, head.keyword,
+                  "a clause of the set-up: `@OFFSET`, `@LENGTH` or `@MACHINE`; others belong to a program");
   ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
 }
 

@@ -103,6 +103,19 @@ const VariableRange *findIn(std::span<const VariableRange> ranges, std::uint32_t
 
 } // namespace
 
+const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role) {
+  const auto found = std::ranges::find(dialect.variables, role, &VariableRange::role);
+  return found == dialect.variables.end() ? nullptr : &*found;
+}
+
+std::optional<std::uint32_t> workOffsetsBefore(const Dialect &dialect, std::uint16_t tenths) {
+  const Code *code = findGCode(dialect, tenths);
+  if (!code || code->action != CodeAction::WorkOffset)
+    return std::nullopt;
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      dialect.gCodes, [&](const Code &each) { return each.action == CodeAction::WorkOffset && each.tenths < tenths; }));
+}
+
 const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number) {
   const VariableRange *range = findIn(dialect.variables, number);
   return range ? range : findIn(dialect.switches.buildersVariables, number);

@@ -189,13 +189,6 @@ ConcreteValue ConcreteInterpretation::volatileRead(std::uint32_t variable) {
   return Value::of((*script)[std::min(taken, script->size() - 1)]);
 }
 
-/// The offset tables are the operator's: without one the tool has no length.
-ConcreteValue ConcreteInterpretation::toolLength(State &state, const Value &number) const {
-  (void)state;
-  (void)number;
-  return Value::of(0);
-}
-
 void ConcreteInterpretation::holdInMantissa32(Value &result, Span place) {
   if (result.vacant)
     return;

@@ -150,7 +150,6 @@ public:
   std::span<const GivenVariables::Entry> allGiven() const { return given_.entries(); }
   bool isLocal(std::uint32_t variable) const;
   Value volatileRead(std::uint32_t variable);
-  Value toolLength(State &state, const Value &number) const;
   Value readAnyOf(State &, const Value &, Span) const { return {}; }                   // the index is always one number
   bool writeAnyOf(State &, const Value &, const Value &, Span) const { return false; } // likewise
   void havocVariables(State &, std::uint32_t, std::uint32_t) const {}  // they keep what they hold: a note says so

@@ -188,11 +188,17 @@ private:
     auto ctx = context();
     const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
     const bool isFollowed = point.withoutCompensation || options_.cutter == CutterCompensation::Followed;
-    const bool isOfTool = isFollowed && point.lengthKnown && point.sameUnits && point.sameSide;
+    const bool isButForLength = isFollowed && point.sameUnits && point.sameSide;
+    const LengthInForce length = !point.withLength        ? LengthInForce::None
+                                 : point.lengthSubtracted ? LengthInForce::Subtracted
+                                                          : LengthInForce::Added;
     const Place own = frames_.size() > 1 ? frames_[1].call : here;
-    const std::array zero{point.zero[0].number, point.zero[1].number, point.zero[2].number};
+    const auto numbers = [](const std::array<ConcreteValue, 3> &values) {
+      return std::array{values[0].number, values[1].number, values[2].number};
+    };
     for (Move<ConcreteValue> &move : moves)
-      result_.moves.push_back({move, unitInForce(), here, own, zero, isOfTool});
+      result_.moves.push_back({move, unitInForce(), here, own, numbers(point.zero), numbers(point.machineZero),
+                               isButForLength && point.lengthKnown, isButForLength, length, point.sameUnits});
   }
   LengthUnit unitInForce() {
     const auto ctx = context();

@@ -7,7 +7,8 @@ std::vector<RecordedMove> movesOfCentre(const RecordedMove &recorded) {
     return {recorded};
   std::vector<RecordedMove> moves;
   for (const Move<ConcreteValue> &move : recorded.centre) {
-    moves.push_back({move, recorded.unit, recorded.place, recorded.own, recorded.zero, recorded.isOfTool});
+    moves.push_back({move, recorded.unit, recorded.place, recorded.own, recorded.zero, recorded.machineZero,
+                     recorded.isOfTool, recorded.isOfToolButForLength, recorded.length, recorded.isInUnitsOfStart});
   }
   return moves;
 }

@@ -10,6 +10,9 @@ namespace feedhold {
 /// What the numbers of a move are counted in; the time of a dwell is not.
 enum class LengthUnit : std::uint8_t { Millimetre, Inch };
 
+/// What tool length does to the coordinates of a move: G43 adds it, G44 subtracts it.
+enum class LengthInForce : std::uint8_t { None, Added, Subtracted };
+
 struct RecordedMove {
   Move<ConcreteValue> move; // as programmed
   LengthUnit unit;
@@ -17,9 +20,14 @@ struct RecordedMove {
   Place own; // the same, or the block of the started program that called it
   /// X, Y, Z: how far the zero point of its coordinates lies from that of the start.
   std::array<double, 3> zero = {};
+  /// X, Y, Z: where that zero point lies in machine coordinates, tool length included; in the units of the move.
+  std::array<double, 3> machineZero = {};
   /// Its coordinates, or those of `centre`, are those of the tool (tool_point.h): cutter compensation is off or
   /// followed, its length and the units are those of the start, and no other axis has turned the part.
   bool isOfTool = true;
+  bool isOfToolButForLength = true; // the same, whatever has become of the length
+  LengthInForce length = LengthInForce::Added;
+  bool isInUnitsOfStart = true;
   /// The moves that the centre of the tool makes instead, beside the programmed one: cutter compensation is in force or
   /// ends.  Empty: it makes the programmed one.
   std::vector<Move<ConcreteValue>> centre = {};

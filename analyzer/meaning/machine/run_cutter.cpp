@@ -175,7 +175,7 @@ std::optional<CutterOffset<double>> RunCutter::offsetOf(Context &context, const 
   if (!(value.number > 0 && value.number < 1e6))
     return std::nullopt;
   const auto number = static_cast<std::uint32_t>(value.number);
-  const CutterOffsets &offsets = context.behaviour().cutterOffsets;
+  const OffsetMemory &offsets = context.behaviour().cutterOffsets;
   const bool hasVariables = number <= offsets.count;
   const auto geometry = hasVariables ? firstGiven(context, offsets.geometry, number) : std::nullopt;
   const auto wear = hasVariables ? firstGiven(context, offsets.wear, number) : std::nullopt;

@@ -61,7 +61,9 @@ public:
   // ---- moves ----
   const Move<ConcreteValue> &moveOf(std::size_t index) const { return moves_[index].move; }
   void follow(std::size_t index, std::vector<Move<ConcreteValue>> centre) { moves_[index].centre = std::move(centre); }
-  void leave(std::size_t index, std::string_view) { moves_[index].isOfTool = false; }
+  void leave(std::size_t index, std::string_view) {
+    moves_[index].isOfTool = moves_[index].isOfToolButForLength = false;
+  }
   bool areInOneSpace(std::size_t a, std::size_t b) const {
     return moves_[a].zero == moves_[b].zero && moves_[a].unit == moves_[b].unit;
   }

@@ -10,10 +10,6 @@
 
 namespace feedhold {
 
-/// #5201 external offset, #5221 G54, #5241 G55 ..: one variable for each axis.
-inline constexpr std::uint32_t kFirstWorkOffset = 5201;
-inline constexpr std::uint32_t kWorkOffsetStride = 20;
-
 /// Machine coordinate of the zero point of the program on an axis: work offsets, G52, G92 and tool length together.
 template <ValueAlgebra R> typename R::Value originOf(StepContext<R> &context, Axis axis);
 

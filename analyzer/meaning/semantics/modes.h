@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/cycles.h"
+#include "meaning/semantics/tool_length.h"
 
 #include <bit>
 
@@ -25,6 +26,8 @@ public:
   void run() {
     if (!words_.codes.empty() || !words_.computed.empty())
       codes();
+    else
+      otherNumber();
     modalWords();
   }
 
@@ -278,6 +281,7 @@ private:
   }
   /// The tip of the tool gets another coordinate while the machine stands still.
   void length(Truth wasOff) {
+    bool isNamed = false;
     for (const CodeWord &word : words_.codes) {
       const CodeAction action = word.code->action;
       if (action == CodeAction::LengthOff)
@@ -285,8 +289,29 @@ private:
       else if (action == CodeAction::LengthGiven)
         setLength(wordOr('Z', state_.lengthOffset), interpretation_.truth(true));
       else if (action == CodeAction::LengthPlus || action == CodeAction::LengthMinus)
-        setLength(interpretation_.toolLength(state_, wordOr('H', state_.word('H'))), interpretation_.truth(true));
+        setLength(lengthByNumber(action), interpretation_.truth(true));
+      else
+        continue;
+      isNamed = true;
     }
+    if (!isNamed)
+      otherNumber();
+  }
+  /// `H2` alone: under G43 and G44 the length of another offset number comes into force.
+  void otherNumber() {
+    const auto *entry = words_.find('H');
+    if (!entry || context_.behaviour().lengthOffsets.count == 0)
+      return;
+    for (const CodeAction action : {CodeAction::LengthPlus, CodeAction::LengthMinus}) {
+      const Truth changes = interpretation_.both(
+          entry->present, context_.inForce(ModalKind::Length, {action}, interpretation_.truth(false)));
+      if (interpretation_.mayBe(changes))
+        setLength(interpretation_.select(changes, lengthByNumber(action), state_.lengthOffset), changes);
+    }
+  }
+  Value lengthByNumber(CodeAction action) {
+    const Value length = toolLengthOf(context_, wordOr('H', state_.word('H')));
+    return action == CodeAction::LengthMinus ? interpretation_.negate(length) : length;
   }
   void setLength(const Value &length, Truth isNew) {
     const Value moved = interpretation_.subtract(state_.lengthOffset, length);

@@ -3,16 +3,9 @@
 #pragma once
 
 #include "meaning/semantics/executed_words.h"
+#include "meaning/semantics/tool_length.h"
 
 namespace feedhold {
-
-/// The range of variables with a role; null where the control has none.
-inline const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role) {
-  for (const VariableRange &range : dialect.variables)
-    if (range.role == role)
-      return &range;
-  return nullptr;
-}
 
 template <ValueAlgebra R> class Offsets {
 public:
@@ -200,6 +193,7 @@ private:
           range.role == VariableRole::AdditionalWorkOffset)
         interpretation_.havocVariables(state_, range.first, range.last);
     havocOrigins(context_);
+    forgetLength(context_);
     interpretation_.unmodelled("offsets set by G10", word.span);
   }
 

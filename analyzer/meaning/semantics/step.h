@@ -46,6 +46,7 @@ template <ValueAlgebra R> void store(StepContext<R> &context, ExpressionId targe
       return writeVariable(context, *number, std::move(value), expression.span);
     if (interpretation.writeAnyOf(context.state, interpretation.asNumber(index), value, expression.span))
       havocOrigins(context);
+    forgetLength(context);
     return;
   } else if (const auto *named = std::get_if<NamedVariable>(&expression.node)) {
     if (const auto number = context.programs.variableOf(context.file.file, named->name))

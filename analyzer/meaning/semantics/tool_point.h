@@ -13,12 +13,16 @@ namespace feedhold {
 template <ValueAlgebra R> struct ToolPoint {
   /// X, Y, Z: how far the zero point lies from that of the start, by work offsets, G52 and G92.
   std::array<typename R::Value, 3> zero;
+  /// X, Y, Z: where the zero point lies in machine coordinates, tool length included.
+  std::array<typename R::Value, 3> machineZero;
   typename R::Truth withoutCompensation; // of the cutter radius (G40)
-  typename R::Truth lengthKnown;
-  typename R::Truth sameUnits;       // as at the start
-  typename R::Truth sameFeedMode;    // F means the same
-  typename R::Truth sameSpindleMode; // S means the same
-  typename R::Truth sameSide;        // no other axis has turned or moved the part, or the tool
+  typename R::Truth lengthKnown;         // coordinates are those of the tip, if they were so at the start
+  typename R::Truth withLength;          // that of the tool is in force
+  typename R::Truth lengthSubtracted;    // by G44
+  typename R::Truth sameUnits;           // as at the start
+  typename R::Truth sameFeedMode;        // F means the same
+  typename R::Truth sameSpindleMode;     // S means the same
+  typename R::Truth sameSide;            // no other axis has turned or moved the part, or the tool
 };
 
 /// Of the movements of the present block; `entry`: the state at the start.
@@ -105,10 +109,14 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
   const auto orAsAtEntry = [&](ModalKind kind, std::initializer_list<CodeAction> actions) {
     return detail::isAsAtEntry(context, entry, kind) ? always : context.inForce(kind, actions, always);
   };
+  const auto withLength = detail::withLength(context);
   const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
   return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
+          {originOf(context, Axis::X), originOf(context, Axis::Y), originOf(context, Axis::Z)},
           context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
-          context.either(interpretation.negation(context.state.lengthChanged), detail::withLength(context)),
+          context.either(interpretation.negation(context.state.lengthChanged), withLength),
+          withLength,
+          context.inForce(ModalKind::Length, {CodeAction::LengthMinus}, interpretation.truth(false)),
           orAsAtEntry(ModalKind::Units, {}),
           orAsAtEntry(ModalKind::FeedMode, {}),
           orAsAtEntry(ModalKind::Spindle, {}),

@@ -1,7 +1,7 @@
 // Reading and writing variables, system variables included.
 #pragma once
 
-#include "meaning/semantics/coordinates.h"
+#include "meaning/semantics/tool_length.h"
 
 #include <cmath>
 
@@ -168,6 +168,7 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
     return writeWorkOffset(context, cell, value);
   if (range.role == VariableRole::AdditionalWorkOffset)
     changeAdditionalOffset(context, place);
+  changeLengthOffset(context, cell);
   if (range.role != VariableRole::MessageStop && !isVolatile(range.role))
     context.state.variables.set(cell, std::move(value));
   else if constexpr (requires { interpretation.writesUnkept(cell); })

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <set>
 
 namespace feedhold::prove {
@@ -111,6 +112,7 @@ void ProofStart::readContract(const ProofSubject &subject) {
                                ? store_.number(smt::Number(0))
                                : interpretation_.literal(toleranceOf(contract, subject.dialect())).number;
   space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_, tolerance);
+  std::ranges::copy(space_->startIsOutside(), std::back_inserter(demands_));
 }
 
 /// A mapping whose code is certain is taken to be the program's own; one of the caller ends with what was known of the

@@ -17,7 +17,7 @@ namespace {
 /// The path writes offsets of D, has written them, or started with them in its variables.
 bool touchesOffsets(const Dialect &dialect, const SymbolicState &state,
                     const std::map<std::uint32_t, SymbolicValue> &read) {
-  const CutterOffsets &offsets = dialect.behaviour.cutterOffsets;
+  const OffsetMemory &offsets = dialect.behaviour.cutterOffsets;
   const std::array firsts{offsets.geometry[0], offsets.geometry[1], offsets.wear[0], offsets.wear[1]};
   const auto holdsOffset = [&](std::uint32_t low, std::uint32_t high) {
     return std::any_of(firsts.begin(), firsts.end(),

@@ -1,5 +1,6 @@
 // Calls meet the contracts of the programs that they call, whose proofs rest on that.
 #include "proof/families/call_inputs.h"
+#include "proof/space/space_claims.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -42,7 +43,10 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
       continue;
     ContractTerms terms(start.interpretation(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
-    const TermId met = contract.isSound ? store.logicalAnd(terms.assumptions(contract, call.state)) : store.no();
+    std::vector<TermId> assumed = terms.assumptions(contract, call.state);
+    const SpaceClaims space(store, terms, contract, call.state, store.number(smt::Number(0)));
+    std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
+    const TermId met = contract.isSound ? store.logicalAnd(assumed) : store.no();
     auto known = asked.find(keyOf(call));
     if (known == asked.end())
       known = asked.emplace(keyOf(call), meetsContract(subject, call.own, call.callee)).first;

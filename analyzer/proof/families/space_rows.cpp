@@ -210,6 +210,24 @@ bool SpaceProver::isProved(const Try &asked, const SpaceQuestion::Alternative &a
   return true;
 }
 
+/// The clause that says what a variable of the set-up holds.
+std::optional<std::string> setUpClauseOf(const Dialect &dialect, std::uint32_t variable) {
+  const VariableRange *range = findVariable(dialect, variable);
+  if (range && range->role == VariableRole::WorkOffset) {
+    const std::uint32_t row = (variable - kFirstWorkOffset) / kWorkOffsetStride;
+    const std::uint32_t axis = (variable - kFirstWorkOffset) % kWorkOffsetStride;
+    if (axis < kAxisCount)
+      return fmt::format("@OFFSET {} {}..", row == 0 ? "EXT" : fmt::format("G{}", 53 + row), kAxisLetters[axis]);
+  }
+  if (range && range->role == VariableRole::Reference)
+    return "@MACHINE .. HOME ..";
+  const OffsetMemory &lengths = dialect.behaviour.lengthOffsets;
+  for (std::uint32_t number = 1; number <= lengths.count; ++number)
+    if (const auto cells = lengthVariables(dialect, number); variable == cells[0] || variable == cells[1])
+      return fmt::format("@LENGTH H{} ..", number);
+  return std::nullopt;
+}
+
 bool SpaceProver::isGivenAtStart(Axis axis) const {
   const auto &start = context_.subject.contract()->start;
   return start && std::any_of(start->axes.begin(), start->axes.end(),
@@ -221,6 +239,10 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
   const Query query = start_.onPath(conditions, question.alternatives.back().goal);
   const std::vector<TermId> &named = smt::variablesOf(start_.store(), query.goal);
   const std::set<TermId> variables(named.begin(), named.end());
+  const auto length = space_.lengthInSpindle();
+  const auto ofLength = [&](TermId variable) { return variables.contains(variable); };
+  if (length && std::ranges::any_of(smt::variablesOf(start_.store(), *length), ofLength))
+    return "no tool length is in force in this block (G43), and the tool may have any length of `@LENGTH`";
   std::string axes;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
     if (variables.contains(start_.entry().at(axis).number) && !isGivenAtStart(axis))
@@ -236,9 +258,8 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
                          code.tenths / 10);
     }
   for (const auto &[variable, value] : start_.interpretation().entryValues())
-    if (const VariableRange *range = findVariable(dialect, variable);
-        range && range->role == VariableRole::WorkOffset && variables.contains(value.number))
-      return fmt::format("the work offset in #{0} is unknown; state it with `@GLOBAL #{0} ..`", variable);
+    if (const auto clause = variables.contains(value.number) ? setUpClauseOf(dialect, variable) : std::nullopt)
+      return fmt::format("what #{} holds is not known well enough; state it with `{}`", variable, *clause);
   return "neither a proof nor a counterexample was found";
 }
 

@@ -4,6 +4,7 @@
 #include "proof/space/plain_space.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -14,12 +15,14 @@ namespace {
 
 constexpr int kShownDecimals = 4; // a control shows three in millimetres and four in inches
 
-SpaceClaim plainClaim(ObligationKind kind) {
-  if (kind == ObligationKind::KeepIn)
+SpaceClaim plainClaim(const SpaceRule &rule) {
+  if (rule.kind == ObligationKind::KeepIn)
     return SpaceClaim::KeepIn;
-  if (kind == ObligationKind::KeepOut)
+  if (rule.kind == ObligationKind::KeepOut)
     return SpaceClaim::KeepOut;
-  return kind == ObligationKind::Clearance ? SpaceClaim::Clearance : SpaceClaim::Travel;
+  if (rule.kind == ObligationKind::Clearance)
+    return SpaceClaim::Clearance;
+  return rule.isOfMachine ? SpaceClaim::Machine : SpaceClaim::Travel;
 }
 
 std::string howFar(const SpaceRule &rule, double depth) {
@@ -30,13 +33,22 @@ std::string howFar(const SpaceRule &rule, double depth) {
     return fmt::format("the tool is {} inside {}", distance, rule.name);
   if (rule.kind == ObligationKind::Clearance)
     return fmt::format("a rapid move goes {} below the clearance height", distance);
-  return fmt::format("the tool is {} outside the travel limits", distance);
+  return rule.isOfMachine
+             ? fmt::format("the axes are {} outside the range of the machine, in machine coordinates", distance)
+             : fmt::format("the tool is {} outside the travel limits", distance);
 }
 
-std::string textOf(const SpaceRule &rule, const GougeAt &gouge) {
-  const auto &[x, y, z] = gouge.at;
-  return fmt::format("{} at X{} Y{} Z{}", howFar(rule, gouge.depth), decimalText(x, kShownDecimals),
-                     decimalText(y, kShownDecimals), decimalText(z, kShownDecimals));
+/// In machine coordinates where the rule has these.
+std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const RecordedMove &move) {
+  std::array<std::string, 3> shown;
+  for (std::size_t axis = 0; axis < shown.size(); ++axis)
+    shown[axis] =
+        decimalText(gouge.at[axis] + (rule.isOfMachine ? move.machineZero[axis] - move.zero[axis] : 0), kShownDecimals);
+  const std::string tool = gouge.length
+                               ? fmt::format(", with a tool of length {} in the spindle and no length in force",
+                                             decimalText(*gouge.length, kShownDecimals))
+                               : "";
+  return fmt::format("{} at X{} Y{} Z{}{}", howFar(rule, gouge.depth), shown[0], shown[1], shown[2], tool);
 }
 
 geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &given) {
@@ -46,12 +58,10 @@ geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &
 
 } // namespace
 
-std::optional<GougeAt> SpaceRuns::gougeIn(const RunResult &run, const GivenVariables &given) const {
-  const auto gouge = geometry::deepestGouge(spaceOf(context_, given), plainClaim(rule_.kind), rule_.region, run.moves,
+std::optional<geometry::Gouge> SpaceRuns::gougeIn(const RunResult &run, const GivenVariables &given) const {
+  const auto gouge = geometry::deepestGouge(spaceOf(context_, given), plainClaim(rule_), rule_.region, run.moves,
                                             [this](const RecordedMove &move) { return move.own == own_; });
-  if (!gouge || gouge->depth < leastDepth())
-    return std::nullopt;
-  return GougeAt{run.moves[gouge->move].place, gouge->at, gouge->depth};
+  return gouge && gouge->depth >= leastDepth() ? gouge : std::nullopt;
 }
 
 std::optional<double> SpaceRuns::tolerance() const {
@@ -72,7 +82,7 @@ Violation SpaceRuns::violation() const {
     const auto gouge = runs.gougeIn(run, given);
     if (!gouge)
       return std::optional<std::string>();
-    return std::optional(textOf(runs.rule_, *gouge) +
+    return std::optional(textOf(runs.rule_, *gouge, run.moves[gouge->move]) +
                          (run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : ""));
   };
   if (tolerance())
@@ -85,7 +95,9 @@ Violation SpaceRuns::violation() const {
 }
 
 Witness SpaceRuns::located(Witness witness) const {
-  witness.gouge = gougeIn(context_.witnesses.runOf(witness.variables), witness.variables);
+  const RunResult run = context_.witnesses.runOf(witness.variables);
+  if (const auto gouge = gougeIn(run, witness.variables))
+    witness.gouge = GougeAt{run.moves[gouge->move].place, gouge->at, gouge->depth};
   return witness;
 }
 
@@ -93,8 +105,8 @@ std::optional<double> SpaceRuns::nearest() const {
   std::optional<double> nearest;
   for (const WitnessSearch::Sample &sample : context_.witnesses.samples()) {
     const auto margin =
-        geometry::smallestMargin(spaceOf(context_, sample.given), plainClaim(rule_.kind), rule_.region,
-                                 sample.result.moves, [this](const RecordedMove &move) { return move.own == own_; });
+        geometry::smallestMargin(spaceOf(context_, sample.given), plainClaim(rule_), rule_.region, sample.result.moves,
+                                 [this](const RecordedMove &move) { return move.own == own_; });
     if (margin && (!nearest || *margin < *nearest))
       nearest = margin;
     if (nearest && *nearest < kTouches)
@@ -108,7 +120,8 @@ std::optional<std::string> SpaceRuns::roundedAway() const {
   const auto &samples = context_.witnesses.samples();
   for (std::size_t i = 0; i < samples.size() && i < kMostLooked; ++i)
     if (const auto gouge = gougeIn(samples[i].result, samples[i].given))
-      return fmt::format("rounding of words to the least increment adds up: {}", textOf(rule_, *gouge));
+      return fmt::format("rounding of words to the least increment adds up: {}",
+                         textOf(rule_, *gouge, samples[i].result.moves[gouge->move]));
   return std::nullopt;
 }
 

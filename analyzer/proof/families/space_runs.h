@@ -11,7 +11,7 @@ public:
   SpaceRuns(const ProofContext &context, const SpaceRule &rule, Place own)
       : context_(context), rule_(rule), own_(own) {}
 
-  std::optional<GougeAt> gougeIn(const RunResult &run, const GivenVariables &given) const;
+  std::optional<geometry::Gouge> gougeIn(const RunResult &run, const GivenVariables &given) const;
   /// Proofs in exact numbers take words as they are written: what only their rounding to the least increment makes is
   /// no witness against them.
   Violation violation() const;

@@ -146,14 +146,18 @@ public:
     const auto look = [&](const RecordedMove &move, std::size_t index) {
       const auto found = depthOf(move, worst ? worst->depth + kDeeper : floor_);
       if (found && found->depth > (worst ? worst->depth + kDeeper : floor_))
-        worst = Gouge{index, found->at, found->depth};
+        worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt};
     };
     for (std::size_t i = 0; i < moves.size(); ++i)
-      if (moves[i].centre.empty() || claim_ == SpaceClaim::Travel) // limits are those of programmed points
-        look(moves[i], i);
+      if (claim_ == SpaceClaim::Machine)
+        look(inMachine(moves[i]), i);
+      else if (moves[i].centre.empty() || claim_ == SpaceClaim::Travel) // limits are those of programmed points
+        look(ofTip(moves[i]), i);
       else
         for (const RecordedMove &move : movesOfCentre(moves[i]))
-          look(move, i);
+          look(ofTip(move), i);
+    for (std::size_t axis = 0; worst && claim_ == SpaceClaim::Machine && axis < worst->at.size(); ++axis)
+      worst->at[axis] += moves[worst->move].zero[axis] - moves[worst->move].machineZero[axis];
     return worst;
   }
 
@@ -175,14 +179,38 @@ private:
       return outsideOnPath(space_.keepIn[region_], tool_, GougePath(recorded), floor);
     case SpaceClaim::KeepOut: return insideOfRegion(space_.keepOut[region_], tool_, recorded, floor);
     case SpaceClaim::Clearance: return tooLow;
-    case SpaceClaim::Travel: {
-      if (!space_.travel)
-        return std::nullopt;
-      const Depth depth = [&](const Point<double> &point) { return depthOutside(*space_.travel, point); };
-      return deepestOnPath(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
-    }
+    case SpaceClaim::Travel: return outsideOfLimits(space_.travel, recorded, floor);
+    case SpaceClaim::Machine: return outsideOfLimits(space_.machine, recorded, floor);
     }
     FEEDHOLD_UNREACHABLE("the switch names every claim");
+  }
+  static std::optional<Deepest> outsideOfLimits(const std::optional<Box<double>> &limits, const RecordedMove &recorded,
+                                                double floor) {
+    if (!limits)
+      return std::nullopt;
+    const Depth depth = [&](const Point<double> &point) { return depthOutside(*limits, point); };
+    return deepestOnPath(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
+  }
+  /// The tip is lower than its coordinates by the length of the tool.
+  bool isBelow(const RecordedMove &move) const {
+    return claim_ != SpaceClaim::Machine && space_.knowsLengths && move.length == LengthInForce::None;
+  }
+  /// Where the contract tells lengths, as G43 takes them.
+  RecordedMove ofTip(RecordedMove move) const {
+    if (!space_.knowsLengths)
+      return move;
+    move.isOfTool = move.isOfToolButForLength && move.length != LengthInForce::Subtracted;
+    if (isBelow(move)) {
+      move.zero[2] -= space_.longest.value_or(0);
+      move.isOfTool = move.isOfTool && space_.longest;
+    }
+    return move;
+  }
+  /// Machine coordinates are known whatever the tool is, but for units.
+  static RecordedMove inMachine(RecordedMove move) {
+    move.zero = move.machineZero;
+    move.isOfTool = move.isInUnitsOfStart;
+    return move;
   }
 
   const PlainSpace &space_;

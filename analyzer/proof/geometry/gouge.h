@@ -21,6 +21,10 @@ struct PlainSpace {
   std::vector<PlainRegion> keepOut;
   std::optional<double> clearance; // Z
   std::optional<Box<double>> travel;
+  std::optional<Box<double>> machine = {}; // in machine coordinates
+  /// The contract tells lengths of tools: coordinates are those of the tip where one is in force, and only there.
+  bool knowsLengths = false;
+  std::optional<double> longest = {}; // of them, with which the tip is lowest
 };
 
 enum class SpaceClaim : std::uint8_t {
@@ -28,12 +32,14 @@ enum class SpaceClaim : std::uint8_t {
   KeepOut,   // all moves
   Clearance, // rapid moves
   Travel,    // all moves; the point alone
+  Machine,   // the same in machine coordinates
 };
 
 struct Gouge {
-  std::size_t move; // index
-  Point<double> at; // the point of the tool
-  double depth;     // by how much the tool is wrong there, above 0
+  std::size_t move;                  // index
+  Point<double> at;                  // the point of the tool
+  double depth;                      // by how much the tool is wrong there, above 0
+  std::optional<double> length = {}; // of the tool in the spindle, where none is in force: PlainSpace::longest
 };
 
 /// Which moves are looked at; empty: all.  What came before them still counts.

@@ -2,6 +2,8 @@
 
 #include "proof/space/region_shapes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace feedhold::prove {
@@ -80,6 +82,17 @@ std::optional<CutterOffset<double>> offsetIn(const ProgramSet &programs, Callee 
   return contract.offsets.empty() && radius > 0 ? std::optional(CutterOffset<double>{radius, true}) : std::nullopt;
 }
 
+/// Absent: a clause gives no upper end.
+std::optional<double> longestLength(const Contract &contract, ContractNumbers &numbers) {
+  std::optional<double> longest;
+  for (const LengthRange &each : contract.lengths) {
+    if (!each.length.high)
+      return std::nullopt;
+    longest = std::max(longest.value_or(-HUGE_VAL), numbers.number(*each.length.high));
+  }
+  return longest;
+}
+
 } // namespace
 
 geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, const FileContracts &contracts,
@@ -101,6 +114,10 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
     space.clearance = numbers->number(contract->clearance->height.value);
   if (contract->travel)
     space.travel = shapes.sides(contract->travel->box);
+  space.knowsLengths = !contract->lengths.empty();
+  space.longest = longestLength(*contract, *numbers);
+  if (contract->machine)
+    space.machine = shapes.sides(contract->machine->box);
   return space;
 }
 

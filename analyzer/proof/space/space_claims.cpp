@@ -109,7 +109,8 @@ std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::
 } // namespace
 
 bool hasSpaceClause(const Contract &contract) {
-  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel;
+  return !contract.keepIn.empty() || !contract.keepOut.empty() || contract.clearance || contract.travel ||
+         contract.machine;
 }
 
 bool isCutting(MoveKind kind) {
@@ -119,6 +120,8 @@ bool isCutting(MoveKind kind) {
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
                          const SymbolicState &entry, TermId tolerance)
     : store_(store), terms_(terms), contract_(contract), entry_(entry), tolerance_(tolerance) {
+  if (!contract.lengths.empty())
+    lengthInSpindle_ = terms.lengthInSpindle(contract, entry);
   addRegions(contract.keepIn, ObligationKind::KeepIn);
   addRegions(contract.keepOut, ObligationKind::KeepOut);
   const auto number = [&](ExpressionId expression) { return terms_.number(expression, entry_, entry_); };
@@ -126,13 +129,20 @@ SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Cont
     rules_.push_back({.kind = ObligationKind::Clearance,
                       .clause = contract.clearance->clause,
                       .height = store_.subtract(number(contract.clearance->height.value), tolerance_)});
-  if (contract.travel) {
-    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(contract.travel->box);
+  const auto limits = [&](ClauseId clause, const Box &sides) {
+    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(sides);
     rules_.push_back({.kind = ObligationKind::Travel,
-                      .clause = contract.travel->clause,
+                      .clause = clause,
                       .spaces = {geometry::inside(
                           store_, std::get<geometry::Box<TermId>>(shrunk(store_, box, store_.negate(tolerance_))))},
                       .isSound = geometry::isNotEmpty(store_, TermShape(box))});
+  };
+  if (contract.travel)
+    limits(contract.travel->clause, contract.travel->box);
+  if (contract.machine) {
+    limits(contract.machine->clause, contract.machine->box);
+    rules_.back().name = "MACHINE";
+    rules_.back().isOfMachine = true;
   }
 }
 
@@ -202,6 +212,15 @@ std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance)
 std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRule &rule,
                                                                   const MoveInstance &instance) const {
   std::vector<std::pair<TermId, std::string>> premises;
+  const auto addUnits = [&] {
+    premises.emplace_back(instance.point.sameUnits.term,
+                          "the units (G20, G21) may differ from those of the start; state these, for example with "
+                          "`@MODAL G21`");
+  };
+  if (rule.isOfMachine) {
+    addUnits();
+    return premises;
+  }
   if (rule.kind != ObligationKind::Travel)
     premises.emplace_back(instance.point.withoutCompensation.term,
                           instance.path != MovePath::Both ? "the control may stop in this cutter compensation, as its "
@@ -212,16 +231,18 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
                                 "centre is not known; "
                                 "if it is off at the start, state `@MODAL G40`"
                               : fmt::format("the path of the tool's centre is not followed: {}", instance.whyBeside));
-  premises.emplace_back(
-      instance.point.lengthKnown.term,
-      "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
-      "was off at the start, state `@MODAL G49`");
+  if (lengthInSpindle_)
+    premises.emplace_back(store_.logicalNot(instance.point.lengthSubtracted.term),
+                          "G44 subtracts the tool length here, and `@LENGTH` tells lengths as G43 adds them");
+  else
+    premises.emplace_back(
+        instance.point.lengthKnown.term,
+        "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
+        "was off at the start, state `@MODAL G49`; or the lengths of the tools, with `@LENGTH H* ..`");
   if (rule.kind != ObligationKind::Travel)
     premises.emplace_back(instance.point.sameSide.term,
                           "an axis other than X, Y and Z has moved since the start and may have rotated the part");
-  premises.emplace_back(instance.point.sameUnits.term,
-                        "the units (G20, G21) may differ from those of the start; state these, for example with "
-                        "`@MODAL G21`");
+  addUnits();
   return premises;
 }
 
@@ -243,7 +264,19 @@ std::vector<TermId> SpaceClaims::simpleAlternatives(const FreeSpace &space,
   return alternatives;
 }
 
-std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &instance) const {
+/// In the coordinates of the rule: those of the machine, or of the tip.
+MoveInstance SpaceClaims::placed(const SpaceRule &rule, MoveInstance instance) const {
+  if (rule.isOfMachine) {
+    instance.point.zero = instance.point.machineZero;
+  } else if (lengthInSpindle_) {
+    TermId &height = instance.point.zero[indexOf(Axis::Z)].number;
+    height = store_.ite(instance.point.withLength.term, height, store_.subtract(height, *lengthInSpindle_));
+  }
+  return instance;
+}
+
+std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const MoveInstance &asMoved) const {
+  const MoveInstance instance = placed(rule, asMoved);
   if (rule.kind == ObligationKind::Clearance)
     return {clearanceOf(rule, instance)};
   const geometry::TermMove move = termMove(store_, instance);
@@ -319,6 +352,26 @@ TermId SpaceClaims::keepsLimit(const WordLimit &limit, const MoveInstance &insta
   if (limit.range.high)
     kept = store_.logicalAnd(kept, store_.lessOrEqual(word.number, terms_.number(*limit.range.high, entry_, entry_)));
   return kept;
+}
+
+std::vector<TermId> SpaceClaims::startIsOutside() const {
+  const auto isGiven = [&](Axis axis) {
+    return contract_.start &&
+           std::ranges::find(contract_.start->axes, letterOf(axis), &AxisValue::axis) != contract_.start->axes.end();
+  };
+  if (isGiven(Axis::X) && isGiven(Axis::Y) && isGiven(Axis::Z))
+    return {};
+  const std::optional<TermId> longest = terms_.longestLength(contract_, entry_);
+  if (!longest)
+    return {};
+  const TermPoint start{entry_.at(Axis::X).number, entry_.at(Axis::Y).number,
+                        store_.subtract(entry_.at(Axis::Z).number, *longest)};
+  std::vector<TermId> outside;
+  for (const SpaceRule &rule : rules_)
+    if (rule.kind == ObligationKind::KeepOut)
+      for (const FreeSpace &space : rule.spaces)
+        outside.push_back(space.all(start));
+  return outside;
 }
 
 std::vector<TermId> SpaceClaims::hints(const SymbolicState &state) const {

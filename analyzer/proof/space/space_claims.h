@@ -15,6 +15,7 @@ struct SpaceRule {
   ClauseId clause;
   std::size_t region = 0;                       // of KeepIn and KeepOut: of namesOf
   std::string name = {};                        // of the region
+  bool isOfMachine = false;                     // Travel: in machine coordinates
   std::vector<geometry::FreeSpace> spaces = {}; // the point of the tool is in all of them
   /// Of KeepIn and KeepOut: the same where the tool keeps so far away; empty where a region knows no distances.
   std::function<std::vector<geometry::FreeSpace>(smt::TermId margin)> spacesFor = {};
@@ -49,6 +50,12 @@ public:
   SpaceRule withMargin(const SpaceRule &rule, double margin) const;
   /// The feed or the speed in force; of a cutting movement.
   smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;
+  /// Of a start that `@START` leaves open: the tool is outside of the regions to keep out of.  No move can bring a tool
+  /// into a region in which it stands already; whoever calls the program answers for that.  Where the contract tells
+  /// lengths of tools, it is so with the longest.
+  std::vector<smt::TermId> startIsOutside() const;
+  /// Where the contract tells lengths: the tip is so much lower than the coordinates while none is in force.
+  std::optional<smt::TermId> lengthInSpindle() const { return lengthInSpindle_; }
   /// What may hold of the position before each iteration of a loop.
   std::vector<smt::TermId> hints(const SymbolicState &state) const;
 
@@ -56,6 +63,7 @@ private:
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
   std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
                                               const std::vector<geometry::TermPoint> &corners) const;
+  MoveInstance placed(const SpaceRule &rule, MoveInstance instance) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 
   smt::TermStore &store_;
@@ -64,6 +72,7 @@ private:
   const SymbolicState &entry_;
   smt::TermId tolerance_;
   std::vector<SpaceRule> rules_;
+  std::optional<smt::TermId> lengthInSpindle_;
 };
 
 /// A movement that takes material away.

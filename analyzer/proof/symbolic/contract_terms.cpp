@@ -1,9 +1,11 @@
 #include "proof/symbolic/contract_terms.h"
 
 #include "base/support/match.h"
+#include "meaning/semantics/tool_length.h"
 #include "proof/smt/steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -14,6 +16,7 @@ using smt::TermId;
 namespace {
 
 constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over which a clause is read
+constexpr int kMostOffset = 10'000;           // in a register of tool offsets (FANUC: 9999.999 mm at most)
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
 template <typename Evaluate>
@@ -180,6 +183,94 @@ TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &ent
   return store.logicalAnd(store.logicalNot(held.vacant), within);
 }
 
+/// The numbers of H that blocks of these programs name.
+std::set<std::uint32_t> ContractTerms::numbersOfLengths() const {
+  std::set<std::uint32_t> numbers;
+  const Dialect &dialect = *programs_.file(file_).dialect;
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    for (const Word &word : programs_.file(FileId(i)).tree->words)
+      if (word.address() == 'H' && word.isNumber())
+        if (const auto number = lengthOffsetNumber(dialect, word.number().toDouble()))
+          numbers.insert(*number);
+  return numbers;
+}
+
+void ContractTerms::demandRegisters(const SymbolicState &entry, std::vector<TermId> &demands) {
+  smt::TermStore &store = interpretation_.store();
+  const TermId most = store.number(smt::Number(kMostOffset));
+  for (const std::uint32_t number : numbersOfLengths())
+    for (const std::uint32_t variable : lengthVariables(*programs_.file(file_).dialect, number)) {
+      const TermId held = valueOf(variable, entry).number;
+      demands.push_back(store.lessOrEqual(store.negate(most), held));
+      demands.push_back(store.lessOrEqual(held, most));
+    }
+}
+
+/// A clause of every H speaks of those that the programs name and no other clause does.
+void ContractTerms::demandLength(const LengthRange &length, const Contract &contract, const SymbolicState &entry,
+                                 std::vector<TermId> &demands) {
+  smt::TermStore &store = interpretation_.store();
+  std::set<std::uint32_t> numbers = length.number ? std::set{*length.number} : numbersOfLengths();
+  if (!length.number)
+    for (const LengthRange &other : contract.lengths)
+      if (other.number)
+        numbers.erase(*other.number);
+  for (const std::uint32_t number : numbers) {
+    const auto [geometry, wear] = lengthVariables(*programs_.file(file_).dialect, number);
+    const TermId sum = store.add(valueOf(geometry, entry).number, valueOf(wear, entry).number);
+    if (length.length.low)
+      demands.push_back(store.lessOrEqual(value(*length.length.low, entry).number, sum));
+    if (length.length.high)
+      demands.push_back(store.lessOrEqual(sum, value(*length.length.high, entry).number));
+  }
+}
+
+TermId ContractTerms::lengthInSpindle(const Contract &contract, const SymbolicState &entry) {
+  std::optional<SymbolicValue> length;
+  for (const LengthRange &each : contract.lengths) {
+    const auto &[low, high] = each.length;
+    const SymbolicValue one =
+        low && high ? interpretation_.between(value(*low, entry), value(*high, entry)) : interpretation_.anyNumber();
+    length = length ? interpretation_.either(*length, one) : one;
+  }
+  return length ? length->number : interpretation_.anyNumber().number;
+}
+
+std::optional<TermId> ContractTerms::longestLength(const Contract &contract, const SymbolicState &entry) {
+  smt::TermStore &store = interpretation_.store();
+  std::optional<TermId> longest;
+  for (const LengthRange &each : contract.lengths) {
+    if (!each.length.high)
+      return std::nullopt;
+    const TermId high = value(*each.length.high, entry).number;
+    longest = longest ? store.ite(store.less(*longest, high), high, *longest) : high;
+  }
+  return longest ? longest : store.number(smt::Number(0));
+}
+
+/// At the start the axes stand in the range of the machine; where its zero point is not known, nothing follows.
+void ContractTerms::demandMachine(const MachineRange &machine, const SymbolicState &entry,
+                                  std::vector<TermId> &demands) {
+  smt::TermStore &store = interpretation_.store();
+  const std::array<TermId, 3> zero = machineZero(entry);
+  for (const AxisRange &side : machine.box.sides) {
+    const std::size_t axis = indexOf(*axisOf(side.axis));
+    const TermId at = store.add(entry.position[axis].number, zero[axis]);
+    if (side.range.low)
+      demands.push_back(store.lessOrEqual(value(*side.range.low, entry).number, at));
+    if (side.range.high)
+      demands.push_back(store.lessOrEqual(at, value(*side.range.high, entry).number));
+  }
+}
+
+std::array<TermId, 3> ContractTerms::machineZero(const SymbolicState &entry) {
+  SymbolicState copy = entry;
+  return inContract(interpretation_, programs_, file_, contracts_, copy, [](auto &context) {
+    return std::array{originOf(context, Axis::X).number, originOf(context, Axis::Y).number,
+                      originOf(context, Axis::Z).number};
+  });
+}
+
 std::vector<TermId> ContractTerms::demands(const Contract &contract, const SymbolicState &entry) {
   std::vector<TermId> demands;
   for (const EntryValue &param : contract.params)
@@ -188,6 +279,12 @@ std::vector<TermId> ContractTerms::demands(const Contract &contract, const Symbo
     demands.push_back(demandOf(global, entry));
   for (const ContractCondition &requirement : contract.requirements)
     demands.push_back(condition(requirement.condition, entry, entry));
+  if (contract.machine || !contract.lengths.empty())
+    demandRegisters(entry, demands);
+  for (const LengthRange &length : contract.lengths)
+    demandLength(length, contract, entry, demands);
+  if (contract.machine)
+    demandMachine(*contract.machine, entry, demands);
   return demands;
 }
 
@@ -200,6 +297,10 @@ std::vector<InputEnds> ContractTerms::inputEnds(const Contract &contract, const 
     for (const EntryValue &input : *inputs)
       if (const auto *range = std::get_if<Range>(&input.values))
         ends.push_back({input.variable, number(range->low), number(range->high)});
+  const Dialect &dialect = *programs_.file(file_).dialect;
+  for (const LengthRange &length : contract.lengths)
+    for (const std::uint32_t each : length.number ? std::set{*length.number} : numbersOfLengths())
+      ends.push_back({lengthVariables(dialect, each).front(), number(length.length.low), number(length.length.high)});
   return ends;
 }
 
@@ -217,7 +318,10 @@ std::vector<TermId> ContractTerms::placeOfStart(const Contract &contract, const 
   prepare(contract, prepared);
   std::vector<TermId> all;
   for (const Axis axis : kAllAxes)
-    all.push_back(interpretation_.store().equal(started.at(axis).number, prepared.at(axis).number));
+    for (const auto part : {&SymbolicState::position, &SymbolicState::shift, &SymbolicState::local})
+      all.push_back(
+          interpretation_.store().equal((started.*part)[indexOf(axis)].number, (prepared.*part)[indexOf(axis)].number));
+  all.push_back(interpretation_.store().equal(started.lengthOffset.number, prepared.lengthOffset.number));
   return all;
 }
 
@@ -228,6 +332,13 @@ std::vector<TermId> ContractTerms::assumptions(const Contract &contract, const S
   return all;
 }
 
+/// Then no shift of G52 or G92 lies between them and those of the program.
+bool ContractTerms::namesMachineCoordinates(const Contract &contract) const {
+  return contract.machine || std::ranges::any_of(contract.globals, [&](const EntryValue &value) {
+           return contracts_.clauses[value.clause].kind == ClauseKind::Offset;
+         });
+}
+
 void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
   const Dialect &dialect = *programs_.file(file_).dialect;
   const ModalTable modes(dialect);
@@ -236,6 +347,12 @@ void ContractTerms::prepare(const Contract &contract, SymbolicState &entry) {
     const auto index = row ? modes.indexOf(*row) : std::nullopt;
     if (index)
       entry.codes[row->group] = interpretation_.code(*index);
+    if (row && row->action == CodeAction::LengthOff)
+      entry.lengthOffset = interpretation_.number(0);
+  }
+  if (namesMachineCoordinates(contract)) {
+    entry.shift.fill(interpretation_.number(0));
+    entry.local.fill(interpretation_.number(0));
   }
   if (contract.start)
     for (const AxisValue &axis : contract.start->axes)

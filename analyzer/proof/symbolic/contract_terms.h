@@ -4,6 +4,7 @@
 #include "language/contract/contract.h"
 #include "proof/symbolic/symbolic_interpretation.h"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,9 +31,10 @@ public:
   ContractTerms(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
                 const FileContracts &contracts);
 
-  /// The modal codes and the start position of the contract are put into the state.
+  /// The modal codes and the start position of the contract are put into the state; and that no shift of G52 and G92 is
+  /// in force, if it speaks of machine coordinates.
   void prepare(const Contract &contract, SymbolicState &entry);
-  /// `@PARAM`, `@GLOBAL` and `@REQUIRE`: what a caller has to see to.
+  /// `@PARAM`, `@GLOBAL`, `@REQUIRE` and the clauses of the set-up: what a caller has to see to.
   std::vector<smt::TermId> demands(const Contract &contract, const SymbolicState &entry);
   /// The modal codes and the start position of the contract are those of the state.
   std::vector<smt::TermId> modesOfStart(const Contract &contract, const SymbolicState &started);
@@ -54,7 +56,20 @@ public:
   /// Between which ends the contract has the inputs, in its order; those it bounds.
   std::vector<InputEnds> inputEnds(const Contract &contract, const SymbolicState &entry);
 
+  /// The length of the tool that is in the spindle, whichever it is: as one of the clauses says.
+  smt::TermId lengthInSpindle(const Contract &contract, const SymbolicState &entry);
+  /// The greatest of them; 0 where the contract tells none.  Absent: some clause has no upper end.
+  std::optional<smt::TermId> longestLength(const Contract &contract, const SymbolicState &entry);
+  /// Machine coordinates of the zero point of a state, tool length included.
+  std::array<smt::TermId, 3> machineZero(const SymbolicState &entry);
+
 private:
+  void demandRegisters(const SymbolicState &entry, std::vector<smt::TermId> &demands);
+  void demandLength(const LengthRange &length, const Contract &contract, const SymbolicState &entry,
+                    std::vector<smt::TermId> &demands);
+  void demandMachine(const MachineRange &machine, const SymbolicState &entry, std::vector<smt::TermId> &demands);
+  std::set<std::uint32_t> numbersOfLengths() const;
+  bool namesMachineCoordinates(const Contract &contract) const;
   SymbolicValue valueOf(std::uint32_t variable, const SymbolicState &state) const;
   smt::TermId demandOf(const EntryValue &value, const SymbolicState &entry);
   SymbolicValue value(ExpressionId expression, const SymbolicState &state);

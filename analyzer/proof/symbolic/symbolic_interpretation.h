@@ -237,7 +237,6 @@ public:
   // ---- variables ----
   Value unwritten(const State &state, std::uint32_t variable);
   Value volatileRead(std::uint32_t variable);
-  Value toolLength(const State &state, const Value &number);
   Value readAnyOf(State &state, const Value &index, Span place);
   bool writeAnyOf(State &state, const Value &index, const Value &value, Span place);
   void havocVariables(State &state, std::uint32_t first, std::uint32_t last);

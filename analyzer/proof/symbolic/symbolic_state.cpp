@@ -62,7 +62,6 @@ SymbolicValue SymbolicInterpretation::volatileRead(std::uint32_t variable) {
     inputReads_.push_back({place_, variable, number});
   return of(number);
 }
-SymbolicValue SymbolicInterpretation::toolLength(const State &, const Value &) { return anyNumber(); }
 
 void SymbolicInterpretation::join(State &state, Truth truth, const State &second) {
   if (truth.term == store_.no())

@@ -100,7 +100,7 @@ std::optional<Error> addOffset(const std::string &text, const Project &programs,
       name.size() > 1 && toUpper(name.front()) == 'D' ? numberFrom(std::string_view(name).substr(1)) : std::nullopt;
   if (!number)
     return Error{fmt::format("--offset: `{}` is not of the form D1=5", text)};
-  const CutterOffsets &offsets = programs.dialect().behaviour.cutterOffsets;
+  const OffsetMemory &offsets = programs.dialect().behaviour.cutterOffsets;
   if (offsets.count == 0)
     return Error{fmt::format("--offset: `{}`: this control keeps no cutter offsets in variables", text)};
   if (*number != std::floor(*number) || *number < 1 || *number > offsets.count)

@@ -148,7 +148,10 @@ std::string_view helpOf(ClauseKind kind) {
   case ClauseKind::Modal: return "the G and M codes active on entry";
   case ClauseKind::Start: return "the tool position on entry";
   case ClauseKind::Tool: return "the shape and radius of the tool";
-  case ClauseKind::Offset: return "the radius that the offset of a D holds, for G41 and G42";
+  case ClauseKind::Offset:
+    return "what an offset holds: the radius of a D, for G41 and G42, or the zero point of G54 to G59";
+  case ClauseKind::Length: return "the tool length that an H holds, for G43 and G44";
+  case ClauseKind::Machine: return "the range of the axes in machine coordinates, and the reference position";
   case ClauseKind::KeepIn: return "during cutting moves, the whole tool stays inside this region";
   case ClauseKind::KeepOut: return "the tool never enters this region";
   case ClauseKind::Clearance: return "rapid moves stay at or above this height";

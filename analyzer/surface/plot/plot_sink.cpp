@@ -428,6 +428,7 @@ std::string gougeText(const geometry::PlainSpace &space, geometry::SpaceClaim cl
   case geometry::SpaceClaim::KeepOut: return text("inside " + space.keepOut[region].name);
   case geometry::SpaceClaim::Clearance: return text("below the clearance height in a rapid move");
   case geometry::SpaceClaim::Travel: return text("outside the travel limits");
+  case geometry::SpaceClaim::Machine: return text("outside the range of the machine");
   }
   FEEDHOLD_UNREACHABLE("the switch names every claim");
 }

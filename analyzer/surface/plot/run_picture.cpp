@@ -2,6 +2,7 @@
 
 #include "base/support/text.h"
 #include "language/syntax/tree.h"
+#include "meaning/semantics/tool_length.h"
 #include "proof/replay/example_run.h"
 #include "proof/space/plain_space.h"
 
@@ -74,6 +75,7 @@ Gouges gougesOf(const PicturedRun &run, const geometry::PlainSpace &space) {
     look(SpaceClaim::KeepOut, i);
   look(SpaceClaim::Clearance, 0);
   look(SpaceClaim::Travel, 0);
+  look(SpaceClaim::Machine, 0);
   std::stable_sort(gouges.all.begin(), gouges.all.end(),
                    [](const PlottedGouge &a, const PlottedGouge &b) { return a.gouge.depth > b.gouge.depth; });
   return gouges;
@@ -91,16 +93,47 @@ std::vector<std::string> notesOf(const PicturedRun &run) {
   return notes;
 }
 
-/// What the contract asks for and the run does not have: without it there are no regions.
-std::vector<std::string> missingArguments(const PicturedRun &run) {
-  std::vector<std::string> missing;
-  const Contract *contract = run.programs.file(run.start.file).contracts.of(run.start.program);
+/// What the contract asks for and the run does not have.
+struct MissingInputs {
+  std::vector<std::string> ofRegions; // without them there are none
+  std::vector<std::string> ofSetUp;   // without them machine coordinates are not known
+};
+
+/// A cell of the control that is not given holds 0.
+bool mayBeZero(const PicturedRun &run, const FileContracts &contracts, const EntryValue &value) {
+  const auto *range = std::get_if<Range>(&value.values);
+  const auto number = [&](ExpressionId end) {
+    return prove::numberOf(*run.programs.set, run.start, contracts, run.options, end);
+  };
+  return range && (!range->low || number(*range->low) <= 0) && (!range->high || number(*range->high) >= 0);
+}
+
+/// The run has the length of some tool.
+bool hasLength(const PicturedRun &run, const Dialect &dialect) {
+  return std::ranges::any_of(run.options.variables.entries(), [&](const auto &given) {
+    return isLengthVariable(dialect, given.first);
+  });
+}
+
+MissingInputs missingInputs(const PicturedRun &run) {
+  MissingInputs missing;
+  const ProjectFile &file = run.programs.file(run.start.file);
+  const Contract *contract = file.contracts.of(run.start.program);
   if (contract == nullptr)
     return missing;
   for (const auto *values : {&contract->params, &contract->globals})
-    for (const EntryValue &value : *values)
-      if (value.vacancy == Vacancy::Never && !run.options.variables.find(value.variable))
-        missing.push_back(run.programs.set->nameOfVariable(value.variable));
+    for (const EntryValue &value : *values) {
+      if (value.vacancy == Vacancy::Possible || run.options.variables.find(value.variable))
+        continue;
+      const ClauseKind kind = file.contracts.clauses[value.clause].kind;
+      const bool isOfSetUp = kind == ClauseKind::Offset || kind == ClauseKind::Machine;
+      if (!isOfSetUp)
+        missing.ofRegions.push_back(run.programs.set->nameOfVariable(value.variable));
+      else if (!mayBeZero(run, file.contracts, value))
+        missing.ofSetUp.push_back(run.programs.set->nameOfVariable(value.variable));
+    }
+  if (!contract->lengths.empty() && !hasLength(run, *file.dialect))
+    missing.ofSetUp.push_back("the tool length");
   return missing;
 }
 
@@ -119,12 +152,18 @@ RunPicture drawRuns(const std::string &title, std::span<const PicturedRun> runs)
       picture.notes.push_back(std::move(note));
   }
   const PicturedRun &first = runs.front();
-  if (const auto missing = missingArguments(first); !missing.empty())
-    picture.notes.push_back(
-        fmt::format("regions of the contract are not drawn: they need {}", fmt::join(missing, " ")));
-  else
+  const MissingInputs missing = missingInputs(first);
+  if (missing.ofRegions.empty())
     picture.space = prove::plainSpace(*first.programs.set, first.start, first.programs.file(first.start.file).contracts,
                                       first.options);
+  else
+    picture.notes.push_back(
+        fmt::format("regions of the contract are not drawn: they need {}", fmt::join(missing.ofRegions, " ")));
+  if (picture.space.machine && !missing.ofSetUp.empty()) {
+    picture.space.machine.reset();
+    picture.notes.push_back(
+        fmt::format("the range of the machine is not checked: it needs {}", fmt::join(missing.ofSetUp, " ")));
+  }
   Gouges gouges = gougesOf(first, picture.space);
   for (std::string &text : gouges.byRounding)
     picture.notes.push_back(std::move(text));
