@@ -198,7 +198,8 @@ private:
     };
     for (Move<ConcreteValue> &move : moves)
       result_.moves.push_back({move, unitInForce(), here, own, numbers(point.zero), numbers(point.machineZero),
-                               isButForLength && point.lengthKnown, isButForLength, length, point.sameUnits});
+                               isButForLength && point.lengthKnown, isButForLength, length,
+                               isFollowed && point.sameUnits});
   }
   LengthUnit unitInForce() {
     const auto ctx = context();

@@ -8,7 +8,7 @@ std::vector<RecordedMove> movesOfCentre(const RecordedMove &recorded) {
   std::vector<RecordedMove> moves;
   for (const Move<ConcreteValue> &move : recorded.centre) {
     moves.push_back({move, recorded.unit, recorded.place, recorded.own, recorded.zero, recorded.machineZero,
-                     recorded.isOfTool, recorded.isOfToolButForLength, recorded.length, recorded.isInUnitsOfStart});
+                     recorded.isOfTool, recorded.isOfToolButForLength, recorded.length, recorded.isOfAxes});
   }
   return moves;
 }

@@ -27,7 +27,7 @@ struct RecordedMove {
   bool isOfTool = true;
   bool isOfToolButForLength = true; // the same, whatever has become of the length
   LengthInForce length = LengthInForce::Added;
-  bool isInUnitsOfStart = true;
+  bool isOfAxes = true; // cutter compensation is off or followed, and the units are those of the start
   /// The moves that the centre of the tool makes instead, beside the programmed one: cutter compensation is in force or
   /// ends.  Empty: it makes the programmed one.
   std::vector<Move<ConcreteValue>> centre = {};

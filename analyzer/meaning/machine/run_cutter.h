@@ -62,7 +62,7 @@ public:
   const Move<ConcreteValue> &moveOf(std::size_t index) const { return moves_[index].move; }
   void follow(std::size_t index, std::vector<Move<ConcreteValue>> centre) { moves_[index].centre = std::move(centre); }
   void leave(std::size_t index, std::string_view) {
-    moves_[index].isOfTool = moves_[index].isOfToolButForLength = false;
+    moves_[index].isOfTool = moves_[index].isOfToolButForLength = moves_[index].isOfAxes = false;
   }
   bool areInOneSpace(std::size_t a, std::size_t b) const {
     return moves_[a].zero == moves_[b].zero && moves_[a].unit == moves_[b].unit;

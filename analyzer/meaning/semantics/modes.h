@@ -297,16 +297,23 @@ private:
     if (!isNamed)
       otherNumber();
   }
-  /// `H2` alone: under G43 and G44 the length of another offset number comes into force.
+  /// `H2` alone: under G43 and G44 the length of another offset number comes into force, or a parameter keeps the old
+  /// one (Mitsubishi #1274).  H0 may end the length or not.
   void otherNumber() {
     const auto *entry = words_.find('H');
     if (!entry || context_.behaviour().lengthOffsets.count == 0)
       return;
+    const auto number = interpretation_.constantOf(entry->value);
     for (const CodeAction action : {CodeAction::LengthPlus, CodeAction::LengthMinus}) {
       const Truth changes = interpretation_.both(
           entry->present, context_.inForce(ModalKind::Length, {action}, interpretation_.truth(false)));
-      if (interpretation_.mayBe(changes))
-        setLength(interpretation_.select(changes, lengthByNumber(action), state_.lengthOffset), changes);
+      if (!interpretation_.mayBe(changes))
+        continue;
+      if (!number || *number == 0)
+        interpretation_.abandon("H0 without G43, or an H that is not known", context_.place());
+      setLength(interpretation_.select(changes, interpretation_.either(lengthByNumber(action), state_.lengthOffset),
+                                       state_.lengthOffset),
+                changes);
     }
   }
   Value lengthByNumber(CodeAction action) {
@@ -318,6 +325,23 @@ private:
     state_.lengthOffset = length;
     state_.lengthChanged = context_.either(state_.lengthChanged, isNew);
     shiftCoordinate(context_, Axis::Z, moved);
+    if (mayMoveByLength())
+      moveByLength(moved);
+  }
+  /// Where a block brings Z to a coordinate, both come to the same.
+  bool mayMoveByLength() {
+    const auto *entry = words_.find('Z');
+    const bool isPlaced = entry && context_.certain(entry->present) && context_.certain(detail::isAbsolute(context_));
+    return context_.behaviour().lengthOffsets.count != 0 && !isPlaced;
+  }
+  /// The control changes the coordinate while the machine stands, or moves the machine and keeps the coordinate (FANUC
+  /// 5006#6, TOS; Mitsubishi #1268).
+  void moveByLength(const Value &shifted) {
+    const auto start = state_.position;
+    Value &z = state_.at(Axis::Z);
+    z = interpretation_.either(z, interpretation_.subtract(z, shifted));
+    if (!context_.certain(interpretation_.compare(Relation::Equal, z, start[indexOf(Axis::Z)])))
+      tell(context_, MoveKind::Rapid, start);
   }
   Value wordOr(char letter, const Value &otherwise) const {
     const auto *entry = words_.find(letter);

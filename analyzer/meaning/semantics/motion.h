@@ -280,6 +280,7 @@ private:
       tell(context_, MoveKind::Rapid, start);
     else if (interpretation_.wantsMoves())
       tellLine(start);
+    mayCancelLength(context_, present('Z'));
   }
   /// By way of the programmed point to the reference position.
   void referenceReturn(const CodeWord &word) {
@@ -299,6 +300,7 @@ private:
     const bool isKnown =
         word.code->action == CodeAction::ReferenceReturn || referenceRange(VariableRole::SecondReference);
     tell(context_, isKnown ? MoveKind::Rapid : MoveKind::Unmodelled, between);
+    mayCancelLength(context_, context_.either(present('Z'), all));
   }
   /// G27: rapid to where the reference position should be.
   void referenceCheck() {

@@ -228,6 +228,15 @@ std::optional<std::string> setUpClauseOf(const Dialect &dialect, std::uint32_t v
   return std::nullopt;
 }
 
+bool isStated(const Contract &contract, const Dialect &dialect, std::uint32_t variable) {
+  if (std::ranges::find(contract.globals, variable, &EntryValue::variable) != contract.globals.end())
+    return true;
+  return std::ranges::any_of(contract.lengths, [&](const LengthRange &length) {
+    return length.number ? std::ranges::count(lengthVariables(dialect, *length.number), variable) != 0
+                         : isLengthVariable(dialect, variable);
+  });
+}
+
 bool SpaceProver::isGivenAtStart(Axis axis) const {
   const auto &start = context_.subject.contract()->start;
   return start && std::any_of(start->axes.begin(), start->axes.end(),
@@ -242,7 +251,9 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
   const auto length = space_.lengthInSpindle();
   const auto ofLength = [&](TermId variable) { return variables.contains(variable); };
   if (length && std::ranges::any_of(smt::variablesOf(start_.store(), *length), ofLength))
-    return "no tool length is in force in this block (G43), and the tool may have any length of `@LENGTH`";
+    return "it is not certain that a tool length is in force in this block (G43 with an H other than 0), and the tool "
+           "may "
+           "have any length of `@LENGTH`";
   std::string axes;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
     if (variables.contains(start_.entry().at(axis).number) && !isGivenAtStart(axis))
@@ -258,7 +269,10 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
                          code.tenths / 10);
     }
   for (const auto &[variable, value] : start_.interpretation().entryValues())
-    if (const auto clause = variables.contains(value.number) ? setUpClauseOf(dialect, variable) : std::nullopt)
+    if (const auto clause =
+            variables.contains(value.number) && !isStated(*context_.subject.contract(), dialect, variable)
+                ? setUpClauseOf(dialect, variable)
+                : std::nullopt)
       return fmt::format("what #{} holds is not known well enough; state it with `{}`", variable, *clause);
   return "neither a proof nor a counterexample was found";
 }

@@ -149,13 +149,11 @@ public:
         worst = Gouge{index, found->at, found->depth, isBelow(move) ? space_.longest : std::nullopt};
     };
     for (std::size_t i = 0; i < moves.size(); ++i)
-      if (claim_ == SpaceClaim::Machine)
-        look(inMachine(moves[i]), i);
-      else if (moves[i].centre.empty() || claim_ == SpaceClaim::Travel) // limits are those of programmed points
-        look(ofTip(moves[i]), i);
+      if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
+        look(moves[i], i);
       else
         for (const RecordedMove &move : movesOfCentre(moves[i]))
-          look(ofTip(move), i);
+          look(claim_ == SpaceClaim::Machine ? inMachine(move) : ofTip(move), i);
     for (std::size_t axis = 0; worst && claim_ == SpaceClaim::Machine && axis < worst->at.size(); ++axis)
       worst->at[axis] += moves[worst->move].zero[axis] - moves[worst->move].machineZero[axis];
     return worst;
@@ -191,9 +189,10 @@ private:
     const Depth depth = [&](const Point<double> &point) { return depthOutside(*limits, point); };
     return deepestOnPath(GougePath(recorded), {depth, Course::SingleAxes, floor, 0});
   }
+  bool isOfTip() const { return claim_ != SpaceClaim::Machine && claim_ != SpaceClaim::Travel; }
   /// The tip is lower than its coordinates by the length of the tool.
   bool isBelow(const RecordedMove &move) const {
-    return claim_ != SpaceClaim::Machine && space_.knowsLengths && move.length == LengthInForce::None;
+    return isOfTip() && space_.knowsLengths && move.length == LengthInForce::None;
   }
   /// Where the contract tells lengths, as G43 takes them.
   RecordedMove ofTip(RecordedMove move) const {
@@ -206,10 +205,10 @@ private:
     }
     return move;
   }
-  /// Machine coordinates are known whatever the tool is, but for units.
+  /// Machine coordinates are known whatever the length of the tool.
   static RecordedMove inMachine(RecordedMove move) {
     move.zero = move.machineZero;
-    move.isOfTool = move.isInUnitsOfStart;
+    move.isOfTool = move.isOfAxes;
     return move;
   }
 

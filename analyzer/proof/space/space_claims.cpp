@@ -187,9 +187,14 @@ SpaceRule SpaceClaims::withMargin(const SpaceRule &rule, double margin) const {
   return wider;
 }
 
+/// `@TRAVEL` speaks of the points that the program writes.
+bool SpaceClaims::isOfProgrammed(const SpaceRule &rule) {
+  return rule.kind == ObligationKind::Travel && !rule.isOfMachine;
+}
+
 bool SpaceClaims::concerns(const SpaceRule &rule, const MoveInstance &instance) const {
   const MoveKind kind = instance.move.kind;
-  const bool asksOfProgrammed = rule.kind == ObligationKind::Travel || rule.kind == ObligationKind::Limit;
+  const bool asksOfProgrammed = isOfProgrammed(rule) || rule.kind == ObligationKind::Limit;
   if (instance.path == (asksOfProgrammed ? MovePath::Centre : MovePath::Programmed))
     return false;
   if (kind == MoveKind::Unmodelled)
@@ -217,11 +222,7 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
                           "the units (G20, G21) may differ from those of the start; state these, for example with "
                           "`@MODAL G21`");
   };
-  if (rule.isOfMachine) {
-    addUnits();
-    return premises;
-  }
-  if (rule.kind != ObligationKind::Travel)
+  if (!isOfProgrammed(rule))
     premises.emplace_back(instance.point.withoutCompensation.term,
                           instance.path != MovePath::Both ? "the control may stop in this cutter compensation, as its "
                                                             "own claim says; the path of the tool's centre is "
@@ -231,7 +232,11 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
                                 "centre is not known; "
                                 "if it is off at the start, state `@MODAL G40`"
                               : fmt::format("the path of the tool's centre is not followed: {}", instance.whyBeside));
-  if (lengthInSpindle_)
+  if (rule.isOfMachine) {
+    addUnits();
+    return premises;
+  }
+  if (lengthInSpindle_ && !isOfProgrammed(rule))
     premises.emplace_back(store_.logicalNot(instance.point.lengthSubtracted.term),
                           "G44 subtracts the tool length here, and `@LENGTH` tells lengths as G43 adds them");
   else
@@ -268,7 +273,7 @@ std::vector<TermId> SpaceClaims::simpleAlternatives(const FreeSpace &space,
 MoveInstance SpaceClaims::placed(const SpaceRule &rule, MoveInstance instance) const {
   if (rule.isOfMachine) {
     instance.point.zero = instance.point.machineZero;
-  } else if (lengthInSpindle_) {
+  } else if (lengthInSpindle_ && !isOfProgrammed(rule)) {
     TermId &height = instance.point.zero[indexOf(Axis::Z)].number;
     height = store_.ite(instance.point.withLength.term, height, store_.subtract(height, *lengthInSpindle_));
   }
@@ -338,8 +343,9 @@ SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance
   const TermPoint end = inSpace(store_, instance.move.end, instance.point);
   const TermId above =
       store_.logicalAnd(store_.lessOrEqual(*rule.height, start[2]), store_.lessOrEqual(*rule.height, end[2]));
-  const TermId cleared =
-      store_.logicalOr(store_.lessOrEqual(start[2], end[2]), store_.lessOrEqual(instance.column, end[2]));
+  const TermId cut = store_.add(instance.column,
+                                lengthInSpindle_ ? terms_.mostAbove(contract_, entry_) : store_.number(smt::Number(0)));
+  const TermId cleared = store_.logicalOr(store_.lessOrEqual(start[2], end[2]), store_.lessOrEqual(cut, end[2]));
   const std::array vertical{store_.equal(start[0], end[0]), store_.equal(start[1], end[1]), cleared};
   return {{{{}, store_.logicalOr(above, store_.logicalAnd(vertical))}}};
 }
@@ -361,7 +367,7 @@ std::vector<TermId> SpaceClaims::startIsOutside() const {
   };
   if (isGiven(Axis::X) && isGiven(Axis::Y) && isGiven(Axis::Z))
     return {};
-  const std::optional<TermId> longest = terms_.longestLength(contract_, entry_);
+  const std::optional<TermId> longest = terms_.longestBelow(contract_, entry_);
   if (!longest)
     return {};
   const TermPoint start{entry_.at(Axis::X).number, entry_.at(Axis::Y).number,

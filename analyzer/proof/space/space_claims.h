@@ -63,6 +63,7 @@ private:
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
   std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
                                               const std::vector<geometry::TermPoint> &corners) const;
+  static bool isOfProgrammed(const SpaceRule &rule);
   MoveInstance placed(const SpaceRule &rule, MoveInstance instance) const;
   SpaceQuestion clearanceOf(const SpaceRule &rule, const MoveInstance &move) const;
 

@@ -16,6 +16,7 @@ using smt::TermId;
 namespace {
 
 constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over which a clause is read
+constexpr std::uint32_t kMostComputed = 200;  // numbers of H
 constexpr int kMostOffset = 10'000;           // in a register of tool offsets (FANUC: 9999.999 mm at most)
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
@@ -183,13 +184,17 @@ TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &ent
   return store.logicalAnd(store.logicalNot(held.vacant), within);
 }
 
-/// The numbers of H that blocks of these programs name.
+/// The numbers of H that blocks of these programs name; the first ones where some block computes its own.
 std::set<std::uint32_t> ContractTerms::numbersOfLengths() const {
   std::set<std::uint32_t> numbers;
   const Dialect &dialect = *programs_.file(file_).dialect;
   for (std::size_t i = 0; i < programs_.size(); ++i)
     for (const Word &word : programs_.file(FileId(i)).tree->words)
-      if (word.address() == 'H' && word.isNumber())
+      if (word.address() == 'H' && !word.isNumber()) {
+        for (std::uint32_t number = 1; number <= std::min(kMostComputed, dialect.behaviour.lengthOffsets.count);
+             ++number)
+          numbers.insert(number);
+      } else if (word.address() == 'H')
         if (const auto number = lengthOffsetNumber(dialect, word.number().toDouble()))
           numbers.insert(*number);
   return numbers;
@@ -236,8 +241,14 @@ TermId ContractTerms::lengthInSpindle(const Contract &contract, const SymbolicSt
   return length ? length->number : interpretation_.anyNumber().number;
 }
 
-std::optional<TermId> ContractTerms::longestLength(const Contract &contract, const SymbolicState &entry) {
+std::optional<TermId> ContractTerms::longestBelow(const Contract &contract, const SymbolicState &entry) {
   smt::TermStore &store = interpretation_.store();
+  const Dialect &dialect = *programs_.file(file_).dialect;
+  const ModalTable modes(dialect);
+  const auto group = modes.groupOf(ModalKind::Length);
+  const auto code = group ? interpretation_.onlyCode(entry.codes[*group]) : std::nullopt;
+  if (!code || modes.group(*group).codes[*code]->action != CodeAction::LengthOff)
+    return store.number(smt::Number(0));
   std::optional<TermId> longest;
   for (const LengthRange &each : contract.lengths) {
     if (!each.length.high)
@@ -246,6 +257,19 @@ std::optional<TermId> ContractTerms::longestLength(const Contract &contract, con
     longest = longest ? store.ite(store.less(*longest, high), high, *longest) : high;
   }
   return longest ? longest : store.number(smt::Number(0));
+}
+
+/// How far the tip may be above the coordinates while no length is in force: lengths below zero.
+TermId ContractTerms::mostAbove(const Contract &contract, const SymbolicState &entry) {
+  smt::TermStore &store = interpretation_.store();
+  TermId most = store.number(smt::Number(0));
+  for (const LengthRange &each : contract.lengths) {
+    if (!each.length.low)
+      return interpretation_.anyNumber().number;
+    const TermId above = store.negate(value(*each.length.low, entry).number);
+    most = store.ite(store.less(most, above), above, most);
+  }
+  return most;
 }
 
 /// At the start the axes stand in the range of the machine; where its zero point is not known, nothing follows.

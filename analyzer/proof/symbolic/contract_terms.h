@@ -58,8 +58,10 @@ public:
 
   /// The length of the tool that is in the spindle, whichever it is: as one of the clauses says.
   smt::TermId lengthInSpindle(const Contract &contract, const SymbolicState &entry);
-  /// The greatest of them; 0 where the contract tells none.  Absent: some clause has no upper end.
-  std::optional<smt::TermId> longestLength(const Contract &contract, const SymbolicState &entry);
+  /// How far the tip of the longest tool is below the coordinates of the start: its length, where `@MODAL` says that
+  /// none is in force.  Absent: some clause has no upper end.
+  std::optional<smt::TermId> longestBelow(const Contract &contract, const SymbolicState &entry);
+  smt::TermId mostAbove(const Contract &contract, const SymbolicState &entry);
   /// Machine coordinates of the zero point of a state, tool length included.
   std::array<smt::TermId, 3> machineZero(const SymbolicState &entry);
 

@@ -110,9 +110,8 @@ bool mayBeZero(const PicturedRun &run, const FileContracts &contracts, const Ent
 
 /// The run has the length of some tool.
 bool hasLength(const PicturedRun &run, const Dialect &dialect) {
-  return std::ranges::any_of(run.options.variables.entries(), [&](const auto &given) {
-    return isLengthVariable(dialect, given.first);
-  });
+  return std::ranges::any_of(run.options.variables.entries(),
+                             [&](const auto &given) { return isLengthVariable(dialect, given.first); });
 }
 
 MissingInputs missingInputs(const PicturedRun &run) {
