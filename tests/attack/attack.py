@@ -2,7 +2,7 @@
 """Random programs of all language parts against `feedhold`: what it claims of all runs is compared with runs.
 
 Usage: attack.py FEEDHOLD [--seconds N | --programs N] [--first SEED] [--found FOLDER] [--without FEATURE]...
-                 [--corpus FOLDER [--calls N]] [--only trees|texts|space|decimals|owords]... [--arithmetic exact|control]
+                 [--corpus FOLDER [--calls N]] [--only trees|texts|space|set-up|decimals|owords]... [--arithmetic exact|control]
 Prints counts; exits 1 when a run contradicts a claim, with a small program for each in FOLDER.
 """
 import argparse
@@ -25,6 +25,7 @@ from texts.reckon import Model as TextModel  # noqa: E402
 from texts.oword_attack import OwordAttack  # noqa: E402
 from texts.write_decimal import DecimalWriter  # noqa: E402
 from texts.write_macro import MacroWriter  # noqa: E402
+from texts.write_set_up import SetUpWriter  # noqa: E402
 from texts.write_space import SpaceWriter  # noqa: E402
 from trees.attack import TreeAttack  # noqa: E402
 from trees.random_programs import FEATURES  # noqa: E402
@@ -42,6 +43,8 @@ def attacks_of(options, engine, tally):
         "texts": TextAttack("texts", engine, tally, partial(MacroWriter, without=options.without),
                             chosen or fanuc + ["haas-ngc"]),
         "space": TextAttack("space", engine, tally, SpaceWriter, chosen or ["fanuc-30i"]),
+        "set-up": TextAttack("set-up", engine, tally, SetUpWriter,
+                             chosen or ["fanuc-30i", "fanuc-0i", "haas-ngc", "mitsubishi-m700"], range_runs=0),
         "decimals": TextAttack("decimals", engine, tally, DecimalWriter, chosen or fanuc, runs=80, range_runs=0),
         "owords": OwordAttack(engine, tally),
     }
@@ -82,7 +85,7 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--found", type=Path)
     parser.add_argument("--without", action="append", default=[], choices=FEATURES)
-    parser.add_argument("--only", action="append", choices=("trees", "texts", "space", "decimals", "owords"))
+    parser.add_argument("--only", action="append", choices=("trees", "texts", "space", "set-up", "decimals", "owords"))
     parser.add_argument("--arithmetic", choices=("exact", "control"), help="of claims; by default one, then the other")
     parser.add_argument("--dialect", action="append")
     parser.add_argument("--no-shrink", dest="shrinks", action="store_false")

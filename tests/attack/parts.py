@@ -11,6 +11,8 @@ PARTS = {
     "@ENSURE": r"@ENSURE", "@ENSURE MODAL PRESERVED": r"MODAL PRESERVED", "@ASSIGNS": r"@ASSIGNS", "@GUARDED": r"@GUARDED",
     "@ALARM": r"@ALARM", "@INVARIANT": r"@INVARIANT", "@VARIANT": r"@VARIANT", "@CYCLIC": r"@CYCLIC",
     "@KEEPIN": r"@KEEPIN", "@KEEPOUT": r"@KEEPOUT", "@CLEARANCE": r"@CLEARANCE", "@TRAVEL": r"@TRAVEL", "@LIMIT": r"@LIMIT",
+    "@OFFSET": r"@OFFSET G5", "@LENGTH": r"@LENGTH", "@MACHINE": r"@MACHINE", "G43": r"G43", "G44": r"G44", "G49": r"^[^(\n]*G49",
+   
     "mirrors": r"G51\.1", "rotation": r"G68", "scaling": r"G51[XYZP]", "cycles": r"G8[1-59]|G73",
     "G52": r"G52", "G92": r"G92", "G10": r"G10L2", "G54 to G59": r"^G5[4-9]|[^.\d]G5[5-9]", "G28": r"G28", "G53": r"G53",
     "arcs by R": r"G[23]X[^\n]*R", "arcs by I, J, K": r"G[23]X[^\n]*[IJK]", "G91": r"G91", "inches": r"G20",

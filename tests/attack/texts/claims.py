@@ -34,6 +34,11 @@ def is_typed(entry) -> bool:
                                     if value)
 
 
+def region_of(claim) -> str:
+    """What tells claims of one kind on one line apart."""
+    return claim.text.split()[1 if claim.kind.startswith("keep") else 0]
+
+
 def judge(run, claims_of, is_complete, counts) -> list:
     """`claims_of(number)`: the claims of a program.  All that the run contradicts."""
     return Judgement(run, claims_of, is_complete, counts).found
@@ -59,13 +64,18 @@ class Judgement:
             return False
         try:
             broken = contract.broken_at_entry(visit.text, visit.entry, self.again)
-        except (Stop, Unsaid):
+            broken = broken or self.starts_inside(visit)
+        except (Stop, Unsaid, TypeError):
             return False
         if broken and visit.outer is not None:
             self.bad_call(visit, broken[0])
         elif broken and not visit.modal_at_entry:
             self.guarded(visit, broken)
         return not broken and not visit.modal_at_entry
+
+    def starts_inside(self, visit) -> list:
+        heads = [clause for _, clause in contract.of(visit.text, "@KEEPOUT")]
+        return heads[:1] if heads and Space(visit.text, visit.entry, self.again).has_start_inside(visit.text, visit.entry) else []
 
     def kind(self, visit, kind):
         return [c for c in self.claims_of(visit.text.number) if c.kind == kind]
@@ -211,8 +221,6 @@ class Judgement:
 
     def space(self, visit):
         claims = [c for c in self.claims_of(visit.text.number) if c.kind in SPACE]
-        if Model.doubles:  # these are claimed of exact numbers
-            claims = [c for c in claims if c.kind == "limit"]
         if not claims or self.run.end == "unsaid" and not self.run.tool.strokes:
             return
         try:
@@ -220,15 +228,15 @@ class Judgement:
         except (Stop, Unsaid, TypeError):
             return
         rng, rounded = rng_of(len(self.run.tool.strokes), visit.text.number), 1e-5 if self.run.reckoner.guessed else 2e-6
+        rounded += 1e-3 if Model.doubles else 0  # the tolerance, where the contract names none
         strokes = self.run.tool.strokes
         for stroke, cut in zip(strokes, cut_depths(strokes)):
             line = stroke.levels[0][1]
             self.counts["strokes"] += 1
             here = [c for c in claims if c.line == line]
             for claim in here:
-                name = claim.text.split()[1] if claim.kind.startswith("keep") else ""
-                if not claim.holds or any(not c.holds and c.kind == claim.kind and
-                                          (not name or c.text.split()[1] == name) for c in here):
+                name = region_of(claim)
+                if not claim.holds or any(not c.holds and c.kind == claim.kind and region_of(c) == name for c in here):
                     continue
                 if claim.kind == "limit" and "@LIMIT F" not in claim.text and "@LIMIT S" not in claim.text:
                     continue

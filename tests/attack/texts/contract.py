@@ -2,7 +2,7 @@
 import re
 from fractions import Fraction as F
 
-from .path import GROUPS, XYZ
+from .path import GROUPS, LENGTHS, OFFSETS, XYZ
 from .reckon import Model, Reckoner, Stop, Unsaid
 
 CODE = re.compile(r"G\d+(\.\d)?$")
@@ -44,9 +44,66 @@ def broken_at_entry(text, state, ask) -> list:
         if head in ("@PARAM", "@GLOBAL") and not in_range(clause, reckoner) or \
                 head == "@REQUIRE" and not reckoner.whole(clause[8:]) or \
                 head == "@MODAL" and any(state.modes[GROUPS[code]] != code for code in words) or \
+                head in SET_UP and not is_set_up(text, clause, state, reckoner) or \
                 head == "@START" and any(state.place[XYZ.index(axis)] != value for axis, value in places(words, reckoner)):
             found.append(clause)
     return found
+
+
+SET_UP = ("@OFFSET", "@LENGTH", "@MACHINE")
+
+
+def is_set_up(text, clause, state, reckoner) -> bool:
+    """Where the zero points and axes are, and how long tools."""
+    words = clause.split()
+    if words[0] == "@LENGTH":
+        (low, high), = sides_of(clause, reckoner)
+        sums = [sum((state.cells.get(first + n) or F(0) for first in LENGTHS), F(0)) for n in numbers_of_length(text, words[1])]
+        return all(is_between(each, low, high) for each in sums)
+    if any(state.shifts[0]) or any(state.shifts[1]):
+        return False
+    sides = named_sides_of(clause, reckoner)
+    if words[0] == "@MACHINE":
+        return all(is_between(state.machine[i], low, high) for i, low, high in sides)
+    return all(is_between(state.cells.get(first_of(words[1]) + i) or F(0), low, high) for i, low, high in sides)
+
+
+def first_of(system: str) -> int:
+    return 5201 if system == "EXT" else OFFSETS[system]
+
+
+def numbers_of_length(text, word) -> list:
+    if word != "H*":
+        return [int(word[1:])]
+    own = {int(clause.split()[1][1:]) for _, clause in of(text, "@LENGTH") if clause.split()[1] != "H*"}
+    return sorted(text.lengths - own)
+
+
+def sides_of(clause, reckoner) -> list:
+    """Of `@LENGTH H1 50..60`: its range."""
+    return [range_of(clause.split()[2], reckoner)]
+
+
+def named_sides_of(clause, reckoner) -> list:
+    """(index, low, high) of each axis that `@OFFSET` or `@MACHINE` names."""
+    words = clause.split("HOME")[0].split()[1 if clause.startswith("@MACHINE") else 2:]
+    return [(XYZ.index(word[0]), *range_of(word[1:], reckoner)) for word in words]
+
+
+def range_of(text, reckoner):
+    low, dots, high = text.partition("..")
+    return tuple(reckoner.whole(end) if end else None for end in ((low, high) if dots else (text, text)))
+
+
+def is_between(value, low, high) -> bool:
+    slack = F(1, 10 ** 9) if Model.doubles else 0  # of a sum of doubles
+    return (low is None or value >= low - slack) and (high is None or value <= high + slack)
+
+
+def longest_tool(text, reckoner):
+    """Of the clauses; None: they tell no lengths, or no longest one."""
+    highs = [sides_of(clause, reckoner)[0][1] for _, clause in of(text, "@LENGTH")]
+    return None if not highs or None in highs else max(highs)
 
 
 def places(words, reckoner):

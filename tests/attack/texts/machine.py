@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction as F
 from typing import Optional
 
-from .path import Tool
+from .path import LENGTHS, Tool
 from .reckon import Model, Reckoner, Stop, Unsaid, away, to_increment
 
 HEAD = re.compile(r"O(\d+)")
@@ -26,6 +26,7 @@ class Text:
     file: str
     first: int  # line of the O word, from 1
     lines: list
+    lengths: set = field(default_factory=set)  # numbers of H that some program names
 
     def line(self, at: int) -> int:
         return self.first + at
@@ -45,6 +46,10 @@ def texts_of(files: dict) -> dict:
             if head:
                 current = found[int(head[1])] = Text(int(head[1]), name, number, [])
             current.lines.append(line)
+    lengths = {int(n) for text in files.values() for line in text.splitlines() if not line.startswith("(")
+               for n in re.findall(r"H(\d+)", line)} - {0}
+    for text in found.values():
+        text.lengths = lengths
     return found
 
 
@@ -54,6 +59,7 @@ class Start:
     cells: dict = field(default_factory=dict)
     modes: dict = field(default_factory=dict)
     place: dict = field(default_factory=dict)
+    spindle: F = F(0)  # the length of its tool where none is in force
     skip: bool = False
 
 
@@ -85,6 +91,7 @@ class State:
     words: dict
     shifts: tuple
     modal: tuple
+    machine: tuple
 
 
 @dataclass
@@ -148,7 +155,8 @@ class Run:
     def state(self) -> State:
         frame = self.frames[-1]
         return State(dict(self.cells), dict(frame.locals), dict(self.tool.modes), tuple(self.tool.work_place()),
-                     dict(self.tool.words), self.tool.lasting(), tuple(m.text.number for m in self.modal))
+                     dict(self.tool.words), self.tool.lasting(), tuple(m.text.number for m in self.modal),
+                     tuple(self.tool.machine))
 
     def enter(self, text, locals_, kind, passes, arguments, fires=None, begin=0):
         outer = self.frames[-1] if self.frames else None
@@ -299,6 +307,7 @@ class Run:
         if bit is not None:
             return F(int(self.cells.get(cell) or 0) >> bit & 1)
         if cell is not None:
+            self.of_length(cell)
             return self.cells.get(cell) or F(0)
         self.named(number)
         return self.tool.variable(number, len(self.modal))
@@ -343,6 +352,7 @@ class Run:
             if number_cell == 1132:
                 value = self.outputs(value, bit)
             target = number_cell
+            self.of_length(target, True)
         else:
             target = number
         self.cells[target] = value
@@ -352,6 +362,12 @@ class Run:
             before = frame.visit.entry.cells.get(target)
             if value != (before if is_common(target) else before or 0):
                 frame.visit.written.setdefault(number, (self.frames[-1].visit, self.line_now()))
+
+    def of_length(self, cell, is_written=False):
+        """In which units it is read, and when one in force changes, parameters decide."""
+        number = next((cell - first for first in LENGTHS if first < cell <= first + 200), None)
+        if number and (self.tool.factor != 1 or is_written and self.tool.has_length and self.tool.words["H"] == number):
+            raise Unsaid("a register of lengths")
 
     def named(self, number):
         """Some Mitsubishi controls have #400 to #499, and options add others."""

@@ -17,13 +17,16 @@ AT_POWER_ON = {1: "G0", 2: "G17", 3: "G90", 5: "G94", 6: "G21", 7: "G40", 8: "G4
                13: "G97", 14: "G54", 15: "G64", 16: "G69", 22: "G50.1"}
 SETTERS = {"G4", "G10", "G28", "G52", "G53", "G92", "G50", "G51", "G68", "G69", "G50.1", "G51.1"}
 PLANES = {"G17": (0, 1, "I", "J"), "G18": (2, 0, "K", "I"), "G19": (1, 2, "J", "K")}
+OTHER_UNITS = {"G20": F(10, 254), "G21": F(254, 10)}
+LENGTHS = (10000, 11000)  # wear and geometry, in whichever order
 OFFSETS = {"G54": 5221, "G55": 5241, "G56": 5261, "G57": 5281, "G58": 5301, "G59": 5321}
 
 
 @dataclass
 class Stroke:
     kind: str  # rapid, feed or hole: the stroke of a cycle
-    points: list  # in the work coordinates of the start
+    points: list  # of the tip, in the work coordinates and units of the start
+    machine: list  # the same points, as the axes stand
     feed: object
     speed: object
     visit: object
@@ -81,6 +84,10 @@ class Tool:
         self.unsure = set()  # axes that a change of the mapping left open
         self.cycle = {}
         self.level = F(0)
+        self.length = F(0)  # in force
+        self.is_lifted = False  # it has changed, and no word has said since where Z is
+        self.is_home = False  # a home move or G53 may have taken it away
+        self.factor = F(1)  # units now for one of the start
         self.origin = self.shift()
         self.machine = [F(place.get(a, 0)) + s for a, s in zip(XYZ, self.origin)]
         self.told = self.work_place()
@@ -91,20 +98,20 @@ class Tool:
     def shift(self):
         first = OFFSETS[self.modes[14]]
         cells = self.run.cells
-        return [(cells.get(5201 + i) or F(0)) + (cells.get(first + i) or F(0)) + self.local[i] + self.preset[i]
-                for i in range(3)]
+        return [(cells.get(5201 + i) or F(0)) + (cells.get(first + i) or F(0)) + self.local[i] + self.preset[i] +
+                (self.length if i == 2 else 0) for i in range(3)]
 
     def work_place(self):
         return [m - s for m, s in zip(self.machine, self.shift())]
 
     def key(self):
         return (tuple(self.machine), tuple(sorted(self.modes.items())), tuple(self.words.items()), tuple(self.told),
-                tuple(sorted(self.cycle.items())), self.lasting())
+                tuple(sorted(self.cycle.items())), self.is_lifted, self.is_home, self.factor, self.lasting())
 
     def lasting(self):
         """Besides codes and words, what a return may leave behind."""
         return (tuple(self.local), tuple(self.preset), tuple(sorted(self.cycle.items())) if self.modes[9] != "G80" else (),
-                repr(self.mapping.__dict__))
+                repr(self.mapping.__dict__), self.length)
 
     def variable(self, number, modal_calls):
         if 5001 <= number <= 5003:
@@ -132,6 +139,7 @@ class Tool:
         for letter in "FSTHD":
             if letter in words:
                 self.words[letter] = words[letter]
+        self.take_length(codes, words)
         for code in once:
             if getattr(self, "do_" + code.lower().replace(".", "_"))(words):
                 return any(axis in words for axis in XYZ) and code in ("G28", "G53")
@@ -150,9 +158,7 @@ class Tool:
             self.modes[9] = "G80"
             self.cycle = {}
         if group == 6 and code != self.modes[6]:
-            raise Unsaid("other units")
-        if group == 8 and code != self.modes[8]:
-            raise Unsaid("tool length")
+            self.convert(OTHER_UNITS[code])
         if group == 9:
             if code == "G80":
                 self.cycle = {}
@@ -162,11 +168,56 @@ class Tool:
             self.modes[group] = code
         elif code in ("M3", "M5"):
             self.words["spindle"] = code
-        elif code not in SETTERS and code not in ("M8", "M9"):
+        elif code not in SETTERS and code not in ("M6", "M8", "M9"):
             raise Unsaid(code)
+
+    def convert(self, ratio):
+        """All that the control keeps is in the new units; whether lengths in memory are, is a parameter's matter."""
+        self.plain()
+        self.factor *= ratio
+        self.machine, self.local, self.preset, self.told = \
+            ([each * ratio for each in those] for those in (self.machine, self.local, self.preset, self.told))
+        self.length, self.level = self.length * ratio, self.level * ratio
+        self.cycle = {letter: value * ratio for letter, value in self.cycle.items()}
+        cells = self.run.cells
+        cells.update({n: value * ratio for n, value in cells.items() if 5200 < n < 5324 and value is not None})
+
+    # ---- tool length ----
+
+    def take_length(self, codes, words):
+        """G43, G44 and G49: the axes stand, and the coordinate changes."""
+        code = next((code for code in codes if GROUPS.get(code) == 8), None)
+        if code is None:
+            if "H" in words and self.modes[8] != "G49":
+                raise Unsaid("H by itself")
+            return
+        self.plain()
+        length = F(0) if code == "G49" else self.length_of(self.words["H"]) * (1 if code == "G43" else -1)
+        self.is_lifted |= length != self.length
+        self.length, self.is_home = length, False
+        self.told = self.work_place()
+
+    def length_of(self, number):
+        if number is None or number.denominator != 1 or not 0 <= number <= 200 or self.factor != 1:
+            raise Unsaid("which length")
+        return sum((self.run.cells.get(first + int(number)) or F(0) for first in LENGTHS), F(0)) if number else F(0)
+
+    @property
+    def has_length(self):
+        return self.modes[8] != "G49" and self.words["H"] != 0
+
+    def name_height(self, relative):
+        """A word says where Z is."""
+        if self.is_home and self.modes[8] != "G49":
+            raise Unsaid("a length behind a home move")
+        if self.is_lifted and relative:
+            raise Unsaid("incremental behind a change of the length")
+        self.is_lifted = False
 
     def target(self, words):
         relative = self.modes[3] == "G91"
+        if "Z" in words:
+            self.name_height(relative)
         point = list(self.told)
         for index, axis in enumerate(XYZ):
             if axis in words:
@@ -198,8 +249,11 @@ class Tool:
 
     def record(self, kind, points):
         frames = self.run.frames
-        here = [[a - o for a, o in zip(point, self.origin)] for point in points]
-        self.strokes.append(Stroke(kind, here, self.words["F"], self.words["S"], frames[-1].visit,
+        axes = [[a / self.factor for a in point] for point in points]
+        below = self.length / self.factor if self.has_length else self.run.start.spindle
+        tip = [o + b for o, b in zip(self.origin, (0, 0, below))]
+        here = [[a - t for a, t in zip(point, tip)] for point in axes]
+        self.strokes.append(Stroke(kind, here, axes, self.words["F"], self.words["S"], frames[-1].visit,
                                    frames[-1].visit.text.line(frames[-1].at), tuple(self.work_place()),
                                    tuple((f.visit, f.visit.text.line(f.at)) for f in frames)))
 
@@ -254,8 +308,8 @@ class Tool:
     # ---- cycles ----
 
     def hole(self, words, axes):
-        if self.modes[2] != "G17" or self.unsure:
-            raise Unsaid("a cycle in another plane")
+        if self.modes[2] != "G17" or self.unsure or self.is_lifted or self.is_home and self.modes[8] != "G49":
+            raise Unsaid("a cycle in another plane, or from an unknown height")
         if not axes and "R" not in words:
             return False
         relative = self.modes[3] == "G91"
@@ -316,6 +370,8 @@ class Tool:
         self.told = self.work_place()
 
     def do_g52(self, words):
+        if self.run.dialect == "haas-ngc":
+            raise Unsaid("one offset for G52 and G92")
         for index, axis in enumerate(XYZ):
             if axis in words:
                 self.local[index] = words[axis]
@@ -324,6 +380,8 @@ class Tool:
 
     def do_g92(self, words):
         self.plain()
+        if self.run.dialect == "haas-ngc":
+            raise Unsaid("one offset for G52 and G92")
         if any(self.local):
             raise Unsaid("G92 under G52")
         now = self.work_place()
@@ -352,6 +410,8 @@ class Tool:
         for index, axis in enumerate(XYZ):
             if axis in words:
                 self.machine[index] = words[axis]
+        if "Z" in words:
+            self.is_lifted, self.is_home = False, True
         self.told = self.work_place()
         self.record("rapid", [begin, list(self.machine)])
         return True
@@ -363,6 +423,7 @@ class Tool:
         begin = list(self.machine)
         for index in axes:
             self.machine[index] = F(0)
+        self.is_home |= 2 in axes
         self.told = self.work_place()
         self.record("rapid", [begin, list(self.machine)])
         return True

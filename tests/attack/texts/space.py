@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction as F
 
-from .contract import reckoner_at
+from .contract import longest_tool, named_sides_of, of, places, reckoner_at
 from .reckon import Reckoner, Unsaid
 
 NEAR = 2e-6
@@ -21,6 +21,7 @@ class Space:
     def __init__(self, text, entry, ask):
         self.reckoner = reckoner_at(entry, ask)
         self.tool, self.keep_in, self.keep_out, self.travel, self.limits, self.clearance = None, {}, {}, [], [], None
+        self.machine = []
         for _, clause in text.clauses():
             words = clause.split()
             if words[0] == "@TOOL":
@@ -30,6 +31,8 @@ class Space:
                 into.setdefault(words[1], []).append(self.part(clause, words))
             elif words[0] == "@TRAVEL":
                 self.travel.append(self.box(clause))
+            elif words[0] == "@MACHINE":
+                self.machine = named_sides_of(clause, self.reckoner)
             elif words[0] == "@LIMIT":
                 ends = re.search(NUMBER + r"\.\." + NUMBER + "$", words[2])
                 self.limits.append((words[1], *(None if e is None else self.reckoner.whole(e) for e in ends.groups())))
@@ -157,6 +160,12 @@ class Space:
         """What the stroke does wrong against a claim of this kind, or None."""
         if kind == "limit":
             return self.limit(stroke)
+        if kind == "travel" and name == "@MACHINE":
+            for p in stroke.machine:
+                if any(low is not None and p[i] < low - near or high is not None and p[i] > high + near
+                       for i, low, high in self.machine):
+                    return f"the axes are at {show(p)}"
+            return None
         if kind == "travel":
             for p in self.way(stroke, rng) if stroke.kind != "rapid" else (stroke.points[0], stroke.points[-1]):
                 for box in self.travel:
@@ -175,6 +184,18 @@ class Space:
         if kind == "keep-in" and stroke.kind != "rapid":
             return self.leaves(self.keep_in[name], stroke, rng, near)
         return None
+
+    def has_start_inside(self, text, entry, near=NEAR) -> bool:
+        """The tool, or a longer one, is in a region to keep out of; where `@START` tells all, nothing is said of it."""
+        if sum(len(places(clause.split()[1:], self.reckoner)) for _, clause in of(text, "@START")) == 3 or not self.tool:
+            return False
+        longest = longest_tool(text, self.reckoner)
+        if longest is None and of(text, "@LENGTH"):
+            return False
+        tip = [float(c) for c in entry.place]
+        tip[2] -= float(longest or 0)
+        rng, parts = rng_of(*tip), [part for parts in self.keep_out.values() for part in parts]
+        return any(part(point) > near for part in parts for point in self.body(tip, rng, part.aims(tip)))
 
     def leaves(self, parts, stroke, rng, near):
         for tip in self.way(stroke, rng):

@@ -5,11 +5,12 @@ from fractions import Fraction as F
 
 from . import contract
 from .machine import Start, cell_of, is_common
-from .path import GROUPS, XYZ, AT_POWER_ON
+from .path import AT_POWER_ON, GROUPS, LENGTHS, OFFSETS, XYZ
 from .reckon import Model, Stop, Unsaid
 from .switches import Switches
 
 
+LATE = ("@LENGTH", "@START", "@MACHINE")  # these ask what others have settled
 RIM = (F(1, 10 ** 8), F(99999999), F(-99999999), F(-1, 10 ** 8), F(1, 3), F(2, 7), F(1, 10), F(254, 100))
 CODES = ("G91", "G91", "G1", "G99", "G18", "G95")
 
@@ -47,7 +48,7 @@ class Starts:
             start.place = {axis: rng.choice((F(0), rng.choice(self.numbers))) for axis in XYZ}
         if rng.random() < 0.25:
             start.modes = {GROUPS[code]: code for code in rng.sample(CODES, 2)}
-        for _, clause in sorted(self.text.clauses(), key=lambda each: each[1].startswith("@START")):
+        for clause in sorted((clause for _, clause in self.text.clauses()), key=turn_of):
             self.keep(clause, start)
         return start
 
@@ -63,6 +64,32 @@ class Starts:
             into.pop(number, None)
             if value is not None:
                 into[number] = value
+        elif head in contract.SET_UP:
+            self.set_up(clause, head, start)
+
+    def set_up(self, clause, head, start):
+        reckoner = contract.reckoner_at(StateOf(start), Switches())
+        if head == "@LENGTH":
+            low, high = contract.sides_of(clause, reckoner)[0]
+            start.spindle = self.rng.choice((start.spindle or high, low, high, self.within(low, high)))
+            for number in contract.numbers_of_length(self.text, clause.split()[1]):
+                wear = self.rng.choice((F(0), F(0), F(-1, 2), F(1)))
+                start.cells.update({first + number: value for first, value in
+                                    zip(LENGTHS, (wear, self.within(low, high) - wear))})
+        for index, low, high in contract.named_sides_of(clause, reckoner) if head != "@LENGTH" else ():
+            value = self.within(low, high)
+            if head == "@OFFSET":
+                start.cells[contract.first_of(clause.split()[1]) + index] = value
+            elif XYZ[index] not in self.given:
+                start.place[XYZ[index]] = value - StateOf(start).zero[index]
+
+    @property
+    def given(self) -> set:
+        return {word[0] for _, clause in contract.of(self.text, "@START") for word in clause.split()[1:] if word[1:]}
+
+    def within(self, low, high):
+        low, high = (high - 100 if low is None else low), (low + 100 if high is None else high)
+        return self.rng.choice((low, high, low + (high - low) * F(self.rng.randint(0, 8), 8)))
 
     def inside(self, clause, start):
         state = StateOf(start)
@@ -121,6 +148,11 @@ def between(low, high, rng) -> F:
     return Model.held(min(max(value, low), high))
 
 
+def turn_of(clause: str) -> int:
+    head = clause.split()[0]
+    return LATE.index(head) if head in LATE else -1
+
+
 class StateOf:
     """As much of a state as clauses at entry ask for."""
 
@@ -128,6 +160,15 @@ class StateOf:
         self.locals, self.cells = start.locals, start.cells
         self.modes = {**AT_POWER_ON, **start.modes}
         self.place = [F(start.place.get(axis, 0)) for axis in XYZ]
+        self.shifts = ((0,) * 3, (0,) * 3)
+
+    @property
+    def zero(self) -> list:
+        return [F(self.cells.get(5201 + i) or 0) + F(self.cells.get(OFFSETS[self.modes[14]] + i) or 0) for i in range(3)]
+
+    @property
+    def machine(self) -> list:
+        return [a + b for a, b in zip(self.place, self.zero)]
 
 
 def digits(value) -> str:
@@ -135,11 +176,16 @@ def digits(value) -> str:
     return format(Decimal(repr(float(value))), "f")
 
 
+def short_of(number: int) -> int:
+    """A register of lengths by the number that all controls know."""
+    return number - 8000 if 10000 < number <= 10200 else number - 8800 if 11000 < number <= 11200 else number
+
+
 def as_words(start: Start) -> list:
     """For `feedhold run`."""
     words = []
     for number, value in sorted({**start.locals, **start.cells}.items()):
-        words += ["--var", f"{number}={digits(value)}"]
+        words += ["--var", f"{short_of(number)}={digits(value)}"]
     if start.place:
         words += ["--start", *(f"{axis}{digits(value)}" for axis, value in start.place.items())]
     return words + (["--block-skip"] if start.skip else [])

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction as F
 
 from .claims import SPACE, is_about_typed, is_typed, judge
-from .contract import broken_at_entry, places, reckoner_at
+from .contract import broken_at_entry, longest_tool, places, reckoner_at
 from .machine import ARGUMENTS, Run, Start, cell_of, is_common
 from .path import GROUPS, XYZ
 from .starts import StateOf
@@ -53,6 +53,7 @@ def start_of(command: str, text):
             if code not in GROUPS:
                 return None
             start.modes[GROUPS[code]] = code
+    start.spindle = longest_tool(text, reckoner_at(StateOf(start), Switches())) or F(0)  # as the engine tries it
     return start
 
 
