@@ -46,7 +46,7 @@ private:
     case ClauseKind::Modal: return modal();
     case ClauseKind::Start: return start();
     case ClauseKind::Tool: return tool();
-    case ClauseKind::Offset: return reader_.at("EXT") || reader_.peekLetter("G") ? workOffset() : offset();
+    case ClauseKind::Offset: return offset();
     case ClauseKind::Length: return length();
     case ClauseKind::Machine: return machine();
     case ClauseKind::KeepIn: return region(contract_.keepIn);
@@ -71,7 +71,6 @@ private:
     reader_.expectEnd();
     return !reader_.failed();
   }
-  /// For clauses that stand once.
   template <typename Part> void setOnce(std::optional<Part> &place, Part part, std::string_view what) {
     if (place)
       return refuseSecond(place->clause, std::string(what));
@@ -252,6 +251,8 @@ private:
   }
 
   void offset() {
+    if (reader_.at("EXT") || reader_.peekLetter("G"))
+      return addValues(readWorkOffset(reader_, reading_));
     RadiusOffset offset{id_, {}, {}};
     if (!reader_.takeAddress('D'))
       reader_.expected("`D` and its number, such as `D1`, `D#20`, or `D*` for any");
@@ -262,18 +263,16 @@ private:
     offset.radius = reader_.valueOrRange("the radius, such as `5.` or `4.9..5.1`");
     if (!reader_.failed() && !offset.radius.low && !offset.radius.high)
       reader_.expected("an end of the range of the radius");
-    if (!isRead())
-      return;
-    const auto first = std::ranges::find_if(contract_.offsets,
-                                            [&](const RadiusOffset &each) { return !each.number && !offset.number; });
-    if (first != contract_.offsets.end())
+    const auto isOfEvery = [](const RadiusOffset &each) { return !each.number; };
+    const auto first = std::ranges::find_if(contract_.offsets, isOfEvery);
+    if (isRead() && !offset.number && first != contract_.offsets.end())
       return refuseSecond(first->clause, "the offset of every D");
-    contract_.offsets.push_back(offset);
+    if (isRead())
+      contract_.offsets.push_back(offset);
   }
 
   // ---- the set-up ----
 
-  void workOffset() { addValues(readWorkOffset(reader_, reading_)); }
   void length() {
     const LengthRange length = readLength(reader_, reading_, id_);
     if (!isRead())
@@ -297,9 +296,8 @@ private:
   void addValues(std::vector<SetUpValue> values) {
     if (!isRead())
       return;
-    const Span span = reading_.result.clauses[id_].span;
     for (SetUpValue &value : values)
-      addOnce(contract_.globals, {id_, value.variable, span, {}, std::move(value.values)});
+      addOnce(contract_.globals, {id_, value.variable, reading_.result.clauses[id_].span, {}, std::move(value.values)});
   }
 
   // ---- geometry ----
@@ -595,8 +593,7 @@ void readClause(ContractReading &reading, const RawClause &raw) {
   }
   const bool isOfSetUp = kind == ClauseKind::Offset || kind == ClauseKind::Length || kind == ClauseKind::Machine;
   if (raw.scope == SidecarScope::Machine && !isOfSetUp)
-    return refuse(reading, raw, head.keyword,
-                  "a clause of the set-up: `@OFFSET`, `@LENGTH` or `@MACHINE`; others belong to a program");
+    return refuse(reading, raw, head.keyword, "`@OFFSET`, `@LENGTH` or `@MACHINE`; others belong to a program");
   ReadClause(reading, raw, id, {head.keyword.end, raw.span.end}).run();
 }
 

@@ -440,8 +440,8 @@ enum class CutterEntry : std::uint8_t {
   ToNext,  // ends beside the start of the next block, square to it
   ByItself // ends beside its own end, square to itself; the corner behind it is one of the contour
 };
-/// The variables of the offset of D1 or H1: where several are listed they are the numbers of memories of different
-/// kinds, of which a control has one.  0: none.
+/// The variables of D1 or H1; several: the numbers of memories of different kinds, of which a control has one.  0:
+/// none.
 struct OffsetMemory {
   std::array<std::uint32_t, 2> geometry{};
   std::array<std::uint32_t, 2> wear{};
@@ -473,8 +473,7 @@ struct Behaviour {
   bool scalesByIncrements = false;     // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
   CutterCorners cutterCorners = CutterCorners::Lines;
   CutterEntry cutterEntry = CutterEntry::ToNext;
-  OffsetMemory cutterOffsets; // of D
-  OffsetMemory lengthOffsets; // of H; the length is the sum of both, whichever of them the control calls the wear
+  OffsetMemory cutterOffsets, lengthOffsets; // of D and of H; a length is the sum of both, whichever is the wear
   std::array<std::uint16_t, 2> cutterDiameterCodes{}; // G41, G42 whose D is the diameter of the cutter itself
   /// Blocks that are read ahead under cutter compensation, the present one included; 0: as many as are needed.
   std::uint8_t cutterBlocks = 0;
@@ -553,8 +552,7 @@ const VariableRange *findVariable(const Dialect &dialect, std::uint32_t number);
 /// The first range with a role; null where the control has none.
 const VariableRange *rangeWithRole(const Dialect &dialect, VariableRole role);
 /// #5201 external offset, #5221 G54, #5241 G55 ..: one variable for each axis.
-inline constexpr std::uint32_t kFirstWorkOffset = 5201;
-inline constexpr std::uint32_t kWorkOffsetStride = 20;
+inline constexpr std::uint32_t kFirstWorkOffset = 5201, kWorkOffsetStride = 20;
 /// How many work offsets the control lists before the one that a G code chooses: 0 for G54; absent: it chooses none.
 std::optional<std::uint32_t> workOffsetsBefore(const Dialect &dialect, std::uint16_t tenths);
 /// The number by which the state keeps the cell that a variable names: one number for all its names.

@@ -47,6 +47,11 @@ private:
       sub_ = begin(id, use);
       return;
     case OWordKind::EndSub:
+      if (isEarlyReturn(use)) {
+        use.kind = OWordKind::Return;
+        use.construct = sub_;
+        return;
+      }
       if (sub_ && labelOf(*sub_) == use.label)
         close(*sub_, id, use);
       leaveSubroutine();
@@ -77,6 +82,24 @@ private:
       return;
     }
   }
+
+  /// `o1 if`, `o<a> endsub`, `o1 endif`, .. `o<a> endsub` in the file of a subroutine: rs274 leaves it at the first one
+  /// that it executes, and looks for the end of the branch behind that.
+  bool isEarlyReturn(const OWordUse &use) const {
+    if (!sub_ || open_.empty() || labelOf(*sub_) != use.label || !isFileOfSubroutine())
+      return false;
+    const SyntaxTree &tree = context_.tree;
+    for (std::size_t i = use.statement.index() + 1; i < tree.statements.size(); ++i)
+      if (const auto *oWord = std::get_if<OWord>(&tree.statements[StatementId(i)].node)) {
+        if (oWord->kind == OWordKind::Sub)
+          return false;
+        if (oWord->kind == OWordKind::EndSub && labelText(*oWord, context_.source) == use.label)
+          return true;
+      }
+    return false;
+  }
+  /// Nothing else stands before its `sub`.
+  bool isFileOfSubroutine() const { return model_.constructs[*sub_].parts.front().index() == 0; }
 
   /// A branch of the program may hold a subroutine: `o1 if`, `o<a> sub`, `o<a> endsub`, `o1 endif` (rs274 runs it).
   void leaveSubroutine() {

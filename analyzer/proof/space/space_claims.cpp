@@ -365,7 +365,7 @@ std::vector<TermId> SpaceClaims::startIsOutside() const {
     return contract_.start &&
            std::ranges::find(contract_.start->axes, letterOf(axis), &AxisValue::axis) != contract_.start->axes.end();
   };
-  if (isGiven(Axis::X) && isGiven(Axis::Y) && isGiven(Axis::Z))
+  if (!contract_.machine || (isGiven(Axis::X) && isGiven(Axis::Y) && isGiven(Axis::Z)))
     return {};
   const std::optional<TermId> longest = terms_.longestBelow(contract_, entry_);
   if (!longest)

@@ -50,9 +50,9 @@ public:
   SpaceRule withMargin(const SpaceRule &rule, double margin) const;
   /// The feed or the speed in force; of a cutting movement.
   smt::TermId keepsLimit(const WordLimit &limit, const MoveInstance &move) const;
-  /// Of a start that `@START` leaves open: the tool is outside of the regions to keep out of.  No move can bring a tool
-  /// into a region in which it stands already; whoever calls the program answers for that.  Where the contract tells
-  /// lengths of tools, it is so with the longest.
+  /// With `@MACHINE`, of a start that `@START` leaves open: the tool is outside of the regions to keep out of.  No move
+  /// can bring a tool into a region in which it stands already; whoever calls the program answers for that.  Where the
+  /// contract tells lengths of tools, it is so with the longest.
   std::vector<smt::TermId> startIsOutside() const;
   /// Where the contract tells lengths: the tip is so much lower than the coordinates while none is in force.
   std::optional<smt::TermId> lengthInSpindle() const { return lengthInSpindle_; }
