@@ -78,18 +78,23 @@ void addNoBlocks(SyntaxTree &tree) {
 }
 
 void refuseUnreadable(ContractReading &reading, ContractSourceId id, const Sidecar &sidecar) {
-  if (!sidecar.problem || (sidecar.scope == SidecarScope::Machine && reading.result.contracts.empty()))
+  if (!sidecar.problem)
     return;
-  const ProgramId program = sidecar.scope == SidecarScope::Machine
-                                ? reading.result.contracts.front().program
-                                : programOf(reading.model, sidecar).value_or(ProgramId(0));
-  contractOf(reading, program).isSound = false;
-  addIssue(reading, {ContractIssueKind::Malformed,
-                     id,
-                     {},
-                     "a text file with one clause a line: " + *sidecar.problem,
-                     std::nullopt,
-                     program});
+  std::vector<ProgramId> programs{programOf(reading.model, sidecar).value_or(ProgramId(0))};
+  if (sidecar.scope == SidecarScope::Machine) {
+    programs.clear();
+    for (const Contract &contract : reading.result.contracts)
+      programs.push_back(contract.program);
+  }
+  for (const ProgramId program : programs) {
+    contractOf(reading, program).isSound = false;
+    addIssue(reading, {ContractIssueKind::Malformed,
+                       id,
+                       {},
+                       "a text file with one clause a line: " + *sidecar.problem,
+                       std::nullopt,
+                       program});
+  }
 }
 
 /// To each program with a contract of its own.

@@ -256,6 +256,21 @@ private:
       for (auto &[variable, value] : known)
         state_.variables.set(variable, std::move(value));
     }
+    forgetLengthVariables();
+  }
+  /// A parameter decides whether the control converts tool offsets, too (FANUC 5006#0, OIM).
+  void forgetLengthVariables() {
+    const OffsetMemory &memory = context_.behaviour().lengthOffsets;
+    std::vector<std::pair<std::uint32_t, Value>> written;
+    for (const auto &[variable, value] : state_.variables.entries())
+      if (isLengthVariable(context_.dialect(), variable))
+        written.emplace_back(variable, interpretation_.either(value, interpretation_.anyNumber()));
+    for (const std::uint32_t first : {memory.geometry.front(), memory.wear.front()})
+      for (const std::uint32_t low : {first, cellOf(context_.dialect(), first)})
+        if (memory.count != 0)
+          interpretation_.havocVariables(state_, low, low + memory.count - 1);
+    for (auto &[variable, value] : written)
+      state_.variables.set(variable, std::move(value));
   }
   Value convertedCopy(const Value &level, CodeAction to, const Value &factor, Truth already) {
     const Value length = interpretation_.asNumber(level);

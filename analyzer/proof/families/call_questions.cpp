@@ -32,6 +32,16 @@ Question meetsContract(const ProofSubject &subject, Place own, const Callee &cal
           .isJudgedExactly = true};
 }
 
+std::vector<TermId> assumedOf(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
+                              const SymbolicState &state) {
+  std::vector<TermId> assumed = terms.assumptions(contract, state);
+  if (contract.machine) {
+    const SpaceClaims space(store, terms, contract, state, store.number(smt::Number(0)));
+    std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
+  }
+  return assumed;
+}
+
 /// A program with a contract is entered in a state that the contract allows.
 void contractsAreMet(const ExploredProgram &program, Questions &questions) {
   const auto &[subject, start, found] = program;
@@ -43,10 +53,7 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
       continue;
     ContractTerms terms(start.interpretation(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
-    std::vector<TermId> assumed = terms.assumptions(contract, call.state);
-    const SpaceClaims space(store, terms, contract, call.state, store.number(smt::Number(0)));
-    std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
-    const TermId met = contract.isSound ? store.logicalAnd(assumed) : store.no();
+    const TermId met = contract.isSound ? store.logicalAnd(assumedOf(store, terms, contract, call.state)) : store.no();
     auto known = asked.find(keyOf(call));
     if (known == asked.end())
       known = asked.emplace(keyOf(call), meetsContract(subject, call.own, call.callee)).first;

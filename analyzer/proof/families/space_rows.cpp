@@ -251,9 +251,8 @@ std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const Sp
   const auto length = space_.lengthInSpindle();
   const auto ofLength = [&](TermId variable) { return variables.contains(variable); };
   if (length && std::ranges::any_of(smt::variablesOf(start_.store(), *length), ofLength))
-    return "it is not certain that a tool length is in force in this block (G43 with an H other than 0), and the tool "
-           "may "
-           "have any length of `@LENGTH`";
+    return "it is not certain that a tool length is in force in this block (G43 with an H other than 0), and the "
+           "tool may have any length of `@LENGTH`";
   std::string axes;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
     if (variables.contains(start_.entry().at(axis).number) && !isGivenAtStart(axis))

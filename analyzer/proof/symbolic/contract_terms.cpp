@@ -16,7 +16,7 @@ using smt::TermId;
 namespace {
 
 constexpr std::uint64_t kStepsOfTerm = 1'000; // of setting up the state over which a clause is read
-constexpr std::uint32_t kMostComputed = 200;  // numbers of H
+constexpr std::uint32_t kMostComputed = 40;   // numbers of H
 constexpr int kMostOffset = 10'000;           // in a register of tool offsets (FANUC: 9999.999 mm at most)
 
 /// The expressions of a contract are read as those of the program, in a tree of their own.
@@ -184,14 +184,14 @@ TermId ContractTerms::demandOf(const EntryValue &given, const SymbolicState &ent
   return store.logicalAnd(store.logicalNot(held.vacant), within);
 }
 
-/// The numbers of H that blocks of these programs name; the first ones where some block computes its own.
+/// The numbers of H that blocks of these programs name, and the first ones where some block computes its own.
 std::set<std::uint32_t> ContractTerms::numbersOfLengths() const {
   std::set<std::uint32_t> numbers;
   const Dialect &dialect = *programs_.file(file_).dialect;
   for (std::size_t i = 0; i < programs_.size(); ++i)
     for (const Word &word : programs_.file(FileId(i)).tree->words)
       if (word.address() == 'H' && !word.isNumber()) {
-        for (std::uint32_t number = 1; number <= std::min(kMostComputed, dialect.behaviour.lengthOffsets.count);
+        for (std::uint32_t number = 1; number <= kMostComputed && number <= dialect.behaviour.lengthOffsets.count;
              ++number)
           numbers.insert(number);
       } else if (word.address() == 'H')
