@@ -64,6 +64,8 @@ ConcreteValue changed(const ConcreteValue &value, Random &random) {
   }
 }
 
+double placeOf(Random &random) { return static_cast<double>(random.below(200)) / 4 - 25; }
+
 void add(std::vector<Break> &breaks, Break found) {
   if (std::none_of(breaks.begin(), breaks.end(), [&](const Break &known) { return known.isOfSameClaim(found); }))
     breaks.push_back(std::move(found));
@@ -137,17 +139,34 @@ std::optional<Start> ReplayedProgram::allowedStart(Random &random) const {
   constexpr int kTries = 3'000;
   Start start;
   for (double &axis : start.place)
-    axis = static_cast<double>(random.below(200)) / 4 - 25;
+    axis = placeOf(random);
   for (int i = 0; i < kTries; ++i) {
     EntryValues entry = entryOf(start);
     promises_.draw(entry, random);
     promises_.draw(entry, random); // once more: a range may name an argument that comes later
-    if (promises_.allows(entry)) {
-      start.given = entry.given;
+    if (!promises_.allows(entry))
+      continue;
+    start.given = entry.given;
+    if (!startsInKeepOut(start))
       return start;
-    }
+    for (double &axis : start.place)
+      axis = placeOf(random);
   }
   return std::nullopt;
+}
+
+/// `@MACHINE` without a `@START`: the operator has the tool outside of what it must not touch (docs/geometry.md).
+bool ReplayedProgram::startsInKeepOut(const Start &start) const {
+  const geometry::PlainSpace space = prove::plainSpace(loaded_.set, entry(), contracts_, optionsOf(start));
+  if (!space.machine || contract()->start)
+    return false;
+  RecordedMove standing{.unit = LengthUnit::Millimetre, .length = LengthInForce::None};
+  for (std::size_t axis = 0; axis < start.place.size(); ++axis)
+    standing.move.start[axis] = standing.move.end[axis] = ConcreteValue::of(start.place[axis]);
+  for (std::size_t i = 0; i < space.keepOut.size(); ++i)
+    if (geometry::deepestGouge(space, SpaceClaim::KeepOut, i, std::array{standing}))
+      return true;
+  return false;
 }
 
 /// One that is allowed, with one argument that is not.

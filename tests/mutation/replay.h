@@ -57,6 +57,7 @@ private:
   soundness::EntryValues entryOf(const Start &start) const;
   RunOptions optionsOf(const Start &start) const;
   std::optional<Start> allowedStart(soundness::Random &random) const;
+  bool startsInKeepOut(const Start &start) const;
   std::optional<Start> forbiddenStart(soundness::Random &random) const;
   void addPromises(std::vector<Break> &breaks, const Run &run) const;
   void addStop(std::vector<Break> &breaks, const Run &run) const;

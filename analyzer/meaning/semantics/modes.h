@@ -313,7 +313,7 @@ private:
       otherNumber();
   }
   /// `H2` alone: under G43 and G44 the length of another offset number comes into force, or a parameter keeps the old
-  /// one (Mitsubishi #1274).  H0 may end the length or not.
+  /// one (Mitsubishi #1274).  H0, and so a number that is not known, may cancel G43 as well.
   void otherNumber() {
     const auto *entry = words_.find('H');
     if (!entry || context_.behaviour().lengthOffsets.count == 0)
@@ -325,7 +325,7 @@ private:
       if (!interpretation_.mayBe(changes))
         continue;
       if (!number || *number == 0)
-        interpretation_.abandon("H0 without G43, or an H that is not known", context_.place());
+        mayCancelLengthCode(context_, interpretation_.both(changes, context_.maybeNot()));
       setLength(interpretation_.select(changes, interpretation_.either(lengthByNumber(action), state_.lengthOffset),
                                        state_.lengthOffset),
                 changes);

@@ -57,21 +57,29 @@ template <ValueAlgebra R> void forgetLength(StepContext<R> &context) {
   length = context.interpretation.either(length, context.interpretation.anyNumber());
 }
 
+/// G43 or G44 may have been cancelled, as by G49.
+template <ValueAlgebra R> void mayCancelLengthCode(StepContext<R> &context, typename R::Truth when) {
+  R &interpretation = context.interpretation;
+  const auto group = context.modes.groupOf(ModalKind::Length);
+  const CodeMask off = group ? context.modes.maskOf(ModalKind::Length, {CodeAction::LengthOff}) : CodeMask{0};
+  if (off == 0)
+    return;
+  auto &code = context.state.codes[*group];
+  code = interpretation.selectCode(when, interpretation.code(static_cast<std::uint8_t>(std::countr_zero(off))), code);
+}
+
 /// A move of Z to the reference position or in machine coordinates: the length in force ends there, or is in force
 /// again behind it (Haas: G28 cancels it; FANUC: its vector is cancelled, and G43 stays).
 template <ValueAlgebra R> void mayCancelLength(StepContext<R> &context, typename R::Truth when) {
   R &interpretation = context.interpretation;
   MachineState<R> &state = context.state;
-  const auto group = context.modes.groupOf(ModalKind::Length);
-  const CodeMask off = group ? context.modes.maskOf(ModalKind::Length, {CodeAction::LengthOff}) : CodeMask{0};
   const auto isOn =
       interpretation.negation(context.inForce(ModalKind::Length, {CodeAction::LengthOff}, interpretation.truth(true)));
   const auto cancels = interpretation.both(interpretation.both(when, isOn), context.maybeNot());
-  if (off == 0 || context.behaviour().lengthOffsets.count == 0 || !interpretation.mayBe(cancels))
+  if (context.behaviour().lengthOffsets.count == 0 || !interpretation.mayBe(cancels))
     return;
   const auto ended = interpretation.select(cancels, state.lengthOffset, context.zero());
-  state.codes[*group] = interpretation.selectCode(
-      cancels, interpretation.code(static_cast<std::uint8_t>(std::countr_zero(off))), state.codes[*group]);
+  mayCancelLengthCode(context, cancels);
   state.lengthOffset = interpretation.subtract(state.lengthOffset, ended);
   state.lengthChanged = context.either(state.lengthChanged, cancels);
   shiftCoordinate(context, Axis::Z, ended);
