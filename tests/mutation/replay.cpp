@@ -160,7 +160,9 @@ bool ReplayedProgram::startsInKeepOut(const Start &start) const {
   const geometry::PlainSpace space = prove::plainSpace(loaded_.set, entry(), contracts_, optionsOf(start));
   if (!space.machine || contract()->start)
     return false;
-  RecordedMove standing{.unit = LengthUnit::Millimetre, .length = LengthInForce::None};
+  const Place head{FileId(0), entry().entry};
+  RecordedMove standing{
+      .move = {}, .unit = LengthUnit::Millimetre, .place = head, .own = head, .length = LengthInForce::None};
   for (std::size_t axis = 0; axis < start.place.size(); ++axis)
     standing.move.start[axis] = standing.move.end[axis] = ConcreteValue::of(start.place[axis]);
   for (std::size_t i = 0; i < space.keepOut.size(); ++i)
