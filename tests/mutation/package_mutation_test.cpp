@@ -101,8 +101,10 @@ public:
 
 private:
   bool agrees(const Start &start) const {
-    return prove::ExactRuns(program_.loaded().set, program_.entry()).agrees(start.given, program_.run(start)) ==
-           prove::Agreement::Same;
+    prove::ExactRuns runs([&](const GivenVariables &given) {
+      return prove::exploreExactly(program_.loaded().set, program_.entry(), given);
+    });
+    return runs.agrees(start.given, program_.run(start)) == prove::Agreement::Same;
   }
 
   const ReplayedProgram &program_;

@@ -1,6 +1,6 @@
 #include "proof/context/broken_promises.h"
 
-#include "proof/context/proof_context.h"
+#include "proof/context/followed_run.h"
 
 #include <algorithm>
 
@@ -37,17 +37,10 @@ const BrokenPromises::Broken *BrokenPromises::broken(const GivenVariables &given
 
 /// From these inputs alone.
 std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables &given) const {
-  const ProveOptions options{.guards = InferGuards::No,
-                             .arithmetic = subject_.options.arithmetic,
-                             .missing = subject_.options.missing,
-                             .contractsOf = subject_.options.contractsOf};
-  const ProofSubject subject{subject_.programs, subject_.program, subject_.contracts, options};
-  ProofStart start(subject, &given);
-  const Exploration found = explore(start.interpretation(), subject.programs, subject.program, start.entry(),
-                                    start.exploreOptions(subject, exactOptions()));
+  FollowedRun run(subject_, given, subject_.options.arithmetic);
   std::vector<Broken> broken;
-  for (Question &question : promisesOf_({subject, start, found}))
-    if (const PathGoal *goal = question.open.empty() ? brokenOutright(start.store(), question) : nullptr)
+  for (Question &question : promisesOf_(run.program()))
+    if (const PathGoal *goal = question.open.empty() ? brokenOutright(run.store(), question) : nullptr)
       broken.push_back({std::move(question.row), goal->missedBy});
   return broken;
 }

@@ -1,5 +1,7 @@
 // Settles a question: by a sampled run, by proofs of all its goals, or by the replay of a counterexample.
-#include "proof/context/proof_context.h"
+#include "proof/context/followed_run.h"
+#include "proof/replay/example_run.h"
+#include "proof/space/contract_numbers.h"
 #include "proof/space/plain_space.h"
 
 #include <algorithm>
@@ -8,17 +10,30 @@ namespace feedhold::prove {
 
 namespace {
 
+/// A run in the machine's own numbers, with words as they are written, breaks the promise by more than these round.
+bool breaksByFar(const ProofContext &context, const Ensure &promise, const GivenVariables &given) {
+  const auto &[subject, start, found] = static_cast<const ExploredProgram &>(context);
+  const RunResult run = context.witnesses.runOf(given, WordRounding::None);
+  if (!hasEnded(run.end) || run.passedUnmodelled || context.witnesses.agreesExactly(given, run) == Agreement::Different)
+    return false;
+  ContractNumbers numbers(subject.programs, subject.program, *subject.contracts, context.witnesses.runOptions(given));
+  return numbers.isClearlyBroken(promise, run, toleranceOf(*subject.contract(), subject.dialect()).toDouble());
+}
+
 Violation violationOf(const ProofContext &context, const Question &question) {
   if (!question.isJudgedExactly)
     return {question.broken};
-  return {question.broken, [&promises = context.promises, row = question.row](const GivenVariables &given) {
-            return promises.breaks(given, row);
+  return {question.broken, [&context, promise = question.promise, row = question.row](const GivenVariables &given) {
+            return context.promises.breaks(given, row) || (promise != nullptr && breaksByFar(context, *promise, given));
           }};
 }
 
 Denial denialOf(const Question &question) {
-  const Question claim{
-      .row = question.row, .goals = {}, .broken = question.broken, .isJudgedExactly = question.isJudgedExactly};
+  const Question claim{.row = question.row,
+                       .goals = {},
+                       .broken = question.broken,
+                       .isJudgedExactly = question.isJudgedExactly,
+                       .promise = question.promise};
   return {question.row, [claim](const ProofContext &context) { return violationOf(context, claim); }};
 }
 
@@ -88,6 +103,8 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
+  runs.followExactly(
+      [&subject](const GivenVariables &given) { return FollowedRun(subject, given, Arithmetic::Exact).found(); });
   runs.sample();
   return runs;
 }

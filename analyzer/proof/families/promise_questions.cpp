@@ -121,6 +121,7 @@ Questions ensureQuestions(const ExploredProgram &program) {
     if (!subject.wants(kind))
       continue;
     Question question = promise(subject, kind, ensure.clause);
+    question.promise = &ensure;
     for (const PathExit &exit : found.exits)
       question.goals.push_back({&exit.conditions, promisedAt(program, ensure, exit.state)});
     if (const auto *kept = std::get_if<ModalPreserved>(&ensure.promise)) {

@@ -30,6 +30,7 @@ smt::Number inputNumber(const SymbolicInterpretation &interpretation, double val
 }
 
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given) {
+  interpretation.takeUsual();
   smt::TermStore &store = interpretation.store();
   std::map<std::uint32_t, SymbolicValue> values;
   for (const auto &[variable, value] : given.entries())
@@ -55,6 +56,20 @@ InputsKey keyOf(const GivenVariables &given) {
   return key;
 }
 
+Exploration exploreExactly(const ProgramSet &programs, Callee program, const GivenVariables &given) {
+  smt::TermStore store;
+  const Dialect &dialect = *programs.file(program.file).dialect;
+  SymbolicInterpretation interpretation(store, dialect);
+  startExactly(interpretation, given);
+  const ModalTable modes(dialect);
+  interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
+  SymbolicState entry = symbolicEntry(interpretation);
+  setStart(interpretation, entry, given.start);
+  ExploreOptions options = exactOptions();
+  options.missing = MissingPrograms::Stop;
+  return explore(interpretation, programs, program, entry, options);
+}
+
 bool ExactRuns::has(const Ends &ends, const RunResult &run) {
   const auto stopsAt = [&](std::optional<AlarmKind> alarm) {
     return std::find(ends.stops.begin(), ends.stops.end(), std::pair(run.place, alarm)) != ends.stops.end();
@@ -78,17 +93,7 @@ bool ExactRuns::has(const Ends &ends, const RunResult &run) {
 }
 
 ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
-  smt::TermStore store;
-  const Dialect &dialect = *programs_.file(entry_.file).dialect;
-  SymbolicInterpretation interpretation(store, dialect);
-  startExactly(interpretation, given);
-  const ModalTable modes(dialect);
-  interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
-  ExploreOptions options = exactOptions();
-  options.missing = missing_;
-  SymbolicState entry = symbolicEntry(interpretation);
-  setStart(interpretation, entry, given.start);
-  const Exploration found = explore(interpretation, programs_, entry_, entry, options);
+  const Exploration found = explore_(given);
   Ends ends;
   ends.repeats = !found.repeats.empty();
   ends.isIncomplete = found.incomplete.has_value();

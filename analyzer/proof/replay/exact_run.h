@@ -4,6 +4,7 @@
 #include "meaning/machine/machine.h"
 #include "proof/explore/exploration.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,7 +22,7 @@ enum class Agreement : std::uint8_t {
 ExploreOptions exactOptions();
 /// The number that an input of the machine is: what was typed, or the number of the control that stands for it.
 smt::Number inputNumber(const SymbolicInterpretation &interpretation, double value);
-/// The interpretation starts from these inputs.
+/// The interpretation starts from these inputs, and where the control decides it does as runs of the machine do.
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given);
 
 /// Each input by its number; no value: vacant.  Then the readings, and the start.
@@ -33,12 +34,14 @@ struct InputsKey {
 };
 InputsKey keyOf(const GivenVariables &given);
 
+/// The program from these inputs, without a contract.
+Exploration exploreExactly(const ProgramSet &programs, Callee entry, const GivenVariables &given);
+
 /// The exact runs of one program, each followed once.
 class ExactRuns {
 public:
-  ExactRuns(const ProgramSet &programs, Callee entry) : programs_(programs), entry_(entry) {}
-  /// As in the runs of the machine.
-  void treatMissing(MissingPrograms missing) { missing_ = missing; }
+  using Explore = std::function<Exploration(const GivenVariables &)>;
+  explicit ExactRuns(Explore explore) : explore_(std::move(explore)) {}
   /// Whether the run on these inputs also ends in exact numbers as the machine's run ended.
   Agreement agrees(const GivenVariables &given, const RunResult &run);
 
@@ -53,9 +56,7 @@ private:
   static bool has(const Ends &ends, const RunResult &run);
   Ends follow(const GivenVariables &given) const;
 
-  const ProgramSet &programs_;
-  Callee entry_;
-  MissingPrograms missing_ = MissingPrograms::Stop;
+  Explore explore_;
   std::map<InputsKey, Ends> known_;
 };
 

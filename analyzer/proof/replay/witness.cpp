@@ -65,8 +65,9 @@ double rounded(double value, double scale) { return std::round(value * scale) / 
 WitnessSearch::WitnessSearch(SymbolicInterpretation &interpretation, const ProgramSet &programs, Callee entry,
                              std::vector<smt::TermId> demands, std::vector<double> constants)
     : interpretation_(interpretation), programs_(programs), entry_(entry), demands_(std::move(demands)),
-      constants_(std::move(constants)), exactRuns_(std::make_shared<ExactRuns>(programs, entry)),
-      likely_(std::make_shared<LikelyCalls>(programs, entry)) {}
+      constants_(std::move(constants)), likely_(std::make_shared<LikelyCalls>(programs, entry)) {
+  followExactly([&programs, entry](const GivenVariables &given) { return exploreExactly(programs, entry, given); });
+}
 
 std::vector<std::uint32_t> WitnessSearch::inputs() const {
   std::vector<std::uint32_t> inputs;

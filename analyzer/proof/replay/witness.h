@@ -48,8 +48,9 @@ public:
     start_ = std::move(start);
     place_ = std::move(place);
     open_ = std::move(open);
-    exactRuns_->treatMissing(start_.missing);
   }
+  /// Exact runs, if they are not those of the program without a contract.
+  void followExactly(ExactRuns::Explore explore) { exactRuns_ = std::make_shared<ExactRuns>(std::move(explore)); }
   RunOptions runOptions(const GivenVariables &given) const;
   RunResult runOf(const GivenVariables &given, WordRounding words = RunOptions().words) const;
   /// Runs on likely calls, then on plain numbers, before anything is known: each run and its inputs are kept.

@@ -1,5 +1,6 @@
 #include "proof/space/plain_space.h"
 
+#include "proof/space/contract_numbers.h"
 #include "proof/space/region_shapes.h"
 
 #include <algorithm>
@@ -9,51 +10,6 @@
 namespace feedhold::prove {
 
 namespace {
-
-using State = MachineState<ConcreteInterpretation>;
-
-/// Reads the expressions of a contract with the values of one call.
-class ContractNumbers {
-public:
-  ContractNumbers(const ProgramSet &programs, Callee program, const FileContracts &contracts, const RunOptions &run)
-      : programs_(programs), file_(programs.file(program.file)), contracts_(contracts), modes_(*file_.dialect),
-        interpretation_(*file_.dialect, run.variables), state_(startState(interpretation_, modes_, run.start)) {
-    for (const auto &[group, code] : run.codes)
-      state_.codes[group] = code;
-    putInForce(run.variables.start, state_);
-    for (const Axis axis : kAllAxes) {
-      state_.variables.set(positionVariable(letterOf(axis)), state_.at(axis));
-      state_.variables.set(entryVariable(letterOf(axis)), state_.at(axis));
-    }
-  }
-
-  double number(ExpressionId expression) {
-    return within<double>(state_, [&](auto &context) { return evaluate(context, expression).number; });
-  }
-  bool holds(ExpressionId condition, const geometry::Point<double> &point) {
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
-      state_.variables.set(pointVariable(letterOf(axis)), ConcreteValue::of(point[indexOf(axis)]));
-    return within<bool>(state_, [&](auto &context) { return evaluateCondition(context, condition); });
-  }
-
-private:
-  template <typename Result, typename Evaluate> Result within(State &state, Evaluate &&evaluateIt) {
-    const ProgramFile contract{.file = file_.file,
-                               .source = file_.source,
-                               .tree = &contracts_.tree,
-                               .model = file_.model,
-                               .dialect = file_.dialect};
-    StepContext<ConcreteInterpretation> context{interpretation_, state, programs_, contract, modes_, BlockId(0)};
-    return evaluateIt(context);
-  }
-
-  const ProgramSet &programs_;
-  const ProgramFile &file_;
-  const FileContracts &contracts_;
-  ModalTable modes_;
-  ConcreteInterpretation interpretation_;
-  State state_;
-};
 
 std::vector<geometry::PlainRegion> named(const RegionShapes<double, bool> &shapes, const std::vector<Region> &regions) {
   std::vector<geometry::PlainRegion> result;

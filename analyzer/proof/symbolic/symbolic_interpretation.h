@@ -118,6 +118,8 @@ public:
   std::vector<TakenAsSmall> takeExactResults() { return std::exchange(exact_, {}); }
   void restoreExactResults(std::vector<TakenAsSmall> results) { exact_ = std::move(results); }
   Grids &grids() { return grids_; }
+  /// What no text and no manual says comes out as in a run of the machine, in place of both ways.
+  void takeUsual() { takesUsual_ = true; }
   /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
   std::optional<smt::TermId> useTolerance(std::optional<smt::TermId> tolerance) {
     return std::exchange(tolerance_, tolerance);
@@ -193,7 +195,9 @@ public:
   Truth isVacant(const Value &value) const { return {value.vacant}; }
   std::optional<double> constantOf(const Value &value) const;
   Value select(Truth truth, const Value &first, const Value &second);
-  Value either(const Value &first, const Value &second) { return select(unknownTruth(), first, second); }
+  Value either(const Value &first, const Value &second) {
+    return takesUsual_ ? first : select(unknownTruth(), first, second);
+  }
   Value between(const Value &start, const Value &end);
 
   // ---- arithmetic ----
@@ -300,6 +304,7 @@ private:
   const Dialect *dialect_;
   Arithmetic arithmetic_;
   Rounds rounds_ = Rounds::No;
+  bool takesUsual_ = false;
   std::optional<smt::TermId> tolerance_;
   Grids grids_;
   std::optional<Place> place_;
