@@ -5,9 +5,13 @@
 
 namespace feedhold::prove {
 
+/// Whether cutter compensation is a claim about the path of the tool's centre, or a stop that may come.
+enum class CompensationIs : std::uint8_t { Claim, Stop };
+
 class FollowedRun {
 public:
-  FollowedRun(const ProofSubject &subject, const GivenVariables &given, Arithmetic arithmetic);
+  FollowedRun(const ProofSubject &subject, const GivenVariables &given, Arithmetic arithmetic,
+              CompensationIs compensation);
 
   ExploredProgram program() { return {subject_, start_, found_}; }
   smt::TermStore &store() { return start_.store(); }

@@ -103,8 +103,9 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   options = withCompensation(subject.programs, subject.program, subject.contracts, std::move(options));
   options.missing = subject.options.missing;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
-  runs.followExactly(
-      [&subject](const GivenVariables &given) { return FollowedRun(subject, given, Arithmetic::Exact).found(); });
+  runs.followExactly([&subject](const GivenVariables &given) {
+    return FollowedRun(subject, given, Arithmetic::Exact, CompensationIs::Stop).found();
+  });
   runs.sample();
   return runs;
 }

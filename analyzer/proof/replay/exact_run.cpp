@@ -75,11 +75,7 @@ bool ExactRuns::has(const Ends &ends, const RunResult &run) {
     return std::find(ends.stops.begin(), ends.stops.end(), std::pair(run.place, alarm)) != ends.stops.end();
   };
   switch (run.end) {
-  case RunEnd::Alarm:
-    if (run.compensation)
-      return std::ranges::find(ends.stops, std::pair(*run.compensation,
-                                                     std::optional(AlarmKind::CutterCompensation))) != ends.stops.end();
-    return stopsAt(run.alarm);
+  case RunEnd::Alarm: return stopsAt(run.alarm);
   case RunEnd::UserAlarm: return stopsAt(std::nullopt);
   case RunEnd::Fuel:
   case RunEnd::Repeats: return ends.repeats;
@@ -101,9 +97,7 @@ ExactRuns::Ends ExactRuns::follow(const GivenVariables &given) const {
     ends.stops.emplace_back(stop.place, stop.alarm);
   for (const PathExit &exit : found.exits)
     ends.exits.push_back(exit.place);
-  const auto stops = std::ranges::count_if( // the others may or may not come on any path
-      found.stopSites, [](const StopSite &stop) { return stop.alarm != AlarmKind::CutterCompensation; });
-  const bool isOnePath = static_cast<std::size_t>(stops) + ends.exits.size() + found.repeats.size() <= 1;
+  const bool isOnePath = ends.stops.size() + ends.exits.size() + found.repeats.size() <= 1;
   if (!isOnePath && !given.readings.entries().empty()) { // which path takes which reading is not known
     ends = Ends();
     ends.isIncomplete = true;
@@ -117,7 +111,8 @@ Agreement ExactRuns::agrees(const GivenVariables &given, const RunResult &run) {
     known->second = follow(given);
   if (has(known->second, run))
     return Agreement::Same;
-  return known->second.isIncomplete ? Agreement::NotKnown : Agreement::Different;
+  const bool isOfCutter = run.end == RunEnd::Alarm && run.compensation; // its path is not followed exactly
+  return known->second.isIncomplete || isOfCutter ? Agreement::NotKnown : Agreement::Different;
 }
 
 } // namespace feedhold::prove
