@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace feedhold::prove {
@@ -51,6 +52,16 @@ std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const Re
   return fmt::format("{} at X{} Y{} Z{}{}", howFar(rule, gouge.depth), shown[0], shown[1], shown[2], tool);
 }
 
+/// Of the coordinates, and of what is added to them on the way to machine coordinates.
+double largestNumber(const std::vector<RecordedMove> &moves) {
+  double largest = 0;
+  for (const RecordedMove &each : moves)
+    for (std::size_t axis = 0; axis < each.zero.size(); ++axis)
+      for (const double number : {each.move.start[axis].number, each.move.end[axis].number, each.machineZero[axis]})
+        largest = std::max(largest, std::fabs(number));
+  return largest;
+}
+
 geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &given) {
   const ProofSubject &subject = context.subject;
   return plainSpace(subject.programs, subject.program, *subject.contracts, context.witnesses.runOptions(given));
@@ -61,7 +72,7 @@ geometry::PlainSpace spaceOf(const ProofContext &context, const GivenVariables &
 std::optional<geometry::Gouge> SpaceRuns::gougeIn(const RunResult &run, const GivenVariables &given) const {
   const auto gouge = geometry::deepestGouge(spaceOf(context_, given), plainClaim(rule_), rule_.region, run.moves,
                                             [this](const RecordedMove &move) { return move.own == own_; });
-  return gouge && gouge->depth >= leastDepth() ? gouge : std::nullopt;
+  return gouge && gouge->depth >= leastDepth(run.moves) ? gouge : std::nullopt;
 }
 
 std::optional<double> SpaceRuns::tolerance() const {
@@ -71,10 +82,10 @@ std::optional<double> SpaceRuns::tolerance() const {
              : std::optional(toleranceOf(*subject.contract(), subject.dialect()).toDouble());
 }
 
-/// Less is the rounding of the machine's numbers, or within the tolerance, and no gouge.
-double SpaceRuns::leastDepth() const {
-  constexpr double kRounding = 1e-6;
-  return kRounding + tolerance().value_or(0);
+/// Less is the rounding of the machine's numbers, which grows with them, or within the tolerance, and no gouge.
+double SpaceRuns::leastDepth(const std::vector<RecordedMove> &moves) const {
+  constexpr double kRounding = 1e-6, kOfSize = 1e-9;
+  return std::max(kRounding, kOfSize * largestNumber(moves)) + tolerance().value_or(0);
 }
 
 Violation SpaceRuns::violation() const {

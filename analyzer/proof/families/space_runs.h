@@ -27,7 +27,7 @@ public:
   std::optional<double> tolerance() const;
 
 private:
-  double leastDepth() const;
+  double leastDepth(const std::vector<RecordedMove> &moves) const;
 
   const ProofContext &context_;
   const SpaceRule &rule_;

@@ -26,13 +26,18 @@ def of_run(run) -> Summary:
     return Summary(run.end, run.line, run.where.text.file if run.where else "", run.detail, variables, moves)
 
 
+def is_apart(a, b):
+    """By more than doubles round where a zero point is subtracted and added again."""
+    return any(abs(a[axis] - b[axis]) > 1e-9 * (1 + abs(a[axis])) for axis in a)
+
+
 def of_engine(answer) -> Summary:
     alarm = answer["alarm"] or {}
     end = {"M99": "return", "M30": "end", "M02": "end"}.get(answer["end"], answer["end"])
     if end == "alarm" and alarm.get("by") != "program":
         end = "stop"
     moves = [tuple(m["to"][axis] for axis in "XYZ") for m in answer["moves"]
-             if m["kind"] not in ("dwell", "probe") and (m["from"] != m["to"] or m["kind"].startswith("arc"))]
+             if m["kind"] not in ("dwell", "probe") and (is_apart(m["from"], m["to"]) or m["kind"].startswith("arc"))]
     return Summary(end, alarm.get("line"), alarm.get("file", ""), alarm.get("number"),
                    {int(n): v for n, v in answer["variables"].items() if n.isdigit() and int(n) < 1000}, moves)
 

@@ -114,7 +114,8 @@ class Space:
         yield tip
         for aim in aims:
             level = max(0.0, aim[2] - tip[2])
-            for height in {level, level + 0.01, *HEIGHTS[:4]}:  # from far below the level itself is but the rim
+            # From far below the level itself is but the rim; so it is under the rim of a rounded tool.
+            for height in {level, level + 0.01, max(0.0, level - 0.01), *HEIGHTS[:4]}:
                 far = math.dist(aim[:2], tip[:2])
                 whole = self.radius_at(height) * (1 - 1e-12) / far if far else 0.0
                 for part in {min(1.0, whole), whole}:
