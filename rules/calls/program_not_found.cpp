@@ -5,16 +5,54 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace feedhold::rules::program_not_found {
 namespace {
 
+/// `N1000`, behind the end of the calling program and with an M99 behind it: what `M97 P1000` calls.
+const Word *localSubprogram(const Call &call, const FileContext &context) {
+  const bool isMacro = call.kind == CallKind::Macro && !call.arguments.empty();
+  const auto number = isMacro || !call.programWord ? std::nullopt : wordOf(context, *call.programWord).integer();
+  const bool hasLocalCalls =
+      std::ranges::any_of(context.dialect.mCodes, [](const Code &code) { return code.role == CodeRole::LocalCall; });
+  if (!number || !hasLocalCalls)
+    return nullptr;
+  const Program &caller = context.model.programs[call.caller];
+  const auto has = [&](BlockId block, CodeRole role) {
+    return findCode(context.tree, block, context.dialect, role) != nullptr;
+  };
+  bool hasEnded = false;
+  const Word *label = nullptr;
+  for (BlockId block = caller.first; block < caller.last; block = block.next()) {
+    const Word *own = findWord(context.tree, block, 'N');
+    if (hasEnded && own && own->integer() == number)
+      label = own;
+    if (label && has(block, CodeRole::Return))
+      return label;
+    hasEnded = hasEnded || has(block, CodeRole::ProgramEnd) || has(block, CodeRole::Return);
+  }
+  return nullptr;
+}
+
+void tellLocal(const Call &call, const Word &label, const FileContext &context, const Reporter &reporter) {
+  const Word &code = wordOf(context, call.code);
+  reporter.report(
+      {.message = fmt::format("{} calls another program, but {} is a subprogram in this one", context.quoted(call.span),
+                              context.quoted(label.span())),
+       .span = call.span,
+       .labels = {{label.span(), "this subprogram"}},
+       .notes = {fmt::format("no checked file holds a program of that number; if there is none on the machine, the "
+                             "control {}",
+                             stopsWith(context.dialect, AlarmKind::ProgramNotFound)),
+                 "`M97` calls a subprogram by its sequence number"},
+       .fixes = {{.title = "write `M97`", .edits = {{code.span(), "M97"}}}}},
+      Severity::Warning);
+}
+
 /// One finding for each missing program of a file: the first call of it.
 void check(const FileContext &context, const Reporter &reporter) {
-  // A file alone is a fragment of what is on the machine.
-  if (context.callGraph.programCount() < 2)
-    return;
   std::set<std::string> seen;
   for (const Call &call : context.model.calls) {
     const bool names = (namesProgram(call.kind) && call.kind != CallKind::External) || call.kind == CallKind::OWord;
@@ -22,6 +60,13 @@ void check(const FileContext &context, const Reporter &reporter) {
       continue;
     const std::string name = toString(call.callee);
     if (!seen.insert(name).second)
+      continue;
+    if (const Word *label = localSubprogram(call, context)) {
+      tellLocal(call, *label, context, reporter);
+      continue;
+    }
+    // A file alone is a fragment of what is on the machine.
+    if (context.callGraph.programCount() < 2)
       continue;
     reporter.report({.message = fmt::format("`{}` is in none of the checked files", name),
                      .span = call.programWord ? wordOf(context, *call.programWord).span() : call.span,

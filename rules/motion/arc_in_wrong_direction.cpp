@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace feedhold::rules::arc_in_wrong_direction {
 namespace {
@@ -25,7 +26,8 @@ double cosine(const Vector &a, const Vector &b) { return (a[0] * b[0] + a[1] * b
 constexpr double kBack = -0.998; // within some 3.5 degrees
 constexpr double kShort = 1e-4;
 
-constexpr double kHalf = 181; // degrees; nearly half a circle may be one
+constexpr std::size_t kBeginning = 4; // moves
+constexpr double kHalf = 181;         // degrees; nearly half a circle may be one
 
 /// A move in the plane between points that are numbers.
 struct Move {
@@ -56,14 +58,23 @@ public:
   void after(NodeId node, const AbstractState &state) override {
     if (!isAsked_ || !std::holds_alternative<ExecuteWords>(view_.node(node).instruction))
       return forget();
-    if (!movesInPlane(node))
-      return movesElsewhere(node) ? forget() : void();
+    if (!movesInPlane(node)) {
+      if (movesElsewhere(node)) {
+        judgeClosing();
+        forget();
+      }
+      return;
+    }
     const auto end = isPlain(state) ? pointOf(state) : std::nullopt;
     const auto arc = start_ && end ? arcFrom(node, state, *end) : std::nullopt;
     const auto move = arc ? std::optional(arc->move) : start_ && end ? lineTo(node, state, *end) : std::nullopt;
     judge(move);
     pending_ = arc && arc->sweep > kHalf && last_ && turnsBack(*last_, arc->move) ? arc : std::nullopt;
     last_ = move;
+    if (!move)
+      beginning_.clear();
+    else if (beginning_.size() < kBeginning)
+      beginning_.push_back(*move);
   }
 
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
@@ -83,6 +94,7 @@ private:
   void forget() {
     last_ = std::nullopt;
     pending_ = std::nullopt;
+    beginning_.clear();
   }
   /// A tool path has a million blocks: few questions need a look at the words.
   bool movesInPlane(NodeId node) const {
@@ -105,6 +117,11 @@ private:
     else
       cleared_.insert(node);
     pending_ = std::nullopt;
+  }
+  /// The arc that waits is the last of a contour, and joins the move with which the contour began.
+  void judgeClosing() {
+    if (pending_ && std::ranges::any_of(beginning_, [&](const Move &move) { return turnsBack(pending_->move, move); }))
+      found_.emplace(pending_->move.node, pending_->sweep);
   }
   bool isPlain(const AbstractState &state) const {
     return !isHavocked(state) && !mayBeTrue(state.transformed) && state.modalCalls.empty() &&
@@ -184,6 +201,7 @@ private:
   std::optional<Vector> start_;
   std::optional<Move> last_;
   std::optional<Arc> pending_;
+  std::vector<Move> beginning_; // of the contour: the approach and the first moves
   std::map<NodeId, double> found_;
   std::set<NodeId> cleared_; // by another run through the block
 };

@@ -46,11 +46,39 @@ bool hidesTool(const FileContext &context, BlockId block, const std::set<BlockId
   });
 }
 
+/// Another tool may be in the spindle behind the block than before it.
+bool mayChange(const FileContext &context, BlockId block) {
+  return hidesTool(context, block, {}) || hasAction(context, block, {CodeAction::ToolChange}) ||
+         findWord(context.tree, block, 'T');
+}
+
+/// Where a jump from another tool leads.  A loop in which no tool is changed keeps the tool that it began with.
+std::set<BlockId> targetsOfOtherTools(ProgramId program, const FileContext &context) {
+  std::set<BlockId> others = context.model.jumpTargetsOf(program);
+  const auto jumps = context.model.jumpsOf(program);
+  if (others.empty() ||
+      std::ranges::any_of(jumps, [](const Jump &jump) { return jump.kind != JumpKind::Goto || !jump.target; }))
+    return others;
+  const Program &its = context.model.programs[program];
+  std::vector<std::size_t> changes{0}; // before each block
+  for (BlockId block = its.first; block < its.last; block = block.next())
+    changes.push_back(changes.back() + (mayChange(context, block) ? 1 : 0));
+  const auto changesBefore = [&](BlockId block) { return changes[block.index() - its.first.index()]; };
+  std::set<BlockId> own;
+  for (const Jump &jump : jumps)
+    own.insert(*jump.target);
+  for (const Jump &jump : jumps)
+    if (changesBefore(jump.block) != changesBefore(*jump.target))
+      own.erase(*jump.target);
+  std::erase_if(others, [&](BlockId target) { return own.contains(target); });
+  return others;
+}
+
 /// Follows T, M06, G43 H and D through the text of one program.
 class Reader {
 public:
   Reader(ProgramId program, const FileContext &context)
-      : context_(context), targets_(context.model.jumpTargetsOf(program)) {}
+      : context_(context), targets_(targetsOfOtherTools(program, context)) {}
 
   void read(BlockId block) {
     if (hidesTool(context_, block, targets_)) {

@@ -1,4 +1,4 @@
-// mode-not-restored: `#3=#4003 .. G#3`, and a path to the end that passes over the G#3.
+// mode-not-restored: `#3=#4003 .. G#3`, and a path to the end that passes over the G#3; `M70` without `M72`.
 #include "rules/motion/saved_mode.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,43 @@ std::optional<std::pair<NodeId, std::vector<NodeId>>> changeBefore(const ExitFac
   return std::nullopt;
 }
 
+/// M70, in a program that has no M72.
+const Word *saveWithoutRestore(const FlowFacts &facts, const FileContext &context) {
+  const Word *save = nullptr;
+  const Program &program = context.model.programs[facts.program];
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    if (findAction(context.tree, block, context.dialect, {CodeAction::ModesRestore, CodeAction::ModesSaveForReturn}))
+      return nullptr;
+    const Word *own = findAction(context.tree, block, context.dialect, {CodeAction::ModesSave});
+    save = save ? save : own;
+  }
+  return save;
+}
+
+/// Returns in other modes than those of the call; which move was made last does not count.
+bool changesModes(const ExitFact &exit, const FlowFacts &facts) {
+  const auto motion = facts.modes.groupOf(ModalKind::Motion);
+  if (exit.end != PathEnd::Returns || isHavocked(exit.state))
+    return false;
+  for (std::size_t group = 1; group < kModalGroups; ++group)
+    if (group != motion && !leq(exit.state.codes[group], facts.entryCodes()[group]))
+      return true;
+  return false;
+}
+
+void checkSave(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  const Word *save = saveWithoutRestore(facts, context);
+  if (!save || !std::ranges::any_of(facts.exits(), [&](const ExitFact &exit) { return changesModes(exit, facts); }))
+    return;
+  reporter.report(
+      {.message = fmt::format("{} saves the modes, and nothing restores them", context.quoted(save->span())),
+       .span = save->span(),
+       .notes = {"the caller continues in other modes than before the call",
+                 "write `M72` before each end of the subroutine, or `M73` in place of this code"}});
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  checkSave(facts, context, reporter);
   const std::vector<Saving> savings = savingsOf(facts.program, context);
   if (savings.empty())
     return;

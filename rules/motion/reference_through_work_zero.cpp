@@ -1,4 +1,4 @@
-// reference-through-work-zero: `G90 G28 Z0.`.
+// reference-through-work-zero: `G90 G28 Z0.`, and `G28 X0.` on a lathe.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -15,13 +15,15 @@ namespace {
 /// that it is a mistake.
 class ReferenceThroughWorkZero final : public FlowRule {
 public:
-  ReferenceThroughWorkZero(ProgramId program, const FileContext &context) : view_(program, context) {}
+  ReferenceThroughWorkZero(ProgramId program, const FileContext &context)
+      : view_(program, context),
+        hasLetters_(context.dialect.machine == MachineKind::Turning && !view_.modes().groupOf(ModalKind::Distance)) {}
 
   void after(NodeId node, const AbstractState &state) override {
     if (zeroWords(node).empty())
       return;
     const bool isKnown = !isHavocked(state);
-    const Modes modes{isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}),
+    const Modes modes{hasLetters_ || (isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute})),
                       isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Incremental})};
     const auto [at, isNew] = places_.emplace(node, modes);
     if (!isNew)
@@ -29,6 +31,8 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    if (hasLetters_)
+      return reportOfLathe(reporter);
     for (const auto &[node, modes] : places_) {
       const Word *word = modes.absolute ? wrongWord(node) : nullptr;
       if (!word)
@@ -53,6 +57,32 @@ private:
     bool incremental;
   };
 
+  /// U0 and W0 are the current position.  A Z that returns alone passes beside the part if X has returned before.
+  void reportOfLathe(const Reporter &reporter) const {
+    for (const auto &[node, modes] : places_) {
+      const auto words = zeroWords(node);
+      const auto across = std::ranges::find(words, 'X', [](const Word *word) { return word->address(); });
+      const Word &word = across == words.end() ? *words.front() : **across;
+      if (word.address() == 'Y')
+        continue;
+      const bool isAcross = word.address() == 'X';
+      Diagnostic diagnostic{
+          .message = fmt::format("{} makes {} the intermediate point", view_.context().quoted(word.span()),
+                                 isAcross ? "the centre line" : "part zero"),
+          .span = word.span(),
+          .notes = {isAcross ? "the tool moves to the centre line at rapid, through the part, before it goes to the "
+                               "reference point"
+                             : "the tool moves to Z0 at rapid before it goes to the reference point",
+                    isAcross ? "write `U0`: the intermediate point is then the current position"
+                             : "write `W0`: the intermediate point is then the current position"}};
+      FixIt fix{.title = "write the distances `U`, `W`", .edits = {}};
+      for (const Word *each : words)
+        if (each->address() != 'Y')
+          fix.edits.push_back({{each->span().begin, each->span().begin + 1}, each->address() == 'X' ? "U" : "W"});
+      diagnostic.fixes.push_back(std::move(fix));
+      reporter.report(std::move(diagnostic), isAcross ? Severity::Warning : Severity::Info);
+    }
+  }
   FixIt fixFor(NodeId node, const Word &word) const {
     if (const Word *absolute = view_.findAction(node, {CodeAction::Absolute}))
       return {.title = "write `G91`", .edits = {{absolute->span(), "G91"}}};
@@ -91,6 +121,7 @@ private:
   }
 
   MotionView view_;
+  bool hasLetters_; // distances are U and W: X and Z are never distances
   std::map<NodeId, Modes> places_;
 };
 
@@ -103,8 +134,8 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 extern const Rule referenceThroughWorkZero;
 const Rule referenceThroughWorkZero{
     .info = {"reference-through-work-zero", Category::Motion, Severity::Warning,
-             "Reports a reference return with `Z0` while `G90` is active, and one with `X0` or `Y0` "
-             "where the other returns of the axis stand under `G91`."},
+             "Reports a reference return with `Z0` while `G90` is active or with `X0` on a lathe, and one with `X0` or "
+             "`Y0` where the other returns of the axis stand under `G91`."},
     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::reference_through_work_zero

@@ -17,10 +17,11 @@ constexpr std::string_view kSearchOrder =
 
 using Copies = std::span<const SequenceNumber>;
 
-/// The GOTOs, and the P of contour cycles, of a program that find a block, by the number that they name.
+/// The GOTOs, and the P and Q of contour cycles, of a program that find a block, by the number that they name.
 struct Seekers {
   std::vector<const Jump *> gotos;
   std::vector<const Jump *> contours;
+  std::vector<const Jump *> ends; // the Q of contour cycles
 };
 using SeekersByNumber = std::unordered_map<std::uint32_t, Seekers>;
 
@@ -34,6 +35,8 @@ SeekersByNumber seekersOf(ProgramId program, const FileContext &context) {
       seekers[*number].gotos.push_back(&jump);
     else if (jump.kind == JumpKind::ContourFrom)
       seekers[*number].contours.push_back(&jump);
+    else if (jump.kind == JumpKind::ContourTo)
+      seekers[*number].ends.push_back(&jump);
   }
   return seekers;
 }
@@ -88,7 +91,7 @@ void checkNumber(Copies copies, std::span<const Jump *const> jumps, const FileCo
 }
 
 /// The contour stands before the cycle (G70), and the search finds one of another cycle.
-void checkContour(std::span<const Jump *const> cycles, Copies copies, const FileContext &context,
+bool checkContour(std::span<const Jump *const> cycles, Copies copies, const FileContext &context,
                   const Reporter &reporter) {
   for (const Jump *cycle : cycles) {
     const auto behind = std::ranges::find_if(copies, [&](const SequenceNumber &c) { return c.block > cycle->block; });
@@ -108,15 +111,54 @@ void checkContour(std::span<const Jump *const> cycles, Copies copies, const File
          .notes = {"the numbers of a contour must not occur twice in a program: the cycle may cut another "
                    "contour",
                    "give each contour its own sequence numbers"}});
-    return;
+    return true;
   }
+  return false;
 }
+
+/// A block has the number of a contour, and no cycle finds it.  Contours of one number each, one for each tool, are cut
+/// by many in this way, and the search finds them.
+bool checkSecondUse(std::span<const Jump *const> cycles, Copies copies, const FileContext &context,
+                    const Reporter &reporter) {
+  const auto isFound = [&](const SequenceNumber &copy) {
+    return std::ranges::any_of(cycles, [&](const Jump *cycle) { return *cycle->target == copy.block; });
+  };
+  const auto lost = std::ranges::find_if_not(copies, isFound);
+  if (cycles.empty() || lost == copies.end())
+    return false;
+  const Jump &cycle = *cycles.front();
+  const Span found = spanOf(copyAt(copies, *cycle.target), context);
+  reporter.report({.message = fmt::format("{} of a contour is in this program more than once",
+                                          context.quoted(spanOf(*lost, context))),
+                   .span = cycle.span,
+                   .labels = {{found, "the contour of this cycle"}, {spanOf(*lost, context), "the same number"}},
+                   .notes = {"the numbers of a contour must not occur twice in a program: the cycle may cut another "
+                             "contour",
+                             "give the block in the other place another number, or none"}});
+  return true;
+}
+
+/// One finding for both numbers of a contour.
+class ContourNumbers {
+public:
+  void check(const Seekers &seekers, Copies copies, const FileContext &context, const Reporter &reporter) {
+    if (isTold_)
+      return;
+    isTold_ = checkContour(seekers.contours, copies, context, reporter) ||
+              checkSecondUse(seekers.contours, copies, context, reporter) ||
+              checkSecondUse(seekers.ends, copies, context, reporter);
+  }
+
+private:
+  bool isTold_ = false;
+};
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const SeekersByNumber seekers = seekersOf(program, context);
   if (seekers.empty())
     return;
   const auto labels = sortedSequenceNumbers(context.model, program);
+  ContourNumbers contours;
   for (std::size_t first = 0; first < labels.size();) {
     std::size_t last = first + 1;
     while (last < labels.size() && labels[last].number == labels[first].number)
@@ -126,7 +168,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     if (copies.size() > 1 && found != seekers.end()) {
       if (!found->second.gotos.empty())
         checkNumber(copies, found->second.gotos, context, reporter);
-      checkContour(found->second.contours, copies, context, reporter);
+      contours.check(found->second, copies, context, reporter);
     }
     first = last;
   }

@@ -24,15 +24,19 @@ std::optional<CallGraph::Caller> foreignCaller(const FileContext &context, Progr
   return std::nullopt;
 }
 
-void reportEnd(const Word &end, const CallGraph::Caller &caller, const FileContext &context, const Reporter &reporter) {
+/// A program may be made to be started alone as well, but not one in the file of its caller that never returns.
+void reportEnd(const Word &end, const Program &program, const CallGraph::Caller &caller, const FileContext &context,
+               const Reporter &reporter) {
   const Call &call = context.callGraph.model(caller.file).calls[caller.call];
+  const bool isPartOfJob = caller.file == context.file && !program.returns;
   reporter.report({.message = fmt::format("{} in a called program ends the whole job", context.quoted(end.span())),
                    .span = end.span(),
                    .labels = {{call.span, "called here", caller.file}},
                    .notes = {"the blocks after the call are never executed: retracts, restored modes, counters",
                              call.kind == CallKind::OWord
                                  ? "a subroutine returns at its `endsub`"
-                                 : "return with M99; where the job must stop, raise an alarm with `#3000=`"}});
+                                 : "return with M99; where the job must stop, raise an alarm with `#3000=`"}},
+                  isPartOfJob ? Severity::Warning : Severity::Info);
 }
 
 /// The ends to which the ways from a block lead.
@@ -126,7 +130,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
     if (!dead)
       dead.emplace(context, id);
     if (!dead->contains(block))
-      reportEnd(*end, *caller, context, reporter);
+      reportEnd(*end, program, *caller, context, reporter);
   }
 }
 

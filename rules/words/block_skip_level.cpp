@@ -7,9 +7,12 @@ namespace feedhold::rules::block_skip_level {
 namespace {
 
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  reporter.report({.message = fmt::format("{} is not a valid block skip", context.quoted(issue.span)),
-                   .span = issue.span,
-                   .notes = {"the levels are `/1` to `/9`; two levels are written `/1/3`"}});
+  Diagnostic diagnostic{.message = fmt::format("{} is not a valid block skip", context.quoted(issue.span)),
+                        .span = issue.span,
+                        .notes = {"the levels are `/1` to `/9`; two levels are written `/1/3`"}};
+  if (context.text(issue.span).ends_with("//"))
+    diagnostic.notes.push_back("put it in parentheses if it is a remark");
+  reporter.report(std::move(diagnostic));
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::BlockSkipLevel};

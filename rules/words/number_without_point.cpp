@@ -32,15 +32,16 @@ void reportWord(const Word &word, const Word *twin, const FileContext &context, 
   const std::string_view unless = context.dialect.hasFanucParameters
                                       ? "with parameter 3401#0 (DPI) off "
                                       : "unless a setting of the machine makes it whole units, ";
-  const auto two = [](const Decimal &increment) { return Decimal(2, increment.scale()).toString(); };
+  const std::int64_t counts = word.number().asInteger().value_or(0);
+  const auto read = [&](const Decimal &increment) { return Decimal(counts, increment.scale()).toString(); };
   const LeastIncrements increments = leastIncrementsOf(context.dialect);
   reporter.report(
       {.message = fmt::format("{} has no decimal point, but {}", context.quoted(word.span()),
                               twin ? "has one elsewhere" : "the lengths around it do"),
        .span = word.span(),
        .labels = twin ? std::vector<Label>{{twin->span(), "with a point"}} : std::vector<Label>{},
-       .notes = {fmt::format("{}the control reads it in least increments: `2` is {} mm or {} inch", sure ? "" : unless,
-                             two(increments.metric), two(increments.inch))},
+       .notes = {fmt::format("{}the control reads it in least increments: {} mm or {} inch, not {}", sure ? "" : unless,
+                             read(increments.metric), read(increments.inch), counts)},
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
 }
 

@@ -27,6 +27,8 @@ void LineScanner::scanHead() {
       ++at_;
       takeNumber();
       hasWord_ = true;
+    } else if (peek(1) == '(') {
+      ++at_; // marks a remark above the O word
     }
     return;
   case '<': scanAngle(); return;

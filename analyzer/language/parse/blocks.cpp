@@ -215,8 +215,10 @@ void Parser::readBlockSkip() {
     level = levelIsFine ? static_cast<std::uint8_t>(*number) : 1;
     advance();
   }
-  if (!levelIsFine || (!levelIsWritten && at(TokenKind::Slash)))
-    issue(SyntaxIssueKind::BlockSkipLevel, {slash.begin, at(TokenKind::Slash) ? token_.end : lastEnd_}, {}, Broken::No);
+  const bool isDouble = !levelIsWritten && at(TokenKind::Slash); // a remark of other languages, or a slip
+  if (!levelIsFine || isDouble)
+    issue(SyntaxIssueKind::BlockSkipLevel, {slash.begin, at(TokenKind::Slash) ? token_.end : lastEnd_}, {},
+          isDouble ? Broken::Yes : Broken::No);
   if (headOfBlock_) {
     block_.flags |= Block::kSkip;
     block_.skipLevel = level;

@@ -35,7 +35,10 @@ void print(std::string_view text) { writeTo(stdout, text); }
 
 void printError(std::string_view message) { writeTo(stderr, "feedhold: error: " + std::string(message) + "\n"); }
 
-void printAside(std::string_view text) { writeTo(stderr, text); }
+void printAside(std::string_view text) {
+  std::fflush(stdout); // both may go to one place
+  writeTo(stderr, text);
+}
 
 bool outputArrived() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 

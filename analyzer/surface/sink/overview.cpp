@@ -18,12 +18,14 @@ struct ProgramRow {
   SeverityCounts counts;
 };
 
-/// The file, and the program where the file holds several.
+/// The file, and the program where the file holds several.  Subroutines of o-words are parts of one program.
 std::string programOf(const CheckedFile &file, const Finding &finding) {
   const auto after = std::find_if(file.programs.begin(), file.programs.end(), [&](const ProgramHead &head) {
     return finding.diagnostic.span.begin < head.header.begin;
   });
-  if (file.programs.size() < 2 || after == file.programs.begin() || std::prev(after)->name.empty())
+  const bool hasOWords = std::any_of(file.programs.begin(), file.programs.end(),
+                                     [](const ProgramHead &head) { return head.name.starts_with('o'); });
+  if (file.programs.size() < 2 || hasOWords || after == file.programs.begin() || std::prev(after)->name.empty())
     return file.path;
   return fmt::format("{} in {}", std::prev(after)->name, file.path);
 }

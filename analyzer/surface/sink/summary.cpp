@@ -34,8 +34,6 @@ void countFixes(const Finding &finding, Counts &counts) {
 Counts count(const Report &report) {
   Counts counts;
   for (const CheckedFile &file : report.result.files) {
-    if (!file.foreign.empty())
-      continue; // counted as refused
     counts.hidden += hiddenIn(file);
     for (const Finding &finding : file.findings) {
       if (finding.suppressed) {
@@ -79,7 +77,7 @@ std::string_view choiceInWords(DialectChoice choice) {
   case DialectChoice::Config: return "by feedhold.toml";
   case DialectChoice::Guess: return "by its text";
   case DialectChoice::FolderVote: return "by the other files of its folder";
-  case DialectChoice::Fallback: return "by default";
+  case DialectChoice::Fallback: break; // has a line of its own
   }
   FEEDHOLD_UNREACHABLE("a way to choose a dialect");
 }
@@ -96,6 +94,14 @@ std::string filesInWords(const std::vector<std::string_view> &files, bool isOnly
   return fmt::format(" ({}{})", fmt::join(first, ", "), more);
 }
 
+/// Nothing in these files shows their control: what is said of them may be wrong throughout.
+std::string unshownPart(std::string_view dialect, const std::vector<std::string_view> &files) {
+  return fmt::format("{} not show which control {} for, and {} checked as {}{}: set the right one\n",
+                     files.size() == 1 ? "1 file does" : fmt::format("{} files do", files.size()),
+                     files.size() == 1 ? "it is" : "they are", files.size() == 1 ? "was" : "were", dialect,
+                     filesInWords(files, false));
+}
+
 /// A line for each dialect: how many files, or which where there are several dialects, and who chose it.
 std::string dialectsInWords(const CheckResult &result) {
   std::map<std::string_view, FilesByChoice> chosen;
@@ -110,9 +116,13 @@ std::string dialectsInWords(const CheckResult &result) {
   for (const auto &[dialect, choices] : chosen) {
     std::vector<std::string> parts;
     for (const auto &[choice, files] : choices)
-      parts.push_back(
-          fmt::format("{} {}{}", files.size(), choiceInWords(choice), filesInWords(files, chosen.size() == 1)));
-    text += fmt::format("dialect {}: {}\n", dialect, fmt::join(parts, ", "));
+      if (choice == DialectChoice::Fallback)
+        text += unshownPart(dialect, files);
+      else
+        parts.push_back(
+            fmt::format("{} {}{}", files.size(), choiceInWords(choice), filesInWords(files, chosen.size() == 1)));
+    if (!parts.empty())
+      text += fmt::format("dialect {}: {}\n", dialect, fmt::join(parts, ", "));
   }
   return isGuessed ? text + "to choose another dialect, set `dialect` in feedhold.toml or give --dialect\n" : text;
 }

@@ -20,6 +20,7 @@ std::string refusal(const CheckedFile &file, const Finding &finding) {
 
 std::string writeText(const Report &report) {
   std::string text;
+  std::string refusals; // behind the findings, where they are seen
   const auto fileOf = [&](FileId id) -> const SourceFile & { return report.result.files[id.index()].source; };
   const RenderOptions options{.colour = report.colour};
   for (const Cause &cause : causesOf(report)) {
@@ -27,7 +28,7 @@ std::string writeText(const Report &report) {
     const Finding &finding = *cause.places.front().finding;
     const std::string others = otherPlaces(cause);
     if (!file.foreign.empty()) {
-      text += refusal(file, finding) + (others.empty() ? "" : fmt::format("   = note: {}\n", others)) + "\n";
+      refusals += refusal(file, finding) + (others.empty() ? "" : fmt::format("   = note: {}\n", others)) + "\n";
       continue;
     }
     const std::string severity = std::string(nameOf(finding.severity)) + (finding.suppressed ? ", allowed" : "");
@@ -37,7 +38,7 @@ std::string writeText(const Report &report) {
     text += render(diagnostic, {severity, finding.rule->name}, file.source, fileOf, options);
     text += '\n';
   }
-  return text;
+  return text + refusals;
 }
 
 std::string writeConcise(const Report &report) {

@@ -36,6 +36,12 @@ TEST(Guess, Haas) {
   EXPECT_EQ(guessed("#10000 = #3020\nG103 P1\nIF [#10000 GT 5] GOTO 10\nN10 M30\n"), "haas-ngc");
 }
 
+TEST(Guess, RemarksBehindColons) {
+  EXPECT_EQ(guessed("%\n:(HYPOTENUSE)\n:(A = ONE SIDE)\n:(C = THE OTHER)\n:(V = RESULT)\nO9001\n"
+                    "#[#22] = SQRT[[#3 * #3] - [#1 * #1]]\nM99\n%\n"),
+            "fanuc-30i");
+}
+
 TEST(Guess, MitsubishiAndRelatives) {
   EXPECT_EQ(guessed("IF[#4012EQ54]GOTO2\n#900010=#410+1\nN2M99\n"), "mitsubishi-m700");
   EXPECT_EQ(guessed("IF [#11 EQ #0] THEN (NO ARGUMENT)\n#3006=1(NO H)\nENDIF\nM99\n", "CHECK.EIA"), "mitsubishi-m700");

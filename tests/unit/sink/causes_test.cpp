@@ -107,5 +107,16 @@ TEST_F(Causes, WorstProgramsComeFirst) {
       << summary(report());
 }
 
+TEST_F(Causes, SubroutinesOfOWordsAreOneProgram) {
+  result_.files = {file("a.nc", "O1\n#1=#500\n"), file("b.ngc", "o<x> sub\n?\no<x> endsub\n?\n")};
+  result_.files[1].programs = {{"o<x>", result_.files[1].source.lineSpan(1)},
+                               {"", result_.files[1].source.lineSpan(3)}};
+  add(0, kUnset, 2, "`#500` is never set");
+  add(1, kText, 2, "unexpected text");
+  add(1, kText, 4, "other text");
+  EXPECT_EQ(summary(report()).substr(0, 54), "worst first:\n  2 errors   b.ngc\n  1 warning  a.nc\n\n2 e")
+      << summary(report());
+}
+
 } // namespace
 } // namespace feedhold

@@ -120,6 +120,28 @@ TEST_F(Sink, SummaryNamesTheFilesOfEachDialect) {
             std::string::npos);
 }
 
+TEST_F(Sink, SummarySetsApartWhatShowsNoControl) {
+  CheckedFile other = result_.files[0];
+  other.path = "turn.nc";
+  other.choice = DialectChoice::Fallback;
+  result_.files.push_back(other);
+  EXPECT_NE(summary(report()).find("\n1 file does not show which control it is for, and was checked as fanuc-30i "
+                                   "(turn.nc): set the right one\ndialect fanuc-30i: 1 by its text\n"),
+            std::string::npos);
+}
+
+TEST_F(Sink, RefusalsStandBehindTheFindings) {
+  CheckedFile other = result_.files[0];
+  result_.files[0].foreign = "Sinumerik";
+  other.path = "turn.nc";
+  other.findings[1].diagnostic.message = "a broken block";
+  result_.files.push_back(other);
+  const std::string text = writeText(report());
+  EXPECT_LT(text.find("error: a broken block"), text.find("error: cell 1/part.nc"));
+  EXPECT_EQ(summary(report()).find("2 errors in 1 file"), summary(report()).find("2 errors"))
+      << "a refusal is an error, as in the other formats";
+}
+
 TEST_F(Sink, FindingsBelowTheSeverityAreCountedOnly) {
   result_.files[0].minSeverity = Severity::Warning;
   result_.files[0].findings[0].suppressed = false;

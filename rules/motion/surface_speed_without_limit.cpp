@@ -1,0 +1,95 @@
+// surface-speed-without-limit: `G96 S255 M03`, and no `G50 S` in the program.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feedhold::rules::surface_speed_without_limit {
+namespace {
+
+bool isAcross(const Word &word) { return word.address() == 'X' && !word.has(Word::kArgument); }
+
+/// Follows G96 and the moves in X through the text of one program.
+class Reader {
+public:
+  explicit Reader(const FileContext &context) : context_(context) {}
+
+  void read(BlockId block) {
+    mayBeLimited_ = mayBeLimited_ || mayLimit(block);
+    if (const Word *code = findAction(context_.tree, block, context_.dialect, {CodeAction::ConstantSurface})) {
+      surface_ = code;
+      first_ = first_ ? first_ : code;
+    }
+    if (findAction(context_.tree, block, context_.dialect, {CodeAction::ConstantSpeed}))
+      surface_ = nullptr;
+    // A code of its own, such as G28 or G50, gives X another meaning.
+    if (!surface_ || centre_ || meansOther(block))
+      return;
+    for (const Word &word : context_.tree.wordsOf(block))
+      if (isAcross(word) && word.isNumber() && (word.number().isZero() || word.number().isNegative()))
+        centre_ = Centre{surface_, &word};
+  }
+
+  void report(const Reporter &reporter) const {
+    if (mayBeLimited_ || !first_)
+      return;
+    const Word &code = centre_ ? *centre_->surface : *first_;
+    Diagnostic diagnostic{
+        .message = fmt::format("{} without a limit of the spindle speed", context_.quoted(code.span())),
+        .span = code.span(),
+        .notes = {centre_ ? "at the centre the spindle runs at the highest speed of the machine, or at the limit that "
+                            "another program has left: the chuck may lose the part"
+                          : "the spindle gets faster the smaller the diameter is, up to the highest speed of the "
+                            "machine or the limit that another program has left",
+                  "write `G50 S` with the highest speed for this chuck and part before it"}};
+    if (centre_)
+      diagnostic.labels = {{centre_->word->span(), "to the centre"}};
+    reporter.report(std::move(diagnostic), centre_ ? Severity::Warning : Severity::Info);
+  }
+
+private:
+  struct Centre {
+    const Word *surface; // the G96 in force
+    const Word *word;    // the X
+  };
+
+  /// `G50 S1500`, or what is not seen here: a call.
+  bool mayLimit(BlockId block) const {
+    return !context_.model.callsIn(block, block.next()).empty() ||
+           (findAction(context_.tree, block, context_.dialect, {CodeAction::CoordinateSet}) &&
+            findWord(context_.tree, block, 'S'));
+  }
+  bool meansOther(BlockId block) const {
+    return findAction(context_.tree, block, context_.dialect,
+                      {CodeAction::CoordinateSet, CodeAction::ReferenceReturn, CodeAction::SecondReference,
+                       CodeAction::MachineMove, CodeAction::Dwell, CodeAction::Thread, CodeAction::TurningCycle}) ||
+           meansOwnWords(context_.tree, block, context_.dialect);
+  }
+
+  const FileContext &context_;
+  const Word *surface_ = nullptr; // in force
+  const Word *first_ = nullptr;
+  std::optional<Centre> centre_; // the first move to it
+  bool mayBeLimited_ = false;
+};
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.machine != MachineKind::Turning || startedBy(context, program) != StartedBy::Operator)
+    return;
+  Reader reader(context);
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next())
+    reader.read(block);
+  reader.report(reporter);
+}
+
+} // namespace
+
+extern const Rule surfaceSpeedWithoutLimit;
+const Rule surfaceSpeedWithoutLimit{
+    .info = {"surface-speed-without-limit", Category::Motion, Severity::Warning,
+             "Reports constant surface speed in a main program of a lathe that limits the spindle speed nowhere."},
+    .hooks = {.program = check}};
+
+} // namespace feedhold::rules::surface_speed_without_limit
