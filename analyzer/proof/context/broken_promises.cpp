@@ -37,7 +37,7 @@ const BrokenPromises::Broken *BrokenPromises::broken(const GivenVariables &given
 
 /// From these inputs alone.
 std::vector<BrokenPromises::Broken> BrokenPromises::follow(const GivenVariables &given) const {
-  FollowedRun run(subject_, given, subject_.options.arithmetic, CompensationIs::Claim);
+  FollowedRun run(subject_, given, subject_.options.arithmetic, Outcomes::All);
   std::vector<Broken> broken;
   for (Question &question : promisesOf_(run.program()))
     if (const PathGoal *goal = question.open.empty() ? brokenOutright(run.store(), question) : nullptr)

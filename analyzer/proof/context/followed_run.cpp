@@ -5,23 +5,25 @@ namespace feedhold::prove {
 namespace {
 
 /// The inputs may be outside of the contract, too: a program answers for the calls that it refuses.
-Exploration explored(ProofStart &start, const ProofSubject &subject, CompensationIs compensation) {
+Exploration explored(ProofStart &start, const ProofSubject &subject, Outcomes outcomes) {
   ExploreOptions options = start.exploreOptions(subject, exactOptions());
   options.assumptions.clear();
-  if (compensation == CompensationIs::Stop)
+  if (outcomes == Outcomes::Usual) {
+    start.interpretation().takeUsual();
     options.cutterOffset = {};
+  }
   return explore(start.interpretation(), subject.programs, subject.program, start.entry(), options);
 }
 
 } // namespace
 
 FollowedRun::FollowedRun(const ProofSubject &subject, const GivenVariables &given, Arithmetic arithmetic,
-                         CompensationIs compensation)
+                         Outcomes outcomes)
     : options_{.guards = InferGuards::No,
                .arithmetic = arithmetic,
                .missing = subject.options.missing,
                .contractsOf = subject.options.contractsOf},
       subject_{subject.programs, subject.program, subject.contracts, options_}, start_(subject_, &given),
-      found_(explored(start_, subject_, compensation)) {}
+      found_(explored(start_, subject_, outcomes)) {}
 
 } // namespace feedhold::prove

@@ -5,13 +5,12 @@
 
 namespace feedhold::prove {
 
-/// Whether cutter compensation is a claim about the path of the tool's centre, or a stop that may come.
-enum class CompensationIs : std::uint8_t { Claim, Stop };
+/// Of what no text and no manual says.  Usual: as in a run of the machine, which follows cutter compensation by itself.
+enum class Outcomes : std::uint8_t { All, Usual };
 
 class FollowedRun {
 public:
-  FollowedRun(const ProofSubject &subject, const GivenVariables &given, Arithmetic arithmetic,
-              CompensationIs compensation);
+  FollowedRun(const ProofSubject &subject, const GivenVariables &given, Arithmetic arithmetic, Outcomes outcomes);
 
   ExploredProgram program() { return {subject_, start_, found_}; }
   smt::TermStore &store() { return start_.store(); }

@@ -104,7 +104,7 @@ WitnessSearch sampledRuns(const ProofSubject &subject, ProofStart &start, std::v
   options.missing = subject.options.missing;
   runs.startFrom(std::move(options), start.place(), start.openStart(subject.dialect()));
   runs.followExactly([&subject](const GivenVariables &given) {
-    return FollowedRun(subject, given, Arithmetic::Exact, CompensationIs::Stop).found();
+    return FollowedRun(subject, given, Arithmetic::Exact, Outcomes::Usual).found();
   });
   runs.sample();
   return runs;

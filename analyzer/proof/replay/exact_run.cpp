@@ -30,7 +30,6 @@ smt::Number inputNumber(const SymbolicInterpretation &interpretation, double val
 }
 
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given) {
-  interpretation.takeUsual();
   smt::TermStore &store = interpretation.store();
   std::map<std::uint32_t, SymbolicValue> values;
   for (const auto &[variable, value] : given.entries())
@@ -61,6 +60,7 @@ Exploration exploreExactly(const ProgramSet &programs, Callee program, const Giv
   const Dialect &dialect = *programs.file(program.file).dialect;
   SymbolicInterpretation interpretation(store, dialect);
   startExactly(interpretation, given);
+  interpretation.takeUsual();
   const ModalTable modes(dialect);
   interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
   SymbolicState entry = symbolicEntry(interpretation);

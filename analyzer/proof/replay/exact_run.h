@@ -22,7 +22,7 @@ enum class Agreement : std::uint8_t {
 ExploreOptions exactOptions();
 /// The number that an input of the machine is: what was typed, or the number of the control that stands for it.
 smt::Number inputNumber(const SymbolicInterpretation &interpretation, double value);
-/// The interpretation starts from these inputs, and where the control decides it does as runs of the machine do.
+/// The interpretation starts from these inputs.
 void startExactly(SymbolicInterpretation &interpretation, const GivenVariables &given);
 
 /// Each input by its number; no value: vacant.  Then the readings, and the start.
@@ -34,7 +34,7 @@ struct InputsKey {
 };
 InputsKey keyOf(const GivenVariables &given);
 
-/// The program from these inputs, without a contract.
+/// The program from these inputs, without a contract; where the control decides, as runs of the machine have it.
 Exploration exploreExactly(const ProgramSet &programs, Callee entry, const GivenVariables &given);
 
 /// The exact runs of one program, each followed once.

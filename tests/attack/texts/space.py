@@ -60,7 +60,7 @@ class Space:
         def slab(p):
             return min([min(p[i] - low, high - p[i]) for i, low, high in sides], default=math.inf)
         if shape == "BOX":
-            return Part(slab, lambda t: [near_box(t, sides)])
+            return Part(slab, to_the_rim(lambda t: [near_box(t, sides)], sides))
         if shape == "CYLINDER":
             axis = "XYZ".index(words[words.index("AXIS") + 1]) if "AXIS" in words else 2
             plane = [i for i in range(3) if i != axis]
@@ -74,7 +74,8 @@ class Space:
                 beside = list(place)
                 beside[plane[0]] = min(max(t[plane[0]], centre[0] - radius), centre[0] + radius)
                 return [place, beside]
-            return Part(lambda p: min(slab(p), radius - math.hypot(*(p[i] - c for i, c in zip(plane, centre)))), nearest)
+            return Part(lambda p: min(slab(p), radius - math.hypot(*(p[i] - c for i, c in zip(plane, centre)))),
+                        to_the_rim(nearest, sides))
         if shape == "SPHERE":
             centre = [self.at(clause, letter) for letter in "XYZ"]
             radius = self.number(words[words.index("RADIUS") + 1])
@@ -84,7 +85,7 @@ class Space:
                        re.findall(rf"X({NUMBER[1:-2]}) Y({NUMBER[1:-2]})", clause)]
             middle = [sum(c[i] for c in corners) / len(corners) for i in (0, 1)]
             return Part(lambda p: min(slab(p), inside_polygon(p[0], p[1], corners)),
-                        lambda t: [[*c, near_box(t, sides)[2]] for c in (middle, *corners)])
+                        to_the_rim(lambda t: [[*c, near_box(t, sides)[2]] for c in (middle, *corners)], sides))
         if shape == "WHERE":
             return Part(self.where(clause[clause.index("WHERE") + 5:]), lambda t: [])
         raise Unsaid(shape)
@@ -253,9 +254,13 @@ def near_box(tip, sides):
     place = list(tip)
     for i, low, high in sides:
         place[i] = min(max(place[i], low), high)
-        if i == 2 and high > low > -math.inf and high < math.inf:
-            place[i] = max(min((low + high) / 2, place[i]), place[i])
     return place
+
+
+def to_the_rim(aims, sides):
+    """Also the top of the region above each aim: a rounded tool is wider there than at its tip."""
+    tops = [high for i, _, high in sides if i == 2 and high < math.inf]
+    return lambda tip: [*aims(tip), *([aim[0], aim[1], top] for aim in aims(tip) for top in tops)]
 
 
 BELOW = tuple(0.05 * 1.35 ** k for k in range(30))
