@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace feedhold::rules::arc_radius_too_small {
 namespace {
@@ -17,9 +18,12 @@ public:
   ArcRadiusTooSmall(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void before(NodeId node, const AbstractState &state) override {
-    if (view_.mayHave(node, 'R'))
-      for (const Axis axis : kAllAxes)
-        start_[indexOf(axis)] = placeOf(state, axis);
+    if (!view_.mayHave(node, 'R'))
+      return;
+    if (mayBeTrue(state.transformed) || isHavocked(state) || !state.modalCalls.empty())
+      unclear_.insert(node);
+    for (const Axis axis : kAllAxes)
+      start_[indexOf(axis)] = placeOf(state, axis);
   }
   void after(NodeId node, const AbstractState &state) override {
     if (!view_.mayHave(node, 'R') || mayBeTrue(state.transformed) || isHavocked(state) || !state.modalCalls.empty() ||
@@ -39,6 +43,11 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    // In a plane that is known the run ends here, and nothing comes after the block.
+    for (const AlarmFact &alarm : facts.alarms())
+      if (alarm.kind == AlarmKind::ArcTooShort && alarm.always && !unclear_.contains(alarm.node))
+        if (const Word *radius = wordOf(alarm.node, 'R'); radius && !radii_.contains(alarm.node))
+          tellTooSmall(facts, alarm.node, *radius, context, reporter);
     for (const auto &[node, radius] : radii_) {
       if (fits_.at(node) == Fit::TooSmall) {
         tellTooSmall(facts, node, *radius, context, reporter);
@@ -131,6 +140,7 @@ private:
   std::array<std::optional<double>, kAxisCount> start_; // of the node that is being executed
   std::map<NodeId, const Word *> radii_;                // of arcs
   std::map<NodeId, Fit> fits_;                          // in all states
+  std::set<NodeId> unclear_;                            // in some state
   std::map<NodeId, bool> incremental_;                  // in all states
 };
 

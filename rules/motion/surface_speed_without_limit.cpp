@@ -1,4 +1,5 @@
 // surface-speed-without-limit: `G96 S255 M03`, and no `G50 S` in the program.
+#include "language/dialect/code_name.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ public:
                             "another program has left: the chuck may lose the part"
                           : "the spindle gets faster the smaller the diameter is, up to the highest speed of the "
                             "machine or the limit that another program has left",
-                  "write `G50 S` with the highest speed for this chuck and part before it"}};
+                  fmt::format("write `{} S` with the highest speed for this chuck and part before it", limitCode())}};
     if (centre_)
       diagnostic.labels = {{centre_->word->span(), "to the centre"}};
     reporter.report(std::move(diagnostic), centre_ ? Severity::Warning : Severity::Info);
@@ -54,11 +55,18 @@ private:
     const Word *word;    // the X
   };
 
-  /// `G50 S1500`, or what is not seen here: a call.
+  /// `G50 S1500`, `G92 S1500`, or what is not seen here: a call.  Which of the two it is depends on the G code system,
+  /// which the text may not show.
   bool mayLimit(BlockId block) const {
-    return !context_.model.callsIn(block, block.next()).empty() ||
-           (findAction(context_.tree, block, context_.dialect, {CodeAction::CoordinateSet}) &&
-            findWord(context_.tree, block, 'S'));
+    const bool sets = std::ranges::any_of(context_.tree.wordsOf(block), [](const Word &word) {
+      return word.address() == 'G' && (word.integer() == 50U || word.integer() == 92U);
+    });
+    return !context_.model.callsIn(block, block.next()).empty() || (sets && findWord(context_.tree, block, 'S'));
+  }
+  /// Of the G code system in force.
+  std::string limitCode() const {
+    const auto sets = std::ranges::find(context_.dialect.gCodes, CodeAction::CoordinateSet, &Code::action);
+    return sets == context_.dialect.gCodes.end() ? "G50" : codeName('G', sets->tenths);
   }
   bool meansOther(BlockId block) const {
     return findAction(context_.tree, block, context_.dialect,
