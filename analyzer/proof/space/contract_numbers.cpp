@@ -2,6 +2,7 @@
 
 #include "base/support/match.h"
 #include "meaning/semantics/evaluate.h"
+#include "proof/symbolic/contract_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,9 +48,8 @@ private:
 
 ContractNumbers::ContractNumbers(const ProgramSet &programs, Callee program, const FileContracts &contracts,
                                  const RunOptions &run)
-    : programs_(programs), file_(programs.file(program.file)), contracts_(contracts), given_(run.variables),
-      modes_(*file_.dialect), interpretation_(*file_.dialect, run.variables),
-      state_(startState(interpretation_, modes_, run.start)) {
+    : programs_(programs), file_(programs.file(program.file)), contracts_(contracts), modes_(*file_.dialect),
+      interpretation_(*file_.dialect, run.variables), state_(startState(interpretation_, modes_, run.start)) {
   for (const auto &[group, code] : run.codes)
     state_.codes[group] = code;
   putInForce(run.variables.start, state_);
@@ -79,6 +79,14 @@ bool ContractNumbers::holds(ExpressionId condition, const geometry::Point<double
   return within<bool>(state_, [&](auto &context) { return evaluateCondition(context, condition); });
 }
 
+ConcreteValue ContractNumbers::atStart(std::uint32_t variable) const {
+  if (variable <= kLocalVariables)
+    return state_.locals[variable];
+  const std::uint32_t cell = cellOf(*file_.dialect, variable);
+  const ConcreteValue *held = state_.variables.find(cell);
+  return held ? *held : interpretation_.unwritten(state_, cell);
+}
+
 /// With what POS, ENTRY and OLD stand for.
 ContractNumbers::State ContractNumbers::behind(const State &end) const {
   State state = end;
@@ -86,10 +94,8 @@ ContractNumbers::State ContractNumbers::behind(const State &end) const {
     state.variables.set(positionVariable(letterOf(axis)), end.at(axis));
     state.variables.set(entryVariable(letterOf(axis)), state_.at(axis));
   }
-  for (std::uint32_t local = 1; local <= kLocalVariables; ++local)
-    state.variables.set(oldVariable(local), state_.locals[local]);
-  for (const auto &[variable, value] : given_.entries())
-    state.variables.set(oldVariable(variable), value);
+  for (const std::uint32_t variable : oldVariablesIn(contracts_))
+    state.variables.set(oldVariable(variable), atStart(variable));
   return state;
 }
 
@@ -99,7 +105,8 @@ bool ContractNumbers::isClearlyBroken(const Ensure &ensure, const RunResult &end
       [&](const std::vector<ModalCode> &codes) {
         return std::ranges::any_of(codes, [&](const ModalCode &code) {
           const Code *row = code.address == 'G' ? findGCode(*file_.dialect, code.tenths) : nullptr;
-          return row != nullptr && modes_.indexOf(*row) != end.state.codes[row->group];
+          const auto inForce = row ? end.state.codes[row->group] : ConcreteInterpretation::kNoCode;
+          return inForce != ConcreteInterpretation::kNoCode && modes_.indexOf(*row) != inForce;
         });
       },
       [&](ExpressionId promise) {

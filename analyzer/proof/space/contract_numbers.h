@@ -20,12 +20,12 @@ public:
 private:
   using State = MachineState<ConcreteInterpretation>;
   template <typename Result, typename Evaluate> Result within(State &state, Evaluate &&evaluateIt);
+  ConcreteValue atStart(std::uint32_t variable) const;
   State behind(const State &end) const;
 
   const ProgramSet &programs_;
   const ProgramFile &file_;
   const FileContracts &contracts_;
-  GivenVariables given_;
   ModalTable modes_;
   ConcreteInterpretation interpretation_;
   State state_; // at the start

@@ -38,7 +38,8 @@ auto inContract(SymbolicInterpretation &interpretation, const ProgramSet &progra
   return result;
 }
 
-/// The variables of whose values on entry some clause speaks: `OLD[#510]`.
+} // namespace
+
 std::set<std::uint32_t> oldVariablesIn(const FileContracts &contracts) {
   std::set<std::uint32_t> found;
   for (const Expression &expression : contracts.tree.expressions) {
@@ -52,8 +53,6 @@ std::set<std::uint32_t> oldVariablesIn(const FileContracts &contracts) {
   }
   return found;
 }
-
-} // namespace
 
 ContractTerms::ContractTerms(SymbolicInterpretation &interpretation, const ProgramSet &programs, FileId file,
                              const FileContracts &contracts)

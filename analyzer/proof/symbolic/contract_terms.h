@@ -20,6 +20,8 @@ struct InputEnds {
 
 /// What a contract says of the numbers that inputs hold, by variable.
 std::map<std::uint32_t, WrittenInput> writtenInputs(const FileContracts &file, const Contract &contract);
+/// The variables of whose values on entry some clause speaks: `OLD[#510]`.
+std::set<std::uint32_t> oldVariablesIn(const FileContracts &contracts);
 /// The variables of programs that clauses of the file name.
 std::set<std::uint32_t> variablesIn(const FileContracts &contracts);
 /// What a variable of programs holds in the state.
