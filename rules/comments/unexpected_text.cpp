@@ -48,9 +48,77 @@ std::optional<std::string_view> oWordMeant(const SyntaxIssue &issue, const FileC
   return std::nullopt;
 }
 
+/// Lines that version control leaves around two versions of some others.
+constexpr std::array<std::string_view, 3> kConflictMarks = {"<<<<<<<", "=======", ">>>>>>>"};
+
+/// Which of them the issue stands at; absent: at none, or without one that begins a conflict before it.
+std::optional<std::size_t> conflictMarkAt(const SyntaxIssue &issue, const FileContext &context) {
+  const Span all{0, issue.span.end};
+  const std::string_view before = context.text(all);
+  const std::size_t newline = before.rfind('\n', issue.span.begin);
+  const std::size_t line = newline == std::string_view::npos ? 0 : newline + 1;
+  const std::string_view rest =
+      context.text({static_cast<std::uint32_t>(line), context.tree.blocks[context.tree.blockAt(issue.span.begin)].end});
+  const auto mark = std::ranges::find_if(kConflictMarks, [&](std::string_view each) { return rest.starts_with(each); });
+  if (mark == kConflictMarks.end())
+    return std::nullopt;
+  const bool isOpen = mark == kConflictMarks.begin() || before.starts_with(kConflictMarks[0]) ||
+                      before.find("\n<<<<<<<") != std::string_view::npos;
+  return isOpen ? std::optional<std::size_t>(mark - kConflictMarks.begin()) : std::nullopt;
+}
+
+void reportConflict(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  std::vector<Label> labels;
+  for (const SyntaxIssue &other : context.tree.issues)
+    if (other.kind == issue.kind && other.span.begin > issue.span.begin && labels.size() < 2)
+      if (const auto mark = conflictMarkAt(other, context); mark == labels.size() + 1)
+        labels.push_back({other.span, *mark == 1 ? "the other version begins" : "and ends"});
+  reporter.report({.message = "unresolved merge conflict: two versions of these lines stand in the program",
+                   .span = issue.span,
+                   .labels = std::move(labels),
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                             "choose one version, and delete the other together with the lines `<<<<<<<`, `=======` "
+                             "and `>>>>>>>`"}});
+}
+
+/// `IF [#1 GT 2]` on a control whose control words have a label.
+bool isUnlabelled(const SyntaxIssue &issue, const FileContext &context) {
+  if (issue.kind != SyntaxIssueKind::UnexpectedText || !context.dialect.grammar.oWords ||
+      !context.tree.wordsOf(context.tree.blockAt(issue.span.begin)).empty())
+    return false;
+  const std::string written = toLower(trimmed(context.text(issue.span)));
+  const std::string first = written.substr(0, written.find_first_of(" [\t"));
+  constexpr std::array<std::string_view, 8> kHeads = {"if",    "elseif",   "else",   "endif",
+                                                      "while", "endwhile", "repeat", "endrepeat"};
+  return std::ranges::find(kHeads, first) != kHeads.end();
+}
+
+/// Once for all of the file: they have one cause.
+void reportUnlabelled(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const auto isSame = [&](const SyntaxIssue &other) { return isUnlabelled(other, context); };
+  if (std::ranges::find_if(context.tree.issues, isSame)->span.begin != issue.span.begin)
+    return;
+  const auto others = std::ranges::count_if(context.tree.issues, isSame) - 1;
+  reporter.report(
+      {.message = others == 0 ? fmt::format("{} has no o-number", context.quoted(issue.span))
+                              : fmt::format("{} has no o-number, and {} more control words have none",
+                                            context.quoted(issue.span), others),
+       .span = issue.span,
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                 "write a label in front of each control word, one for each structure: `o100 if [..]`, `o100 else`, "
+                 "`o100 endif`"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isPlaceholder(context.text(issue.span)))
     return;
+  if (const auto mark = conflictMarkAt(issue, context)) {
+    if (*mark == 0)
+      reportConflict(issue, context, reporter);
+    return;
+  }
+  if (isUnlabelled(issue, context))
+    return reportUnlabelled(issue, context, reporter);
   if (const auto meant = oWordMeant(issue, context)) {
     reporter.report(
         {.message = fmt::format("{} is no o-word; did you mean `{}`?", context.quoted(issue.span), *meant),

@@ -17,9 +17,13 @@ public:
   CycleWithoutDepth(ProgramId program, const FileContext &context) : view_(program, context) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty() || isHavocked(state) ||
-        !isPlaneKnown(state))
+    if (!view_.findAction(node, kCycles) || view_.modalMotionWords(node).empty())
       return;
+    if (isHavocked(state) || !isPlaneKnown(state)) {
+      if (isUnlevelled(node))
+        places_.emplace(node, Missing{false, true});
+      return;
+    }
     const Missing missing{state.cycle.bottom.isVacant(), state.cycle.retract.isVacant()};
     const auto [at, isNew] = places_.emplace(node, missing);
     if (!isNew)
@@ -48,6 +52,23 @@ private:
     return view_.surely(state, ModalKind::Plane, {CodeAction::PlaneXY}) ||
            view_.surely(state, ModalKind::Plane, {CodeAction::PlaneZX}) ||
            view_.surely(state, ModalKind::Plane, {CodeAction::PlaneYZ});
+  }
+  /// The plane is that of power on, since the program states none, and no block so far, one behind the other, has an R.
+  bool isUnlevelled(NodeId node) const {
+    const FileContext &context = view_.context();
+    const Program &its = context.model.programs[view_.program()];
+    const BlockId cycle = view_.node(node).block;
+    if (context.dialect.machine != MachineKind::Milling || startedBy(context, view_.program()) != StartedBy::Operator ||
+        !context.model.jumpsOf(view_.program()).empty() || !context.model.loopsOf(view_.program()).empty() ||
+        !context.model.callsIn(its.first, cycle).empty())
+      return false;
+    for (BlockId block = its.first; block <= cycle; block = block.next())
+      if (findWord(context.tree, block, 'R') || context.tree.blocks[block].has(Block::kBroken) ||
+          !context.tree.statementsOf(block).empty() ||
+          findAction(context.tree, block, context.dialect,
+                     {CodeAction::PlaneXY, CodeAction::PlaneZX, CodeAction::PlaneYZ, CodeAction::Anything}))
+        return false;
+    return true;
   }
   struct Missing {
     bool depth;

@@ -19,7 +19,19 @@ struct Tools {
   bool moves = false;           // some Z moves
   bool hasPlane = false;        // and some Y: a mill, whatever the dialect
   bool hasOffset = false;       // G43, or what may set the length some other way
+  const Word *ofMove = nullptr; // G45 .. G48 with H, of the program itself
 };
+
+/// G45 to G48: H lengthens or shortens the moves of one block.
+const Word *offsetOfMove(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  if (findWord(tree, block, 'H'))
+    for (const Word &word : tree.wordsOf(block))
+      if (const Code *code = word.address() == 'G' ? codeOf(word, dialect) : nullptr)
+        if (code->tenths >= 450 && code->tenths <= 480 && code->action == CodeAction::OtherCycle &&
+            code->role == CodeRole::Plain)
+          return &word;
+  return nullptr;
+}
 
 bool setsLength(const Code &code) {
   constexpr std::array kSetting = {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthGiven,
@@ -68,13 +80,16 @@ private:
 
   void readBlock(const ProgramFile &file, BlockId block, Tools &tools, bool isOuter) const {
     const Word *depth = nullptr;
+    const Word *ofMove = offsetOfMove(*file.tree, block, *file.dialect);
+    if (isOuter && !tools.ofMove)
+      tools.ofMove = ofMove;
     bool isPosition = !file.tree->blocks[block].has(Block::kData);
     for (const Word &word : file.tree->wordsOf(block)) {
       if (word.address() == 'Z' && !word.has(Word::kArgument))
         depth = &word;
       else if (word.address() == 'Y')
         tools.hasPlane = true;
-      else if (word.address() == 'H')
+      else if (word.address() == 'H' && !ofMove)
         tools.hasOffset = true;
       if (!word.isCode())
         continue;
@@ -129,6 +144,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (!tools.change || !tools.moves || !tools.hasPlane || tools.hasOffset)
     return;
   std::vector<Label> labels;
+  if (tools.ofMove)
+    labels.push_back({tools.ofMove->span(), "shifts the end of this one move by H, and sets no tool length"});
   if (tools.depth)
     labels.push_back({tools.depth->span(), "moves the tool"});
   reporter.report(
@@ -137,7 +154,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
        .labels = std::move(labels),
        .notes = {"Z moves with the length offset of the program before, or with none: the depth is wrong by "
                  "the length of the tool",
-                 "write G43 and H in the first block that moves Z"}},
+                 tools.ofMove ? fmt::format("write G43 in place of {}", context.quoted(tools.ofMove->span()))
+                              : "write G43 and H in the first block that moves Z"}},
       needsOffset(tools, facts.program, context) || isHabitOfFolder(context) ? Severity::Warning : Severity::Info);
 }
 

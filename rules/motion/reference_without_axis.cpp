@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace feedhold::rules::reference_without_axis {
@@ -42,11 +43,51 @@ bool isIncremental(BlockId block, const Program &program, const FileContext &con
   return false;
 }
 
+bool namesAxis(BlockId block, const FileContext &context) {
+  return std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
+    return std::string_view("XYZABCUVWH").find(word.address()) != std::string_view::npos;
+  });
+}
+
+/// `G28 G91 G0.0`: the second G of a group, or a rapid with a point, was to be an axis.  A bare `G28` is the habit of
+/// shops whose control returns all axes.
+const Word *slip(BlockId block, const FileContext &context) {
+  std::array<bool, 256> groups{};
+  for (const Word &word : context.tree.wordsOf(block)) {
+    const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;
+    if (!code || code->group == 0)
+      continue;
+    if (groups[code->group] || (code->action == CodeAction::Rapid && word.has(Word::kPoint)))
+      return &word;
+    groups[code->group] = true;
+  }
+  return nullptr;
+}
+
+/// Without a word that makes the block mean something else.
+void checkBare(const Word &code, BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (namesAxis(block, context) || context.tree.blocks[block].has(Block::kBroken) ||
+      meansOwnWords(context.tree, block, context.dialect) || !context.model.callsIn(block, block.next()).empty())
+    return;
+  const Word *other = slip(block, context);
+  if (!other)
+    return;
+  reporter.report({.message = fmt::format("{} names no axis", context.quoted(code.span())),
+                   .span = code.span(),
+                   .labels = {{other->span(), "was this to be an axis?"}},
+                   .notes = {"without an axis most controls return none: the tool stays where it is, and what comes "
+                             "next, such as a tool change, happens there",
+                             fmt::format("write the axes in this block, such as `G91 {} {}`", context.text(code.span()),
+                                         context.dialect.machine == MachineKind::Turning ? "U0 W0" : "Z0")}});
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   const Word *code =
       findAction(context.tree, block, context.dialect, {CodeAction::ReferenceReturn, CodeAction::SecondReference});
-  if (!code || context.dialect.grammar.oWords || !holdsOnlyCodes(block, context)) // LinuxCNC returns all axes
+  if (!code || context.dialect.grammar.oWords) // LinuxCNC returns all axes
     return;
+  if (!holdsOnlyCodes(block, context))
+    return checkBare(*code, block, context, reporter);
   const Program &program = context.model.programs[context.model.programOf(block)];
   const auto next = behind(block, program, context);
   const bool isTurning = context.dialect.machine == MachineKind::Turning;
@@ -57,7 +98,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
                                      context)
                           : nullptr;
   if (!axis)
-    return;
+    return checkBare(*code, block, context, reporter);
   reporter.report({.message = fmt::format("{} names no axis: {} stands in a block of its own",
                                           context.quoted(code->span()), context.quoted(axis->span())),
                    .span = code->span(),
@@ -69,9 +110,9 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 } // namespace
 
 extern const Rule referenceWithoutAxis;
-const Rule referenceWithoutAxis{
-    .info = {"reference-without-axis", Category::Motion, Severity::Warning,
-             "Reports a reference return without axes when the next block has them, with 0 as increments."},
-    .hooks = {.block = check}};
+const Rule referenceWithoutAxis{.info = {"reference-without-axis", Category::Motion, Severity::Warning,
+                                         "Reports a reference return without axes when the next block has them, or "
+                                         "another code stands where they should."},
+                                .hooks = {.block = check}};
 
 } // namespace feedhold::rules::reference_without_axis

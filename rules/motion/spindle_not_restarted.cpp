@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace feedhold::rules::spindle_not_restarted {
@@ -103,17 +104,64 @@ void tellSpeed(const Section &section, const Section &other, const FileContext &
                              "write the speed of this tool"}});
 }
 
+/// M03 with S before the first tool change, and no cut in between: it was meant for the tool that is changed in.
+struct EarlyStart {
+  const Word *start = nullptr;
+  const Word *speed = nullptr;
+};
+EarlyStart startBefore(BlockId change, ProgramId program, const FileContext &context) {
+  const HiddenWork hidden(program, context);
+  EarlyStart early;
+  for (BlockId block = context.model.programs[program].first; block < change; block = block.next()) {
+    if (hidden.isIn(block))
+      return {};
+    for (const Word &word : context.tree.wordsOf(block)) {
+      const Code *code = word.isCode() ? codeOf(word, context.dialect) : nullptr;
+      if (word.address() == 'S')
+        early.speed = &word;
+      else if (isOneOf(code, kStarting))
+        early.start = &word;
+      else if (isOneOf(code, kDrilling) || isOneOf(code, kFeeding) || (code && code->action == CodeAction::SpindleStop))
+        return {};
+    }
+  }
+  return early.start && early.speed ? early : EarlyStart{};
+}
+
+/// `M03 S300`, `M06 T04`, and cuts without another M03 in the whole program.
+void checkEarly(std::span<const Section> sections, BlockId change, ProgramId program, const FileContext &context,
+                const Reporter &reporter) {
+  const bool isStarted =
+      std::ranges::any_of(sections, [](const Section &section) { return section.start || section.mayStartUnseen; });
+  if (sections.empty() || isStarted || !sections.front().cut)
+    return;
+  const EarlyStart early = startBefore(change, program, context);
+  if (early.start)
+    reporter.report(
+        {.message = fmt::format("no `M03` or `M04` comes between {} and this cut",
+                                context.quoted(sections.front().change->span())),
+         .span = sections.front().cut->span(),
+         .labels = {{early.start->span(), "started before the tool change"},
+                    {sections.front().change->span(), "the spindle stops for the tool change"}},
+         .notes = {"the tool is fed into the part with the spindle stopped",
+                   fmt::format("write {} and S behind the tool change", context.quoted(early.start->span()))}});
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Milling)
     return;
   const Reader reader(program, context);
   std::vector<Section> sections;
-  for (const ToolSection &tool : toolSectionsOf(program, context))
+  const std::vector<ToolSection> tools = toolSectionsOf(program, context);
+  for (const ToolSection &tool : tools)
     sections.push_back(reader.read(tool, sections.empty() ? nullptr : sections.back().lateSpeed));
   const auto starts = [](const Section &section) { return section.start && section.speed && section.cut; };
   const auto like = std::ranges::find_if(sections, starts);
-  if (like == sections.end())
+  if (like == sections.end()) {
+    if (!tools.empty())
+      checkEarly(sections, tools.front().first, program, context, reporter);
     return;
+  }
   const auto others = std::ranges::count_if(sections, starts);
   constexpr std::ptrdiff_t kHabit = 2;
   for (std::size_t i = 0; i < sections.size(); ++i) {

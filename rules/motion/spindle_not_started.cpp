@@ -29,7 +29,8 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts) || (isLathe_ && !isLateOnLathe(facts)))
+    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts) ||
+        (isLathe_ && !isLateOnLathe(facts) && !neverStartsOnLathe(facts)))
       return;
     const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
     Diagnostic diagnostic{.message = {},
@@ -47,8 +48,9 @@ public:
       if (const Word *mistyped = mistypedStart(facts))
         diagnostic.labels = {{mistyped->span(), "this code does not start the spindle"}};
     }
-    reporter.report(std::move(diagnostic),
-                    speaksOfSpindle(facts) || isStartedInFile() ? Severity::Warning : Severity::Info);
+    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) || isStartedInFile() || isOfMagazine(facts)
+                                               ? Severity::Warning
+                                               : Severity::Info);
   }
 
 private:
@@ -96,6 +98,30 @@ private:
     for (NodeId node = *first_.node(); node < facts.end(); node = node.next())
       startsLater = startsLater || starts(node);
     return hasSpeed && startsLater;
+  }
+  /// A whole program with a tool and a speed, and no M03 or M04 in its file.
+  bool neverStartsOnLathe(const FlowFacts &facts) const {
+    const FileContext &context = view_.context();
+    bool hasSpeed = false;
+    bool hasTool = false;
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
+      for (const Word *word : view_.wordsOf(node)) {
+        hasTool = hasTool || word->address() == 'T';
+        hasSpeed = hasSpeed || (word->address() == 'S' && !view_.findAction(node, {CodeAction::CoordinateSet}));
+      }
+    return hasSpeed && hasTool && !isStartedInFile() && comesToItsEnd(facts) &&
+           context.model.callsOf(view_.program()).empty();
+  }
+  /// A numbered program that changes tools and calls their lengths is for no plotter and no laser.
+  bool isOfMagazine(const FlowFacts &facts) const {
+    bool changes = false;
+    bool hasLength = false;
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next()) {
+      changes = changes || view_.findAction(node, {CodeAction::ToolChange});
+      hasLength = hasLength || view_.mayHave(node, 'H');
+    }
+    return changes && hasLength && comesToItsEnd(facts) &&
+           !view_.context().model.programs[view_.program()].name.empty();
   }
   const Word *mistypedStart(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
@@ -158,13 +184,15 @@ private:
     const auto words = view_.modalMotionWords(node);
     return words.size() == 1 && words.front()->address() == 'Z' && state.at(Axis::Z).number().interval().lo > 0;
   }
-  /// M codes of the machine builder often start a spindle, an air turbine, a laser.  A probe cuts nothing.
+  /// M codes of the machine builder often start a spindle, an air turbine, a laser; not one beside a return to the
+  /// reference position or a tool change, for which the spindle stands.  A probe cuts nothing.
   bool hasOtherSpindleCode(NodeId node) const {
     if (!view_.mayHave(node, 'M') && !view_.mayHave(node, 'G'))
       return false;
     for (const Word *word : view_.wordsOf(node)) {
       const Code *code = codeOf(*word, view_.context().dialect);
-      if (word->address() == 'M' && !code && !isMistypedStart(*word, node))
+      if (word->address() == 'M' && !code && !isMistypedStart(*word, node) &&
+          !view_.findAction(node, {CodeAction::ReferenceReturn, CodeAction::SecondReference, CodeAction::ToolChange}))
         return true;
       if (code && isSkip(code->role))
         return true;

@@ -10,32 +10,11 @@
 namespace feedhold::rules::cycle_in_contour {
 namespace {
 
-struct Contour {
-  const Jump *cycle; // its P
-  BlockId first;
-  BlockId last;
-};
-
-/// Contours that stand behind their cycle.
-std::vector<Contour> contoursOf(ProgramId program, const FileContext &context) {
-  std::vector<Contour> contours;
-  const auto jumps = context.model.jumpsOf(program);
-  for (const Jump &from : jumps) {
-    if (from.kind != JumpKind::ContourFrom || !from.target || *from.target <= from.block)
-      continue;
-    const auto to = std::ranges::find_if(
-        jumps, [&](const Jump &jump) { return jump.kind == JumpKind::ContourTo && jump.block == from.block; });
-    if (to != jumps.end() && to->target && *to->target >= *from.target)
-      contours.push_back({&from, *from.target, *to->target});
-  }
-  return contours;
-}
-
 /// The first thing in the contour that is no part of one.
 std::optional<Span> strangerIn(const Contour &contour, ProgramId program, const FileContext &context) {
   std::optional<Span> first;
   const auto note = [&](BlockId block, Span span) {
-    if (block >= contour.first && block <= contour.last && (!first || span.begin < first->begin))
+    if (contour.contains(block) && (!first || span.begin < first->begin))
       first = span;
   };
   for (const Jump &jump : context.model.jumpsOf(program))
@@ -51,7 +30,7 @@ std::optional<Span> strangerIn(const Contour &contour, ProgramId program, const 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   std::vector<Span> told;
   for (const Contour &contour : contoursOf(program, context)) {
-    const auto stranger = strangerIn(contour, program, context);
+    const auto stranger = contour.standsBehindCycle() ? strangerIn(contour, program, context) : std::nullopt;
     if (!stranger || std::ranges::find(told, *stranger) != told.end())
       continue;
     told.push_back(*stranger);

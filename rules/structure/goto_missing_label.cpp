@@ -34,6 +34,18 @@ std::string neighbours(const ProgramModel &model, ProgramId program, std::uint32
                      model.sequenceNumbers[*next].number);
 }
 
+/// `L1002` on a line of its own, which was to be `N1002`.
+const Word *labelMeant(ProgramId program, std::uint32_t number, const FileContext &context) {
+  const Program &its = context.model.programs[program];
+  for (BlockId block = its.first; block < its.last; block = block.next()) {
+    const auto words = context.tree.wordsOf(block);
+    if (words.size() == 1 && words.front().address() == 'L' && words.front().integer() == number &&
+        context.tree.statementsOf(block).empty())
+      return &words.front();
+  }
+  return nullptr;
+}
+
 Diagnostic missing(const Jump &jump, std::uint32_t number, const FileContext &context) {
   return {.message = fmt::format("{} has no target: this program has no `N{}`", context.quoted(jump.span), number),
           .span = jump.targetSpan,
@@ -94,6 +106,13 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     } else if (!jump.target && !isMotionCodeWithLetter(context, jump.block, jump.span)) {
       if (!dead)
         dead.emplace(context, program);
+      if (const Word *label = labelMeant(program, *number, context)) {
+        Diagnostic diagnostic = missing(jump, *number, context);
+        diagnostic.labels = {{label->span(), "was this to be the label?"}};
+        diagnostic.notes.back() = fmt::format("jumps look for N: write `N{}`", *number);
+        reporter.report(std::move(diagnostic));
+        continue; // what is not reached is so for want of these labels
+      }
       // code-after-end-of-tape speaks of jumps to blocks behind the closing `%`.
       if (!context.model.isBehindEnd(*number) && !dead->contains(jump.block))
         reporter.report(missing(jump, *number, context));

@@ -112,11 +112,51 @@ void checkLocal(ProgramId id, const FileContext &context, const Reporter &report
   }
 }
 
+/// Whether all that stands before a block of a subroutine is run through from its head, and none of it returns.
+bool isAlwaysReached(BlockId block, const Program &program, const FileContext &context) {
+  const auto oWords = context.model.oWordsIn(program.first, block);
+  return context.model.jumpsIn(program.first, block).empty() && !context.tree.blocks[block].has(Block::kSkip) &&
+         std::ranges::none_of(oWords, [](const OWordUse &use) {
+           return use.kind == OWordKind::Return || use.kind == OWordKind::Break || use.kind == OWordKind::Continue;
+         });
+}
+
+/// `o100 sub`, .., `M2`, `o100 endsub`: whoever calls it is never gone on with.
+void checkSubroutine(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  const Program &program = context.model.programs[id];
+  if (!program.name.isSubroutine || isStructureBroken(context, id))
+    return;
+  for (BlockId block = program.first; block < program.last; block = block.next()) {
+    const Word *end = isRead(context.tree.blocks[block])
+                          ? findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd)
+                          : nullptr;
+    const auto isAround = [&](const Construct &construct) {
+      return construct.kind != OWordKind::Sub && construct.parts.size() > 1 &&
+             context.model.oWords[construct.parts.front()].block < block &&
+             block < context.model.oWords[construct.parts.back()].block;
+    };
+    bool isConditional = false;
+    for (const Construct &construct : context.model.constructs)
+      isConditional = isConditional || isAround(construct);
+    if (!end || isConditional)
+      continue;
+    if (isAlwaysReached(block, program, context))
+      reporter.report({.message = fmt::format("{} in a subroutine ends the whole job: it never comes to its `endsub`",
+                                              context.quoted(end->span())),
+                       .span = end->span(),
+                       .labels = {{program.header, "the subroutine"}},
+                       .notes = {"whoever calls it is not gone on with: retracts, restored modes, a tool change",
+                                 "delete it, or write it behind `endsub`"}},
+                      Severity::Warning);
+    return;
+  }
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   checkLocal(id, context, reporter);
   const auto caller = foreignCaller(context, id);
   if (!caller)
-    return;
+    return checkSubroutine(id, context, reporter);
   const Program &program = context.model.programs[id];
   const BranchBlocks branches(context.model);
   std::optional<DeadBlocks> dead;

@@ -157,4 +157,29 @@ std::vector<const Loop *> LoopNest::around(BlockId block) const {
   return found;
 }
 
+std::optional<ContourCycle> contourCycleOf(const Code &code, const Dialect &dialect) {
+  if (code.role != CodeRole::Contour || code.action != CodeAction::TurningCycle)
+    return std::nullopt;
+  std::uint8_t before = 0;
+  for (const Code &other : dialect.gCodes)
+    if (other.role == code.role && other.action == code.action && other.tenths < code.tenths)
+      ++before;
+  return before <= static_cast<std::uint8_t>(ContourCycle::Pattern) ? std::optional(static_cast<ContourCycle>(before))
+                                                                    : std::nullopt;
+}
+
+std::vector<Contour> contoursOf(ProgramId program, const FileContext &context) {
+  std::vector<Contour> contours;
+  const auto jumps = context.model.jumpsOf(program);
+  for (const Jump &from : jumps) {
+    if (from.kind != JumpKind::ContourFrom || !from.target)
+      continue;
+    const auto to = std::ranges::find_if(
+        jumps, [&](const Jump &jump) { return jump.kind == JumpKind::ContourTo && jump.block == from.block; });
+    if (to != jumps.end() && to->target && *to->target >= *from.target)
+      contours.push_back({&from, *from.target, *to->target});
+  }
+  return contours;
+}
+
 } // namespace feedhold::rules

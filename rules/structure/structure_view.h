@@ -67,6 +67,22 @@ struct IfStructures {
 };
 IfStructures ifStructures(const FileContext &context, ProgramId program);
 
+/// The cycles of a lathe that name a contour, in the order of their codes in every table.
+enum class ContourCycle : std::uint8_t { Finishing, AlongZ, AlongX, Pattern };
+/// Absent for another code that names blocks by P and Q.
+std::optional<ContourCycle> contourCycleOf(const Code &code, const Dialect &dialect);
+
+/// The blocks that P and Q of a contour cycle name, Q not before P.
+struct Contour {
+  const Jump *cycle; // its P
+  BlockId first;
+  BlockId last;
+  bool contains(BlockId block) const { return first <= block && block <= last; }
+  /// It is machined where it stands behind the cycle, and not gone through again as plain blocks.
+  bool standsBehindCycle() const { return first > cycle->block; }
+};
+std::vector<Contour> contoursOf(ProgramId program, const FileContext &context);
+
 /// The sequence numbers of a program sorted by value, those of one value in order of the text.
 std::vector<SequenceNumber> sortedSequenceNumbers(const ProgramModel &model, ProgramId program);
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold::rules::missing_value {
 namespace {
 
@@ -14,7 +16,30 @@ bool isPlaceholder(std::string_view rest) {
   return !next.empty() && next.front() == '?';
 }
 
+/// `:(ROUGHING)`: the colon marks a remark, and is read as the letter O.
+bool isColonOfRemark(const SyntaxIssue &issue, const FileContext &context) {
+  return issue.kind == SyntaxIssueKind::MissingValue && context.text(issue.span) == ":" &&
+         context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end})
+             .starts_with('(');
+}
+
+/// Once for all of the file: they have one cause.
+void reportColons(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const auto isSame = [&](const SyntaxIssue &other) { return isColonOfRemark(other, context); };
+  if (std::ranges::find_if(context.tree.issues, isSame)->span.begin != issue.span.begin)
+    return;
+  const auto count = std::ranges::count_if(context.tree.issues, isSame);
+  reporter.report({.message = count == 1 ? "`:` stands in front of a remark"
+                                         : fmt::format("`:` stands in front of a remark, in {} blocks", count),
+                   .span = issue.span,
+                   .notes = {fmt::format("the control reads `:` as the letter O, without a number, and {}",
+                                         stopsWith(context.dialect, AlarmKind::NoDataAfterAddress)),
+                             "delete the `:`; the parentheses make the remark"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (isColonOfRemark(issue, context))
+    return reportColons(issue, context, reporter);
   if (isPlaceholder(context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end})))
     return;
   reporter.report(

@@ -1,0 +1,126 @@
+// See the header.
+#include "rules/motion/turning_walk.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace feedhold::rules {
+namespace {
+
+/// Other words of the block belong to the code, or nothing is known of the position behind it.
+bool takesAway(const Code &code) {
+  constexpr std::array kHarmless = {CodeRole::Plain,   CodeRole::Motion,      CodeRole::Arc,  CodeRole::CannedCycle,
+                                    CodeRole::Contour, CodeRole::ProgramStop, CodeRole::Dwell};
+  constexpr std::array kOther = {CodeAction::Unmodelled, CodeAction::Anything,   CodeAction::OtherCycle,
+                                 CodeAction::OtherCurve, CodeAction::WorkOffset, CodeAction::ExtendedWorkOffset};
+  return std::ranges::find(kHarmless, code.role) == kHarmless.end() ||
+         std::ranges::find(kOther, code.action) != kOther.end();
+}
+
+/// The movement that a code puts in force; absent: none.
+std::optional<TurningMove> moveOf(CodeAction action) {
+  constexpr std::array kMoves = {std::pair{CodeAction::Rapid, TurningMove::Rapid},
+                                 std::pair{CodeAction::Linear, TurningMove::Feed},
+                                 std::pair{CodeAction::ArcClockwise, TurningMove::Feed},
+                                 std::pair{CodeAction::ArcCounterclockwise, TurningMove::Feed},
+                                 std::pair{CodeAction::Thread, TurningMove::Feed},
+                                 std::pair{CodeAction::TurningCycle, TurningMove::Cycle},
+                                 std::pair{CodeAction::SideCycle, TurningMove::Unknown},
+                                 std::pair{CodeAction::CycleOff, TurningMove::Unknown}};
+  const auto found = std::ranges::find(kMoves, action, &std::pair<CodeAction, TurningMove>::first);
+  return found == kMoves.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool namesAxis(const SyntaxTree &tree, BlockId block) {
+  return std::ranges::any_of(tree.wordsOf(block), [](const Word &word) {
+    return word.address() == 'X' || word.address() == 'Z' || word.address() == 'U' || word.address() == 'W';
+  });
+}
+
+} // namespace
+
+TurningWalk::TurningWalk(ProgramId program, const FileContext &context)
+    : context_(context), hidden_(program, context), contours_(contoursOf(program, context)) {}
+
+bool TurningWalk::isInContour(BlockId block) const {
+  return std::ranges::any_of(
+      contours_, [&](const Contour &contour) { return contour.standsBehindCycle() && contour.contains(block); });
+}
+
+std::optional<double> TurningWalk::coordinate(const Word &word) const {
+  const bool isPlain =
+      word.isNumber() && !word.has(Word::kArgument) &&
+      (word.has(Word::kPoint) || word.number().isZero() || context_.dialect.switches.dpi == Switch::On);
+  return isPlain ? std::optional(word.number().toDouble()) : std::nullopt;
+}
+
+void TurningWalk::moveTo(BlockId block, TurningPoint &point) const {
+  for (const Word &word : context_.tree.wordsOf(block)) {
+    const bool isAcross = word.address() == 'X' || word.address() == 'U';
+    if ((!isAcross && word.address() != 'Z' && word.address() != 'W') || word.has(Word::kComma))
+      continue;
+    std::optional<double> &axis = isAcross ? point.x : point.z;
+    const bool isDistance = isIncremental_ || word.address() == 'U' || word.address() == 'W';
+    const auto value = coordinate(word);
+    axis = !value ? std::nullopt : !isDistance ? value : axis ? std::optional(*axis + *value) : std::nullopt;
+  }
+}
+
+/// False: nothing is known behind the block.
+bool TurningWalk::follow(const Word &word) {
+  const Code *code = codeOf(word, context_.dialect);
+  if (!code) // M41 and its like switch something
+    return word.address() == 'M' && word.isNumber() && word.tenths().value_or(1000) < 1000;
+  if (code->action == CodeAction::Absolute || code->action == CodeAction::Incremental)
+    isIncremental_ = code->action == CodeAction::Incremental;
+  if (code->action == CodeAction::Metric || code->action == CodeAction::Inch)
+    isMetric_ = code->action == CodeAction::Metric;
+  const auto move = moveOf(code->action);
+  motion_ = move.value_or(motion_);
+  return move || code->action == CodeAction::CoordinateSet || !takesAway(*code); // `G50 S2000` moves nothing
+}
+
+TurningMove TurningWalk::read(BlockId block) {
+  if (isInContour(block))
+    return TurningMove::None;
+  if (hidden_.isIn(block))
+    lose();
+  const bool moves = namesAxis(context_.tree, block);
+  bool isFollowed = true;
+  for (const Word &word : context_.tree.wordsOf(block))
+    isFollowed = (!word.isCode() || follow(word)) && isFollowed;
+  const bool setsPosition =
+      moves && findAction(context_.tree, block, context_.dialect, {CodeAction::CoordinateSet}) != nullptr;
+  if (!isFollowed || setsPosition || flowAfter(context_.tree, block, context_.dialect) >= FlowAfter::Jumps) {
+    lose();
+    return TurningMove::None;
+  }
+  const Word *cycle = findAction(context_.tree, block, context_.dialect, {CodeAction::TurningCycle});
+  const bool isOfGroup = !cycle || codeOf(*cycle, context_.dialect)->group != 0;
+  if (!isOfGroup || motion_ == TurningMove::Cycle) {
+    if (!isOfGroup)
+      motion_ = TurningMove::Unknown; // the control may go on at rapid or at feed
+    return cycle || moves ? TurningMove::Cycle : TurningMove::None;
+  }
+  if (!moves || findCode(context_.tree, block, context_.dialect, CodeRole::Dwell))
+    return TurningMove::None;
+  moveTo(block, at_);
+  return motion_;
+}
+
+std::vector<TurningPoint> TurningWalk::cornersOf(const Contour &contour, const TurningPoint &start) const {
+  std::vector<TurningPoint> corners;
+  TurningPoint point = start;
+  for (BlockId block = contour.first; block <= contour.last; block = block.next()) {
+    if (!namesAxis(context_.tree, block))
+      continue;
+    moveTo(block, point);
+    if (!point.x || !point.z)
+      return {};
+    corners.push_back(point);
+  }
+  return corners;
+}
+
+} // namespace feedhold::rules

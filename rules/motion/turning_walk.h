@@ -1,0 +1,59 @@
+// TurningWalk: where the tool of a lathe is, block by block of the text of one program.
+#pragma once
+
+#include "rules/motion/tool_sections.h"
+#include "rules/structure/structure_view.h"
+
+#include <optional>
+#include <vector>
+
+namespace feedhold::rules {
+
+/// Programmed coordinates, X as it is written; absent where it is not known.
+struct TurningPoint {
+  std::optional<double> x;
+  std::optional<double> z;
+};
+
+enum class TurningMove : std::uint8_t {
+  None,
+  Rapid,
+  Feed,
+  Cycle,   // comes back to where it started
+  Unknown, // moves, but the code in force is not known
+};
+
+class TurningWalk {
+public:
+  TurningWalk(ProgramId program, const FileContext &context);
+
+  /// Blocks are read in order of the text.  Those of the contour of a cycle above it are none that move by themselves.
+  TurningMove read(BlockId block);
+  /// Behind the last block that was read.
+  const TurningPoint &at() const { return at_; }
+  bool isMetric() const { return isMetric_; }
+  /// Block by block, from a start: the corner points of a contour; empty where one of them is not known.
+  std::vector<TurningPoint> cornersOf(const Contour &contour, const TurningPoint &start) const;
+  const std::vector<Contour> &contours() const { return contours_; }
+  /// Of a cycle above it.
+  bool isInContour(BlockId block) const;
+
+private:
+  void moveTo(BlockId block, TurningPoint &point) const;
+  std::optional<double> coordinate(const Word &word) const;
+  bool follow(const Word &word);
+  void lose() {
+    at_ = {};
+    motion_ = TurningMove::Unknown;
+  }
+
+  const FileContext &context_;
+  HiddenWork hidden_;
+  std::vector<Contour> contours_;
+  TurningPoint at_;
+  TurningMove motion_ = TurningMove::Unknown; // of the code in force
+  bool isIncremental_ = false;
+  bool isMetric_ = false; // as the program says
+};
+
+} // namespace feedhold::rules
