@@ -135,10 +135,7 @@ void checkSubroutine(ProgramId id, const FileContext &context, const Reporter &r
              context.model.oWords[construct.parts.front()].block < block &&
              block < context.model.oWords[construct.parts.back()].block;
     };
-    bool isConditional = false;
-    for (const Construct &construct : context.model.constructs)
-      isConditional = isConditional || isAround(construct);
-    if (!end || isConditional)
+    if (!end || std::ranges::any_of(context.model.constructs, isAround))
       continue;
     if (isAlwaysReached(block, program, context))
       reporter.report({.message = fmt::format("{} in a subroutine ends the whole job: it never comes to its `endsub`",
