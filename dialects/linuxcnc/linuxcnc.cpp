@@ -163,6 +163,7 @@ const Dialect &linuxcnc() {
     dialect.switches.m3b = Switch::On; // four M codes of different groups
     dialect.switches.fxy = Switch::On; // G18 drills along Y
     dialect.switches.pointArcStops = Switch::On;
+    dialect.switches.besideCentreStops = Switch::On; // "K word given for arc in xy plane"
     dialect.switches.bareCycleStops = Switch::On;
     dialect.switches.motionEndsCycle = Switch::Off; // cycles are motion codes: two of them are an error
     dialect.switches.setEndsLocal = Switch::Off;    // G52 and G92 are one offset

@@ -340,7 +340,7 @@ class Prove(Scratch):
     def test_a_start_that_breaks_the_claim(self):
         self.write("O7.nc", "O7\nG91\nG03 X-10. Y10. I-10. J0 F100\nM99\n")
         [row] = [row for row in self.obligations("O7.nc") if "radius differs" in row["claim"]]
-        self.assertEqual(row["witness"]["start"], {"modal": ["G18"], "position": {}})
+        self.assertEqual(row["witness"]["start"], {"modal": ["G18"], "position": {}, "switches": {}})
         self.assertIn("--modal G18", row["witness"]["run"])
         self.assertEqual((row["guard"]["clause"], row["guard"]["conditions"]), ("@MODAL G17", ["G17 at the start"]))
         replay = self.feedhold(*row["witness"]["run"].split()[1:])
@@ -348,6 +348,18 @@ class Prove(Scratch):
         self.write("O7.nc", "O7\n(@MODAL G17)\n(@START X0 Y0)\nG91\nG03 X-10. Y10. I-10. J0 F100\nM99\n")
         [row] = [row for row in self.obligations("O7.nc") if "radius differs" in row["claim"]]
         self.assertEqual(row["verdict"], "proved")
+
+    def test_a_setting_that_breaks_the_claim(self):
+        self.write("O8.nc", "O8\nG17 G21 G90 G94\nG98 G81 Z-5. F100\nG80\nM99\n")
+        [row] = [row for row in self.obligations("O8.nc") if "without depth" in row["claim"]]
+        self.assertEqual(row["witness"]["start"]["switches"], {"bare_cycle_stops": True})
+        replay = self.feedhold(*row["witness"]["run"].split()[1:])
+        self.assertIn("without depth", replay.stdout + replay.stderr)
+        self.assertIn("where `bare_cycle_stops` is on", self.prove("O8.nc").stdout)
+        usual = self.feedhold("run", "O8.nc", "--isolated", "--switch", "bare_cycle_stops=off")
+        self.assertEqual(usual.returncode, 0, usual.stderr)
+        wrong = self.feedhold("run", "O8.nc", "--isolated", "--switch", "bare_cycle_stops=yes")
+        self.assertIn("is not a setting and its value", wrong.stderr)
 
     def test_cutter_compensation_replays(self):
         self.write("O7.nc", COMPENSATED)

@@ -1,17 +1,26 @@
 #include "golden/verdicts_stage.h"
 
+#include "language/dialect/switch_names.h"
+
 #include <fmt/format.h>
 
 namespace feedhold::golden {
 
 namespace {
 
+std::string settingsOf(const prove::Witness &witness) {
+  std::string text;
+  for (const auto &[setting, isOn] : witness.variables.start.settings)
+    text += fmt::format(", where {} is {}", switchNames()[setting].name, isOn ? "on" : "off");
+  return text;
+}
+
 std::string detailOf(const prove::Verdict &verdict) {
   if (!verdict.bound().empty())
     return fmt::format("\n  at most `{}` iterations", verdict.bound());
   if (verdict == prove::Verdict::Unknown)
     return fmt::format("\n  {}", verdict.reason());
-  return verdict.witness() ? fmt::format("\n  {}", verdict.witness()->happened) : "";
+  return verdict.witness() ? fmt::format("\n  {}{}", verdict.witness()->happened, settingsOf(*verdict.witness())) : "";
 }
 
 std::string rowsOf(const ProvedFile &file, const ProvedProgram &program) {

@@ -3,6 +3,7 @@
 #include "findings/project/config.h"
 
 #include "base/support/text.h"
+#include "language/dialect/switch_names.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -14,37 +15,6 @@
 namespace feedhold {
 
 namespace {
-
-struct SwitchName {
-  std::string_view name;
-  Switch Switches::*which;
-};
-
-constexpr std::array kSwitchNames = {
-    SwitchName{"dpi", &Switches::dpi},
-    SwitchName{"ad2", &Switches::ad2},
-    SwitchName{"cir", &Switches::cir},
-    SwitchName{"m3b", &Switches::m3b},
-    SwitchName{"g67", &Switches::g67},
-    SwitchName{"v15", &Switches::v15},
-    SwitchName{"nat", &Switches::nat},
-    SwitchName{"sqc", &Switches::sqc},
-    SwitchName{"mlg", &Switches::mlg},
-    SwitchName{"f16", &Switches::f16},
-    SwitchName{"mca", &Switches::mca},
-    SwitchName{"gmp", &Switches::gmp},
-    SwitchName{"ijk", &Switches::ijk},
-    SwitchName{"fxy", &Switches::fxy},
-    SwitchName{"ax1", &Switches::ax1},
-    SwitchName{"sup", &Switches::sup},
-    SwitchName{"odi", &Switches::odi},
-    SwitchName{"short_arc_stops", &Switches::shortArcStops},
-    SwitchName{"point_arc_stops", &Switches::pointArcStops},
-    SwitchName{"bare_cycle_stops", &Switches::bareCycleStops},
-    SwitchName{"motion_ends_cycle", &Switches::motionEndsCycle},
-    SwitchName{"set_ends_local", &Switches::setEndsLocal},
-    SwitchName{"centre_stays", &Switches::centreStays},
-};
 
 std::string withSuggestion(const std::string &message, std::string_view word,
                            std::span<const std::string_view> candidates) {
@@ -231,7 +201,7 @@ private:
 
   std::vector<SwitchSetting> switches(const toml::node &node) {
     std::vector<std::string_view> names;
-    for (const SwitchName &entry : kSwitchNames)
+    for (const SwitchName &entry : switchNames())
       names.push_back(entry.name);
     std::vector<SwitchSetting> settings;
     for (const auto &[key, value] : table(node)) {
@@ -239,7 +209,7 @@ private:
       if (found == names.end())
         unknownKey(key, names);
       else
-        settings.push_back({kSwitchNames[static_cast<std::size_t>(found - names.begin())].which, switchValue(value)});
+        settings.push_back({switchNames()[static_cast<std::size_t>(found - names.begin())].which, switchValue(value)});
     }
     return settings;
   }
@@ -387,7 +357,7 @@ ConfigText readConfig(std::string_view text, const std::filesystem::path &folder
 
 std::string textOf(const Switches &switches) {
   std::string text;
-  for (const SwitchName &entry : kSwitchNames)
+  for (const SwitchName &entry : switchNames())
     text += fmt::format("{}={} ", entry.name, static_cast<int>(switches.*entry.which));
   for (const CodeCall &call : switches.codeCalls)
     text += fmt::format("{}{}={}{} ", call.address, call.tenths, call.isMacro ? "macro " : "", call.program);

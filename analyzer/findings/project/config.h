@@ -1,6 +1,7 @@
 // Configuration: what one `feedhold.toml` says.
 #pragma once
 
+#include "findings/project/control_options.h"
 #include "findings/rule/registry.h"
 #include "language/dialect/registry.h"
 
@@ -11,11 +12,6 @@
 #include <vector>
 
 namespace feedhold {
-
-struct SwitchSetting {
-  Switch Switches::*which;
-  Switch value;
-};
 
 /// `[[files]]`: settings for the files whose path matches.
 struct FilePattern {

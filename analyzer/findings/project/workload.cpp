@@ -159,7 +159,7 @@ private:
       steps.push_back({Kind::Ignore, pattern->ignore});
       apply(pattern->switches, pattern->incrementSystem, switches);
     }
-    apply({}, options_.control.incrementSystem, switches);
+    apply(options_.control.switches, options_.control.incrementSystem, switches);
     const auto seen = settings.gCodeSystem.value_or(GCodeSystem::A);
     chooseGCodeSystem(profile.dialect, namedSystem(config, settings).value_or(seen));
     if (!config.codeCalls.empty())

@@ -118,6 +118,11 @@ void write(Writer &writer, const GivenStart &start) {
     writer.number(indexOf(axis));
     writer.real(coordinate);
   }
+  writer.number(start.settings.size());
+  for (const auto &[setting, isOn] : start.settings) {
+    writer.number(setting);
+    writer.number(isOn ? 1 : 0);
+  }
 }
 
 GivenStart readStart(Reader &reader) {
@@ -133,6 +138,10 @@ GivenStart readStart(Reader &reader) {
   for (std::uint64_t left = reader.count(); left > 0; --left) {
     const Axis axis = kAllAxes[reader.numberUpTo(kAxisCount - 1)];
     start.place.emplace_back(axis, reader.real());
+  }
+  for (std::uint64_t left = reader.count(); left > 0; --left) {
+    const auto setting = static_cast<SwitchId>(reader.numberUpTo(switchNames().size() - 1));
+    start.settings.emplace_back(setting, reader.numberUpTo(1) != 0);
   }
   return start;
 }

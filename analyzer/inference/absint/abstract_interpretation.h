@@ -106,6 +106,7 @@ public:
   Truth negation(Truth a) const { return feedhold::negate(a); }
   bool mayBe(Truth a) const { return mayBeTrue(a); }
   Truth unknownTruth() const { return Truth::Maybe; }
+  Truth setting(SwitchId) const { return Truth::Maybe; }
   Truth answer(ControlQuestion) const { return Truth::Maybe; }
 
   // ---- modal codes ----

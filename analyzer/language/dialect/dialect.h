@@ -359,17 +359,17 @@ struct Switches {
   Switch gmp = Switch::Off;     // 6008#6: code calls work inside programs called by a code
   Switch ijk = Switch::Off;     // 6008#7: I, J, K are always argument assignment I
   Switch fxy = Switch::Unknown; // 5101#0: cycles drill along the normal of the plane (On) or along Z
-  Switch ax1 =
-      Switch::Unknown; // 11600#5: under G68 an axis without a word counts from where it is in the turned system
+  Switch ax1 = Switch::Unknown; // 11600#5: under G68 an axis without a word counts from its place in the turned system
   Switch sup = Switch::Unknown; // 5003#0: cutter compensation starts and ends by way of its own block's normal (type B)
   Switch odi = Switch::Unknown; // 5004#2: the offset of D is a diameter
   // What controls do differently, or what no manual says (parity.md of each dialect).
-  Switch shortArcStops = Switch::Unknown;  // R a little below half the distance of the ends: an alarm, or a half circle
-  Switch pointArcStops = Switch::Unknown;  // an arc by R that ends where it starts: an alarm, or no movement
-  Switch bareCycleStops = Switch::Unknown; // a canned cycle that was never given its depth or R level is an alarm
-  Switch motionEndsCycle = Switch::Unknown; // G00 to G03 behind the code of a canned cycle in its block end the cycle
-  Switch setEndsLocal = Switch::Unknown;    // G92 takes the offset of G52 away from the axes that it names
-  Switch centreStays = Switch::Unknown;     // centres of mappings and levels of cycles stay when the zero point moves
+  Switch shortArcStops = Switch::Unknown; // R a little below half the distance of the ends: an alarm, or a half circle
+  Switch pointArcStops = Switch::Unknown; // an arc by R that ends where it starts: an alarm, or no movement
+  Switch besideCentreStops = Switch::Unknown; // a centre word on the axis beside the plane of its arc is an alarm
+  Switch bareCycleStops = Switch::Unknown;    // a canned cycle that was never given its depth or R level is an alarm
+  Switch motionEndsCycle = Switch::Unknown;   // G00 to G03 behind the code of a canned cycle in its block end the cycle
+  Switch setEndsLocal = Switch::Unknown;      // G92 takes the offset of G52 away from the axes that it names
+  Switch centreStays = Switch::Unknown;       // centres of mappings and levels of cycles stay when the zero point moves
   IncrementSystem incrementSystem = IncrementSystem::B;
   GCodeSystem gCodeSystem = GCodeSystem::A; // of lathes that have several; chooseGCodeSystem() sets it
   std::vector<CodeCall> codeCalls = {};     // 6050-6059, 6080-6089, 6071-6079, ...

@@ -161,6 +161,7 @@ GivenVariables ConcreteInterpretation::byCell(const Dialect &dialect, const Give
     return numbers == NumberModel::Mantissa32 ? mantissa32::nearest(number) : number;
   };
   GivenVariables cells;
+  cells.start.settings = given.start.settings;
   for (const auto &[variable, value] : given.entries())
     cells.set(cellOf(dialect, variable), {value.vacant, held(value.number)});
   for (const auto &[variable, script] : given.readings.entries()) {
@@ -231,6 +232,11 @@ MachineState<ConcreteInterpretation> startState(const ConcreteInterpretation &in
     else
       state.variables.set(variable, value);
   return state;
+}
+
+bool ConcreteInterpretation::setting(SwitchId id) const {
+  const auto said = std::ranges::find(given_.start.settings, id, [](const auto &each) { return each.first; });
+  return said == given_.start.settings.end() ? switchNames()[id].usual : said->second;
 }
 
 void putInForce(const GivenStart &start, MachineState<ConcreteInterpretation> &state) {

@@ -32,7 +32,8 @@ struct GivenStart {
   std::vector<std::pair<std::uint8_t, std::uint8_t>> codes = {}; // group, and index in it; sorted
   std::vector<std::pair<char, double>> words = {};               // of kGivenWords
   std::vector<std::pair<Axis, double>> place = {};               // in their order
-  bool isEmpty() const { return codes.empty() && words.empty() && place.empty(); }
+  std::vector<std::pair<SwitchId, bool>> settings = {};          // of the machine, where they are not known; sorted
+  bool isEmpty() const { return codes.empty() && words.empty() && place.empty() && settings.empty(); }
   friend auto operator<=>(const GivenStart &, const GivenStart &) = default;
 };
 
@@ -129,6 +130,7 @@ public:
   bool mayBe(bool a) const { return a; }
   bool unknownTruth() const { return true; }
   bool answer(ControlQuestion) const { return true; }
+  bool setting(SwitchId id) const;
 
   // ---- modal codes ----
   ModalCode code(std::uint8_t index) const { return index; }

@@ -87,6 +87,8 @@ concept HasTruths = requires(R interpretation, const typename R::Value value, co
   /// Either of the two, undetermined.
   { interpretation.unknownTruth() } -> std::same_as<typename R::Truth>;
   { interpretation.answer(ControlQuestion{}) } -> std::same_as<typename R::Truth>;
+  /// A setting of the machine that is not known.
+  { interpretation.setting(SwitchId{}) } -> std::same_as<typename R::Truth>;
 };
 
 /// Modal codes of one group.

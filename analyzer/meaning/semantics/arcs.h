@@ -84,9 +84,16 @@ private:
   Truth without(const Circle &circle) {
     return interpretation_.negation(context_.either(circle.byRadius, circle.byCentre));
   }
+  /// A control that refuses a distance beside the plane does so whatever else is given; of others it is not known
+  /// whether it is in the place of the centre.
   Truth withoutCentre(const Circle &circle) {
-    return interpretation_.both(without(circle),
-                                context_.either(interpretation_.negation(circle.beside), context_.maybeNot()));
+    const Truth isMissing = without(circle);
+    const Truth counts = context_.dialect().switches.besideCentreStops == Switch::On
+                             ? interpretation_.negation(circle.byRadius)
+                             : isMissing;
+    const Truth refused =
+        interpretation_.both(interpretation_.both(circle.beside, counts), context_.isOn(&Switches::besideCentreStops));
+    return context_.either(interpretation_.both(isMissing, interpretation_.negation(circle.beside)), refused);
   }
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);
@@ -180,12 +187,11 @@ private:
     const auto isTooShort = [&](const Value &length) {
       return interpretation_.compare(Relation::Greater, halfSquare, interpretation_.multiply(length, length));
     };
-    const Switches &switches = context_.dialect().switches;
     const Truth isShort =
         interpretation_.both(isTooShort(radius), context_.either(isTooShort(interpretation_.add(radius, tolerance())),
-                                                                 context_.isOn(switches.shortArcStops)));
+                                                                 context_.isOn(&Switches::shortArcStops)));
     const Truth isPoint = interpretation_.both(interpretation_.compare(Relation::Equal, chordSquare, context_.zero()),
-                                               context_.isOn(switches.pointArcStops));
+                                               context_.isOn(&Switches::pointArcStops));
     const Truth asMapped = context_.either(circle.mapping.staysCircle, context_.maybeNot());
     alarms.tooShort = interpretation_.both(circle.byRadius, interpretation_.both(asMapped, isShort));
     alarms.withoutLength = interpretation_.both(circle.byRadius, isPoint);

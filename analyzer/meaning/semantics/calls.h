@@ -81,7 +81,7 @@ private:
   CallRequest<R> endModal(CallRequest<R> request) {
     request.action = CallAction::EndModal;
     if (const auto none = noModalCall(); interpretation_.mayBe(none)) {
-      const auto isIgnored = context_.isOn(context_.dialect().switches.g67, true);
+      const auto isIgnored = context_.isOn(&Switches::g67);
       interpretation_.alarm(interpretation_.both(none, interpretation_.negation(isIgnored)),
                             {AlarmKind::NoModalCall, context_.place()});
     }

@@ -2,6 +2,7 @@
 // stands.
 #pragma once
 
+#include "language/dialect/switch_names.h"
 #include "meaning/cfg/program_set.h"
 #include "meaning/semantics/algebra.h"
 #include "meaning/semantics/modal_table.h"
@@ -30,16 +31,18 @@ template <ValueAlgebra R> struct StepContext {
   }
   bool certain(Truth truth) const { return !interpretation.mayBe(interpretation.negation(truth)); }
   Value zero() const { return interpretation.number(0); }
-  /// A setting of the machine.  Where it is not known a run takes `usual`, and all others look at both outcomes.
-  Truth isOn(Switch setting, bool usual = false) const {
-    if (setting != Switch::Unknown)
-      return interpretation.truth(setting == Switch::On);
+  /// A setting of the machine.
+  Truth isOn(Switch Switches::*setting) const {
+    const Switch said = dialect().switches.*setting;
+    return said == Switch::Unknown ? interpretation.setting(idOf(setting)) : interpretation.truth(said == Switch::On);
+  }
+  /// What no setting decides: so in a run if it is usual, and unknown where all runs are looked at.
+  Truth maybe(bool usual) const {
     return interpretation.negation(interpretation.compare(
         Relation::Equal,
         interpretation.either(interpretation.number(usual ? 1 : 0), interpretation.number(usual ? 0 : 1)), zero()));
   }
-  /// Not so in a run, and unknown where all runs are looked at.
-  Truth maybeNot() const { return isOn(Switch::Unknown); }
+  Truth maybeNot() const { return maybe(false); }
   /// The modal state of a kind is one of these codes.  Without such a group: `without`.
   Truth inForce(ModalKind kind, std::initializer_list<CodeAction> actions, Truth without) const {
     const auto group = modes.groupOf(kind);

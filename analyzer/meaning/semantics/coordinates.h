@@ -242,7 +242,7 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
   if (detail::isPending(context, axis))
     detail::havocPending(context, axis);
   // Mitsubishi M700V: the centre of a rotation stays where it is; other manuals do not say.
-  const auto stays = context.isOn(context.dialect().switches.centreStays);
+  const auto stays = context.isOn(&Switches::centreStays);
   const auto keep = [&](typename R::Value &coordinate) {
     const auto isNone = interpretation.isVacant(coordinate);
     if (context.certain(isNone))

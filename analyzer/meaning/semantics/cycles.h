@@ -37,7 +37,7 @@ void alarmOfBareCycle(StepContext<R> &context, const ExecutedWords<R> &words, ty
   R &interpretation = context.interpretation;
   const auto begins = [](const CodeWord &word) { return isDrillingCycle(word.code->action); };
   if (std::any_of(words.codes.begin(), words.codes.end(), begins))
-    interpretation.alarm(interpretation.both(isBare, context.isOn(context.dialect().switches.bareCycleStops)),
+    interpretation.alarm(interpretation.both(isBare, context.isOn(&Switches::bareCycleStops)),
                          {AlarmKind::CycleWithoutLevel, context.place()});
 }
 
@@ -299,7 +299,7 @@ private:
 /// Along the normal of the plane, or always along Z: parameter 5101#0 of FANUC controls.
 template <ValueAlgebra R> void drillAlong(StepContext<R> &context, const ExecutedWords<R> &words, const Plane &plane) {
   R &interpretation = context.interpretation;
-  const auto byPlane = context.isOn(context.dialect().switches.fxy, true);
+  const auto byPlane = context.isOn(&Switches::fxy);
   if (plane.normal == Axis::Z || context.certain(byPlane))
     return DrillingCycle<R>(context, words, plane).run();
   if (!interpretation.mayBe(byPlane))
@@ -313,13 +313,44 @@ template <ValueAlgebra R> void drillAlong(StepContext<R> &context, const Execute
 
 } // namespace detail
 
+namespace detail {
+
+/// Whether the words of the block lack the depth, in whichever plane is in force.
+template <ValueAlgebra R> typename R::Truth lacksDepth(const StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &interpretation = context.interpretation;
+  const auto hasIn = [&](CodeAction plane, char normal) {
+    return interpretation.both(context.inForce(ModalKind::Plane, {plane}, interpretation.truth(false)),
+                               words.present(interpretation, normal));
+  };
+  const auto inPlane = context.either(hasIn(CodeAction::PlaneXY, 'Z'),
+                                      context.either(hasIn(CodeAction::PlaneZX, 'Y'), hasIn(CodeAction::PlaneYZ, 'X')));
+  const auto byPlane = context.isOn(&Switches::fxy);
+  const auto alongZ = interpretation.both(interpretation.negation(byPlane), words.present(interpretation, 'Z'));
+  return interpretation.negation(context.either(interpretation.both(byPlane, inPlane), alongZ));
+}
+
+/// Of the levels it is known whether they were given.
+template <ValueAlgebra R> void drillAlongAny(StepContext<R> &context, const ExecutedWords<R> &words) {
+  R &interpretation = context.interpretation;
+  auto &cycle = context.state.cycle;
+  const auto withoutDepth = interpretation.both(interpretation.isVacant(cycle.bottom), lacksDepth(context, words));
+  const auto withoutLevel = interpretation.both(interpretation.isVacant(cycle.retract),
+                                                interpretation.negation(words.present(interpretation, 'R')));
+  alarmOfBareCycle(context, words, context.either(withoutDepth, withoutLevel));
+  const auto level = [&](typename R::Truth isMissing) {
+    return interpretation.select(isMissing, interpretation.vacant(), interpretation.anyNumber());
+  };
+  const auto any = interpretation.anything();
+  cycle = {.bottom = level(withoutDepth), .retract = level(withoutLevel), .initial = any, .peck = any, .dwell = any};
+}
+
+} // namespace detail
+
 template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words) {
   const std::optional<Plane> plane = planeOf(context);
   if (plane)
     return detail::drillAlong(context, words, *plane);
-  detail::alarmOfBareCycle(context, words, context.maybeNot());
-  const auto any = context.interpretation.anything();
-  context.state.cycle = {any, any, any, any, any};
+  detail::drillAlongAny(context, words);
   const auto start = context.state.position;
   havocPosition(context);
   tell(context, MoveKind::Unmodelled, start);

@@ -342,7 +342,7 @@ private:
     const Truth outside =
         context_.either(interpretation_.compare(Relation::Greater, exponent, interpretation_.number(108)),
                         interpretation_.compare(Relation::Less, exponent, interpretation_.number(-66)));
-    return context_.either(beyond, interpretation_.both(outside, context_.isOn(context_.dialect().switches.f16)));
+    return context_.either(beyond, interpretation_.both(outside, context_.isOn(&Switches::f16)));
   }
   Span spanOf(ExpressionId id) const { return context_.tree().expressions[id].span; }
 

@@ -178,7 +178,7 @@ private:
       words_.computed.push_back(*code);
       words_.mayTakeAxes = words_.mayTakeAxes || mayTakeAxes(code->first, code->second);
     } else
-      anyCode(word);
+      anyCode(word, value);
     return std::nullopt;
   }
   /// Such a code takes the axis words of the block for itself.
@@ -198,9 +198,18 @@ private:
           return true;
     return false;
   }
-  void anyCode(const Word &word) {
+  /// A number that is no code of the control, or one that it has and this option lacks.
+  Truth mayBeNoCode(const Value &value) {
+    const Value number = interpretation_.roundTo(interpretation_.asNumber(value), Decimal(1, 1));
+    Truth isListed = interpretation_.truth(false);
+    for (const Code &code : context_.dialect().gCodes)
+      isListed = context_.either(
+          isListed, interpretation_.compare(Relation::Equal, number, interpretation_.number(code.tenths / 10.0)));
+    return interpretation_.both(interpretation_.unknownTruth(), interpretation_.negation(isListed));
+  }
+  void anyCode(const Word &word, const Value &value) {
     if (word.address() == 'G') {
-      interpretation_.alarm(interpretation_.unknownTruth(), {AlarmKind::GCodeNotUsable, word.span()});
+      interpretation_.alarm(mayBeNoCode(value), {AlarmKind::GCodeNotUsable, word.span()});
       context_.state.transformed = interpretation_.unknownTruth(); // it may be one that turns or mirrors
       words_.unmodelled = true;
     }

@@ -182,8 +182,7 @@ private:
     }
     if (!moves)
       return;
-    const Truth ends =
-        begins ? context_.isOn(context_.dialect().switches.motionEndsCycle) : interpretation_.truth(true);
+    const Truth ends = begins ? context_.isOn(&Switches::motionEndsCycle) : interpretation_.truth(true);
     if (context_.certain(ends))
       return leaveCycle(*cycle);
     if (!interpretation_.mayBe(ends))

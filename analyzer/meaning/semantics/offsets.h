@@ -82,7 +82,7 @@ private:
   void endLocal(Axis axis, Truth when) {
     Value &local = state_.local[indexOf(axis)];
     Value &shift = state_.shift[indexOf(axis)];
-    const Truth ends = interpretation_.both(when, context_.isOn(context_.dialect().switches.setEndsLocal));
+    const Truth ends = interpretation_.both(when, context_.isOn(&Switches::setEndsLocal));
     if (!interpretation_.mayBe(ends) ||
         context_.certain(interpretation_.compare(Relation::Equal, local, context_.zero())))
       return;

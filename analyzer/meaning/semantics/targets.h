@@ -139,7 +139,7 @@ typename R::Truth takesPending(StepContext<R> &context, const ExecutedWords<R> &
     return interpretation.truth(false);
   const auto turned =
       interpretation.negation(interpretation.compare(Relation::Equal, context.state.transform.angle, context.zero()));
-  const auto keeps = context.isOn(context.certain(turned) ? context.dialect().switches.ax1 : Switch::Unknown, true);
+  const auto keeps = context.certain(turned) ? context.isOn(&Switches::ax1) : context.maybe(true);
   const auto alone =
       interpretation.both(isWritten(context, words, other), interpretation.negation(isWritten(context, words, axis)));
   const auto pending = interpretation.negation(interpretation.isVacant(context.state.transform.pending[indexOf(axis)]));

@@ -5,11 +5,11 @@ namespace feedhold::prove {
 namespace {
 
 /// The inputs may be outside of the contract, too: a program answers for the calls that it refuses.
-Exploration explored(ProofStart &start, const ProofSubject &subject, Outcomes outcomes) {
+Exploration explored(ProofStart &start, const ProofSubject &subject, const GivenVariables &given, Outcomes outcomes) {
   ExploreOptions options = start.exploreOptions(subject, exactOptions());
   options.assumptions.clear();
   if (outcomes == Outcomes::Usual) {
-    start.interpretation().takeUsual();
+    start.interpretation().takeUsual(given.start.settings);
     options.cutterOffset = {};
   }
   return explore(start.interpretation(), subject.programs, subject.program, start.entry(), options);
@@ -24,6 +24,6 @@ FollowedRun::FollowedRun(const ProofSubject &subject, const GivenVariables &give
                .missing = subject.options.missing,
                .contractsOf = subject.options.contractsOf},
       subject_{subject.programs, subject.program, subject.contracts, options_}, start_(subject_, &given),
-      found_(explored(start_, subject_, outcomes)) {}
+      found_(explored(start_, subject_, given, outcomes)) {}
 
 } // namespace feedhold::prove

@@ -104,6 +104,8 @@ bool LoopSummarizer::changesInLoop(const Work &work, TermId candidate) const {
 /// Houdini: candidates that do not hold are dropped until all that are left hold together.
 std::vector<TermId> LoopSummarizer::thoseThatHold(Work &work, const std::vector<TermId> &known,
                                                   std::vector<TermId> candidates) {
+  if (candidates.empty())
+    return {}; // the facts are as they were tried
   for (int round = 0; round < kMostLoopRounds && !candidates.empty(); ++round) {
     work.facts = known;
     work.facts.insert(work.facts.end(), candidates.begin(), candidates.end());
@@ -118,6 +120,7 @@ std::vector<TermId> LoopSummarizer::thoseThatHold(Work &work, const std::vector<
       return candidates;
   }
   work.facts = known;
+  work.isTried = false;
   return {};
 }
 

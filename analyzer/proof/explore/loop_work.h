@@ -15,6 +15,7 @@ struct LoopSummarizer::Work {
   LoopShape shape = {};
   smt::TermId moved{0};
   std::vector<smt::TermId> facts = {};
+  bool isTried = false;   // `found` and `left` are what these parts and facts allow
   std::size_t before = 0; // conditions of the last trial's start
   std::vector<Path> found = {};
   std::vector<std::vector<smt::TermId>> left = {}; // by iteration: its parts

@@ -244,6 +244,7 @@ TermId LoopSummarizer::lastIteration(const Work &work, TermId term) const {
 
 /// Follows the iterations from the state that the parts say.
 bool LoopSummarizer::tryIterations(Work &work) {
+  work.isTried = false;
   build(work);
   Path start = work.arrival;
   start.state = work.shape.state;
@@ -279,6 +280,7 @@ bool LoopSummarizer::relayout(Work &work, bool &grew) {
     alignAll(explorer_.interpretation_, arrival, iteration.state); // what a later iteration has made
     work.left.push_back(termsOf(iteration.state, iteration.moved));
   }
+  work.isTried = !grew;
   return true;
 }
 
@@ -440,7 +442,7 @@ bool LoopSummarizer::open(Path &path) {
     return false;
   addInvariants(work);
   bool grew = false;
-  if (!tryIterations(work) || !relayout(work, grew) || grew)
+  if (!work.isTried && (!tryIterations(work) || !relayout(work, grew) || grew))
     return explorer_.giveUp("what a loop changes is unknown: it could not be summarised"), false;
   addLastIteration(work);
   build(work);

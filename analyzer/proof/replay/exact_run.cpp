@@ -60,7 +60,7 @@ Exploration exploreExactly(const ProgramSet &programs, Callee program, const Giv
   const Dialect &dialect = *programs.file(program.file).dialect;
   SymbolicInterpretation interpretation(store, dialect);
   startExactly(interpretation, given);
-  interpretation.takeUsual();
+  interpretation.takeUsual(given.start.settings);
   const ModalTable modes(dialect);
   interpretation.keepPolar(modes.groupOf(ModalKind::Polar));
   SymbolicState entry = symbolicEntry(interpretation);

@@ -362,7 +362,8 @@ unsigned LikelyCalls::distanceOf(const GivenVariables &given) const {
   for (const auto &[variable, script] : given.readings.entries())
     distance += kReading * static_cast<unsigned>(1 + script.size());
   const GivenStart &start = given.start;
-  return distance + kOtherStart * static_cast<unsigned>(start.codes.size() + start.words.size() + start.place.size());
+  return distance + kOtherStart * static_cast<unsigned>(start.codes.size() + start.words.size() + start.place.size() +
+                                                        start.settings.size());
 }
 
 GivenVariables LikelyCalls::completed(GivenVariables given) const {

@@ -77,6 +77,12 @@ GivenStart StartInputs::startOf(const smt::TermStore &store, const smt::Model &m
     if (const double coordinate = toIncrement(numberIn(store, model, at).value_or(0));
         coordinate != 0 && canBeReached(coordinate))
       start.place.emplace_back(axis, coordinate);
+  const auto names = switchNames();
+  for (SwitchId id = 0; id < names.size(); ++id)
+    if (std::ranges::any_of(model, [&](const auto &named) {
+          return named.first.starts_with(nameOfSetting(id)) && std::get<bool>(named.second) != names[id].usual;
+        }))
+      start.settings.emplace_back(id, !names[id].usual);
   return start;
 }
 
@@ -106,6 +112,9 @@ void StartInputs::addTo(SymbolicInterpretation &interpretation, smt::Model &mode
   }
   for (const auto &[axis, at] : place_)
     model[store[at].name] = inputNumber(interpretation, found(start.place, axis).value_or(0));
+  const auto names = switchNames();
+  for (const auto &[id, asked] : interpretation.askedSettings())
+    model[store[asked].name] = found(start.settings, id).value_or(names[id].usual);
 }
 
 void setStart(SymbolicInterpretation &interpretation, SymbolicState &entry, const GivenStart &start) {
@@ -141,6 +150,7 @@ std::vector<GivenStart> plainerStarts(const GivenStart &start) {
   withoutEach(&GivenStart::codes);
   withoutEach(&GivenStart::words);
   withoutEach(&GivenStart::place);
+  withoutEach(&GivenStart::settings);
   wholeEach(&GivenStart::words);
   wholeEach(&GivenStart::place);
   return plainer;

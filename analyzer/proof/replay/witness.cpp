@@ -54,7 +54,9 @@ std::string howItEnded(const RunResult &run) {
 
 /// Of several outcomes, a run takes the usual one; the counterexample may take another.
 bool dependsOnControl(const smt::Model &model) {
-  return std::ranges::any_of(model, [](const auto &named) { return named.first.starts_with(kUnknownTruth); });
+  return std::ranges::any_of(model, [](const auto &named) {
+    return named.first.starts_with(kUnknownTruth) || named.first.starts_with(kUnknownSetting);
+  });
 }
 
 /// To a multiple of 1 / scale.

@@ -63,6 +63,15 @@ Condition SymbolicInterpretation::answer(ControlQuestion question) {
   return {known != answers_.end() ? known->second : answers_.emplace(question, unknownTruth().term).first->second};
 }
 
+std::string nameOfSetting(SwitchId id) { return fmt::format("{}{}:", kUnknownSetting, switchNames()[id].name); }
+
+Condition SymbolicInterpretation::setting(SwitchId id) {
+  if (!takesUsual_)
+    return {askedSettings_.emplace_back(id, fresh(nameOfSetting(id), Sort::Bool)).second};
+  const auto said = std::ranges::find(settings_, id, [](const auto &each) { return each.first; });
+  return truth(said == settings_.end() ? switchNames()[id].usual : said->second);
+}
+
 SymbolicValue SymbolicInterpretation::named(const std::string &name, MayBeVacant mayBeVacant) {
   const auto known = named_.find(name);
   if (known != named_.end())

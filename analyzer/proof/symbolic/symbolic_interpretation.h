@@ -37,6 +37,10 @@ enum class Arithmetic : std::uint8_t { Exact, Doubles };
 
 /// How the names of variables begin that stand for what is not known of a control.
 inline constexpr std::string_view kUnknownTruth = "either";
+inline constexpr std::string_view kUnknownSetting = "setting ";
+/// And of those that stand for a setting of the machine: one for each time that it is asked, since controls may take
+/// two things differently that one setting names.
+std::string nameOfSetting(SwitchId id);
 
 /// What a contract says of an input; nothing without a clause.
 struct WrittenInput {
@@ -118,8 +122,12 @@ public:
   std::vector<TakenAsSmall> takeExactResults() { return std::exchange(exact_, {}); }
   void restoreExactResults(std::vector<TakenAsSmall> results) { exact_ = std::move(results); }
   Grids &grids() { return grids_; }
-  /// What no text and no manual says comes out as in a run of the machine, in place of both ways.
-  void takeUsual() { takesUsual_ = true; }
+  /// What no text and no manual says comes out as in a run of the machine, in place of both ways; `settings`: those
+  /// that are otherwise.
+  void takeUsual(std::vector<std::pair<SwitchId, bool>> settings) {
+    takesUsual_ = true;
+    settings_ = std::move(settings);
+  }
   /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
   std::optional<smt::TermId> useTolerance(std::optional<smt::TermId> tolerance) {
     return std::exchange(tolerance_, tolerance);
@@ -227,6 +235,8 @@ public:
   bool mayBe(Truth a);
   Truth unknownTruth() { return {fresh(kUnknownTruth, smt::Sort::Bool)}; }
   Truth answer(ControlQuestion question);
+  Truth setting(SwitchId id);
+  const std::vector<std::pair<SwitchId, smt::TermId>> &askedSettings() const { return askedSettings_; }
 
   // ---- modal codes ----
   ModalCode code(std::uint8_t index) { return {store_.number(smt::Number(static_cast<int>(index)))}; }
@@ -305,6 +315,8 @@ private:
   Arithmetic arithmetic_;
   Rounds rounds_ = Rounds::No;
   bool takesUsual_ = false;
+  std::vector<std::pair<SwitchId, bool>> settings_;
+  std::vector<std::pair<SwitchId, smt::TermId>> askedSettings_;
   std::optional<smt::TermId> tolerance_;
   Grids grids_;
   std::optional<Place> place_;

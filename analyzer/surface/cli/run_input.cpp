@@ -2,6 +2,7 @@
 
 #include "base/support/text.h"
 #include "dialects/registry.h"
+#include "language/dialect/switch_names.h"
 #include "language/syntax/tree.h"
 #include "proof/space/plain_space.h"
 #include "rules/registry.h"
@@ -196,6 +197,16 @@ NumberModel numbersFor(const RunInput &input, const Dialect &dialect) {
   return input.numbers == nameOf(NumberModel::Mantissa32) ? NumberModel::Mantissa32 : NumberModel::Binary64;
 }
 
+/// `cir=on`
+Result<SwitchSetting> switchFrom(const std::string &text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const auto setting = switchNamed(std::string_view(text).substr(0, equals));
+  const std::string_view value = std::string_view(text).substr(std::min(equals + 1, text.size()));
+  if (!setting || (value != "on" && value != "off"))
+    return Error{fmt::format("--switch: `{}` is not a setting and its value, such as bare_cycle_stops=on", text)};
+  return SwitchSetting{switchNames()[*setting].which, value == "on" ? Switch::On : Switch::Off};
+}
+
 Result<std::unique_ptr<const Project>> load(const RunInput &input) {
   ProgramOptions options{.path = input.path};
   if (input.path == "-")
@@ -203,6 +214,12 @@ Result<std::unique_ptr<const Project>> load(const RunInput &input) {
   if (const auto complaint = complaintAbout(input.control))
     return Error{*complaint};
   options.control = controlFrom(input.control);
+  for (const std::string &text : input.switches) {
+    const auto setting = switchFrom(text);
+    if (!setting)
+      return setting.error();
+    options.control.switches.push_back(setting.value());
+  }
   options.config = configFrom(input.config);
   return loadProject(options, {allDialects(), allRules()});
 }
@@ -230,6 +247,10 @@ void addRunInput(CLI::App &app, RunInput &input) {
       ->allow_extra_args(false);
   app.add_option("--start", input.start, "position of the tool at the start: X0 Y0 Z5")->type_name("POSITION");
   app.add_option("--modal", input.modal, "modal codes and words in force at the start: G18 G91 T5")->type_name("WORDS");
+  app.add_option("--switch", input.switches,
+                 "a setting of the machine, as in feedhold.toml: bare_cycle_stops=on (may be repeated)")
+      ->type_name("NAME=on|off")
+      ->allow_extra_args(false);
   app.add_option("--fuel", input.fuel,
                  fmt::format("stop after this many instructions (default: {})", RunOptions{}.fuel))
       ->type_name("N")

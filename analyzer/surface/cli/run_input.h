@@ -23,6 +23,7 @@ struct RunInput {
   std::vector<std::string> readings;
   std::vector<std::string> start;
   std::vector<std::string> modal;
+  std::vector<std::string> switches;
   std::uint64_t fuel = RunOptions{}.fuel;
   ControlArguments control;
   std::string numbers; // empty: those of the dialect

@@ -125,7 +125,7 @@ private:
       place.emplace_back(letterOf(axis), coordinate);
     return {{"variables", std::move(variables)},
             {"inputs", std::move(readings)},
-            {"start", json::startToJson(modalWords(start, file.project->dialect()), place)},
+            {"start", json::startToJson(modalWords(start, file.project->dialect()), place, settingsOf(start))},
             {"happened", witness.happened}};
   }
   Json evidenceToJson(const prove::Proved &proved, const std::string &name) {

@@ -18,11 +18,15 @@ std::string documentText(const Json &document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place) {
+Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place,
+                 const std::vector<std::pair<std::string, bool>> &settings) {
   Json position = Json::object();
   for (const auto &[axis, coordinate] : place)
     position[std::string(1, axis)] = coordinate;
-  return {{"modal", modal}, {"position", std::move(position)}};
+  Json switches = Json::object();
+  for (const auto &[name, isOn] : settings)
+    switches[name] = isOn;
+  return {{"modal", modal}, {"position", std::move(position)}, {"switches", std::move(switches)}};
 }
 
 Json fixToJson(const FixIt &fix, const SourceFile &source) {

@@ -20,8 +20,10 @@ Json placeOf(const SourceFile &source, Span span);
 std::string compactText(const Json &value);
 std::string documentText(const Json &document);
 
-/// What of the start of a run is not as after power-on: modal codes and words, and coordinates by axis.
-Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place);
+/// What of the start of a run is not as after power-on, or not usual: modal codes and words, coordinates by axis, and
+/// settings of the machine.
+Json startToJson(const std::vector<std::string> &modal, const std::vector<std::pair<char, double>> &place,
+                 const std::vector<std::pair<std::string, bool>> &settings);
 
 Json fixToJson(const FixIt &fix, const SourceFile &source);
 

@@ -91,7 +91,7 @@ private:
     return {{"call", call.call ? Json(*call.call) : Json()},
             {"variables", std::move(variables)},
             {"inputs", std::move(readings)},
-            {"start", json::startToJson(call.modal, call.place)},
+            {"start", json::startToJson(call.modal, call.place, call.settings)},
             {"run", call.run()},
             {"end", feedhold::nameOf(witness.end)},
             {"happened", happenedIn(witness, obligation, file_.project->dialect())},

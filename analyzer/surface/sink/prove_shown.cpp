@@ -1,6 +1,7 @@
 #include "surface/sink/prove_shown.h"
 
 #include "language/dialect/code_name.h"
+#include "language/dialect/switch_names.h"
 
 #include <fmt/format.h>
 
@@ -72,6 +73,13 @@ bool isOfBlock(const Obligation &obligation) {
 }
 
 } // namespace
+
+std::vector<std::pair<std::string, bool>> settingsOf(const GivenStart &start) {
+  std::vector<std::pair<std::string, bool>> settings;
+  for (const auto &[setting, isOn] : start.settings)
+    settings.emplace_back(switchNames()[setting].name, isOn);
+  return settings;
+}
 
 std::vector<std::string> modalWords(const GivenStart &start, const Dialect &dialect) {
   const ModalTable modes(dialect);
@@ -150,6 +158,9 @@ TypedWitness typed(const prove::Witness &witness, const ProvedFile &file, const 
     result.place.emplace_back(letterOf(axis), coordinate);
     result.options += fmt::format(" --start {}{}", letterOf(axis), shortest(coordinate));
   }
+  result.settings = settingsOf(witness.variables.start);
+  for (const auto &[setting, isOn] : result.settings)
+    result.options += fmt::format(" --switch {}={}", setting, isOn ? "on" : "off");
   if (!witness.returning.empty())
     result.options += " --missing return";
   result.options += report.readingOptions;
@@ -172,8 +183,14 @@ std::string textOf(const TypedWitness &witness) {
     text += fmt::format("{}#{} read as {}", before, name, numbers);
     before = ", ";
   }
-  const std::string start = startOf(witness);
-  return start.empty() ? text : fmt::format("{}, started {}", text, start);
+  if (const std::string start = startOf(witness); !start.empty())
+    text += ", started " + start;
+  std::string_view join = ", where ";
+  for (const auto &[name, isOn] : witness.settings) {
+    text += fmt::format("{}`{}` is {}", join, name, isOn ? "on" : "off");
+    join = " and ";
+  }
+  return text;
 }
 
 std::string claimOf(const Obligation &obligation, const Dialect &dialect) {

@@ -27,6 +27,9 @@ std::string programName(const ProvedFile &file, const ProvedProgram &program);
 /// As a shell takes it for one word.
 std::string quotedWord(const std::string &word);
 
+/// Settings of the machine by their names.
+std::vector<std::pair<std::string, bool>> settingsOf(const GivenStart &start);
+
 /// What is in force at a start in place of power-on's: `G18`, `T5`.
 std::vector<std::string> modalWords(const GivenStart &start, const Dialect &dialect);
 
@@ -38,6 +41,7 @@ struct TypedWitness {
   std::vector<std::pair<std::string, std::vector<double>>> readings; // what the reads of inputs give, likewise
   std::vector<std::string> modal;                                    // `G18`, `T5`: in force at the start
   std::vector<std::pair<char, double>> place;                        // at the start: axis and coordinate
+  std::vector<std::pair<std::string, bool>> settings;                // of the machine: `bare_cycle_stops` is on
   std::string options;                                               // of a command that runs the program on it
   std::string run() const { return "feedhold run " + options; }
   std::string plot() const { return "feedhold plot " + options; }
