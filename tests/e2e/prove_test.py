@@ -361,6 +361,13 @@ class Prove(Scratch):
         wrong = self.feedhold("run", "O8.nc", "--isolated", "--switch", "bare_cycle_stops=yes")
         self.assertIn("is not a setting and its value", wrong.stderr)
 
+    def test_a_subroutine_of_o_words_replays(self):
+        self.write("probe.ngc", "o<half-way> sub\n#1=[1/#2]\no<half-way> endsub\nm2\n")
+        report = json.loads(self.feedhold("prove", "--format", "json", "--dialect", "linuxcnc", "probe.ngc").stdout)
+        [row] = [row for file in report["files"] for row in file["obligations"] if "divided" in row["claim"]]
+        replay = self.feedhold(*shlex.split(row["witness"]["run"])[1:])
+        self.assertIn("alarm divided by zero", replay.stdout + replay.stderr)
+
     def test_cutter_compensation_replays(self):
         self.write("O7.nc", COMPENSATED)
         rows = {row["id"]: row for row in self.obligations("O7.nc")}

@@ -81,7 +81,8 @@ OpenedFile openedFileOf(const WorkItem &item) {
 bool isNamed(const Program &program, std::string_view wanted) {
   const std::string name = toUpper(program.name.number ? std::to_string(*program.name.number) : program.name.text);
   const std::string asked = toUpper(wanted);
-  return !name.empty() && (asked == name || asked == "O" + name || asked == "<" + name + ">");
+  return !name.empty() && (asked == name || asked == "O" + name || asked == "<" + name + ">" ||
+                           asked == toUpper(toString(program.name)));
 }
 
 } // namespace

@@ -64,7 +64,7 @@ std::unique_ptr<const Project> loadProject(const WorkItem &item, const ProgramOp
                                            const KnownNames &known);
 
 /// Where a run of the first file starts: at its first program that is no subroutine, or at the one of this name
-/// (`O1234`, `1234`, `NAME`).  Absent when there is none.
+/// (`O1234`, `1234`, `NAME`, `o<name>`).  Absent when there is none.
 std::optional<Callee> startOf(const Project &project, const std::optional<std::string> &name);
 
 } // namespace feedhold

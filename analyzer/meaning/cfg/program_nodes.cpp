@@ -36,6 +36,11 @@ std::size_t nodesOf(const ProgramFile &file, ProgramId program) {
   return end - first;
 }
 
+std::optional<std::uint32_t> variableOf(const ProgramSet &programs, FileId file, const VariableUse &use) {
+  const auto *named = std::get_if<NamedVariable>(&programs.file(file).tree->expressions[use.expression].node);
+  return named ? programs.variableOf(file, named->name) : use.number;
+}
+
 const Assignment *ownAlarmAt(const ProgramFile &file, NodeId node) {
   const auto *assign = std::get_if<Assign>(&file.cfg.nodes[node].instruction);
   if (!assign)

@@ -11,6 +11,10 @@ namespace feedhold {
 /// The nodes of a program stand together from its entry on: how many they are.
 std::size_t nodesOf(const ProgramFile &file, ProgramId program);
 
+/// The variable that the text reads or writes there, by its number or its name.  Absent: the number is computed, or the
+/// name means nothing in the set.
+std::optional<std::uint32_t> variableOf(const ProgramSet &programs, FileId file, const VariableUse &use);
+
 /// The assignment of the node that raises an alarm of the program (`#3000=`); null: there is none.
 const Assignment *ownAlarmAt(const ProgramFile &file, NodeId node);
 

@@ -416,8 +416,8 @@ MachineState<R> entryParts(Interpretation &interpretation, Given &&given, Unknow
 
 template <typename R> void havocParts(R &interpretation, MachineState<R> &state, const HavocKeeps &keeps) {
   const bool isMapped = interpretation.mayBe(state.transformed);
-  interpretation.havocVariables(state, 0, 0xffffffff);
-  forEachPart(
+  interpretation.havocVariables(state, 0, 0xffffffff); // which leaves none of them in the state
+  forEachPart<Part::Variable>(
       [&](PartId id, auto &part) {
         if (!isMapped && id == PartId{Part::Code, keeps.polarGroup.value_or(kModalGroups)})
           return;

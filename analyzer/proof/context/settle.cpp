@@ -160,15 +160,23 @@ std::optional<Obligation> toldByRuns(const ProofContext &context, const Question
 
 } // namespace
 
-Obligation settle(const ProofContext &context, const Question &question) {
+namespace {
+
+/// What is told without a question to a solver.
+std::optional<Verdict> toldAtOnce(const ProofContext &context, const Question &question) {
+  return question.open.empty() ? decidedBefore(context, violationOf(context, question))
+                               : Verdict::unknown(question.open);
+}
+
+Obligation settle(const ProofContext &context, const Question &question, std::optional<Verdict> told) {
   Obligation row = question.row;
   if (!question.open.empty()) {
-    row.verdict = Verdict::unknown(question.open);
+    row.verdict = *std::move(told);
     return row;
   }
   const Violation violation = violationOf(context, question);
-  if (auto decided = decidedBefore(context, violation))
-    row.verdict = *std::move(decided);
+  if (told)
+    row.verdict = *std::move(told);
   else if (question.goals.empty())
     row.verdict = verdict::Unreachable{};
   else
@@ -183,8 +191,20 @@ Obligation settle(const ProofContext &context, const Question &question) {
   return row;
 }
 
+} // namespace
+
+Obligation settle(const ProofContext &context, const Question &question) {
+  return settle(context, question, toldAtOnce(context, question));
+}
+
+/// What is told at once is asked first: solvers may leave no steps for it.
 void settleAll(const ProofContext &context, Questions questions, SettledRows &into) {
-  for (Question &question : questions) {
+  std::vector<std::optional<Verdict>> told;
+  for (const Question &question : questions)
+    told.push_back(question.isToldByRuns || context.decidedAs(question.row) ? std::nullopt
+                                                                            : toldAtOnce(context, question));
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    Question &question = questions[i];
     if (question.isToldByRuns) {
       if (auto row = toldByRuns(context, question))
         into.rows.push_back(*std::move(row));
@@ -192,7 +212,7 @@ void settleAll(const ProofContext &context, Questions questions, SettledRows &in
     }
     into.denials.push_back(denialOf(question));
     const Obligation *known = context.decidedAs(question.row);
-    into.rows.push_back(known ? *known : settle(context, question));
+    into.rows.push_back(known ? *known : settle(context, question, std::move(told[i])));
     if (!into.rows.back().verdict.holds()) {
       question.row = into.rows.back();
       into.open.push_back(std::move(question));

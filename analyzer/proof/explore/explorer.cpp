@@ -87,6 +87,7 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
     : interpretation_(interpretation), store_(interpretation.store()), programs_(programs), options_(options),
       merging_(merging), termsBefore_(store_.size()), entails_(store_), groundTruth_(store_) {
   interpretation_.usePath(this);
+  interpretation_.useGlobalNames([&programs](std::uint32_t variable) { return programs.isGlobalName(variable); });
   result_.unbounded = std::move(unbounded);
   using UnlistedCodes = SymbolicInterpretation::UnlistedCodes;
   interpretation_.treatUnlisted(options.missing != MissingPrograms::Return ? UnlistedCodes::DoAnything
@@ -236,15 +237,18 @@ void Explorer::follow(Path start, Purpose purpose, Trial *trial) {
       if (isTooMuch(work.size()) || ++path.steps > kLongestPath)
         return giveUpOn(work, path);
       purpose_ = purpose; // opening a loop tries it
-      if (!arrive(path, purpose, trial))
+      if (!arrive(path, purpose, trial, work))
         continue;
       purpose_ = purpose;
-      for (Path &next : execute(std::move(path))) {
-        Worklist::Position position = positionOf(next);
-        work.add(std::move(position), std::move(next));
-      }
+      for (Path &next : execute(std::move(path)))
+        wait(work, std::move(next));
       path_ = nullptr;
     }
+}
+
+void Explorer::wait(Worklist &work, Path path) {
+  Worklist::Position position = positionOf(path);
+  work.add(std::move(position), std::move(path));
 }
 
 bool Explorer::isTooMuch(std::size_t waiting) {
@@ -262,7 +266,7 @@ Worklist::Position Explorer::positionOf(const Path &path) {
 }
 
 /// Those that can go on together; without those that have left the loop that is tried.
-std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) {
+std::vector<Path> Explorer::merged(std::vector<Path> paths, Trial *trial) {
   if (merging_ == PathMerging::No)
     return paths;
   std::vector<Path> left;
@@ -287,7 +291,7 @@ std::vector<Path> Explorer::merged(std::vector<Path> paths, const Trial *trial) 
 }
 
 /// A loop is left when the path leaves its program, or stands outside of its nodes.
-bool Explorer::closeLeftLoops(Path &path, const Trial *trial) {
+bool Explorer::closeLeftLoops(Path &path, Trial *trial) {
   while (!path.loops.empty()) {
     const OpenLoop &loop = path.loops.back();
     if (path.frames.size() > loop.depth)
@@ -298,14 +302,17 @@ bool Explorer::closeLeftLoops(Path &path, const Trial *trial) {
       if (wto.positionOf(loop.head) <= at && at < wto.endOf(loop.head))
         return true;
     }
-    if (trial && trial->instance == loop.instance)
-      return false;
+    const bool isTried = trial && trial->instance == loop.instance;
     path.loops.pop_back();
+    if (isTried) {
+      trial->exits.push_back(std::move(path));
+      return false;
+    }
   }
   return true;
 }
 
-bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
+bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial, Worklist &work) {
   if (path.atOpenedHead) {
     path.atOpenedHead = false;
     return true;
@@ -327,7 +334,11 @@ bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial) {
       recordIteration(path);
     return false;
   }
-  return LoopSummarizer(*this).open(path);
+  if (purpose == Purpose::Record)
+    return LoopSummarizer(*this).open(path);
+  for (Path &exit : LoopSummarizer(*this).tryAll(path))
+    wait(work, std::move(exit));
+  return false;
 }
 
 /// In the state of an earlier visit: whatever comes has been followed from there.

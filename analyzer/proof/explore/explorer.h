@@ -31,15 +31,19 @@ private:
 
   /// Stops, iterations and exits are recorded only on the final paths; loops are tried before.
   enum class Purpose : std::uint8_t { Trial, Record };
-  /// Of a trial: the loop whose iterations are looked for, and the paths that come back to its head.
+  /// Of a trial: the loop whose iterations are looked for, the paths that come back to its head, and those that leave
+  /// it.
   struct Trial {
     std::size_t instance;
-    std::vector<Path> iterations;
+    std::vector<Path> iterations = {};
+    std::vector<Path> exits = {};
   };
   void follow(Path start, Purpose purpose, Trial *trial);
-  /// False: the path ends here.
-  bool arrive(Path &path, Purpose purpose, Trial *trial);
-  bool closeLeftLoops(Path &path, const Trial *trial);
+  void wait(Worklist &work, Path path);
+  /// False: the path ends here; or others go on in its place, which wait.
+  bool arrive(Path &path, Purpose purpose, Trial *trial, Worklist &work);
+  /// False: the path has left the loop that is tried, and is kept there.
+  bool closeLeftLoops(Path &path, Trial *trial);
   bool comesBack(Path &path);
   void recordIteration(const Path &path);
 
@@ -116,7 +120,7 @@ private:
   void giveUpOn(const Worklist &open, const Path &path);
   bool isTooMuch(std::size_t waiting);
   Worklist::Position positionOf(const Path &path);
-  std::vector<Path> merged(std::vector<Path> paths, const Trial *trial);
+  std::vector<Path> merged(std::vector<Path> paths, Trial *trial);
   bool isPossible(const Path &path, smt::TermId condition);
   std::optional<bool> byEnclosure(smt::TermId condition);
 
@@ -144,6 +148,7 @@ private:
   std::map<std::uint32_t, std::unique_ptr<ModalTable>> modes_;
   ExecutedWords<SymbolicInterpretation> words_;
   std::vector<LoopShape> shapes_; // by Exploration::loops
+  KnownLoops knownLoops_;
 };
 
 /// Explores with the ranges that are told for indices, and again without those that were relied on and are not shown.

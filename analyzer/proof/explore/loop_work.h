@@ -8,6 +8,9 @@ namespace feedhold::prove {
 /// Of trials, until nothing new is found.
 constexpr int kMostLoopRounds = 12;
 
+/// The terms of the state, then whether an axis has moved.
+std::vector<smt::TermId> termsOf(const SymbolicState &state, smt::TermId moved);
+
 struct LoopSummarizer::Work {
   Path arrival;
   std::size_t instance;
@@ -18,6 +21,7 @@ struct LoopSummarizer::Work {
   bool isTried = false;   // `found` and `left` are what these parts and facts allow
   std::size_t before = 0; // conditions of the last trial's start
   std::vector<Path> found = {};
+  std::vector<Path> exits = {};                    // of the same trial
   std::vector<std::vector<smt::TermId>> left = {}; // by iteration: its parts
 
   std::vector<LoopPart> &parts() { return shape.parts; }

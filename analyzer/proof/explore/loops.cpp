@@ -24,14 +24,6 @@ constexpr std::array kErrors = {-44, -24, -10};
 
 Number errorOf(std::size_t bound) { return Number::fromDouble(std::ldexp(1.0, kErrors[bound])); }
 
-/// The terms of the state, then whether an axis has moved.
-std::vector<TermId> termsOf(const SymbolicState &state, TermId moved) {
-  std::vector<TermId> terms;
-  forEachTerm(state, [&](TermId term) { terms.push_back(term); });
-  terms.push_back(moved);
-  return terms;
-}
-
 /// Where among the terms of the state the vacancies stand; the number of each follows it.
 std::vector<std::size_t> vacanciesIn(const SymbolicState &state) {
   std::vector<std::size_t> vacancies;
@@ -56,6 +48,13 @@ std::vector<LoopInstance::Value> valuesOf(const SymbolicState &arrival, const Sy
 }
 
 } // namespace
+
+std::vector<TermId> termsOf(const SymbolicState &state, TermId moved) {
+  std::vector<TermId> terms;
+  forEachTerm(state, [&](TermId term) { terms.push_back(term); });
+  terms.push_back(moved);
+  return terms;
+}
 
 // ---- LoopShape ----
 
@@ -135,6 +134,11 @@ void LoopSummarizer::addErrorsBehind(const LoopPart &part, TermId left, smt::Sub
 }
 
 // ---- errors ----
+
+LoopPart::Error LoopSummarizer::newError(std::size_t bound) {
+  return {explorer_.interpretation_.fresh("rounding", Sort::Real),
+          explorer_.interpretation_.fresh("rounding before", Sort::Real), bound};
+}
 
 /// Of the amounts that are tried, the first that words and functions in what an iteration leaves do not exceed alone.
 std::size_t LoopSummarizer::leastError(const Work &work, std::size_t part) {
@@ -252,14 +256,16 @@ bool LoopSummarizer::tryIterations(Work &work) {
   for (const TermId fact : work.facts)
     if (!start.assume(explorer_.store_, fact)) {
       work.found.clear();
+      work.exits.clear();
       return true;
     }
   work.before = start.conditions.size();
   start.loops.push_back({start.at.node, start.frames.size(), work.instance});
   start.atOpenedHead = true;
-  Explorer::Trial trial{work.instance, {}};
+  Explorer::Trial trial{.instance = work.instance};
   explorer_.follow(std::move(start), Explorer::Purpose::Trial, &trial);
   work.found = std::move(trial.iterations);
+  work.exits = std::move(trial.exits);
   return !explorer_.result_.incomplete;
 }
 
@@ -349,9 +355,7 @@ void LoopSummarizer::classify(Work &work) {
       closed.emplace(part.symbol, part.symbol);
       if (std::ranges::any_of(work.left,
                               [&](const auto &left) { return smt::withoutRounding(store, left[i]) != left[i]; }))
-        part.error =
-            LoopPart::Error{explorer_.interpretation_.fresh("rounding", Sort::Real),
-                            explorer_.interpretation_.fresh("rounding before", Sort::Real), leastError(work, i)};
+        part.error = newError(leastError(work, i));
     }
   }
   for (std::size_t i = 0; i < work.parts().size(); ++i) {
@@ -392,79 +396,91 @@ bool LoopSummarizer::verify(Work &work) {
 
 bool LoopSummarizer::findKinds(Work &work) {
   classify(work);
-  smt::TermStore &store = explorer_.store_;
-  for (int round = 0; round < kMostLoopRounds; ++round) {
-    // Derived parts speak of closed ones: when one of those has become free, so do they.
-    for (LoopPart &part : work.parts())
-      if (part.kind == PartKind::Derived)
-        for (const TermId variable : smt::variablesOf(store, part.step))
-          if (!isConstant(work, variable) &&
-              std::none_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &other) {
-                return other.kind == PartKind::Closed && other.symbol == variable;
-              }))
-            part.kind = PartKind::Free;
-    work.facts = {store.lessOrEqual(store.number(Number(0)), work.iterations)};
-    addErrors(work);
-    build(work);
-    addTravels(work);
-    for (const std::size_t i : vacanciesIn(work.arrival.state)) // vacant counts as 0
-      if (work.parts()[i].kind == PartKind::Free || work.parts()[i + 1].kind == PartKind::Free)
-        work.facts.push_back(
-            store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
-    bool grew = false;
-    if (!tryIterations(work) || !relayout(work, grew))
-      return false;
-    if (grew)
-      break;
-    if (verify(work))
+  bool grew = false;
+  for (int round = 0; round < kMostLoopRounds && !grew && !explorer_.result_.incomplete; ++round)
+    if (tryKinds(work, grew))
       return true;
-  }
   explorer_.giveUp("what a loop changes is unknown: it could not be summarised");
   return false;
 }
 
+/// Follows the iterations with the parts of these kinds.  False: some are others now, or it was given up.
+bool LoopSummarizer::tryKinds(Work &work, bool &grew) {
+  smt::TermStore &store = explorer_.store_;
+  // Derived parts speak of closed ones: when one of those has become free, so do they.
+  for (LoopPart &part : work.parts())
+    if (part.kind == PartKind::Derived)
+      for (const TermId variable : smt::variablesOf(store, part.step))
+        if (!isConstant(work, variable) &&
+            std::none_of(work.parts().begin(), work.parts().end(), [&](const LoopPart &other) {
+              return other.kind == PartKind::Closed && other.symbol == variable;
+            }))
+          part.kind = PartKind::Free;
+  work.facts = {store.lessOrEqual(store.number(Number(0)), work.iterations)};
+  addErrors(work);
+  build(work);
+  addTravels(work);
+  for (const std::size_t i : vacanciesIn(work.arrival.state)) // vacant counts as 0
+    if (work.parts()[i].kind == PartKind::Free || work.parts()[i + 1].kind == PartKind::Free)
+      work.facts.push_back(
+          store.implies(work.parts()[i].generic, store.equal(work.parts()[i + 1].generic, store.number(Number(0)))));
+  return tryIterations(work) && relayout(work, grew) && !grew && verify(work);
+}
+
 // ---- LoopSummarizer ----
 
-bool LoopSummarizer::open(Path &path) {
-  smt::TermStore &store = explorer_.store_;
+std::optional<LoopSummarizer::Work> LoopSummarizer::summarised(const Path &path) {
   const std::size_t instance = explorer_.result_.loops.size();
   std::vector<Place> calls;
   for (std::size_t i = 1; i < path.frames.size(); ++i)
     calls.push_back(path.frames[i].call);
-  const auto purpose = explorer_.purpose_;
-  const std::size_t mark = store.size();
+  const std::size_t mark = explorer_.store_.size();
   Work work{
       .arrival = path, .instance = instance, .iterations = explorer_.interpretation_.fresh("iterations", Sort::Int)};
   explorer_.result_.loops.push_back(
       {.head = path.at, .calls = calls, .iterations = work.iterations, .mark = mark, .arrival = path.conditions});
   explorer_.shapes_.emplace_back();
-  if (!findChanged(work) || !findKinds(work))
-    return false;
+  if (!startAsKnown(work) && (!findChanged(work) || !findKinds(work)))
+    return std::nullopt;
+  remember(work);
   addInvariants(work);
   bool grew = false;
-  if (!work.isTried && (!tryIterations(work) || !relayout(work, grew) || grew))
-    return explorer_.giveUp("what a loop changes is unknown: it could not be summarised"), false;
+  if (!work.isTried && (!tryIterations(work) || !relayout(work, grew) || grew)) {
+    explorer_.giveUp("what a loop changes is unknown: it could not be summarised");
+    return std::nullopt;
+  }
   addLastIteration(work);
-  build(work);
+  return work;
+}
 
-  LoopInstance &loop = explorer_.result_.loops[instance];
-  loop.isRecorded = purpose == Explorer::Purpose::Record;
-  loop.facts = work.facts;
+bool LoopSummarizer::open(Path &path) {
+  auto work = summarised(path);
+  if (!work)
+    return false;
+  build(*work);
+  LoopInstance &loop = explorer_.result_.loops[work->instance];
+  loop.isRecorded = true;
+  loop.facts = work->facts;
   if (explorer_.options_.rankingHints)
-    loop.rankingHints = explorer_.options_.rankingHints(path.at, work.shape.state);
-  for (const LoopPart &part : work.parts())
+    loop.rankingHints = explorer_.options_.rankingHints(path.at, work->shape.state);
+  for (const LoopPart &part : work->parts())
     if (part.kind == PartKind::Free)
       loop.variables.push_back(part.symbol);
-  loop.first = atArrival(work);
-  loop.values = valuesOf(work.arrival.state, work.shape.state);
-  path.state = work.shape.state;
-  path.moved = work.moved;
-  path.loops.push_back({path.at.node, path.frames.size(), instance});
-  explorer_.shapes_[instance] = std::move(work.shape);
-  for (const TermId fact : work.facts)
-    if (!path.assume(store, fact))
-      return false;
-  return true;
+  loop.first = atArrival(*work);
+  loop.values = valuesOf(work->arrival.state, work->shape.state);
+  path.state = work->shape.state;
+  path.moved = work->moved;
+  path.loops.push_back({path.at.node, path.frames.size(), work->instance});
+  explorer_.shapes_[work->instance] = std::move(work->shape);
+  return std::ranges::all_of(work->facts, [&](TermId fact) { return path.assume(explorer_.store_, fact); });
+}
+
+std::vector<Path> LoopSummarizer::tryAll(const Path &path) {
+  auto work = summarised(path);
+  if (!work)
+    return {};
+  std::erase_if(work->exits, [&](Path &exit) { return !exit.assume(explorer_.store_, work->facts.back()); });
+  return std::move(work->exits);
 }
 
 bool LoopSummarizer::record(std::size_t instance, const Path &path) {

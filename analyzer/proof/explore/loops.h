@@ -15,6 +15,8 @@
 
 #include "proof/explore/path.h"
 
+#include <map>
+
 namespace feedhold::prove {
 
 class Explorer;
@@ -53,19 +55,40 @@ struct LoopShape {
   smt::Substitution closedParts() const;
 };
 
+/// What was found of a loop when it was last opened.  Each trial of a loop opens the loops in it again, where mostly
+/// the same parts change in the same way: that is tried first (reopened_loop.cpp).
+struct KnownLoop {
+  std::vector<PartId> layout;  // of the state
+  std::vector<LoopPart> parts; // of it, then whether an axis has moved
+  smt::TermId iterations;
+};
+/// By the calls that led to its head, and the head.
+using KnownLoops = std::map<std::pair<std::vector<Place>, Place>, KnownLoop>;
+
 class LoopSummarizer {
 public:
   explicit LoopSummarizer(Explorer &explorer) : explorer_(explorer) {}
 
   /// The path is at the head of a loop: moves it before an arbitrary iteration.  False: no invariant was found.
   bool open(Path &path);
+  /// The same in a trial, of a loop around it: the paths that leave it.
+  std::vector<Path> tryAll(const Path &path);
   /// The path has returned to the head: adds the iteration.  False: it does not preserve the invariant.
   bool record(std::size_t instance, const Path &path);
 
 private:
   struct Work;
+  // ---- opened before (reopened_loop.cpp) ----
+  bool startAsKnown(Work &work);
+  bool takeParts(Work &work, const KnownLoop &known);
+  bool isAnyUnchanged(const Work &work) const;
+  void remember(const Work &work);
+  KnownLoops::key_type keyOf(const Work &work) const;
+
+  std::optional<Work> summarised(const Path &path);
   bool findChanged(Work &work);
   bool findKinds(Work &work);
+  bool tryKinds(Work &work, bool &grew);
   void classify(Work &work);
   bool verify(Work &work);
   void addInvariants(Work &work);
@@ -84,6 +107,7 @@ private:
   smt::TermId travelled(Work &work, smt::TermId step);
   void addTravels(Work &work);
   void addErrors(Work &work);
+  LoopPart::Error newError(std::size_t bound);
   std::size_t leastError(const Work &work, std::size_t part);
   smt::TermId part(smt::TermId arrival, smt::TermId left);
   /// An iteration on these conditions that leaves this in a part leaves it as the kind of the part says; `closed`:

@@ -1,5 +1,6 @@
 #include "proof/families/call_inputs.h"
 
+#include "meaning/cfg/program_nodes.h"
 #include "meaning/cfg/reached_programs.h"
 
 #include <algorithm>
@@ -26,10 +27,8 @@ Variables variablesOf(const ProofSubject &subject, const Callee &callee) {
     for (const VariableUse &use : file.model->variablesOf(each.program)) {
       if (use.write)
         continue;
-      const auto *named = std::get_if<NamedVariable>(&file.tree->expressions[use.expression].node);
-      const auto number = named ? subject.programs.variableOf(each.file, named->name) : use.number;
-      if (number)
-        used.insert(*number);
+      if (const auto variable = variableOf(subject.programs, each.file, use))
+        used.insert(*variable);
     }
     if (const FileContracts *contracts = subject.contractsOf({each.file, file.cfg.entryOf(each.program), each.program}))
       used.merge(variablesIn(*contracts));

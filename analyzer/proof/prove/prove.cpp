@@ -44,6 +44,7 @@ public:
       sampleContract();
     else {
       witnesses_->sampleOtherModes();
+      witnesses_->sampleVariants();
       witnesses_->sampleDecimals({});
     }
   }

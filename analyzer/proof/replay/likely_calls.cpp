@@ -20,7 +20,8 @@ constexpr unsigned kCommon = 3;      // a variable that no letter passes
 constexpr unsigned kOfControl = 8;   // a system variable
 constexpr std::size_t kMostCalls = 6;
 constexpr std::size_t kMostChanged = 8; // arguments
-constexpr std::size_t kMostGuards = 40;
+constexpr std::size_t kMostGuards = 80;
+constexpr int kTriesOfAccepted = 1'500;
 
 /// What people choose.
 constexpr std::array kRound = {1.0, 10.0, 5.0, 2.0, 0.5, 100.0, 0.1, 50.0, 20.0};
@@ -53,9 +54,27 @@ unsigned oddnessOf(double value) {
 /// What a condition compares: a number, vacancy, or nothing that is known.
 using ValueOf = std::function<std::optional<ConcreteValue>(std::uint32_t)>;
 
+std::optional<double> resultOf(OperatorKind operation, double a, double b) {
+  if (operation == OperatorKind::Add)
+    return a + b;
+  if (operation == OperatorKind::Subtract)
+    return a - b;
+  if (operation == OperatorKind::Multiply)
+    return a * b;
+  return operation == OperatorKind::Divide && b != 0 ? std::optional(a / b) : std::nullopt;
+}
+
 std::optional<ConcreteValue> valueIn(const SyntaxTree &tree, ExpressionId expression, const ValueOf &valueOf) {
   if (const auto literal = literalValue(tree, expression))
     return ConcreteValue::of(literal->toDouble());
+  const ExpressionId inside = unwrapped(tree, expression);
+  if (const auto *operation = std::get_if<BinaryOperation>(&tree.expressions[inside].node)) {
+    const auto left = valueIn(tree, operation->left, valueOf), right = valueIn(tree, operation->right, valueOf);
+    const auto result =
+        left && right ? resultOf(operation->op, left->vacant ? 0 : left->number, right->vacant ? 0 : right->number)
+                      : std::nullopt;
+    return result ? std::optional(ConcreteValue::of(*result)) : std::nullopt;
+  }
   const auto variable = variableNumber(tree, unwrapped(tree, expression));
   if (!variable)
     return std::nullopt;
@@ -297,13 +316,50 @@ ConcreteValue LikelyCalls::whereMissing(std::uint32_t variable) const {
   return known != inputs_.end() && known->second.preset ? ConcreteValue::of(*known->second.preset) : ConcreteValue();
 }
 
-bool LikelyCalls::isRefused(const GivenVariables &given) const {
+std::vector<ExpressionId> LikelyCalls::refusing(const GivenVariables &given) const {
   const ValueOf valueOf = [&](std::uint32_t variable) -> std::optional<ConcreteValue> {
     const ConcreteValue *held = given.find(variable);
     return held && !held->vacant ? *held : whereMissing(variable);
   };
-  return std::ranges::any_of(
-      guards_, [&](const Guard &guard) { return holdsFor(*file_.tree, guard.condition, valueOf) == guard.refuses; });
+  std::vector<ExpressionId> conditions;
+  for (const Guard &guard : guards_)
+    if (holdsFor(*file_.tree, guard.condition, valueOf) == guard.refuses)
+      conditions.push_back(guard.condition);
+  return conditions;
+}
+
+/// A walk that never adds to the guards that refuse (Selman, Levesque and Mitchell, "A new method for solving hard
+/// satisfiability problems", 1992): one of their variables is moved to what the condition compares it with, or near it.
+GivenVariables LikelyCalls::accepted(std::mt19937 &random) const {
+  const SyntaxTree &tree = *file_.tree;
+  GivenVariables given = completed(ofFolder_.empty() ? GivenVariables() : ofFolder_.front());
+  std::vector<ExpressionId> open = refusing(given);
+  const auto anyOf = [&](const auto &values) { return values[random() % values.size()]; };
+  for (int tries = 0; tries < kTriesOfAccepted && !open.empty(); ++tries) {
+    std::vector<std::uint32_t> variables;
+    std::vector<double> numbers(kRound.begin(), kRound.end());
+    for (const ExpressionId each : subexpressions(tree, anyOf(open))) {
+      if (const auto literal = literalValue(tree, each))
+        numbers.insert(numbers.end(), 4, literal->toDouble());
+      if (const auto variable = variableNumber(tree, each); variable && *variable != kVacantVariable) {
+        variables.push_back(*variable);
+        if (const ConcreteValue *held = given.find(*variable))
+          numbers.insert(numbers.end(), 4, held->number);
+      }
+    }
+    if (variables.empty())
+      continue;
+    constexpr std::array kFactors = {1.0, 1.0, 0.5, 2.0, 4.0, 0.25};
+    constexpr std::array kAdded = {0.0, 0.0, 1.0, -1.0, 0.1, 10.0};
+    GivenVariables other = given;
+    other.set(anyOf(variables), ConcreteValue::of(anyOf(numbers) * anyOf(kFactors) + anyOf(kAdded)));
+    std::vector<ExpressionId> left = refusing(other);
+    if (left.size() > open.size())
+      continue;
+    given = std::move(other);
+    open = std::move(left);
+  }
+  return given;
 }
 
 bool LikelyCalls::isRefusedAlone(std::uint32_t variable, const ConcreteValue &value) const {
@@ -351,7 +407,7 @@ unsigned LikelyCalls::distanceOf(std::uint32_t variable, double value) const {
 }
 
 unsigned LikelyCalls::distanceOf(const GivenVariables &given) const {
-  unsigned distance = isRefused(given) ? kRefused : 0;
+  unsigned distance = refusing(given).empty() ? 0 : kRefused;
   for (const auto &[variable, input] : inputs_) {
     const ConcreteValue *held = given.find(variable);
     if (input.need != Need::None && (!held || held->vacant))

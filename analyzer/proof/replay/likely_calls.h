@@ -9,6 +9,7 @@
 
 #include <map>
 #include <optional>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -28,6 +29,8 @@ public:
   GivenVariables completed(GivenVariables given) const;
   /// Calls that are written, then those that differ from a likely one in one argument: few.
   std::vector<GivenVariables> calls() const;
+  /// One that the guards let pass, as far as their conditions are read and the search finds one.
+  GivenVariables accepted(std::mt19937 &random) const;
 
 private:
   enum class Need : std::uint8_t {
@@ -53,7 +56,8 @@ private:
   void readCalls();
   bool mayBePassed(std::uint32_t variable) const;
   ConcreteValue whereMissing(std::uint32_t variable) const;
-  bool isRefused(const GivenVariables &given) const;
+  /// The conditions of the guards that refuse it.
+  std::vector<ExpressionId> refusing(const GivenVariables &given) const;
   bool isRefusedAlone(std::uint32_t variable, const ConcreteValue &value) const;
   double likeliest(std::uint32_t variable) const;
   unsigned distanceOf(std::uint32_t variable, double value) const;

@@ -1,5 +1,6 @@
 #include "proof/replay/witness.h"
 
+#include "meaning/cfg/program_nodes.h"
 #include "proof/decide/cancel.h"
 #include "proof/smt/steps.h"
 
@@ -17,6 +18,9 @@ constexpr int kSamples = 150;
 constexpr std::size_t kFewSamples = 30;
 constexpr int kSamplesOfEnds = 50;
 constexpr int kSamplesOfDecimals = 60;
+constexpr int kVariants = 400;
+constexpr int kAcceptedVariants = 8; // of them, the first: calls that guards let pass
+constexpr int kIdleVariants = 120;   // that end as others before the search stops
 constexpr std::uint64_t kSampleFuel = 4'000;
 constexpr std::uint64_t kStepsOfInstruction = 30;
 constexpr std::uint64_t kStepsOfInput = 20; // of a model
@@ -76,6 +80,27 @@ std::vector<std::uint32_t> WitnessSearch::inputs() const {
   for (const auto &[variable, value] : interpretation_.entryValues())
     inputs.push_back(variable);
   return inputs;
+}
+
+/// The inputs that the program reads; and what it reads where, on every path that is followed, something may have
+/// changed it: in a run it may be as it was.
+std::vector<std::uint32_t> WitnessSearch::variables() const {
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t variable : inputs())
+    if (variable > kLocalVariables) // the others are inputs of each program, read or not
+      all.push_back(variable);
+  const ProgramFile &file = programs_.file(entry_.file);
+  for (const VariableUse &use : file.model->variablesOf(entry_.program)) {
+    const auto variable = use.write ? std::nullopt : variableOf(programs_, entry_.file, use);
+    if (!variable || *variable == kVacantVariable || programs_.isLocalName(*variable))
+      continue;
+    const VariableRange *range = findVariable(*file.dialect, *variable);
+    if (!range || range->role == VariableRole::Plain) // a name, or a number
+      all.push_back(*variable);
+  }
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
 }
 
 smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
@@ -274,6 +299,62 @@ void WitnessSearch::sampleDecimals(const std::vector<InputEnds> &ends) {
     }
     keepSample(std::move(given));
   }
+}
+
+/// A search that is led by coverage, as fuzzers do it (M. Zalewski, American Fuzzy Lop): a run that comes to a new end,
+/// or farther to a known one, has variants of its own.
+void WitnessSearch::sampleVariants() {
+  const std::vector<std::uint32_t> names = variables();
+  if (names.empty() || samples_.empty())
+    return;
+  const auto endOf = [](const RunResult &run) { return std::tuple(run.place, run.end, run.alarm); };
+  std::map<decltype(endOf({})), std::size_t> parents; // of each end, the longest run
+  const auto isFarther = [&](std::size_t sample) {
+    const RunResult &run = samples_[sample].result;
+    const auto [known, isNew] = parents.try_emplace(endOf(run), sample);
+    if (isNew || run.steps <= samples_[known->second].result.steps)
+      return isNew;
+    known->second = sample;
+    return true;
+  };
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    isFarther(i);
+  const std::vector<double> pool = plainNumbers();
+  std::mt19937 random(1);
+  for (int i = 0, idle = 0; i < kVariants && idle < kIdleVariants && !smt::areStepsUsedUp(); ++i, ++idle) {
+    const std::size_t known = samples_.size();
+    const std::size_t parent =
+        std::next(parents.begin(), static_cast<std::ptrdiff_t>(random() % parents.size()))->second;
+    keepSample(i < kAcceptedVariants ? likely_->accepted(random)
+                                     : variantOf(samples_[parent].given, names, pool, random));
+    if (samples_.size() > known && isFarther(known))
+      idle = 0;
+    else
+      samples_.resize(known);
+  }
+}
+
+/// With other values of an input or two; and often with a value for each input that has none.
+GivenVariables WitnessSearch::variantOf(GivenVariables given, const std::vector<std::uint32_t> &names,
+                                        const std::vector<double> &pool, std::mt19937 &random) {
+  const auto anyOf = [&](const auto &values) { return values[random() % values.size()]; };
+  if (random() % 3 == 0)
+    for (const std::uint32_t name : names)
+      if (given.find(name) == nullptr)
+        given.set(name, ConcreteValue::of(anyOf(pool)));
+  for (auto left = 1 + random() % 3; left > 0; --left) {
+    const std::uint32_t name = anyOf(names);
+    const ConcreteValue *same = given.find(anyOf(names));
+    switch (random() % 8) {
+    case 0: given.erase(name); break;
+    case 1: given.set(name, same != nullptr ? *same : ConcreteValue::of(anyOf(pool))); break;
+    case 2:
+      given.set(name, ConcreteValue::of(static_cast<double>(random() % 2000) / 10 - 100));
+      break; // few are special
+    default: given.set(name, ConcreteValue::of(anyOf(pool))); break;
+    }
+  }
+  return given;
 }
 
 std::set<std::uint32_t> WitnessSearch::inputsRead() const {

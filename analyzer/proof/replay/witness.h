@@ -64,6 +64,9 @@ public:
   void sampleEnds(const std::vector<InputEnds> &ends);
   /// On numbers with a few digits behind the point, which the control rounds; between the ends where these are known.
   void sampleDecimals(const std::vector<InputEnds> &ends);
+  /// Variants of the runs so far, each kept if it ends at another place or in another way: programs that check what
+  /// they are given let few other runs through.
+  void sampleVariants();
   /// Inputs that are allowed, of small whole numbers: runs on them show how loops go on.
   std::vector<GivenVariables> smallInputs() const;
   /// Among the sampled runs, the one nearest to a call that a shop makes.
@@ -103,9 +106,12 @@ public:
 
 private:
   std::vector<std::uint32_t> inputs() const;
+  std::vector<std::uint32_t> variables() const;
   std::vector<double> plainNumbers() const;
   void addStartReads(GivenVariables &given, const smt::Model &model) const;
   GivenVariables inputsOf(const smt::Model &model) const;
+  static GivenVariables variantOf(GivenVariables given, const std::vector<std::uint32_t> &names,
+                                  const std::vector<double> &pool, std::mt19937 &random);
   std::set<std::uint32_t> inputsRead() const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.

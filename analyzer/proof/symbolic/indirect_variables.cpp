@@ -45,8 +45,9 @@ void SymbolicInterpretation::changeRegion(State &state, RegionChange change) {
   change.before = tokenOf(store_, state);
   auto &entries = state.variables.entries();
   const auto changes = [&](const auto &entry) { return isIn(span, entry.first) && entry.first != kRegionToken; };
-  if (change.write)
-    std::ranges::copy_if(entries, std::back_inserter(change.held), changes);
+  std::ranges::copy_if(entries, std::back_inserter(change.held), [&](const auto &entry) {
+    return changes(entry) && (change.write || staysDefined(entry.first));
+  });
   std::erase_if(entries, changes);
   const std::pair range{span.first, span.last};
   if (std::ranges::find(state.havocked, range) == state.havocked.end())
@@ -75,13 +76,28 @@ SymbolicValue SymbolicInterpretation::regionCell(TermId token, std::uint32_t var
     const RegionChange &change = known->second;
     if (!isIn(change.span, variable))
       return regionCell(change.before, variable, depth + 1);
-    if (change.write) {
+    const auto old = [&] {
       const auto held = std::ranges::find(change.held, variable, &Cells::value_type::first);
-      const Value old = held == change.held.end() ? regionCell(change.before, variable, depth + 1) : held->second;
-      return select({isCell(change.write->index, variable)}, change.write->value, old);
+      return held == change.held.end() ? regionCell(change.before, variable, depth + 1) : held->second;
+    };
+    if (change.write)
+      return select({isCell(change.write->index, variable)}, change.write->value, old());
+    if (staysDefined(variable)) {
+      Value cell = anyCell(token, variable);
+      cell.vacant = store_.logicalAnd(cell.vacant, old().vacant);
+      return cell;
     }
   }
+  return anyCell(token, variable);
+}
+
+SymbolicValue SymbolicInterpretation::anyCell(TermId token, std::uint32_t variable) {
   return named(fmt::format("#{} of region {}", variable, token.index()), vacancyIn({variable, variable}));
+}
+
+/// A global parameter that has been set once cannot be taken away: no code and no statement does that.
+bool SymbolicInterpretation::staysDefined(std::uint32_t variable) const {
+  return isGlobalName_ && isGlobalName_(variable) && !dialect_->behaviour.variablesMayBeVacant;
 }
 
 std::optional<std::vector<const RegionChange *>> SymbolicInterpretation::changesBetween(const State &before,

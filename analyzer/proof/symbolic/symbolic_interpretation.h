@@ -14,6 +14,7 @@
 #include "proof/symbolic/grids.h"
 #include "proof/symbolic/region_memory.h"
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -128,6 +129,8 @@ public:
     takesUsual_ = true;
     settings_ = std::move(settings);
   }
+  /// Of the variables of the programs: named ones that every program sees.
+  void useGlobalNames(std::function<bool(std::uint32_t)> isGlobalName) { isGlobalName_ = std::move(isGlobalName); }
   /// Equal: of numbers that are not whole, as near as this.  Returns what it was.
   std::optional<smt::TermId> useTolerance(std::optional<smt::TermId> tolerance) {
     return std::exchange(tolerance_, tolerance);
@@ -305,6 +308,8 @@ private:
   Value regionAt(smt::TermId token, smt::TermId index, VariableSpan span, int depth);
   Value startAt(smt::TermId index);
   Value regionCell(smt::TermId token, std::uint32_t variable, int depth);
+  Value anyCell(smt::TermId token, std::uint32_t variable);
+  bool staysDefined(std::uint32_t variable) const;
   bool writeAmong(State &state, smt::TermId index, const Value &value, VariableSpan span);
   bool writeRow(State &state, const VariableRange &row, const RegionWrite &write);
   bool writeAnywhere(State &state, const Value &index);
@@ -314,6 +319,7 @@ private:
   const Dialect *dialect_;
   Arithmetic arithmetic_;
   Rounds rounds_ = Rounds::No;
+  std::function<bool(std::uint32_t)> isGlobalName_;
   bool takesUsual_ = false;
   std::vector<std::pair<SwitchId, bool>> settings_;
   std::vector<std::pair<SwitchId, smt::TermId>> askedSettings_;
