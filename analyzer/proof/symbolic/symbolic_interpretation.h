@@ -317,9 +317,9 @@ private:
 
   smt::TermStore &store_;
   const Dialect *dialect_;
+  std::function<bool(std::uint32_t)> isGlobalName_;
   Arithmetic arithmetic_;
   Rounds rounds_ = Rounds::No;
-  std::function<bool(std::uint32_t)> isGlobalName_;
   bool takesUsual_ = false;
   std::vector<std::pair<SwitchId, bool>> settings_;
   std::vector<std::pair<SwitchId, smt::TermId>> askedSettings_;
