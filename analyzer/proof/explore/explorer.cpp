@@ -28,12 +28,6 @@ constexpr std::uint32_t kLongestPath = 20'000; // instructions
 constexpr std::uint64_t kStepsOfForgetting = 400'000'000;
 constexpr std::uint64_t kWorkOfForgetting = 300'000; // of all its questions: behind them every branch is taken
 constexpr std::string_view kValueTooLarge = "a value whose formula is too large, and which is taken as any number";
-
-/// Of going one instruction further, and of the copy of a state.
-std::uint64_t stepsOf(const Path &path) {
-  constexpr std::uint64_t kOfInstruction = 200;
-  return kOfInstruction + 2 * path.conditions.size() + 4 * path.state.variables.entries().size();
-}
 } // namespace
 
 std::optional<std::string> Exploration::unmodelledAt(Place place) const {
@@ -81,6 +75,12 @@ void LoopInstance::findDeciding(const smt::TermStore &store) {
 }
 
 // ---- Explorer ----
+
+/// Of going one instruction further, and of the copy of a state.
+std::uint64_t Explorer::stepsOf(const Path &path) {
+  constexpr std::uint64_t kOfInstruction = 200;
+  return kOfInstruction + 2 * path.conditions.size() + 4 * path.state.variables.entries().size();
+}
 
 Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &programs, const ExploreOptions &options,
                    PathMerging merging, std::set<IndexPlace> unbounded)
@@ -288,83 +288,6 @@ std::vector<Path> Explorer::merged(std::vector<Path> paths, Trial *trial) {
       mergeInto(interpretation_, *same, std::move(path));
   }
   return left;
-}
-
-/// A loop is left when the path leaves its program, or stands outside of its nodes.
-bool Explorer::closeLeftLoops(Path &path, Trial *trial) {
-  while (!path.loops.empty()) {
-    const OpenLoop &loop = path.loops.back();
-    if (path.frames.size() > loop.depth)
-      return true;
-    if (path.frames.size() == loop.depth) {
-      const Wto &wto = wtoOf(path.frames.back().callee);
-      const std::uint32_t at = wto.positionOf(path.at.node);
-      if (wto.positionOf(loop.head) <= at && at < wto.endOf(loop.head))
-        return true;
-    }
-    const bool isTried = trial && trial->instance == loop.instance;
-    path.loops.pop_back();
-    if (isTried) {
-      trial->exits.push_back(std::move(path));
-      return false;
-    }
-  }
-  return true;
-}
-
-bool Explorer::arrive(Path &path, Purpose purpose, Trial *trial, Worklist &work) {
-  if (path.atOpenedHead) {
-    path.atOpenedHead = false;
-    return true;
-  }
-  if (!closeLeftLoops(path, trial))
-    return false;
-  if (!wtoOf(path.frames.back().callee).isHead(path.at.node))
-    return true;
-  if (options_.loops == LoopTreatment::AnyIteration)
-    loseCutter(path, "cutter compensation through the head of a loop");
-  if (options_.loops == LoopTreatment::EachIteration)
-    return !comesBack(path);
-  const bool isOpen =
-      !path.loops.empty() && path.loops.back().head == path.at.node && path.loops.back().depth == path.frames.size();
-  if (isOpen) {
-    if (trial && trial->instance == path.loops.back().instance)
-      trial->iterations.push_back(std::move(path));
-    else if (purpose == Purpose::Record)
-      recordIteration(path);
-    return false;
-  }
-  if (purpose == Purpose::Record)
-    return LoopSummarizer(*this).open(path);
-  for (Path &exit : LoopSummarizer(*this).tryAll(path))
-    wait(work, std::move(exit));
-  return false;
-}
-
-/// In the state of an earlier visit: whatever comes has been followed from there.
-bool Explorer::comesBack(Path &path) {
-  smt::spend(stepsOf(path));
-  result_.heads.insert(path.at);
-  if (path.cutter) // no part of the state
-    return false;
-  const auto &known = path.landmark;
-  if (known && known->at == path.at && known->moved == path.moved && known->frames == path.frames &&
-      known->state == path.state) {
-    result_.repeats.push_back(path.at);
-    return true;
-  }
-  if (!known || ++path.visits >= path.mostVisits) {
-    path.landmark = std::make_shared<const Landmark>(Landmark{path.at, path.state, path.frames, path.moved});
-    path.visits = 0;
-    path.mostVisits *= 2;
-  }
-  return false;
-}
-
-void Explorer::recordIteration(const Path &path) {
-  const std::size_t instance = path.loops.back().instance;
-  if (!LoopSummarizer(*this).record(instance, path))
-    giveUp("no loop invariant was found: what a loop leaves unchanged is unknown");
 }
 
 // ---- what a step may have stopped at ----

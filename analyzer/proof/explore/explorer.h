@@ -112,6 +112,7 @@ private:
   void leavePath(Path &path, const std::vector<Move<SymbolicValue>> &moves, ToolPoint<SymbolicInterpretation> &point);
   std::optional<geometry::ArcRadius> radiusOf(const Path &path, const Move<SymbolicValue> &move);
   smt::TermId columnBehind(const Path &path, const Move<SymbolicValue> &move, smt::TermId column, smt::TermId end);
+  static std::uint64_t stepsOf(const Path &path);
   static Place ownPlace(const Path &path) { return path.frames.size() > 1 ? path.frames[1].call : path.at; }
   void stopsWhen(Path &path, Condition when, AlarmKind alarm);
   void exit(Path &path, ExitKind kind);

@@ -21,7 +21,7 @@ constexpr unsigned kOfControl = 8;   // a system variable
 constexpr std::size_t kMostCalls = 6;
 constexpr std::size_t kMostChanged = 8; // arguments
 constexpr std::size_t kMostGuards = 80;
-constexpr int kTriesOfAccepted = 1'500;
+constexpr int kIdleTries = 150; // for a call that guards let pass, before the search stops
 
 /// What people choose.
 constexpr std::array kRound = {1.0, 10.0, 5.0, 2.0, 0.5, 100.0, 0.1, 50.0, 20.0};
@@ -225,6 +225,12 @@ bool LikelyCalls::mayBePassed(std::uint32_t variable) const {
          std::ranges::find(file_.dialect->argumentVariables, variable) != file_.dialect->argumentVariables.end();
 }
 
+/// As a number that the control keeps: an argument, or a common variable.
+bool LikelyCalls::mayBeGiven(std::uint32_t variable) const {
+  const VariableRange *range = findVariable(*file_.dialect, variable);
+  return variable != kVacantVariable && range != nullptr && range->role == VariableRole::Plain;
+}
+
 /// What the program tests for vacancy may be missing.
 void LikelyCalls::readTest(NodeId test) {
   for (const ExpressionId each : subexpressions(*file_.tree, conditionOf(file_, test)))
@@ -335,13 +341,13 @@ GivenVariables LikelyCalls::accepted(std::mt19937 &random) const {
   GivenVariables given = completed(ofFolder_.empty() ? GivenVariables() : ofFolder_.front());
   std::vector<ExpressionId> open = refusing(given);
   const auto anyOf = [&](const auto &values) { return values[random() % values.size()]; };
-  for (int tries = 0; tries < kTriesOfAccepted && !open.empty(); ++tries) {
+  for (int idle = 0; idle < kIdleTries && !open.empty(); ++idle) {
     std::vector<std::uint32_t> variables;
     std::vector<double> numbers(kRound.begin(), kRound.end());
     for (const ExpressionId each : subexpressions(tree, anyOf(open))) {
       if (const auto literal = literalValue(tree, each))
         numbers.insert(numbers.end(), 4, literal->toDouble());
-      if (const auto variable = variableNumber(tree, each); variable && *variable != kVacantVariable) {
+      if (const auto variable = variableNumber(tree, each); variable && mayBeGiven(*variable)) {
         variables.push_back(*variable);
         if (const ConcreteValue *held = given.find(*variable))
           numbers.insert(numbers.end(), 4, held->number);
@@ -356,6 +362,8 @@ GivenVariables LikelyCalls::accepted(std::mt19937 &random) const {
     std::vector<ExpressionId> left = refusing(other);
     if (left.size() > open.size())
       continue;
+    if (left.size() < open.size())
+      idle = 0;
     given = std::move(other);
     open = std::move(left);
   }

@@ -55,6 +55,7 @@ private:
   void readUses(const std::set<ExpressionId> &compared);
   void readCalls();
   bool mayBePassed(std::uint32_t variable) const;
+  bool mayBeGiven(std::uint32_t variable) const;
   ConcreteValue whereMissing(std::uint32_t variable) const;
   /// The conditions of the guards that refuse it.
   std::vector<ExpressionId> refusing(const GivenVariables &given) const;

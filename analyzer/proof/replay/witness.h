@@ -105,6 +105,9 @@ public:
   static constexpr std::uint64_t kFuel = 20'000;
 
 private:
+  static constexpr std::uint64_t kSampleFuel = 4'000;
+  static constexpr std::uint64_t kStepsOfInstruction = 30;
+
   std::vector<std::uint32_t> inputs() const;
   std::vector<std::uint32_t> variables() const;
   std::vector<double> plainNumbers() const;
