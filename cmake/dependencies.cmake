@@ -22,4 +22,8 @@ else()
   find_package(tomlplusplus REQUIRED)
   find_library(Z3_LIBRARY z3 REQUIRED)
   find_library(GMP_LIBRARY gmp REQUIRED)
+  # In place of malloc of the C library, for Z3 as well (docs/decisions/0017-an-allocator.md).
+  if(NOT FEEDHOLD_SANITIZE)
+    find_library(ALLOCATOR_LIBRARY mimalloc)
+  endif()
 endif()

@@ -8,6 +8,8 @@
 #include "meaning/semantics/modal_table.h"
 #include "meaning/semantics/state.h"
 
+#include <span>
+
 namespace feedhold {
 
 template <ValueAlgebra R> struct StepContext {
@@ -28,6 +30,13 @@ template <ValueAlgebra R> struct StepContext {
 
   Truth either(Truth a, Truth b) const {
     return interpretation.negation(interpretation.both(interpretation.negation(a), interpretation.negation(b)));
+  }
+  /// Whether it is so of any of many, by halves: what is added one by one costs the square of their number.
+  template <typename Each, typename TruthOf> Truth anyOf(std::span<const Each> all, const TruthOf &truthOf) const {
+    if (all.size() < 2)
+      return all.empty() ? interpretation.truth(false) : truthOf(all.front());
+    const std::size_t half = all.size() / 2;
+    return either(anyOf(all.first(half), truthOf), anyOf(all.subspan(half), truthOf));
   }
   bool certain(Truth truth) const { return !interpretation.mayBe(interpretation.negation(truth)); }
   Value zero() const { return interpretation.number(0); }

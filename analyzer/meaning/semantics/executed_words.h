@@ -201,10 +201,9 @@ private:
   /// A number that is no code of the control, or one that it has and this option lacks.
   Truth mayBeNoCode(const Value &value) {
     const Value number = interpretation_.roundTo(interpretation_.asNumber(value), Decimal(1, 1));
-    Truth isListed = interpretation_.truth(false);
-    for (const Code &code : context_.dialect().gCodes)
-      isListed = context_.either(
-          isListed, interpretation_.compare(Relation::Equal, number, interpretation_.number(code.tenths / 10.0)));
+    const Truth isListed = context_.anyOf(std::span(context_.dialect().gCodes), [&](const Code &code) {
+      return interpretation_.compare(Relation::Equal, number, interpretation_.number(code.tenths / 10.0));
+    });
     return interpretation_.both(interpretation_.unknownTruth(), interpretation_.negation(isListed));
   }
   void anyCode(const Word &word, const Value &value) {

@@ -253,8 +253,9 @@ private:
         present.emplace(parts()[i].arrival, parts()[i].symbol);
     for (const TermId condition : trial_.arrival) {
       offer(smt::substitute(store_, condition, present));
-      for (const auto &[arrival, symbol] : present)
-        offer(smt::substitute(store_, condition, {{arrival, symbol}}));
+      for (const TermId variable : smt::variablesOf(store_, condition))
+        if (const auto part = present.find(variable); part != present.end())
+          offer(smt::substitute(store_, condition, {*part}));
     }
   }
 

@@ -87,7 +87,7 @@ std::vector<std::uint32_t> WitnessSearch::variables() const {
       all.push_back(*variable);
   }
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -106,13 +106,32 @@ smt::Model WitnessSearch::modelOf(const GivenVariables &given) const {
   return model;
 }
 
+/// What can be typed for an input depends on its number alone, and the same numbers come again and again.
+bool WitnessSearch::canBeTyped(std::uint32_t variable, const smt::Number &number, smt::TermId input) const {
+  const auto [known, isNew] = canBeTyped_.try_emplace({variable, number}, false);
+  if (isNew) {
+    const smt::TermStore &store = interpretation_.store();
+    const smt::Model model{{store[input].name, number}};
+    known->second = std::ranges::all_of(interpretation_.typedInput(variable, input),
+                                        [&](smt::TermId condition) { return smt::isTrue(store, condition, model); });
+  }
+  return known->second;
+}
+
 bool WitnessSearch::isAllowed(const GivenVariables &given) const {
+  const smt::TermStore &store = interpretation_.store();
+  smt::spend(kStepsOfInput * interpretation_.entryValues().size());
+  for (const auto &[variable, value] : interpretation_.entryValues()) {
+    const ConcreteValue *held = given.find(variable);
+    const bool vacant = !held || held->vacant;
+    if (!canBeTyped(variable, vacant ? smt::Number(0) : inputNumber(interpretation_, held->number), value.number))
+      return false;
+  }
+  if (demands_.empty())
+    return true;
   const smt::Model model = modelOf(given);
-  const auto holds = [&](smt::TermId condition) { return smt::isTrue(interpretation_.store(), condition, model); };
-  return std::ranges::all_of(demands_, holds) &&
-         std::ranges::all_of(interpretation_.entryValues(), [&](const auto &entry) {
-           return std::ranges::all_of(interpretation_.typedInput(entry.first, entry.second.number), holds);
-         });
+  smt::Evaluation evaluation(store, model, smt::OtherVariables::Unknown);
+  return std::ranges::all_of(demands_, [&](smt::TermId demand) { return evaluation.is(demand, true); });
 }
 
 /// What is said of an input holds of each reading.

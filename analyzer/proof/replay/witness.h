@@ -119,6 +119,7 @@ private:
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.
   static std::optional<std::string> broken(const Sample &run, const Violation &violation);
+  bool canBeTyped(std::uint32_t variable, const smt::Number &number, smt::TermId input) const;
   bool isAllowed(const GivenVariables &given) const;
   void addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const;
   void keepSample(GivenVariables given);
@@ -148,6 +149,7 @@ private:
   std::shared_ptr<ExactRuns> exactRuns_; // shared by narrowed searches
   std::shared_ptr<const LikelyCalls> likely_;
   std::shared_ptr<std::vector<Sample>> replays_ = std::make_shared<std::vector<Sample>>(); // the same
+  mutable std::map<std::pair<std::uint32_t, smt::Number>, bool> canBeTyped_;
   smt::Model others_; // inputs that satisfy what they have to
 };
 

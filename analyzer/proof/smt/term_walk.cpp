@@ -90,16 +90,24 @@ TermId withArguments(TermStore &store, TermId id, const std::vector<TermId> &arg
 }
 
 TermId substitute(TermStore &store, TermId term, const Substitution &substitution) {
-  Substitution done = substitution;
-  for (TermId id : reachable(store, std::span(&term, 1))) {
-    if (done.contains(id))
-      continue;
-    std::vector<TermId> arguments = store[id].arguments;
-    for (TermId &argument : arguments)
-      argument = done.at(argument);
-    done.emplace(id, arguments == store[id].arguments ? id : withArguments(store, id, arguments));
+  const std::vector<TermId> parts = reachable(store, std::span(&term, 1)); // the last is the whole
+  std::vector<TermId> results = parts;
+  const auto resultOf = [&](TermId part) {
+    return results[static_cast<std::size_t>(std::ranges::lower_bound(parts, part) - parts.begin())];
+  };
+  bool isChanged = false;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (const auto given = substitution.find(parts[i]); given != substitution.end()) {
+      results[i] = given->second;
+      isChanged = true;
+    } else if (isChanged) {
+      std::vector<TermId> arguments = store[parts[i]].arguments;
+      std::ranges::transform(arguments, arguments.begin(), resultOf);
+      if (arguments != store[parts[i]].arguments)
+        results[i] = withArguments(store, parts[i], arguments);
+    }
   }
-  return done.at(term);
+  return results.back();
 }
 
 bool isSquareOfSum(const TermStore &store, const Term &term) {
