@@ -1,5 +1,6 @@
 """`certify`: a report that is the same each time, that fits together, and whose changes `recheck` finds."""
 import hashlib
+import html
 import html.parser
 import json
 import re
@@ -94,6 +95,13 @@ class Certify(Scratch):
         text = path.read_text()
         self.assertIn(before, text)
         path.write_text(text.replace(before, after, 1))
+
+    def test_the_self_check_is_cited(self):
+        told = json.loads(self.feedhold("self-check", "--format", "json").stdout)
+        self.assertEqual(self.document["selfCheck"], told["steps"])
+        self.assertIn("Self-check of the program that made this report", self.page)
+        for step in told["steps"]:
+            self.assertIn(html.escape(step["message"], quote=False), self.page)
 
     def assertDetected(self, *words):
         result = self.feedhold("recheck", "report")

@@ -5,6 +5,7 @@
 #include "proof/smt/solver.h"
 #include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
+#include "surface/cli/self_check.h"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,14 @@ std::vector<std::string> solvers() {
 
 } // namespace
 
+/// An installation that fails its self-check releases nothing.
 ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsigned jobs) {
+  std::vector<SelfCheckStep> steps = selfCheck();
+  if (!passed(steps)) {
+    ReportRun failed;
+    failed.problems.push_back({"this installation", "the self-check failed; `feedhold self-check` shows how"});
+    return failed;
+  }
   ProofOptions proofOptions{.files = filesOf(options, jobs)};
   proofOptions.prove.only = options.reading.only;
   keepEvidence(proofOptions);
@@ -101,6 +109,7 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
                            .configOf = [&](const fs::path &file) { return configFor(proofOptions.files.config, file); },
                            .version = FEEDHOLD_VERSION,
                            .solvers = solvers(),
+                           .selfCheck = std::move(steps),
                            .folder = folder,
                            .jobs = jobs});
   return run;

@@ -9,33 +9,26 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <memory>
 
 namespace feedhold {
 
 namespace {
 
-std::string_view resultOf(const SelfCheckStep &step) {
-  if (step.problem)
-    return "failed";
-  return step.isPassedOver ? "skipped" : "passed";
-}
-
-std::string selfCheckText(const std::vector<SelfCheckStep> &steps, bool passed) {
+std::string selfCheckText(const std::vector<SelfCheckStep> &steps) {
   std::vector<std::string_view> dialects;
   for (const Dialect *dialect : allDialects().dialects)
     dialects.push_back(dialect->id);
   std::string text = fmt::format("feedhold {}\ndialects: {}\n", FEEDHOLD_VERSION, fmt::join(dialects, ", "));
   for (const SelfCheckStep &step : steps)
-    text += fmt::format("{:<8} {:<12} {}\n", resultOf(step), step.name, step.problem.value_or(step.shown));
-  return text + (passed ? "the self-check passed\n" : "the self-check failed: do not rely on this installation\n");
+    text += fmt::format("{:<8} {:<12} {}\n", step.result(), step.name, step.message());
+  return text + (passed(steps) ? "the self-check passed\n" : "the self-check failed: do not rely on this installation\n");
 }
 
-std::string selfCheckJson(const std::vector<SelfCheckStep> &steps, bool passed) {
+std::string selfCheckJson(const std::vector<SelfCheckStep> &steps) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const SelfCheckStep &step : steps)
-    rows.push_back({{"name", step.name}, {"result", resultOf(step)}, {"message", step.problem.value_or(step.shown)}});
+    rows.push_back({{"name", step.name}, {"result", step.result()}, {"message", step.message()}});
   nlohmann::ordered_json dialects = nlohmann::ordered_json::array();
   for (const Dialect *dialect : allDialects().dialects)
     dialects.push_back(dialect->id);
@@ -44,7 +37,7 @@ std::string selfCheckJson(const std::vector<SelfCheckStep> &steps, bool passed) 
                                            {"dialects", std::move(dialects)},
                                            {"rules", allRules().rules.size()},
                                            {"steps", std::move(rows)},
-                                           {"passed", passed}};
+                                           {"passed", passed(steps)}};
   return document.dump(2) + "\n";
 }
 
@@ -57,10 +50,8 @@ Command addSelfCheckCommand(CLI::App &parent) {
   addFormat(*app, *format, {"text", "json"});
   return {app, [format] {
             const std::vector<SelfCheckStep> steps = selfCheck();
-            const bool passed =
-                std::ranges::none_of(steps, [](const SelfCheckStep &step) { return step.problem.has_value(); });
-            print(*format == "json" ? selfCheckJson(steps, passed) : selfCheckText(steps, passed));
-            return passed ? kExitClean : kExitFindings;
+            print(*format == "json" ? selfCheckJson(steps) : selfCheckText(steps));
+            return passed(steps) ? kExitClean : kExitFindings;
           }};
 }
 

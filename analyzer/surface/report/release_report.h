@@ -4,6 +4,7 @@
 
 #include "findings/session/result.h"
 #include "surface/evidence/evidence_bundle.h"
+#include "surface/report/qualification.h"
 
 #include <functional>
 
@@ -41,6 +42,7 @@ struct ReportInput {
   std::function<std::optional<std::filesystem::path>(const std::filesystem::path &)> configOf;
   std::string version;
   std::vector<std::string> solvers;
+  std::vector<SelfCheckStep> selfCheck; // of the program that makes the report, which has passed it
   std::filesystem::path folder; // where it will lie
   unsigned jobs = 0;
 };

@@ -62,6 +62,7 @@ public:
     return {{"version", 2},
             {"feedhold", input_.version},
             {"solvers", std::move(solvers)},
+            {"selfCheck", selfCheckToJson()},
             {"date", input_.options.date ? Json(*input_.options.date) : Json()},
             {"options", optionsToJson()},
             {"counts", countsToJson(counts_)},
@@ -82,6 +83,12 @@ private:
     for (const fs::path &path : input_.options.paths)
       options["paths"].push_back(relative(path));
     return options;
+  }
+  Json selfCheckToJson() const {
+    Json rows = Json::array();
+    for (const SelfCheckStep &step : input_.selfCheck)
+      rows.push_back({{"name", step.name}, {"result", step.result()}, {"message", step.message()}});
+    return rows;
   }
   Json skippedToJson() const {
     Json rows = Json::array();

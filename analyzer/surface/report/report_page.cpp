@@ -287,7 +287,20 @@ private:
           files.size() > 6 ? fmt::format("{} and {} more", files.front(), files.size() - 1)
                            : fmt::format("{}", fmt::join(files, "<br>")),
           row);
-    add("</tbody>\n</table>\n</section>\n");
+    add("</tbody>\n</table>\n");
+    qualification();
+    add("</section>\n");
+  }
+  /// Reports of earlier versions have none.
+  void qualification() {
+    if (!document_.contains("selfCheck"))
+      return;
+    add("<h3>Self-check of the program that made this report</h3>\n<table>\n<thead><tr><th>Step</th><th>Result</th>"
+        "<th>What it shows</th></tr></thead>\n<tbody>\n");
+    for (const Json &step : document_.at("selfCheck"))
+      add("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", text(step.at("name")), text(step.at("result")),
+          text(step.at("message")));
+    add("</tbody>\n</table>\n");
   }
   static std::string settings(const Json &file) {
     std::string switches;
