@@ -22,7 +22,8 @@ std::string selfCheckText(const std::vector<SelfCheckStep> &steps) {
   std::string text = fmt::format("feedhold {}\ndialects: {}\n", FEEDHOLD_VERSION, fmt::join(dialects, ", "));
   for (const SelfCheckStep &step : steps)
     text += fmt::format("{:<8} {:<12} {}\n", step.result(), step.name, step.message());
-  return text + (passed(steps) ? "the self-check passed\n" : "the self-check failed: do not rely on this installation\n");
+  return text +
+         (passed(steps) ? "the self-check passed\n" : "the self-check failed: do not rely on this installation\n");
 }
 
 std::string selfCheckJson(const std::vector<SelfCheckStep> &steps) {

@@ -43,7 +43,7 @@ struct ReportInput {
   std::string version;
   std::vector<std::string> solvers;
   std::vector<SelfCheckStep> selfCheck; // of the program that makes the report, which has passed it
-  std::filesystem::path folder; // where it will lie
+  std::filesystem::path folder;         // where it will lie
   unsigned jobs = 0;
 };
 
