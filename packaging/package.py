@@ -11,11 +11,12 @@ import archive
 import debian
 import npm
 import sbom
+import vscode
 import wheel
 from release import PLATFORMS, Release, epoch, install
 
 OF_RELEASE = [archive.make_tar, archive.make_zip, debian.make, npm.make_starter, sbom.make]
-OF_PLATFORM = [wheel.make, npm.make_program]
+OF_PLATFORM = [wheel.make, npm.make_program, vscode.make]
 
 
 def checksums(paths):
