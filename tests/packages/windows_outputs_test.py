@@ -72,7 +72,7 @@ class Outputs(Windows):
         slot = ("--dialect", "fanuc-30i", "O1.nc", "--arg", "A=50.3", "--arg", "R=6.1")
         self.assertIn("ends with M99", self.assertSame("run", *slot))
         self.assertIn("feed", self.assertSame("run", "--trace", "--format", "json", *slot))
-        self.assertIn("<svg", self.assertSame("plot", *slot))
+        self.assertIn("<svg", self.assertSame("plot", *slot, code=1))
         self.assertIn("#2", self.assertSame("ranges", *slot[:3]))
 
     def test_packages_run(self):

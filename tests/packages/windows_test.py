@@ -38,13 +38,6 @@ class Use(Windows):
                 self.assertIn("O1001.nc:3:1: ", told)
                 self.assertNotIn("\\", told.split(": ")[0])
 
-    def test_long_paths(self):
-        name = "/".join(["a-folder-with-a-name-of-forty-characters"] * 9) + "/O1001.nc"
-        self.write(name, BAD)
-        self.assertGreater(len(name), 260)
-        self.assertIn(name, self.assertSame("check", "--format", "concise", ".", code=1))
-        self.assertIn(b"longPathAware", self.program.read_bytes(), "Windows asks the program whether it knows them")
-
     def test_names_that_differ_in_case(self):
         """Here the folders of drive Z: know them as two."""
         self.write("nc/O1001.nc", BAD)
