@@ -9,7 +9,7 @@ if(FEEDHOLD_STATIC)
   set_target_properties(tomlplusplus::tomlplusplus PROPERTIES INTERFACE_COMPILE_DEFINITIONS TOML_HEADER_ONLY=1)
   set(Z3_LIBRARY "")
   if(CMAKE_CROSSCOMPILING) # packaging/windows/libraries.sh has put there what this system has for itself alone
-    include_directories(SYSTEM ${FEEDHOLD_LIBRARIES}/include)
+    include_directories(SYSTEM ${PROJECT_SOURCE_DIR}/cmake/windows ${FEEDHOLD_LIBRARIES}/include)
     set(GMP_LIBRARY ${FEEDHOLD_LIBRARIES}/lib/libgmp.a)
   else()
     find_library(GMP_LIBRARY libgmp.a REQUIRED)

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from libraries import LICENCES, inside
-from release import DESCRIPTION, HOMEPAGE, MAINTAINER, gzipped
+from release import DESCRIPTION, HOMEPAGE, LINUX, MAINTAINER, gzipped
 from texts import texts
 
 COPYRIGHT = """Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
@@ -42,18 +42,20 @@ def changelog(release):
 
 
 def copyright_text(release):
-    names = {f"{source} ({LICENCES[source]})" for _, source, _ in inside(release.build)}
+    names = {f"{each.source} ({LICENCES[each.source]})" for each in inside(release.built[LINUX])}
     return COPYRIGHT.format(homepage=HOMEPAGE, year=time.gmtime(release.epoch).tm_year, libraries=",\n ".join(sorted(names)))
 
 
 def files(release):
     """Bytes by path, as the packages of Debian are laid out."""
+    linux = release.built[LINUX]
+
     def installed(name):
-        return (release.tree / name).read_bytes()
+        return (linux.tree / name).read_bytes()
     doc = "usr/share/doc/feedhold"
-    written = texts(release)
+    written = texts(linux)
     return {
-        "usr/bin/feedhold": release.program,
+        "usr/bin/feedhold": linux.program,
         "usr/share/man/man1/feedhold.1.gz": gzipped(installed("share/man/man1/feedhold.1")),
         "usr/share/bash-completion/completions/feedhold": installed("share/bash-completion/completions/feedhold"),
         "usr/share/zsh/vendor-completions/_feedhold": installed("share/zsh/site-functions/_feedhold"),

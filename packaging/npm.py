@@ -1,10 +1,8 @@
-"""Two packages for npm: `feedhold` starts the program of the package for the platform, which npm chooses by itself."""
+"""Packages for npm: `feedhold` starts the program of the package for the platform, which npm chooses by itself."""
 import json
 
-from release import HOMEPAGE, LICENCE, ROOT, SUMMARY, write_tar_gz
+from release import HOMEPAGE, LICENCE, LINUX, PLATFORMS, ROOT, SUMMARY, write_tar_gz
 from texts import texts
-
-PLATFORM = "linux-x64"
 
 
 def described(release, name, more):
@@ -15,14 +13,15 @@ def described(release, name, more):
 def make_starter(release):
     manifest = described(release, "feedhold", {
         "bin": {"feedhold": "bin/feedhold.js"}, "engines": {"node": ">=16"},
-        "optionalDependencies": {f"@feedhold/{PLATFORM}": release.version}})
+        "optionalDependencies": {f"@feedhold/{each.node}": release.version for each in PLATFORMS}})
     files = {"package/package.json": manifest, "package/bin/feedhold.js": (ROOT / "packaging/npm/feedhold.js").read_bytes(),
-             "package/LICENSE": texts(release)["LICENSE"]}
+             "package/LICENSE": texts(release.built[LINUX])["LICENSE"]}
     return write_tar_gz(release.out / f"feedhold-{release.version}.tgz", files, release.epoch)
 
 
-def make_program(release):
-    manifest = described(release, f"@feedhold/{PLATFORM}", {"os": ["linux"], "cpu": ["x64"]})
-    files = {"package/package.json": manifest, "package/bin/feedhold": release.program}
-    files |= {f"package/{name}": text for name, text in texts(release).items()}
-    return write_tar_gz(release.out / f"feedhold-{PLATFORM}-{release.version}.tgz", files, release.epoch)
+def make_program(release, built):
+    system, processor = built.platform.node.split("-")
+    manifest = described(release, f"@feedhold/{built.platform.node}", {"os": [system], "cpu": [processor]})
+    files = {"package/package.json": manifest, f"package/bin/{built.platform.program}": built.program}
+    files |= {f"package/{name}": text for name, text in texts(built).items()}
+    return write_tar_gz(release.out / f"feedhold-{built.platform.node}-{release.version}.tgz", files, release.epoch)

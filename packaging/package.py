@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Makes all packages of a build into a folder: `package.py BUILD OUT`.  The same build and commit give the same bytes."""
+"""Makes all packages into a folder: `package.py BUILDS OUT`; BUILDS has a folder for the preset of each platform.  The same
+builds and commit give the same bytes."""
 import hashlib
 import shutil
 import sys
 import tempfile
 from pathlib import Path
 
+import archive
 import debian
 import npm
 import sbom
-import tarball
+import vscode
 import wheel
-from release import Release, epoch, install
+from release import PLATFORMS, Release, epoch, install
 
-MAKERS = [tarball.make, debian.make, wheel.make, npm.make_starter, npm.make_program, sbom.make]
+OF_RELEASE = [archive.make_tar, archive.make_zip, debian.make, npm.make_starter, sbom.make]
+OF_PLATFORM = [wheel.make, npm.make_program, vscode.make]
 
 
 def checksums(paths):
@@ -21,14 +24,18 @@ def checksums(paths):
                    for path in sorted(paths, key=lambda path: path.name))
 
 
+def make_all(release):
+    made = [make(release) for make in OF_RELEASE]
+    return made + [make(release, built) for make in OF_PLATFORM for built in release.built.values()]
+
+
 def main():
-    build, out = (Path(name).resolve() for name in sys.argv[1:3])
+    builds, out = (Path(name).resolve() for name in sys.argv[1:3])
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    with tempfile.TemporaryDirectory() as holder:
-        release = Release(build, Path(holder), out, epoch())
-        install(build, release.tree)
-        made = [make(release) for make in MAKERS]
+    with tempfile.TemporaryDirectory() as trees:
+        built = {platform: install(platform, builds, Path(trees)) for platform in PLATFORMS}
+        made = make_all(Release(built, out, epoch()))
     (out / "SHA256SUMS").write_text(checksums(made))
     for path in made:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")

@@ -1,4 +1,4 @@
-"""What all packages are made from: the version, the time, the installed tree and the texts of a release."""
+"""What all packages are made from: the version, the time, and the program of each platform as it is installed."""
 import gzip
 import io
 import os
@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 import tarfile
+import time
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,17 +24,38 @@ LICENCE = "Apache-2.0"
 
 
 @dataclass(frozen=True)
-class Release:
+class Platform:
+    preset: str   # that the program is built by
+    name: str     # in the names of archives
+    node: str     # as Node.js says it
+    system: str   # as the wheel says it
+    program: str  # the name of its file
+
+
+LINUX = Platform("package", "linux-x86_64", "linux-x64", "POSIX :: Linux", "feedhold")
+WINDOWS = Platform("windows", "windows-x86_64", "win32-x64", "Microsoft :: Windows", "feedhold.exe")
+PLATFORMS = [LINUX, WINDOWS]
+
+
+@dataclass(frozen=True)
+class Built:
+    """The program of a platform."""
+    platform: Platform
     build: Path  # the build folder of the preset
     tree: Path   # what `cmake --install` made of it
+
+    @property
+    def program(self):
+        return (self.tree / "bin" / self.platform.program).read_bytes()
+
+
+@dataclass(frozen=True)
+class Release:
+    built: dict  # by platform
     out: Path    # where packages go
     epoch: int   # the only time in any package
 
     version = re.search(r"^project\(feedhold VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
-
-    @property
-    def program(self):
-        return (self.tree / "bin/feedhold").read_bytes()
 
 
 def epoch():
@@ -43,9 +66,15 @@ def epoch():
     return int(told.stdout)
 
 
-def install(build, tree):
-    shutil.rmtree(tree, ignore_errors=True)
-    subprocess.run(["cmake", "--install", build, "--prefix", tree, "--strip"], check=True, stdout=subprocess.DEVNULL)
+def install(platform, builds, trees):
+    """From `builds` to `trees`, which have a folder for each preset."""
+    built = Built(platform, builds / platform.preset, trees / platform.preset)
+    shutil.rmtree(built.tree, ignore_errors=True)
+    # The linker has stripped the program for Windows: `strip` would write the time into it.
+    strip = ["--strip"] if platform == LINUX else []
+    subprocess.run(["cmake", "--install", built.build, "--prefix", built.tree, *strip], check=True,
+                   stdout=subprocess.DEVNULL)
+    return built
 
 
 def gzipped(data):
@@ -61,4 +90,15 @@ def write_tar_gz(path, files, when):
             entry.size, entry.mtime, entry.mode = len(data), when, 0o755 if "/bin/" in name else 0o644
             tar.addfile(entry, io.BytesIO(data))
     path.write_bytes(gzipped(holder.getvalue()))
+    return path
+
+
+def write_zip(path, files, when):
+    """`files`: bytes by name.  Programs are those below `scripts/`, where wheels have them."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, time.gmtime(when)[:6])
+            entry.compress_type, entry.create_system = zipfile.ZIP_DEFLATED, 3
+            entry.external_attr = (0o100755 if "/scripts/" in name else 0o100644) << 16
+            archive.writestr(entry, data)
     return path

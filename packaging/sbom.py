@@ -1,40 +1,49 @@
-"""The bill of materials (CycloneDX 1.5): the libraries inside the program, and what it was built with."""
+"""The bill of materials (CycloneDX 1.5): the programs, the libraries inside each, and what they were built with."""
 import hashlib
 import json
 import time
 
-from libraries import LICENCES, inside, told
+from libraries import LICENCES, inside, installed
 from release import HOMEPAGE, LICENCE, ROOT
 
+TOOLS = ["build", "packages"]  # sections of .ci/packages.txt
 
-def component(package, version, **more):
-    url = f"pkg:deb/debian/{package}@{version.replace(':', '%3A').replace('+', '%2B')}?arch=amd64&distro=debian-12"
-    return {"type": "library", "bom-ref": url, "name": package, "version": version, "purl": url, **more}
+
+def component(library, **more):
+    return {"type": "library", "bom-ref": library.url, "name": library.package, "version": library.version,
+            "purl": library.url, **more}
 
 
 def tools():
-    """The section `build` of .ci/packages.txt."""
-    section = (ROOT / ".ci/packages.txt").read_text().split("[build]\n")[1].split("\n\n")[0]
-    for line in section.splitlines():
-        package = line.split()[0]
-        version = told("dpkg-query", "-W", "-f=${Version}", package)
-        yield package, version
+    sections = (ROOT / ".ci/packages.txt").read_text().split("\n[")
+    for section in sections:
+        name, _, packages = section.partition("]\n")
+        if name in TOOLS:
+            yield from (installed(line.split()[0]) for line in packages.splitlines() if line and not line.startswith("#"))
+
+
+def program(release, built):
+    return {"type": "application", "bom-ref": f"pkg:generic/feedhold@{release.version}?platform={built.platform.name}",
+            "name": built.platform.program, "version": release.version, "licenses": [{"license": {"id": LICENCE}}],
+            "hashes": [{"alg": "SHA-256", "content": hashlib.sha256(built.program).hexdigest()}]}
 
 
 def document(release):
-    linked = [component(package, version, scope="required",
-                        licenses=[{"expression": LICENCES[source]}])
-              for package, source, version in inside(release.build)]
-    names = {each["name"] for each in linked}
-    used = [component(package, version, scope="excluded") for package, version in tools() if package not in names]
+    linked = {built: inside(built) for built in release.built.values()}
+    libraries = sorted({each for found in linked.values() for each in found})
+    packages = {each.package for each in libraries}
+    used = sorted({each for each in tools() if each.package not in packages})
+    programs = {built: program(release, built) for built in linked}
     subject = {"type": "application", "bom-ref": f"pkg:generic/feedhold@{release.version}", "name": "feedhold",
                "version": release.version, "licenses": [{"license": {"id": LICENCE}}],
-               "hashes": [{"alg": "SHA-256", "content": hashlib.sha256(release.program).hexdigest()}],
-               "externalReferences": [{"type": "website", "url": HOMEPAGE}]}
+               "externalReferences": [{"type": "website", "url": HOMEPAGE}], "components": list(programs.values())}
     when = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(release.epoch))
     return {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
-            "metadata": {"timestamp": when, "component": subject}, "components": linked + used,
-            "dependencies": [{"ref": subject["bom-ref"], "dependsOn": [each["bom-ref"] for each in linked]}]}
+            "metadata": {"timestamp": when, "component": subject},
+            "components": [component(each, scope="required", licenses=[{"expression": LICENCES[each.source]}])
+                           for each in libraries] + [component(each, scope="excluded") for each in used],
+            "dependencies": [{"ref": programs[built]["bom-ref"], "dependsOn": [each.url for each in found]}
+                             for built, found in linked.items()]}
 
 
 def make(release):

@@ -3,6 +3,6 @@ from libraries import notices
 from release import ROOT
 
 
-def texts(release):
+def texts(built):
     return {"LICENSE": (ROOT / "LICENSE").read_bytes(), "CHANGELOG.md": (ROOT / "CHANGELOG.md").read_bytes(),
-            "THIRD-PARTY-NOTICES": notices(release.build).encode()}
+            "THIRD-PARTY-NOTICES": notices(built).encode()}

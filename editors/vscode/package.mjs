@@ -1,6 +1,8 @@
 // Makes build/feedhold-VERSION.vsix: one bundle, the licences of what is in it, and the same bytes from the same tree.
+// `package.mjs TARGET PROGRAM OUT` makes OUT/feedhold-TARGET-VERSION.vsix for one platform, with the files of the folder
+// PROGRAM inside.
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -29,8 +31,13 @@ copyFileSync(join(root, "LICENSE"), "LICENSE");
 // vsce puts this time on every entry of the archive.
 process.env.SOURCE_DATE_EPOCH ??= timeOfLastCommit();
 const { name, version } = JSON.parse(readFileSync("package.json", "utf8"));
-mkdirSync(join(root, "build"), { recursive: true });
-await createVSIX({ cwd: here, packagePath: join(root, `build/${name}-${version}.vsix`), dependencies: false });
+const [target, program, out = join(root, "build")] = process.argv.slice(2);
+mkdirSync(out, { recursive: true });
+rmSync("bin", { recursive: true, force: true });
+if (program) cpSync(program, "bin", { recursive: true });
+const packagePath = join(out, `${[name, target, version].filter(Boolean).join("-")}.vsix`);
+await createVSIX({ cwd: here, target, packagePath, dependencies: false });
+rmSync("bin", { recursive: true, force: true });
 
 /** Name, version and licence text of each package that went into the bundle. */
 function notices(inputs) {

@@ -19,10 +19,11 @@ def frame(message):
 class Client:
     """Starts a server; `initialize` is sent unless `fresh`."""
 
-    def __init__(self, folder, capabilities=None, options=None, fresh=False, arguments=("--no-cache",)):
+    def __init__(self, folder, capabilities=None, options=None, fresh=False, arguments=("--no-cache",),
+                 program=(FEEDHOLD,), environment=None):
         self.folder = Path(folder)
-        self.process = subprocess.Popen([FEEDHOLD, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, cwd=folder)
+        self.process = subprocess.Popen([*program, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, cwd=folder, env=environment)
         self.received = queue.Queue()
         self.kept = []  # everything that came, in order
         self.asked = {}  # methods of requests, by id

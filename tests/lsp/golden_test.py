@@ -6,7 +6,7 @@ import re
 import unittest
 from pathlib import Path
 
-from harness import Session
+from harness import Client, Session
 
 SESSIONS = Path(__file__).resolve().parent / "sessions"
 EXPECTED = ".expected.json"
@@ -38,11 +38,15 @@ def shown(messages):
 
 
 class Player(Session):
+    def place(self):
+        """The folder as the server shows it, and its URI."""
+        return str(self.folder), self.folder.as_uri()
+
     def play(self, messages):
         """The client at the end.  Each answer is waited for, and so are both publications for a text, so that the order is
         one."""
         client = self.client(fresh=True)
-        for message in replaced(messages, FOLDER, self.folder.as_uri()):
+        for message in replaced(messages, FOLDER, self.place()[1]):
             client.send({"jsonrpc": "2.0", **message})
             if "id" in message:
                 client.answer(message["id"])
@@ -57,7 +61,8 @@ class Player(Session):
 class Recorded(Player):
     def said(self, messages):
         said = self.play(messages).kept
-        return replaced(replaced(said, self.folder.as_uri(), FOLDER), str(self.folder), FOLDER[len("file://"):])
+        path, uri = self.place()
+        return replaced(replaced(said, uri, FOLDER), path, FOLDER[len("file://"):])
 
     def test_sessions(self):
         self.assertGreaterEqual(len(recordings()), 4)

@@ -2,6 +2,7 @@
 import hashlib
 import json
 import subprocess
+import zipfile
 
 from packaged import DIST, ROOT, VERSION, Packaged, main
 
@@ -19,21 +20,34 @@ class Release(Packaged):
 
     def test_same_bytes_twice(self):
         again = self.folder / "again"
-        subprocess.run(["python3", ROOT / "packaging/package.py", ROOT / "build/package", again], check=True,
-                       stdout=subprocess.DEVNULL, timeout=300)
+        subprocess.run(["python3", ROOT / "packaging/package.py", ROOT / "build", again], check=True,
+                       stdout=subprocess.DEVNULL, timeout=500)
         self.assertEqual((again / "SHA256SUMS").read_text(), (DIST / "SHA256SUMS").read_text())
+
+    def inside(self, bill, program):
+        """The names of the libraries in it, each of which is described."""
+        subject = next(each for each in bill["metadata"]["component"]["components"] if each["name"] == program)
+        needed = next(each["dependsOn"] for each in bill["dependencies"] if each["ref"] == subject["bom-ref"])
+        names = {each["bom-ref"]: each["name"] for each in bill["components"] if each["scope"] == "required"}
+        return {names[reference] for reference in needed}
 
     def test_bill_of_materials(self):
         bill = json.loads(self.artifact("*.cdx.json").read_text())
         self.assertEqual((bill["bomFormat"], bill["specVersion"]), ("CycloneDX", "1.5"))
         self.run_clean("tar", "-xzf", self.artifact("*.tar.gz"))
-        program = next(self.folder.glob("*/bin/feedhold")).read_bytes()
-        subject = bill["metadata"]["component"]
-        self.assertEqual(subject["hashes"][0]["content"], hashlib.sha256(program).hexdigest())
-        inside = {each["name"] for each in bill["components"] if each["scope"] == "required"}
-        self.assertLessEqual({"libgmp-dev", "libc6-dev", "libfmt-dev", "libcli11-dev", "libtomlplusplus-dev",
-                              "nlohmann-json3-dev"}, inside)
-        self.assertFalse([name for name in inside if "z3" in name], "no solver is inside")
+        with zipfile.ZipFile(self.artifact("*.zip")) as archive:
+            archive.extractall(self.folder)
+        programs = {each["name"]: each for each in bill["metadata"]["component"]["components"]}
+        self.assertEqual(set(programs), {"feedhold", "feedhold.exe"})
+        for path in (*self.folder.glob("*/bin/feedhold"), *self.folder.glob("*/feedhold.exe")):
+            self.assertEqual(programs.pop(path.name)["hashes"][0]["content"], hashlib.sha256(path.read_bytes()).hexdigest())
+        self.assertFalse(programs)
+        headers = {"libfmt-dev", "libcli11-dev", "libtomlplusplus-dev", "nlohmann-json3-dev"}
+        self.assertLessEqual(headers | {"libgmp-dev", "libc6-dev"}, self.inside(bill, "feedhold"))
+        windows = self.inside(bill, "feedhold.exe")
+        self.assertLessEqual(headers | {"gmp", "g++-mingw-w64-x86-64-posix", "mingw-w64-x86-64-dev"}, windows)
+        self.assertFalse({"libgmp-dev", "libc6-dev"} & windows, "what is for Linux alone")
+        self.assertFalse([name for name in windows if "z3" in name], "no solver is inside")
         references = [each["bom-ref"] for each in bill["components"]]
         self.assertEqual(len(references), len(set(references)))
         self.assertTrue(all(each["licenses"] for each in bill["components"] if each["scope"] == "required"))

@@ -1,6 +1,8 @@
 // MemoryMap on Windows: a copy of the bytes, because a file that is mapped there cannot be replaced.
 #include "base/source/memory_map.h"
 
+#include "base/support/system_words.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -32,17 +34,16 @@ private:
   HANDLE handle_;
 };
 
-/// In the words of POSIX, which every system has.
 Error systemError(const std::filesystem::path &path, std::string_view what) {
   const std::error_code code(static_cast<int>(::GetLastError()), std::system_category());
-  return {fmt::format("cannot {} `{}`: {}", what, path.string(), code.default_error_condition().message())};
+  return {fmt::format("cannot {} `{}`: {}", what, path.generic_string(), inWords(code))};
 }
 
 bool readAll(HANDLE file, char *bytes, std::uint64_t size) {
-  constexpr std::uint64_t kPiece = 1U << 30U;
+  constexpr std::uint64_t kLargestPiece = 1U << 30U;
   while (size > 0) {
     DWORD count = 0;
-    const auto piece = static_cast<DWORD>(size < kPiece ? size : kPiece);
+    const auto piece = static_cast<DWORD>(size < kLargestPiece ? size : kLargestPiece);
     if (::ReadFile(file, bytes, piece, &count, nullptr) == 0 || count == 0)
       return false;
     bytes += count;
@@ -58,16 +59,16 @@ Result<MemoryMap> MemoryMap::open(const std::filesystem::path &path, std::uint64
   if (attributes == INVALID_FILE_ATTRIBUTES)
     return systemError(path, "open");
   if ((attributes & FILE_ATTRIBUTE_DIRECTORY) != 0)
-    return Error{fmt::format("`{}` is a folder, not a program", path.string())};
+    return Error{fmt::format("`{}` is a folder, not a program", path.generic_string())};
   const FileHandle file(path);
   LARGE_INTEGER size = {};
   if (!file.isOpen())
     return systemError(path, "open");
   if (::GetFileType(file.get()) != FILE_TYPE_DISK || ::GetFileSizeEx(file.get(), &size) == 0)
-    return Error{fmt::format("`{}` is not a regular file", path.string())};
+    return Error{fmt::format("`{}` is not a regular file", path.generic_string())};
   const auto length = static_cast<std::uint64_t>(size.QuadPart);
   if (length > largestSize)
-    return Error{fmt::format("`{}` is larger than {} MiB; split it", path.string(), largestSize >> 20)};
+    return Error{fmt::format("`{}` is larger than {} MiB; split it", path.generic_string(), largestSize >> 20)};
   if (length == 0)
     return MemoryMap();
   auto bytes = std::make_unique<char[]>(length);

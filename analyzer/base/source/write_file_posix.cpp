@@ -1,6 +1,8 @@
 // On POSIX systems: writes beside the file, brings the bytes to the disk, then renames.
 #include "base/source/write_file.h"
 
+#include "base/support/system_words.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -77,7 +79,7 @@ std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   std::error_code error;
   const fs::path target = fs::canonical(path, error);
   if (error)
-    return Error{fmt::format("no longer exists: {}", error.message())};
+    return Error{fmt::format("no longer exists: {}", inWords(error))};
   struct stat original {};
   if (::stat(target.c_str(), &original) != 0)
     return systemError("its permissions cannot be read");

@@ -1,6 +1,8 @@
 // Writing files on Windows: beside the file, brought to the disk, then moved over it.
 #include "base/source/write_file.h"
 
+#include "base/support/system_words.h"
+
 #include <fmt/format.h>
 
 #include <atomic>
@@ -16,14 +18,14 @@ namespace {
 
 Error systemError(std::string_view what) {
   const std::error_code code(static_cast<int>(::GetLastError()), std::system_category());
-  return {fmt::format("{}: {}", what, code.default_error_condition().message())};
+  return {fmt::format("{}: {}", what, inWords(code))};
 }
 
 bool writeAll(HANDLE file, std::string_view text) {
-  constexpr std::size_t kPiece = 1U << 30U;
+  constexpr std::size_t kLargestPiece = 1U << 30U;
   while (!text.empty()) {
     DWORD count = 0;
-    if (::WriteFile(file, text.data(), static_cast<DWORD>(std::min(text.size(), kPiece)), &count, nullptr) == 0)
+    if (::WriteFile(file, text.data(), static_cast<DWORD>(std::min(text.size(), kLargestPiece)), &count, nullptr) == 0)
       return false;
     text.remove_prefix(count);
   }
@@ -85,7 +87,7 @@ std::optional<Error> replaceFile(const fs::path &path, std::string_view text) {
   std::error_code error;
   const fs::path target = fs::canonical(path, error);
   if (error)
-    return Error{fmt::format("no longer exists: {}", error.default_error_condition().message())};
+    return Error{fmt::format("no longer exists: {}", inWords(error))};
   if (!fs::is_regular_file(target, error))
     return Error{"is not a regular file"};
   if (const DWORD attributes = ::GetFileAttributesW(target.c_str()); (attributes & FILE_ATTRIBUTE_READONLY) != 0) {

@@ -1,6 +1,8 @@
 // Walks folders in the order of names, so that the same tree gives the same list on every machine.
 #include "findings/project/discovery.h"
 
+#include "base/source/disk_path.h"
+#include "base/support/system_words.h"
 #include "base/support/text.h"
 #include "findings/project/sidecars.h"
 #include "language/dialect/text_signals.h"
@@ -91,7 +93,7 @@ private:
   static std::string reasonFor(const std::error_code &error) {
     if (!error || error == std::errc::no_such_file_or_directory)
       return "no such file or folder; check the spelling and the current folder";
-    return fmt::format("cannot be read: {}", error.message());
+    return fmt::format("cannot be read: {}", inWords(error));
   }
 
   void addFolder(const fs::path &folder) {
@@ -110,7 +112,7 @@ private:
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
       entries.push_back(*at);
     if (error) {
-      result_.problems.push_back({shownPath(folder), fmt::format("cannot be listed: {}", error.message())});
+      result_.problems.push_back({shownPath(folder), fmt::format("cannot be listed: {}", inWords(error))});
       return;
     }
     std::sort(entries.begin(), entries.end());
@@ -146,7 +148,7 @@ private:
   }
 
   void take(const fs::path &path, FoundBy foundBy, const Config *config) {
-    const bool isNew = seen_.insert(fs::absolute(path).lexically_normal()).second;
+    const bool isNew = seen_.insert(diskPath(path)).second;
     if (!isNew || config == nullptr) {
       ++passedOver_;
       return;

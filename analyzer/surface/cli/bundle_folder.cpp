@@ -2,6 +2,7 @@
 
 #include "base/source/source_file.h"
 #include "base/source/write_file.h"
+#include "base/support/system_words.h"
 #include "surface/cli/platform.h"
 
 #include <fmt/format.h>
@@ -47,7 +48,7 @@ std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view ma
     return Error{"is not a folder"};
   if (!fs::is_empty(folder, error) && !fs::exists(folder / mark, error))
     return Error{fmt::format("contains other files; choose a new folder, or one with a {}", mark)};
-  return error ? std::optional(Error{error.message()}) : std::nullopt;
+  return error ? std::optional(Error{inWords(error)}) : std::nullopt;
 }
 
 std::optional<Error> writeBundle(const fs::path &folder, const Bundle &bundle) {
@@ -68,7 +69,7 @@ std::optional<Error> writeBundle(const fs::path &folder, const Bundle &bundle) {
     fs::remove_all(fresh, ignored);
     if (fs::exists(old, ignored) && !fs::exists(folder, ignored))
       fs::rename(old, folder, ignored);
-    return Error{error.code().message()};
+    return Error{inWords(error.code())};
   }
 }
 
@@ -84,7 +85,7 @@ Result<Bundle> readBundle(const fs::path &folder) {
       bundle.emplace(entry.path().lexically_relative(folder).generic_string(), file.value().text());
     }
   } catch (const fs::filesystem_error &error) {
-    return Error{error.code().message()};
+    return Error{inWords(error.code())};
   }
   return bundle;
 }

@@ -10,8 +10,11 @@
 #include <io.h>
 
 #include <windows.h>
-// After it.
-#include <shellapi.h>
+
+/// The words of the command line, as every C program for Windows gets them (msvcrt.dll); with `expand`, a word with `*`
+/// or
+/// `?` becomes the files that it names, as no shell of Windows does it.
+extern "C" int __cdecl __wgetmainargs(int *count, wchar_t ***words, wchar_t ***environment, int expand, int *newMode);
 
 namespace feedhold {
 
@@ -40,11 +43,14 @@ std::vector<std::string> beginProgram(int, char **) {
     ::_setmode(::_fileno(stream), _O_BINARY);
   ::SetConsoleOutputCP(CP_UTF8);
   int count = 0;
-  wchar_t **words = ::CommandLineToArgvW(::GetCommandLineW(), &count);
+  int newMode = 0;
+  wchar_t **words = nullptr;
+  wchar_t **environment = nullptr;
   std::vector<std::string> result;
+  if (::__wgetmainargs(&count, &words, &environment, 1, &newMode) != 0)
+    return result;
   for (int i = 1; i < count; ++i)
     result.push_back(utf8From(words[i]));
-  ::LocalFree(words);
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "surface/lsp/documents.h"
 
+#include "base/source/file_uri.h"
+
 #include <algorithm>
 
 namespace feedhold::lsp {

@@ -1,11 +1,9 @@
 #include "surface/lsp/places.h"
 
+#include "base/source/file_uri.h"
 #include "findings/project/open_texts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 
 namespace feedhold::lsp {
 namespace {
@@ -18,15 +16,6 @@ std::size_t lengthAt(std::string_view text, std::size_t at) {
 }
 
 constexpr std::size_t kBeyondUtf16Unit = 4; // characters of four bytes are two units
-
-std::string escaped(std::string_view path) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
-  std::string text;
-  for (const char c : path)
-    text += kPlain.find(c) != std::string_view::npos ? std::string(1, c)
-                                                     : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return text;
-}
 
 std::filesystem::path normal(const std::filesystem::path &path) {
   return std::filesystem::absolute(path).lexically_normal();
@@ -101,28 +90,6 @@ Span Places::span(const nlohmann::json &range) const {
   return {std::min(begin, end), std::max(begin, end)};
 }
 
-std::filesystem::path pathOfUri(std::string_view uri) {
-  constexpr std::string_view kScheme = "file://";
-  if (!uri.starts_with(kScheme))
-    return {};
-  uri.remove_prefix(kScheme.size());
-  uri.remove_prefix(std::min(uri.find('/'), uri.size())); // a host
-  std::string path;
-  for (std::size_t at = 0; at < uri.size(); ++at) {
-    unsigned value = 0;
-    const char *digits = uri.data() + at + 1;
-    if (uri[at] == '%' && at + 2 < uri.size() && std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-      path += static_cast<char>(value);
-      at += 2;
-    } else {
-      path += uri[at];
-    }
-  }
-  return path;
-}
-
-std::string uriOfPath(const std::filesystem::path &path) { return "file://" + escaped(normal(path).generic_string()); }
-
 void OpenUris::add(const std::filesystem::path &path, const std::string &uri) {
   const std::filesystem::path written = normal(path);
   documents_[written] = uri;
@@ -139,7 +106,8 @@ std::string OpenUris::of(const std::filesystem::path &path) const {
   if (const auto open = documents_.find(placeOf(path)); open != documents_.end())
     return open->second;
   const auto folder = folders_.find(written.parent_path());
-  return folder == folders_.end() ? uriOfPath(path) : folder->second + escaped(written.filename().generic_string());
+  return folder == folders_.end() ? uriOfPath(path)
+                                  : folder->second + escapedForUri(written.filename().generic_string());
 }
 
 } // namespace feedhold::lsp

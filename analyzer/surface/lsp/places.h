@@ -44,10 +44,6 @@ private:
   PositionEncoding encoding_;
 };
 
-/// `file:///c%20d/part.nc` and back.  Of another scheme: empty.
-std::filesystem::path pathOfUri(std::string_view uri);
-std::string uriOfPath(const std::filesystem::path &path);
-
 /// How the client writes the URIs of the documents that are open: it may escape more than `uriOfPath`, or go by a link,
 /// and takes another spelling for another document.
 class OpenUris {

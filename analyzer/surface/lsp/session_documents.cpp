@@ -2,6 +2,7 @@
 // contracts has those that the programs beside it have on it, whether they are open or not.
 #include "surface/lsp/session.h"
 
+#include "base/source/file_uri.h"
 #include "base/source/write_file.h"
 
 #include <fmt/format.h>

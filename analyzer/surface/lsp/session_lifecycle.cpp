@@ -1,6 +1,8 @@
 // The beginning and the end of a session, and what changes around its documents.
 #include "surface/lsp/session.h"
 
+#include "base/source/file_uri.h"
+
 #include <algorithm>
 
 namespace feedhold::lsp {

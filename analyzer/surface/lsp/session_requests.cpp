@@ -1,4 +1,5 @@
 // Requests about documents: findings on demand, and the features.
+#include "base/source/file_uri.h"
 #include "base/support/sha256.h"
 #include "surface/lsp/session.h"
 

@@ -1,8 +1,7 @@
 #include "surface/sink/sarif_parts.h"
 
+#include "base/source/file_uri.h"
 #include "surface/sink/json_parts.h"
-
-#include <fmt/format.h>
 
 namespace feedhold::sarif {
 
@@ -13,18 +12,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kSchema =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
 constexpr std::string_view kRoot = "%SRCROOT%";
-
-/// RFC 3986: everything but unreserved characters and the separators of a path is escaped.
-std::string uriPath(std::string_view path) {
-  constexpr std::string_view kPlain = "-._~/";
-  std::string uri;
-  for (const char c : path) {
-    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                         kPlain.find(c) != std::string_view::npos;
-    uri += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri;
-}
 
 Json notification(std::string_view level, const std::string &path, const std::string &message, const fs::path &root) {
   return {
@@ -50,8 +37,8 @@ Json artifactLocation(const std::string &path, const fs::path &root) {
   const fs::path absolute = fs::path(path).is_absolute() ? fs::path(path) : root / path;
   const std::string relative = absolute.lexically_normal().lexically_relative(root).generic_string();
   if (relative.empty() || relative.starts_with(".."))
-    return {{"uri", "file://" + uriPath(absolute.lexically_normal().generic_string())}};
-  return {{"uri", uriPath(relative)}, {"uriBaseId", kRoot}};
+    return {{"uri", uriOfPath(absolute)}};
+  return {{"uri", escapedForUri(relative)}, {"uriBaseId", kRoot}};
 }
 
 Json regionOf(const SourceFile &source, Span span) {
@@ -77,7 +64,7 @@ Json fixToJson(const FixIt &fix, const std::string &path, const SourceFile &sour
 
 std::string documentText(Document document, const Invocation &invocation, const fs::path &root) {
   Json run = {{"tool", {{"driver", std::move(document.driver)}}}, {"columnKind", "utf16CodeUnits"}};
-  run["originalUriBaseIds"] = {{kRoot, {{"uri", "file://" + uriPath((root / "").generic_string())}}}};
+  run["originalUriBaseIds"] = {{kRoot, {{"uri", uriOfPath(root / "")}}}};
   run["invocations"] = Json::array({toJson(invocation, root)});
   if (!document.artifacts.is_null())
     run["artifacts"] = std::move(document.artifacts);

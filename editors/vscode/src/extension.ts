@@ -6,12 +6,16 @@ import { promisify } from "node:util";
 import * as vscode from "vscode";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
 
+import { NAME, chosen, pathBefore, programInside } from "./program";
+
 const LANGUAGES = ["macrob", "macrob-contract"];
 const SETUP_PAGE = "feedhold.path";
 
 let client: LanguageClient | undefined;
+let inside: string | undefined;
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
+  inside = programInside(context.extensionPath, process.platform);
   context.subscriptions.push(
     vscode.commands.registerCommand("feedhold.restart", restart),
     vscode.workspace.onDidChangeConfiguration(async (change) => {
@@ -39,7 +43,7 @@ async function stop(): Promise<void> {
 }
 
 async function start(): Promise<void> {
-  const command = vscode.workspace.getConfiguration("feedhold").get("path", "feedhold");
+  const command = program();
   const problem = await whyNot(command);
   if (problem) {
     void complain(problem); // the editor need not wait for an answer
@@ -49,6 +53,10 @@ async function start(): Promise<void> {
   client = new LanguageClient("feedhold", "Feedhold", server, clientOptions());
   await client.start();
   await vscode.commands.executeCommand("setContext", "feedhold.running", true);
+}
+
+function program(): string {
+  return chosen(vscode.workspace.getConfiguration("feedhold").get("path", NAME), inside);
 }
 
 function clientOptions(): LanguageClientOptions {
@@ -73,10 +81,16 @@ function runInTerminal(answer: unknown, args: unknown[]): void {
   const { run } = (answer ?? {}) as { run?: string };
   const { uri } = (args[0] ?? {}) as { uri?: string };
   if (!run || !uri) return;
-  const program = vscode.workspace.getConfiguration("feedhold").get("path", "feedhold");
-  const terminal = vscode.window.createTerminal({ name: "Feedhold", cwd: dirname(vscode.Uri.parse(uri).fsPath) });
+  const path = program();
+  const isInside = path === inside;
+  const terminal = vscode.window.createTerminal({
+    name: "Feedhold",
+    cwd: dirname(vscode.Uri.parse(uri).fsPath),
+    env: isInside ? pathBefore(path, process.env) : {},
+  });
   terminal.show();
-  terminal.sendText(run.replace(/^feedhold(?= )/, program.includes(" ") ? `"${program}"` : program));
+  const word = path.includes(" ") ? `"${path}"` : path;
+  terminal.sendText(isInside ? run : run.replace(/^feedhold(?= )/, word));
 }
 
 function activeDocument(): string[] {

@@ -1,6 +1,7 @@
 // Documents in a folder of their own, asked as the dispatcher asks.
 #pragma once
 
+#include "base/source/file_uri.h"
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/lsp/feature.h"
