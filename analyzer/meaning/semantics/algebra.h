@@ -6,6 +6,7 @@
 #pragma once
 
 #include "language/dialect/dialect.h"
+#include "language/dialect/switch_names.h"
 #include "meaning/cfg/cfg.h"
 #include "meaning/semantics/modal_table.h"
 #include "meaning/semantics/moves.h"
