@@ -81,8 +81,10 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.sequenceZero = true;
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;
-  dialect.behaviour.cutterOffsets = {{2401, 0}, {2601, 0}, 200};
-  dialect.behaviour.lengthOffsets = {{2001, 0}, {2201, 0}, 200};
+  if (machine == MachineKind::Milling) {
+    dialect.behaviour.cutterOffsets = {{2401, 0}, {2601, 0}, 200};
+    dialect.behaviour.lengthOffsets = {{2001, 0}, {2201, 0}, 200};
+  }
   dialect.numbers = NumberModel::Either;
   dialect.switches.mlg = Switch::On; // a relation is a number, so AND and OR join conditions
   dialect.switches.v15 = Switch::On; // geometry stands before wear

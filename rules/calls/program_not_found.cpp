@@ -13,11 +13,8 @@ namespace {
 
 /// `N1000`, behind the end of the calling program and with an M99 behind it: what `M97 P1000` calls.
 const Word *localSubprogram(const Call &call, const FileContext &context) {
-  const bool isMacro = call.kind == CallKind::Macro && !call.arguments.empty();
-  const auto number = isMacro || !call.programWord ? std::nullopt : wordOf(context, *call.programWord).integer();
-  const bool hasLocalCalls =
-      std::ranges::any_of(context.dialect.mCodes, [](const Code &code) { return code.role == CodeRole::LocalCall; });
-  if (!number || !hasLocalCalls)
+  const auto number = call.programWord ? wordOf(context, *call.programWord).integer() : std::nullopt;
+  if (!number || context.dialect.grammar.oWords)
     return nullptr;
   const Program &caller = context.model.programs[call.caller];
   const auto has = [&](BlockId block, CodeRole role) {
@@ -36,19 +33,30 @@ const Word *localSubprogram(const Call &call, const FileContext &context) {
   return nullptr;
 }
 
+/// `M97` passes no arguments.
+bool canBeLocal(const Call &call, const FileContext &context) {
+  const bool isMacro = call.kind == CallKind::Macro && !call.arguments.empty();
+  return !isMacro &&
+         std::ranges::any_of(context.dialect.mCodes, [](const Code &code) { return code.role == CodeRole::LocalCall; });
+}
+
 void tellLocal(const Call &call, const Word &label, const FileContext &context, const Reporter &reporter) {
   const Word &code = wordOf(context, call.code);
-  reporter.report(
-      {.message = fmt::format("{} calls another program, but {} is a subprogram in this one", context.quoted(call.span),
-                              context.quoted(label.span())),
-       .span = call.span,
-       .labels = {{label.span(), "this subprogram"}},
-       .notes = {fmt::format("no checked file holds a program of that number; if there is none on the machine, the "
-                             "control {}",
-                             stopsWith(context.dialect, AlarmKind::ProgramNotFound)),
-                 "`M97` calls a subprogram by its sequence number"},
-       .fixes = {{.title = "write `M97`", .edits = {{code.span(), "M97"}}}}},
-      Severity::Warning);
+  Diagnostic diagnostic{.message = fmt::format("{} calls another program, but {} is a subprogram in this one",
+                                               context.quoted(call.span), context.quoted(label.span())),
+                        .span = call.span,
+                        .labels = {{label.span(), "this subprogram"}},
+                        .notes = {fmt::format("no checked file holds a program of that number; if there is none on "
+                                              "the machine, the control {}",
+                                              stopsWith(context.dialect, AlarmKind::ProgramNotFound))}};
+  if (canBeLocal(call, context)) {
+    diagnostic.notes.emplace_back("`M97` calls a subprogram by its sequence number");
+    diagnostic.fixes.push_back({.title = "write `M97`", .edits = {{code.span(), "M97"}}});
+  } else {
+    diagnostic.notes.push_back(
+        fmt::format("a call goes to a program: write `{}` in place of the sequence number", toString(call.callee)));
+  }
+  reporter.report(std::move(diagnostic), Severity::Warning);
 }
 
 /// One finding for each missing program of a file: the first call of it.

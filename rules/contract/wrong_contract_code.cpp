@@ -7,9 +7,9 @@ namespace feedhold::rules::wrong_contract_code {
 namespace {
 
 void check(const ContractIssue &issue, const FileContext &context, const Reporter &reporter) {
-  Diagnostic diagnostic{.message =
-                            fmt::format("{} cannot be active here: {}", context.quoted(issue.span), issue.detail),
-                        .span = issue.span};
+  const std::string text = context.quoted(issue.span);
+  const std::string_view what = text.starts_with("`@") ? "does not apply to this control" : "cannot be active here";
+  Diagnostic diagnostic{.message = fmt::format("{} {}: {}", text, what, issue.detail), .span = issue.span};
   if (issue.other)
     pointAt(*issue.other, "the first one", context, diagnostic);
   reporter.report(std::move(diagnostic));

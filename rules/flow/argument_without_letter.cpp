@@ -1,4 +1,5 @@
 // argument-without-letter: `IF[#16EQ#0]THEN#16=0` in a macro that takes P for an argument.
+#include "rules/comments/header_call.h"
 #include "rules/flow/definitions.h"
 
 #include <algorithm>
@@ -58,8 +59,10 @@ std::size_t lettersAsked(const FlowFacts &facts, const FileContext &context) {
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   constexpr std::size_t kFewest = 2;
   if (!context.dialect.grammar.sequenceJumps || isTooLarge(facts) || isMainProgram(facts) ||
-      isCalledAsSubprogram(facts) || lettersAsked(facts, context) < kFewest)
+      isCalledAsSubprogram(facts))
     return;
+  const auto header = headerCallOf(context, facts.program);
+  const bool asksLetters = lettersAsked(facts, context) >= kFewest;
   std::vector<Read> found;
   std::set<std::uint32_t> variables;
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
@@ -68,6 +71,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (found.size() != 1) // several: sets of I, J and K
     return;
   const Read &read = found.front();
+  if (!asksLetters && (!header || !header->letters.contains(seemingLetter(*read.number))))
+    return;
   reporter.report(
       {.message = fmt::format("no letter passes `#{}`: it is vacant in every call by letters", *read.number),
        .span = context.tree.expressions[read.expression].span,

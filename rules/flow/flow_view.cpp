@@ -290,6 +290,19 @@ bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable) {
   return false;
 }
 
+bool mayReadLocal(const ProgramFile &file, const VariableUse &use) {
+  if (use.write || use.number)
+    return false;
+  const auto *indirect = as<IndirectVariable>(*file.tree, use.expression);
+  if (!indirect)
+    return false;
+  const auto parts = subexpressions(*file.tree, indirect->index);
+  return std::ranges::none_of(parts, [&](ExpressionId part) {
+    const auto value = literalValue(*file.tree, part);
+    return value && *value > Decimal(kLocalVariables, 0);
+  });
+}
+
 bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable) {
   std::optional<BlockId> last;
   for (const VariableUse &use : file.model->variablesOf(program)) {

@@ -66,6 +66,9 @@ bool isAlwaysPassed(const FlowFacts &facts, std::uint32_t variable);
 bool maySet(const FlowFacts &facts, std::uint32_t variable);
 /// Some program of the run may set the common variable.
 bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable);
+/// A read of a computed number, `#[..]`, that may name a local variable: where its index says nothing else.
+bool mayReadLocal(const ProgramFile &file, const VariableUse &use);
+
 /// Some read in a condition of the program.
 bool isTested(const ProgramFile &file, ProgramId program, std::uint32_t variable);
 /// Some EQ or NE in the program.

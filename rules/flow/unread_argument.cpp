@@ -11,20 +11,6 @@
 namespace feedhold::rules::unread_argument {
 namespace {
 
-/// A read of `#[..]` may name the variable: only where the index says that it does not, the text tells.
-bool readsComputed(const ProgramFile &file, const VariableUse &use) {
-  if (use.write || use.number)
-    return false;
-  const auto *indirect = as<IndirectVariable>(*file.tree, use.expression);
-  if (!indirect)
-    return false;
-  const auto parts = subexpressions(*file.tree, indirect->index);
-  return std::ranges::none_of(parts, [&](ExpressionId part) {
-    const auto value = literalValue(*file.tree, part);
-    return value && *value > Decimal(kLocalVariables, 0);
-  });
-}
-
 /// The text of the program says what it reads of its local variables.
 bool isTransparent(const ProgramFile &file, ProgramId program) {
   for (const Call &call : file.model->callsOf(program))
@@ -35,7 +21,7 @@ bool isTransparent(const ProgramFile &file, ProgramId program) {
     if (file.tree->blocks[block].has(Block::kBroken))
       return false;
   return std::ranges::none_of(file.model->variablesOf(program),
-                              [&](const VariableUse &use) { return readsComputed(file, use); });
+                              [&](const VariableUse &use) { return mayReadLocal(file, use); });
 }
 
 bool reads(const ProgramFile &file, ProgramId program, std::uint32_t variable) {

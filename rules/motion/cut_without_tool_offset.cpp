@@ -12,9 +12,10 @@ namespace {
 bool cancelsOffset(const Word &word) { return word.integer() == 0U && !word.has(Word::kArgument); }
 
 const Word *cutIn(BlockId block, const FileContext &context) {
-  const Word *code = findAction(context.tree, block, context.dialect,
-                                {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise,
-                                 CodeAction::Thread, CodeAction::TurningCycle, CodeAction::SideCycle});
+  const Word *code =
+      findAction(context.tree, block, context.dialect,
+                 {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise, CodeAction::Thread,
+                  CodeAction::TurningCycle, CodeAction::DiameterCycle, CodeAction::FaceCycle, CodeAction::SideCycle});
   const bool moves = std::ranges::any_of(context.tree.wordsOf(block),
                                          [](const Word &word) { return axisOf(word.address()).has_value(); });
   return moves ? code : nullptr;

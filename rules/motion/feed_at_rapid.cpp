@@ -26,7 +26,9 @@ public:
       return;
     const bool isRapid = !isHavocked(state) && state.modalCalls.empty() && !mayBeTrue(state.modalCallsUnknown) &&
                          view_.surely(state, ModalKind::Motion, {CodeAction::Rapid});
-    const bool isMeant = isRapid && (turns_ ? !isForNextMove(node) : goesDown(node, state));
+    const bool begins =
+        view_.findAction(node, {CodeAction::CompensationLeft, CodeAction::CompensationRight}) != nullptr;
+    const bool isMeant = isRapid && (begins || (turns_ ? !isForNextMove(node) : goesDown(node, state)));
     const auto [at, isNew] = seen_.emplace(node, isMeant);
     if (!isNew)
       at->second = at->second && isMeant;
@@ -74,9 +76,10 @@ private:
     const Code *code = codeOf(word, view_.context().dialect);
     const auto is = [&](CodeAction action) { return code->action == action; };
     constexpr std::array kBeside = {
-        CodeAction::Absolute,      CodeAction::Incremental,       CodeAction::CoolantOn,       CodeAction::CoolantOff,
-        CodeAction::FeedPerMinute, CodeAction::FeedPerRevolution, CodeAction::CompensationOff, CodeAction::LengthOff,
-        CodeAction::WorkOffset,    CodeAction::CycleOff};
+        CodeAction::Absolute,        CodeAction::Incremental,      CodeAction::CoolantOn,
+        CodeAction::CoolantOff,      CodeAction::FeedPerMinute,    CodeAction::FeedPerRevolution,
+        CodeAction::CompensationOff, CodeAction::LengthOff,        CodeAction::WorkOffset,
+        CodeAction::CycleOff,        CodeAction::CompensationLeft, CodeAction::CompensationRight};
     return code && std::ranges::any_of(kBeside, is);
   }
   std::optional<double> levelOf(const AbstractState &state) const {

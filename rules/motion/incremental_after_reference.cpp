@@ -20,7 +20,7 @@ public:
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     std::ranges::sort(moves_);
-    moves_.erase(std::ranges::unique(moves_).begin(), moves_.end());
+    moves_.erase(std::unique(moves_.begin(), moves_.end()), moves_.end());
     for (NodeId home = facts.entry(); home < facts.end(); home = home.next()) {
       if (!facts.isReached(home) || !view_.findAction(home, {CodeAction::Incremental}) ||
           !view_.findAction(home, {CodeAction::ReferenceReturn, CodeAction::SecondReference}))
@@ -37,6 +37,15 @@ private:
         return word;
     return nullptr;
   }
+  /// `X-5.7`, and in another block `X5.7`: a slide that goes and comes back by the same distance.
+  bool comesBack(const Word &word) const {
+    return std::ranges::any_of(moves_, [&](NodeId node) {
+      return std::ranges::any_of(view_.modalMotionWords(node), [&](const Word *other) {
+        return other->address() == word.address() && other->isNumber() && !word.number().isZero() &&
+               other->number().toDouble() == -word.number().toDouble();
+      });
+    });
+  }
   /// The first one only: what comes behind it is of the same kind.
   void tell(NodeId home, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
     const auto isOver = [&](NodeId node) {
@@ -47,9 +56,11 @@ private:
     const auto move = firstReached(facts, home, moves_, isOver);
     if (!move)
       return;
+    const Word &word = *firstLiteral(*move);
+    if (comesBack(word))
+      return;
     const auto path = findPath(facts, home, *move, isOver);
     std::erase(moves_, *move); // told once
-    const Word &word = *firstLiteral(*move);
     reporter.report(
         {.message = fmt::format("{} is incremental: the `G91` of the reference return is still active",
                                 context.quoted(word.span())),

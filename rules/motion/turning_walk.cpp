@@ -26,6 +26,8 @@ std::optional<TurningMove> moveOf(CodeAction action) {
                                  std::pair{CodeAction::ArcCounterclockwise, TurningMove::Feed},
                                  std::pair{CodeAction::Thread, TurningMove::Feed},
                                  std::pair{CodeAction::TurningCycle, TurningMove::Cycle},
+                                 std::pair{CodeAction::DiameterCycle, TurningMove::Cycle},
+                                 std::pair{CodeAction::FaceCycle, TurningMove::Cycle},
                                  std::pair{CodeAction::SideCycle, TurningMove::Unknown},
                                  std::pair{CodeAction::CycleOff, TurningMove::Unknown}};
   const auto found = std::ranges::find(kMoves, action, &std::pair<CodeAction, TurningMove>::first);
@@ -96,7 +98,8 @@ TurningMove TurningWalk::read(BlockId block) {
     lose();
     return TurningMove::None;
   }
-  const Word *cycle = findAction(context_.tree, block, context_.dialect, {CodeAction::TurningCycle});
+  const Word *cycle = findAction(context_.tree, block, context_.dialect,
+                                 {CodeAction::TurningCycle, CodeAction::DiameterCycle, CodeAction::FaceCycle});
   const bool isOfGroup = !cycle || codeOf(*cycle, context_.dialect)->group != 0;
   if (!isOfGroup || motion_ == TurningMove::Cycle) {
     if (!isOfGroup)

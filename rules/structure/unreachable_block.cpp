@@ -162,12 +162,49 @@ void reportSetting(BlockId set, BlockId back, BlockId ender, const FileContext &
       Severity::Warning);
 }
 
+bool endsProgram(BlockId block, const FileContext &context) {
+  return findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd) ||
+         findCode(context.tree, block, context.dialect, CodeRole::Return);
+}
+
+bool hasEnd(BlockId from, BlockId to, const FileContext &context) {
+  for (BlockId block = from; block < to; block = block.next())
+    if (endsProgram(block, context))
+      return true;
+  return false;
+}
+
+/// `#3000=1(DONE)`, then `M05`, `M30`: the alarm stands where the program was to end, and there is no other end.
+bool alwaysEndsInAlarm(const DeadBlocks::Run &run, ProgramId program, const FileContext &context) {
+  if (!isAlarm(run.ender, context) || findWord(context.tree, run.ender, 'N'))
+    return false;
+  const Program &whole = context.model.programs[program];
+  const BlockId behind = run.last.next();
+  for (BlockId block = run.ender.next(); block < behind; block = block.next())
+    if (!preparesAlarm(block, context))
+      return false; // a program that is not ready yet
+  return hasEnd(run.ender.next(), behind, context) && !hasEnd(whole.first, run.ender, context) &&
+         !hasEnd(behind, whole.last, context);
+}
+
+void reportAlarmAtEnd(const DeadBlocks::Run &run, BlockId start, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this alarm ends every run of the program",
+                   .span = context.tree.blocks[run.ender].span(),
+                   .labels = {{context.tree.blocks[start].span(), "never executed from here on"}},
+                   .notes = {"`#3006=1` stops with a message, and the program goes on at cycle start"}},
+                  Severity::Warning);
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
     const auto start = firstUnintended(run, context);
     if (!start || context.model.programOf(*start) != program || isNamedToUnseen(run, program, context))
       continue;
+    if (alwaysEndsInAlarm(run, program, context)) {
+      reportAlarmAtEnd(run, *start, context, reporter);
+      continue;
+    }
     if (const auto message = messageOf(run, *start, context)) {
       reportMessage(*message, run.ender, context, reporter);
       continue;

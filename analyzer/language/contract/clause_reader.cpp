@@ -78,6 +78,10 @@ std::optional<ReservedOperand> findPoint(std::string_view rest) {
   return reserved(1, pointVariable(letter));
 }
 
+std::optional<ReservedOperand> findPointOfLathe(std::string_view rest) {
+  return rest.empty() || toUpper(rest.front()) == 'Y' ? std::nullopt : findPoint(rest);
+}
+
 ClauseReader::ClauseReader(ContractReading &reading, ClauseId clause, Span body)
     : reading_(reading), clause_(clause), sourceId_(reading.result.clauses[clause].source),
       source_(reading.result.source(sourceId_)), at_(body.begin), end_(body.end) {

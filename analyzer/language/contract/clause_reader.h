@@ -100,5 +100,7 @@ private:
 std::optional<ReservedOperand> findPromiseOperand(std::string_view rest);
 /// X, Y and Z.
 std::optional<ReservedOperand> findPoint(std::string_view rest);
+/// X and Z.
+std::optional<ReservedOperand> findPointOfLathe(std::string_view rest);
 
 } // namespace feedhold

@@ -27,9 +27,11 @@ std::optional<ProgramId> programOf(const ProgramModel &model, const Sidecar &sid
 /// Reads one clause into its contract, or leaves an issue.
 void readClause(ContractReading &reading, const RawClause &raw);
 
+/// `FLAT RADIUS #7` and so on.
+ContractTool readTool(ClauseReader &reader, MachineKind machine, ClauseId clause);
 /// `BOX X..`, `CYLINDER ..` and so on.
-decltype(Region::shape) readShape(ClauseReader &reader);
-Box readBox(ClauseReader &reader);
+decltype(Region::shape) readShape(ClauseReader &reader, MachineKind machine);
+Box readBox(ClauseReader &reader, MachineKind machine);
 std::vector<AxisValue> readAxisValues(ClauseReader &reader, std::string_view axes);
 
 /// What a variable holds on entry by a clause of the set-up.

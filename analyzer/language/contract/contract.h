@@ -105,12 +105,14 @@ struct StartPosition {
   std::vector<AxisValue> axes;
 };
 
-enum class ToolShape : std::uint8_t { Flat, Ball, Bull, Drill };
+/// Tip: of a lathe, the rest of milling.
+enum class ToolShape : std::uint8_t { Flat, Ball, Bull, Drill, Tip };
 struct ContractTool {
   ClauseId clause;
   ToolShape shape;
   ExpressionId radius;
-  std::optional<ExpressionId> corner; // of Bull
+  std::optional<ExpressionId> corner = {}; // of Bull
+  std::uint8_t direction = 0;              // of Tip, as controls number it: where the programmed point lies, 0 to 9
 };
 
 /// `@OFFSET D1 RADIUS 5`, `@OFFSET D#20 RADIUS 4.9..5.1`: what the register of cutter compensation holds, in the units
@@ -144,11 +146,11 @@ struct Sphere {
 };
 struct Polygon {
   struct Corner {
-    ExpressionId x;
-    ExpressionId y;
+    ExpressionId first;  // X
+    ExpressionId second; // Y; of a lathe Z
   };
   std::vector<Corner> corners; // at least three
-  Range height;                // Z
+  Range height;                // Z; of a lathe without ends
 };
 /// A condition over the point X, Y, Z (reserved.h).
 struct Where {

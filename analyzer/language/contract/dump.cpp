@@ -66,7 +66,7 @@ public:
         [&](const Polygon &each) {
           std::string all = "polygon";
           for (const Polygon::Corner &corner : each.corners)
-            all += fmt::format(" ({}, {})", text(corner.x), text(corner.y));
+            all += fmt::format(" ({}, {})", text(corner.first), text(corner.second));
           return fmt::format("{} Z {}", all, text(each.height));
         },
         [&](const Where &each) { return "where " + text(each.condition); });
@@ -130,11 +130,12 @@ private:
   }
 
   void geometry(const Contract &contract) {
-    constexpr std::string_view kShapes[] = {"flat", "ball", "bull", "drill"};
+    constexpr std::string_view kShapes[] = {"flat", "ball", "bull", "drill", "tip"};
     if (const auto &tool = contract.tool)
-      line(fmt::format("tool {} radius {}{}", kShapes[static_cast<std::size_t>(tool->shape)],
+      line(fmt::format("tool {} radius {}{}{}", kShapes[static_cast<std::size_t>(tool->shape)],
                        writer(tool->clause).text(tool->radius),
-                       tool->corner ? " corner " + writer(tool->clause).text(*tool->corner) : ""));
+                       tool->corner ? " corner " + writer(tool->clause).text(*tool->corner) : "",
+                       tool->shape == ToolShape::Tip ? fmt::format(" direction {}", tool->direction) : ""));
     for (const RadiusOffset &each : contract.offsets) {
       const Writer writes = writer(each.clause);
       line(fmt::format("offset of {} radius {}", each.number ? "D " + writes.text(*each.number) : "every D",

@@ -229,23 +229,7 @@ private:
   }
 
   void tool() {
-    ContractTool tool{id_, ToolShape::Flat, ExpressionId(0), {}};
-    if (reader_.take("BALL"))
-      tool.shape = ToolShape::Ball;
-    else if (reader_.take("BULL"))
-      tool.shape = ToolShape::Bull;
-    else if (reader_.take("DRILL"))
-      tool.shape = ToolShape::Drill;
-    else if (!reader_.take("FLAT"))
-      reader_.expected("`FLAT`, `BALL`, `BULL` or `DRILL`");
-    if (!reader_.take("RADIUS"))
-      reader_.expected("`RADIUS` and its value");
-    tool.radius = reader_.value("a radius");
-    if (tool.shape == ToolShape::Bull) {
-      if (!reader_.take("CORNER"))
-        reader_.expected("`CORNER` and its radius");
-      tool.corner = reader_.value("a radius");
-    }
+    const ContractTool tool = readTool(reader_, reading_.dialect.machine, id_);
     if (isRead())
       setOnce(contract_.tool, tool, "the tool");
   }
@@ -284,7 +268,8 @@ private:
     contract_.lengths.push_back(length);
   }
   void machine() {
-    Box box = readBox(reader_);
+    refuseOnLathe("tool offsets of a lathe are not followed in machine coordinates");
+    Box box = readBox(reader_, reading_.dialect.machine);
     std::vector<SetUpValue> home;
     if (reader_.take("HOME"))
       home = readHome(reader_, reading_);
@@ -302,18 +287,24 @@ private:
 
   // ---- geometry ----
 
+  void refuseOnLathe(std::string_view why) {
+    if (reading_.dialect.machine == MachineKind::Turning)
+      reader_.fail(ContractIssueKind::Code, reading_.result.clauses[id_].span, std::string(why));
+  }
+
   void region(std::vector<Region> &regions) {
     const bool isShape = reader_.at("BOX") || reader_.at("CYLINDER") || reader_.at("SPHERE") || reader_.at("POLYGON") ||
                          reader_.at("WHERE");
     if (isShape)
       reader_.expected("a name for the region before its shape");
     const Span name = reader_.name("a name for the region");
-    Region read{id_, reading_.result.source(source()).utf8(name), readShape(reader_)};
+    Region read{id_, reading_.result.source(source()).utf8(name), readShape(reader_, reading_.dialect.machine)};
     if (isRead())
       regions.push_back(std::move(read));
   }
 
   void clearance() {
+    refuseOnLathe("a height of clearance belongs to machining centres; state a region with `@KEEPOUT`");
     const std::optional<char> axis = reader_.takeLetter("XYZ");
     if (!axis)
       reader_.expected("an axis with its height, such as `Z2.`");
@@ -323,7 +314,7 @@ private:
   }
 
   void travel() {
-    Box box = readBox(reader_);
+    Box box = readBox(reader_, reading_.dialect.machine);
     if (isRead())
       setOnce(contract_.travel, Travel{id_, std::move(box)}, "the travel");
   }

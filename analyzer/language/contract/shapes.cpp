@@ -1,4 +1,4 @@
-// The shapes of regions.
+// The tool and the shapes of regions: of a lathe in X and Z, with X as a diameter.
 #include "language/contract/clauses.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,8 @@ namespace feedhold {
 namespace {
 
 constexpr std::string_view kSpace = "XYZ";
+
+std::string_view axesOf(MachineKind machine) { return machine == MachineKind::Turning ? "XZ" : kSpace; }
 
 /// `AT X30 Y0`: each of these axes once.
 std::vector<AxisValue> readCentre(ClauseReader &reader, std::string_view axes) {
@@ -60,22 +62,54 @@ Sphere readSphere(ClauseReader &reader) {
   return {std::move(centre), readRadius(reader)};
 }
 
-Polygon readPolygon(ClauseReader &reader) {
+Polygon readPolygon(ClauseReader &reader, MachineKind machine) {
   constexpr std::size_t kFewestCorners = 3;
+  const bool isLathe = machine == MachineKind::Turning;
+  const std::string_view second = isLathe ? "Z" : "Y";
   const Span begin = reader.ahead();
   Polygon polygon;
   do {
     if (!reader.takeLetter("X"))
-      reader.expected("a corner such as `X0 Y0`");
+      reader.expected(fmt::format("a corner such as `X0 {}0`", second));
     const ExpressionId x = reader.value("X of a corner");
-    if (!reader.takeLetter("Y"))
-      reader.expected("Y of the corner");
-    polygon.corners.push_back({x, reader.value("Y of a corner")});
+    if (!reader.takeLetter(second))
+      reader.expected(fmt::format("{} of the corner", second));
+    polygon.corners.push_back({x, reader.value(fmt::format("{} of a corner", second))});
   } while (!reader.failed() && reader.takeSign('/'));
   if (!reader.failed() && polygon.corners.size() < kFewestCorners)
     reader.fail(ContractIssueKind::Malformed, begin, "at least three corners with `/` between them");
-  polygon.height = readAlong(reader, 'Z');
+  if (!isLathe)
+    polygon.height = readAlong(reader, 'Z');
   return polygon;
+}
+
+ToolShape readToolShape(ClauseReader &reader, MachineKind machine) {
+  if (machine == MachineKind::Turning) {
+    if (!reader.take("TIP"))
+      reader.expected("`TIP`, the tool of a lathe");
+    return ToolShape::Tip;
+  }
+  if (reader.take("BALL"))
+    return ToolShape::Ball;
+  if (reader.take("BULL"))
+    return ToolShape::Bull;
+  if (reader.take("DRILL"))
+    return ToolShape::Drill;
+  if (!reader.take("FLAT"))
+    reader.expected("`FLAT`, `BALL`, `BULL` or `DRILL`");
+  return ToolShape::Flat;
+}
+
+/// 9 is 0: the point is the centre of the nose.
+std::uint8_t readDirection(ClauseReader &reader) {
+  constexpr std::uint32_t kMost = 9;
+  if (!reader.take("DIRECTION"))
+    reader.expected("`DIRECTION` and the number of the tip, such as `DIRECTION 3`");
+  const Span span = reader.ahead();
+  const std::uint32_t direction = reader.integer("the number of the tip");
+  if (direction > kMost)
+    reader.fail(ContractIssueKind::Malformed, span, "the number of the tip, 0 to 9");
+  return static_cast<std::uint8_t>(direction % kMost);
 }
 
 } // namespace
@@ -93,33 +127,51 @@ std::vector<AxisValue> readAxisValues(ClauseReader &reader, std::string_view axe
   return values;
 }
 
-Box readBox(ClauseReader &reader) {
+ContractTool readTool(ClauseReader &reader, MachineKind machine, ClauseId clause) {
+  ContractTool tool{clause, readToolShape(reader, machine), ExpressionId(0)};
+  if (!reader.take("RADIUS"))
+    reader.expected("`RADIUS` and its value");
+  tool.radius = reader.value("a radius");
+  if (tool.shape == ToolShape::Bull) {
+    if (!reader.take("CORNER"))
+      reader.expected("`CORNER` and its radius");
+    tool.corner = reader.value("a radius");
+  }
+  if (tool.shape == ToolShape::Tip)
+    tool.direction = readDirection(reader);
+  return tool;
+}
+
+Box readBox(ClauseReader &reader, MachineKind machine) {
+  const std::string_view axes = axesOf(machine);
   Box box;
-  while (const std::optional<char> axis = reader.peekLetter(kSpace)) {
+  while (const std::optional<char> axis = reader.peekLetter(axes)) {
     if (std::ranges::find(box.sides, *axis, &AxisRange::axis) != box.sides.end()) {
       reader.expected(fmt::format("each axis only once, but {} occurs twice", *axis));
       return box;
     }
-    reader.takeLetter(kSpace);
+    reader.takeLetter(axes);
     box.sides.push_back({*axis, reader.range(fmt::format("the range of {}", *axis))});
   }
   if (box.sides.empty())
-    reader.expected("sides such as `X-10..10 Y0..5 Z-3..0`");
+    reader.expected(machine == MachineKind::Turning ? "sides such as `X0..200 Z-80..-60`"
+                                                    : "sides such as `X-10..10 Y0..5 Z-3..0`");
   return box;
 }
 
-decltype(Region::shape) readShape(ClauseReader &reader) {
+decltype(Region::shape) readShape(ClauseReader &reader, MachineKind machine) {
+  const bool isLathe = machine == MachineKind::Turning;
   if (reader.take("BOX"))
-    return readBox(reader);
-  if (reader.take("CYLINDER"))
+    return readBox(reader, machine);
+  if (!isLathe && reader.take("CYLINDER"))
     return readCylinder(reader);
-  if (reader.take("SPHERE"))
+  if (!isLathe && reader.take("SPHERE"))
     return readSphere(reader);
   if (reader.take("POLYGON"))
-    return readPolygon(reader);
+    return readPolygon(reader, machine);
   if (reader.take("WHERE"))
-    return Where{reader.condition(findPoint)};
-  reader.expected("`BOX`, `CYLINDER`, `SPHERE`, `POLYGON` or `WHERE`");
+    return Where{reader.condition(isLathe ? findPointOfLathe : findPoint)};
+  reader.expected(isLathe ? "`BOX`, `POLYGON` or `WHERE`" : "`BOX`, `CYLINDER`, `SPHERE`, `POLYGON` or `WHERE`");
   return Box{};
 }
 

@@ -259,7 +259,10 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
     else if (axis == plane->first || axis == plane->second)
       keep(state.transform.centre[axis == plane->first ? 0 : 1]);
   }
-  if (!plane || axis == plane->normal || axis == Axis::Z)
+  if (context.dialect().machine == MachineKind::Turning) { // words of a cycle that are in force (turning_cycles.h)
+    const auto none = interpretation.vacant();
+    state.cycle = {none, none, none, none, none};
+  } else if (!plane || axis == plane->normal || axis == Axis::Z)
     for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial})
       keep(*level);
 }

@@ -3,6 +3,7 @@
 
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/tool_length.h"
+#include "meaning/semantics/turret.h"
 
 #include <bit>
 
@@ -62,6 +63,8 @@ private:
     const CodeAction action = word.code->action;
     if (word.address == 'G') {
       beginCycle(word);
+      if (hasTurret(context_) && action != CodeAction::DiameterCycle && action != CodeAction::FaceCycle)
+        endCycle(context_);
       if (const auto index = context_.modes.indexOf(*word.code))
         state_.codes[word.code->group] = interpretation_.code(*index);
       if (word.code->group != 0 && word.code->group == context_.modes.groupOf(ModalKind::Cycle) &&
@@ -103,6 +106,8 @@ private:
 
   /// `G#1` where #1 holds what #4003 said: the mode is restored, and with it whatever depends on it.
   void computedCodes() {
+    if (hasTurret(context_) && !words_.computed.empty())
+      endCycle(context_);
     for (const auto &[group, code] : words_.computed) {
       state_.codes[group] = code;
       if (const Truth other = interpretation_.isOneOf(code, otherGeometryMask(context_.modes.group(group)));
@@ -568,6 +573,11 @@ private:
         Value &kept = state_.word(letter);
         kept = interpretation_.select(entry->present, entry->value, kept);
       }
+    if (const auto *tool = words_.find('T')) {
+      changeTip(context_, tool->present);
+      if (hasTurret(context_))
+        state_.lengthChanged = context_.either(state_.lengthChanged, tool->present);
+    }
   }
 
   StepContext<R> &context_;

@@ -5,6 +5,7 @@
 #include "meaning/semantics/cycles.h"
 #include "meaning/semantics/modes.h"
 #include "meaning/semantics/offsets.h"
+#include "meaning/semantics/turning_cycles.h"
 
 #include <cmath>
 
@@ -48,16 +49,20 @@ private:
                                        CodeAction::SecondReference, CodeAction::ReferenceCheck, CodeAction::Skip};
     return std::find(kMovements.begin(), kMovements.end(), code.action) != kMovements.end();
   }
-  static bool isOther(Axis axis) { return indexOf(axis) > indexOf(Axis::Z); }
+  /// One that regions do not describe.
+  bool namesOther(Axis axis) const {
+    if (!isBesideRegions(context_.dialect(), axis))
+      return false;
+    const bool isIncrement = axis == Axis::Y && incrementsByLetter(context_) && words_.find('V');
+    return isIncrement || (!isLetterOfIncrement(axis) && words_.find(letterOf(axis)));
+  }
   bool namesOtherAxes() const {
-    return context_.dialect().machine == MachineKind::Milling &&
-           std::any_of(kAllAxes.begin(), kAllAxes.end(),
-                       [&](Axis axis) { return isOther(axis) && words_.find(letterOf(axis)); });
+    return std::ranges::any_of(kAllAxes, [&](Axis axis) { return namesOther(axis); });
   }
   /// Such an axis turns the part, or moves it or the tool.
   void noteOtherAxes(const Point &before) {
     for (const Axis axis : kAllAxes)
-      if (isOther(axis) && words_.find(letterOf(axis)))
+      if (namesOther(axis))
         state_.axisTurned = context_.either(
             state_.axisTurned,
             interpretation_.negation(interpretation_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
@@ -114,6 +119,8 @@ private:
                                     CodeAction::Unmodelled,
                                     CodeAction::Anything,
                                     CodeAction::OtherCycle,
+                                    CodeAction::DiameterCycle,
+                                    CodeAction::FaceCycle,
                                     CodeAction::TurningCycle,
                                     CodeAction::SideCycle};
     return Offsets<R>::isOne(code) || code.role == CodeRole::CoordinateShift ||
@@ -135,8 +142,8 @@ private:
       skip();
     else if (action == CodeAction::ReferenceCheck)
       referenceCheck();
-    else if (action == CodeAction::TurningCycle)
-      roundTrip(word.code->meaning, word.span);
+    else if (isTurningCycle(action))
+      turningCycle(action, word.code->meaning, word.span);
     else if (action == CodeAction::OtherCycle || action == CodeAction::SideCycle || action == CodeAction::Unmodelled ||
              action == CodeAction::Anything)
       unmodelled(word);
@@ -150,7 +157,9 @@ private:
     interpretation_.unmodelled(word.code->meaning, word.span);
   }
   /// A cycle of a lathe ends where it starts.
-  void roundTrip(std::string_view what, Span place) {
+  void turningCycle(CodeAction action, std::string_view what, Span place) {
+    if (runTurningCycle(context_, words_, action))
+      return;
     tell(context_, MoveKind::Unmodelled, state_.position);
     interpretation_.unmodelled(what, place);
   }
@@ -164,6 +173,13 @@ private:
     return incrementsByLetter(context_) ? context_.either(any, present('H')) : any;
   }
   Truth present(char letter) const { return words_.present(interpretation_, letter); }
+  /// By its own letter, which on a lathe may be that of an increment.
+  Truth isNamed(Axis axis) const {
+    return isLetterOfIncrement(axis) ? interpretation_.truth(false) : present(letterOf(axis));
+  }
+  bool isLetterOfIncrement(Axis axis) const {
+    return incrementsByLetter(context_) && (axis == Axis::U || axis == Axis::V || axis == Axis::W);
+  }
   /// An arc whose end point is not written ends where it starts.
   Truth isFullCircle() {
     const Truth centre = context_.either(present('I'), context_.either(present('J'), present('K')));
@@ -186,9 +202,15 @@ private:
 
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
-    const Truth turning = context_.inForce(ModalKind::Motion, {CodeAction::TurningCycle}, interpretation_.truth(false));
+    Truth turning = interpretation_.truth(false);
+    for (const CodeAction action : {CodeAction::DiameterCycle, CodeAction::FaceCycle, CodeAction::TurningCycle}) {
+      const Truth isIt = context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false));
+      if (context_.certain(isIt))
+        return turningCycle(action, "a repeated turning cycle", context_.place());
+      turning = context_.either(turning, isIt);
+    }
     if (context_.certain(turning))
-      return roundTrip("a repeated turning cycle", context_.place());
+      return turningCycle(CodeAction::TurningCycle, "a repeated turning cycle", context_.place());
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
     if (hasCommaWord("A")) {
@@ -218,8 +240,9 @@ private:
     const auto isMotion = [&](CodeAction action) {
       return context_.certain(context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false)));
     };
-    const MoveKind kind = hasOtherWay() || hasLatheCorner()                              ? MoveKind::Unmodelled
-                          : isMotion(CodeAction::Rapid)                                  ? MoveKind::Rapid
+    const bool isRapid = isMotion(CodeAction::Rapid);
+    const MoveKind kind = hasOtherWay() || hasLatheCorner(isRapid)                       ? MoveKind::Unmodelled
+                          : isRapid                                                      ? MoveKind::Rapid
                           : isMotion(CodeAction::Linear) || isMotion(CodeAction::Thread) ? MoveKind::Feed
                                                                                          : MoveKind::Unmodelled;
     tell(context_, kind, start);
@@ -228,11 +251,11 @@ private:
   bool hasOtherWay() const {
     return words_.has(CodeAction::OtherCurve) || hasCommaWord() || isOpenTarget(context_, words_);
   }
-  /// The same corners and angles, as lines of a lathe have them.
-  bool hasLatheCorner() const {
+  /// The same corners and angles, as lines of a lathe have them; C of a rapid move is the axis.
+  bool hasLatheCorner(bool isRapid) const {
     const auto isWritten = [&](char letter) { return words_.find(letter) != nullptr; };
-    return context_.dialect().machine == MachineKind::Turning &&
-           (isWritten('R') || isWritten('I') || isWritten('K') || isWritten('A') || isWritten('C'));
+    return hasTurret(context_) &&
+           (isWritten('R') || isWritten('I') || isWritten('K') || isWritten('A') || (isWritten('C') && !isRapid));
   }
   bool hasCommaWord(std::string_view letters = {}) const {
     for (const Word &word : context_.tree().wordsOf(context_.block))
@@ -256,6 +279,11 @@ private:
   }
   void machineMove() {
     const Point start = state_.position;
+    if (namesIncrements(context_, words_)) {
+      havocPosition(context_);
+      interpretation_.unmodelled("G53 with increments", context_.place());
+      return tell(context_, MoveKind::Unmodelled, start);
+    }
     const Truth incremental =
         context_.inForce(ModalKind::Distance, {CodeAction::Incremental}, interpretation_.truth(false));
     const MachineIncrement meaning = context_.behaviour().machineIncrement;
@@ -265,7 +293,7 @@ private:
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         Value &position = state_.at(axis);
-        const Value absolute = interpretation_.subtract(entry->value, originOf(context_, axis));
+        const Value absolute = interpretation_.subtract(entry->value, machineOriginOf(context_, axis));
         const Value increment = meaning == MachineIncrement::Distance
                                     ? interpretation_.add(position, entry->value)
                                     : interpretation_.either(position, interpretation_.anyNumber());
@@ -292,7 +320,7 @@ private:
     const Truth all = interpretation_.both(interpretation_.truth(context_.behaviour().bareReferenceReturn),
                                            interpretation_.negation(axisWords()));
     for (const Axis axis : kAllAxes)
-      if (const Truth homes = context_.either(present(letterOf(axis)), all); interpretation_.mayBe(homes))
+      if (const Truth homes = context_.either(isNamed(axis), all); interpretation_.mayBe(homes))
         home(axis, homes, word);
     for (const auto &[letter, axis] : kTurningIncrements)
       if (const auto *entry = incrementsByLetter(context_) ? words_.find(letter) : nullptr)
@@ -310,7 +338,7 @@ private:
   }
   void home(Axis axis, Truth present, const CodeWord &word) {
     Value &position = state_.at(axis);
-    const Value reference = interpretation_.subtract(referencePosition(axis, word), originOf(context_, axis));
+    const Value reference = interpretation_.subtract(referencePosition(axis, word), machineOriginOf(context_, axis));
     position = interpretation_.select(present, reference, position);
   }
   /// Machine coordinate; that of G28 is the machine's zero where no variable says otherwise.
@@ -329,7 +357,7 @@ private:
     for (const Axis axis : kAllAxes)
       if (range)
         state_.variables.set(range->first + static_cast<std::uint32_t>(indexOf(axis)),
-                             interpretation_.add(state_.at(axis), originOf(context_, axis)));
+                             interpretation_.add(state_.at(axis), machineOriginOf(context_, axis)));
   }
   /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
   void skip() {

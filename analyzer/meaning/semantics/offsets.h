@@ -60,12 +60,10 @@ private:
   }
   /// G92: the tool stands, from now on, at the named coordinates.
   void set() {
-    if (interpretation_.mayBe(state_.transformed)) {
-      for (auto *numbers : {&state_.shift, &state_.position})
-        numbers->fill(interpretation_.anyNumber());
-      interpretation_.unmodelled("a coordinate system set during mirroring, scaling or rotation", context_.place());
-      return keep();
-    }
+    if (interpretation_.mayBe(state_.transformed))
+      return setSomehow("a coordinate system set during mirroring, scaling or rotation");
+    if (namesIncrements(context_, words_)) // `G50 U1.`
+      return setSomehow("a coordinate system shifted by increments");
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis))) {
         const Value position = state_.at(axis);
@@ -76,6 +74,13 @@ private:
         shiftCoordinate(context_, axis, interpretation_.subtract(target, position));
         state_.at(axis) = target;
       }
+    keep();
+  }
+  void setSomehow(std::string_view what) {
+    for (auto *numbers : {&state_.shift, &state_.position})
+      for (Value &number : *numbers)
+        number = interpretation_.either(number, interpretation_.anyNumber());
+    interpretation_.unmodelled(what, context_.place());
     keep();
   }
   /// NCT: G92 deletes the offset of G52; other manuals do not say.  The zero point is the same either way.

@@ -16,6 +16,12 @@ template <ValueAlgebra R> bool incrementsByLetter(const StepContext<R> &context)
   return context.dialect().machine == MachineKind::Turning && !context.modes.groupOf(ModalKind::Distance);
 }
 
+/// The block has one of them.
+template <ValueAlgebra R> bool namesIncrements(const StepContext<R> &context, const ExecutedWords<R> &words) {
+  return incrementsByLetter(context) &&
+         std::ranges::any_of(kTurningIncrements, [&](const auto &each) { return words.find(each.first) != nullptr; });
+}
+
 /// The end point that the axis words name, in work coordinates; axes without a word stay where they are.
 template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);

@@ -6,7 +6,7 @@
 // the codes are then those of the start, and the tip is not where it was.
 #pragma once
 
-#include "meaning/semantics/coordinates.h"
+#include "meaning/semantics/turret.h"
 
 namespace feedhold {
 
@@ -74,9 +74,11 @@ template <ValueAlgebra R> typename R::Value zeroShift(StepContext<R> &context, M
   return interpretation.subtract(workOriginOf(context, axis), workOriginOf(atEntry, axis));
 }
 
-/// The length of a tool is in force; G43 H0 takes it away as G49 does.
+/// The length of a tool is in force; G43 H0 takes it away as G49 does.  On a lathe, the offset of a T word.
 template <ValueAlgebra R> typename R::Truth withLength(StepContext<R> &context) {
   R &interpretation = context.interpretation;
+  if (hasTurret(context))
+    return tipInForce(context);
   const auto byNumber =
       context.inForce(ModalKind::Length, {CodeAction::LengthPlus, CodeAction::LengthMinus}, interpretation.truth(true));
   const auto &number = context.state.word('H');
@@ -94,7 +96,7 @@ template <ValueAlgebra R> typename R::Truth isSameSide(StepContext<R> &context, 
     return interpretation.truth(true);
   auto same = interpretation.truth(true);
   for (const Axis axis : kAllAxes)
-    if (indexOf(axis) > indexOf(Axis::Z)) {
+    if (isBesideRegions(context.dialect(), axis)) {
       const auto now = interpretation.add(context.state.at(axis), zeroShift(context, entry, axis));
       same = interpretation.both(same, interpretation.compare(Relation::Equal, now, entry.at(axis)));
     }
@@ -112,7 +114,7 @@ template <ValueAlgebra R> ToolPoint<R> toolPointOf(StepContext<R> &context, Mach
   const auto withLength = detail::withLength(context);
   const auto shift = [&](Axis axis) { return detail::zeroShift(context, entry, axis); };
   return {{shift(Axis::X), shift(Axis::Y), shift(Axis::Z)},
-          {originOf(context, Axis::X), originOf(context, Axis::Y), originOf(context, Axis::Z)},
+          {machineOriginOf(context, Axis::X), machineOriginOf(context, Axis::Y), machineOriginOf(context, Axis::Z)},
           context.inForce(ModalKind::Compensation, {CodeAction::CompensationOff}, always),
           context.either(interpretation.negation(context.state.lengthChanged), withLength),
           withLength,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meaning/semantics/tool_length.h"
+#include "meaning/semantics/turret.h"
 
 #include <cmath>
 
@@ -55,7 +56,7 @@ typename R::Value readPosition(StepContext<R> &context, const VariableRange &ran
     return context.interpretation.anyNumber();
   if (range.role != VariableRole::MachinePosition)
     return context.state.position[axis];
-  return context.interpretation.add(context.state.position[axis], originOf(context, kAllAxes[axis]));
+  return context.interpretation.add(context.state.position[axis], machineOriginOf(context, kAllAxes[axis]));
 }
 
 /// The number whose bits are the variables of the row, where all of them are known.
@@ -169,6 +170,7 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
   if (range.role == VariableRole::AdditionalWorkOffset)
     changeAdditionalOffset(context, place);
   changeLengthOffset(context, cell);
+  changeTipOffset(context, range, cell);
   if (range.role != VariableRole::MessageStop && !isVolatile(range.role))
     context.state.variables.set(cell, std::move(value));
   else if constexpr (requires { interpretation.writesUnkept(cell); })

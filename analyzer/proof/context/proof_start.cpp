@@ -111,7 +111,7 @@ void ProofStart::readContract(const ProofSubject &subject) {
   const TermId tolerance = interpretation_.arithmetic() == Arithmetic::Exact
                                ? store_.number(smt::Number(0))
                                : interpretation_.literal(toleranceOf(contract, subject.dialect())).number;
-  space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_, tolerance);
+  space_ = std::make_unique<SpaceClaims>(store_, *terms_, contract, entry_, subject.dialect(), tolerance);
   std::ranges::copy(space_->startIsOutside(), std::back_inserter(demands_));
 }
 

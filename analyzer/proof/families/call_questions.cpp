@@ -33,10 +33,10 @@ Question meetsContract(const ProofSubject &subject, Place own, const Callee &cal
 }
 
 std::vector<TermId> assumedOf(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
-                              const SymbolicState &state) {
+                              const SymbolicState &state, const Dialect &dialect) {
   std::vector<TermId> assumed = terms.assumptions(contract, state);
   if (contract.machine) {
-    const SpaceClaims space(store, terms, contract, state, store.number(smt::Number(0)));
+    const SpaceClaims space(store, terms, contract, state, dialect, store.number(smt::Number(0)));
     std::ranges::copy(space.startIsOutside(), std::back_inserter(assumed));
   }
   return assumed;
@@ -53,7 +53,9 @@ void contractsAreMet(const ExploredProgram &program, Questions &questions) {
       continue;
     ContractTerms terms(start.interpretation(), subject.programs, call.callee.file, *contracts);
     const Contract &contract = *contracts->of(call.callee.program);
-    const TermId met = contract.isSound ? store.logicalAnd(assumedOf(store, terms, contract, call.state)) : store.no();
+    const TermId met = contract.isSound
+                           ? store.logicalAnd(assumedOf(store, terms, contract, call.state, subject.dialect()))
+                           : store.no();
     auto known = asked.find(keyOf(call));
     if (known == asked.end())
       known = asked.emplace(keyOf(call), meetsContract(subject, call.own, call.callee)).first;

@@ -42,7 +42,7 @@ private:
                 std::optional<smt::Model> *model);
   const Outcome &answered(const Query &query, const Budget &budget);
   bool isGivenAtStart(Axis axis) const;
-  std::string whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question);
+  std::string whyOpen(const MoveInstance &move, const SpaceQuestion &question);
 
   const ProofContext &context_;
   ProofStart &start_;
@@ -112,8 +112,6 @@ bool SpaceProver::keepsAway(const SpaceRule &rule, const Moves &moves) {
 }
 
 std::optional<Verdict> SpaceProver::notAsked(const SpaceRule &rule, Place own) {
-  if (context_.subject.dialect().machine == MachineKind::Turning)
-    return Verdict::unknown("regions are checked on machining centres only; this control is for turning");
   if (rule.missing)
     return Verdict::unknown(*rule.missing);
   for (const UnmodelledCall &call : context_.found.unmodelledCalls)
@@ -157,7 +155,7 @@ Verdict SpaceProver::decide(Obligation &row, const SpaceRule &rule, const Moves 
       if (model)
         if (auto witness = context_.witnesses.fromModel(*model, runs.violation()))
           return *std::move(witness);
-      return Verdict::unknown(whyOpen(move->conditions, question), move->place);
+      return Verdict::unknown(whyOpen(*move, question), move->place);
     }
   return proved;
 }
@@ -244,8 +242,11 @@ bool SpaceProver::isGivenAtStart(Axis axis) const {
 }
 
 /// What the start leaves open, if the claim speaks of it.
-std::string SpaceProver::whyOpen(const std::vector<TermId> &conditions, const SpaceQuestion &question) {
-  const Query query = start_.onPath(conditions, question.alternatives.back().goal);
+std::string SpaceProver::whyOpen(const MoveInstance &move, const SpaceQuestion &question) {
+  if (context_.subject.dialect().machine == MachineKind::Turning && move.point.withLength.term == start_.store().yes())
+    return "the tool has been changed, and where its tip is before the next move of both axes is unknown, since tool "
+           "offsets are the operator's";
+  const Query query = start_.onPath(move.conditions, question.alternatives.back().goal);
   const std::vector<TermId> &named = smt::variablesOf(start_.store(), query.goal);
   const std::set<TermId> variables(named.begin(), named.end());
   const auto length = space_.lengthInSpindle();

@@ -40,7 +40,7 @@ std::string howFar(const SpaceRule &rule, double depth) {
 }
 
 /// In machine coordinates where the rule has these.
-std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const RecordedMove &move) {
+std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const RecordedMove &move, MachineKind machine) {
   std::array<std::string, 3> shown;
   for (std::size_t axis = 0; axis < shown.size(); ++axis)
     shown[axis] =
@@ -49,7 +49,9 @@ std::string textOf(const SpaceRule &rule, const geometry::Gouge &gouge, const Re
                                ? fmt::format(", with a tool of length {} in the spindle and no length in force",
                                              decimalText(*gouge.length, kShownDecimals))
                                : "";
-  return fmt::format("{} at X{} Y{} Z{}{}", howFar(rule, gouge.depth), shown[0], shown[1], shown[2], tool);
+  const std::string place = machine == MachineKind::Turning ? fmt::format("X{} Z{}", shown[0], shown[2])
+                                                            : fmt::format("X{} Y{} Z{}", shown[0], shown[1], shown[2]);
+  return fmt::format("{} at {}{}", howFar(rule, gouge.depth), place, tool);
 }
 
 /// Of the coordinates, and of what is added to them on the way to machine coordinates.
@@ -93,7 +95,7 @@ Violation SpaceRuns::violation() const {
     const auto gouge = runs.gougeIn(run, given);
     if (!gouge)
       return std::optional<std::string>();
-    return std::optional(textOf(runs.rule_, *gouge, run.moves[gouge->move]) +
+    return std::optional(textOf(runs.rule_, *gouge, run.moves[gouge->move], runs.context_.subject.dialect().machine) +
                          (run.offsetIsAssumed ? "; the offset of D is taken to be the radius of `@TOOL`" : ""));
   };
   if (tolerance())
@@ -131,8 +133,9 @@ std::optional<std::string> SpaceRuns::roundedAway() const {
   const auto &samples = context_.witnesses.samples();
   for (std::size_t i = 0; i < samples.size() && i < kMostLooked; ++i)
     if (const auto gouge = gougeIn(samples[i].result, samples[i].given))
-      return fmt::format("rounding of words to the least increment adds up: {}",
-                         textOf(rule_, *gouge, samples[i].result.moves[gouge->move]));
+      return fmt::format(
+          "rounding of words to the least increment adds up: {}",
+          textOf(rule_, *gouge, samples[i].result.moves[gouge->move], context_.subject.dialect().machine));
   return std::nullopt;
 }
 

@@ -150,10 +150,14 @@ public:
     };
     for (std::size_t i = 0; i < moves.size(); ++i)
       if (claim_ == SpaceClaim::Travel) // limits are those of programmed points
-        look(moves[i], i);
+        look(inSpace(moves[i], 0), i);
+      else if (space_.tip)
+        look(inSpace(moves[i], tool_.radius), i);
       else
         for (const RecordedMove &move : movesOfCentre(moves[i]))
           look(claim_ == SpaceClaim::Machine ? inMachine(move) : ofTip(move), i);
+    if (worst && space_.tip)
+      worst->at = fromHalfPlane(worst->at, *space_.tip, claim_ == SpaceClaim::Travel ? 0 : tool_.radius);
     for (std::size_t axis = 0; worst && claim_ == SpaceClaim::Machine && axis < worst->at.size(); ++axis)
       worst->at[axis] += moves[worst->move].zero[axis] - moves[worst->move].machineZero[axis];
     return worst;
@@ -204,6 +208,10 @@ private:
       move.isOfTool = move.isOfTool && space_.longest;
     }
     return move;
+  }
+  /// `radius`: of the nose of a lathe, whose centre is meant.
+  RecordedMove inSpace(const RecordedMove &move, double radius) const {
+    return space_.tip ? inHalfPlane(move, *space_.tip, radius) : move;
   }
   /// Machine coordinates are known whatever the length of the tool.
   static RecordedMove inMachine(RecordedMove move) {

@@ -1,8 +1,7 @@
 // Gouges: where and how deep the tool of a run goes where it must not, in plain numbers.
 #pragma once
 
-#include "meaning/machine/machine.h"
-#include "proof/geometry/shapes.h"
+#include "proof/geometry/half_plane.h"
 
 #include <span>
 
@@ -16,7 +15,8 @@ struct PlainRegion {
   std::vector<PlainShape> parts; // together one region
 };
 struct PlainSpace {
-  std::optional<Tool<double>> tool;
+  std::optional<TipDirection> tip = {}; // of a lathe, whose shapes are those of half_plane.h
+  std::optional<Tool<double>> tool = {};
   std::vector<PlainRegion> keepIn;
   std::vector<PlainRegion> keepOut;
   std::optional<double> clearance; // Z

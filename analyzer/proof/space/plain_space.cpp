@@ -58,10 +58,14 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   if (contract == nullptr)
     return space;
   const auto numbers = std::make_shared<ContractNumbers>(programs, program, contracts, run);
-  const RegionShapes<double, bool> shapes{[numbers](ExpressionId expression) { return numbers->number(expression); },
-                                          [numbers](ExpressionId condition, const geometry::Point<double> &point) {
-                                            return numbers->holds(condition, point);
-                                          }};
+  RegionShapes<double, bool> shapes{[numbers](ExpressionId expression) { return numbers->number(expression); },
+                                    [numbers](ExpressionId condition, const geometry::Point<double> &point) {
+                                      return numbers->holds(condition, point);
+                                    }};
+  if (programs.file(program.file).dialect->machine == MachineKind::Turning) {
+    shapes.lathe = {[](double number) { return number / 2; }, [](double number) { return number * 2; }, 0};
+    space.tip = geometry::tipDirection(contract->tool ? contract->tool->direction : 0);
+  }
   if (contract->tool)
     space.tool = shapes.tool(*contract->tool, 0);
   space.keepIn = named(shapes, contract->keepIn);

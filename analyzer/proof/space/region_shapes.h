@@ -9,11 +9,19 @@
 
 namespace feedhold::prove {
 
+/// Halves and doubles numbers: between the diameters of a lathe and the radii of its space (half_plane.h).
+template <typename Number> struct Diameters {
+  std::function<Number(Number)> half;
+  std::function<Number(Number)> twice;
+  Number zero;
+};
+
 /// `number` and `holds` read the expressions of the contract: a value on entry, a condition at a point.
 template <typename Number, typename Truth> struct RegionShapes {
   using Shape = geometry::Shape<Number, Truth>;
   std::function<Number(ExpressionId)> number;
   std::function<Truth(ExpressionId, const geometry::Point<Number> &)> holds;
+  std::optional<Diameters<Number>> lathe = {}; // absent: a machining centre
 
   Shape shape(const Region &region) const {
     return match(
@@ -35,13 +43,15 @@ template <typename Number, typename Truth> struct RegionShapes {
         [&](const Polygon &polygon) -> Shape {
           geometry::Prism<Number> prism{{}, interval(polygon.height)};
           for (const Polygon::Corner &corner : polygon.corners)
-            prism.corners.push_back({number(corner.x), number(corner.y)});
+            prism.corners.push_back(lathe ? std::array{number(corner.second), lathe->half(number(corner.first))}
+                                          : std::array{number(corner.first), number(corner.second)});
           return prism;
         },
         [&](const Where &where) -> Shape {
           return geometry::Condition<Number, Truth>{
-              [holds = holds, condition = where.condition](const geometry::Point<Number> &point) {
-                return holds(condition, point);
+              [holds = holds, lathe = lathe, condition = where.condition](const geometry::Point<Number> &point) {
+                return holds(condition,
+                             lathe ? geometry::Point<Number>{lathe->twice(point[1]), lathe->zero, point[0]} : point);
               }};
         });
   }
@@ -49,7 +59,10 @@ template <typename Number, typename Truth> struct RegionShapes {
     geometry::Box<Number> result;
     for (const AxisRange &side : box.sides)
       result.sides[indexOf(*axisOf(side.axis))] = interval(side.range);
-    return result;
+    if (!lathe)
+      return result;
+    const auto &[x, y, z] = result.sides;
+    return {{z, radii(x), {}}};
   }
   /// A drill is taken as flat (shapes.h).
   geometry::Tool<Number> tool(const ContractTool &tool, Number none) const {
@@ -58,6 +71,7 @@ template <typename Number, typename Truth> struct RegionShapes {
     case ToolShape::Ball: return {radius, radius};
     case ToolShape::Bull: return {radius, tool.corner ? number(*tool.corner) : none};
     case ToolShape::Flat:
+    case ToolShape::Tip:
     case ToolShape::Drill: return {radius, none};
     }
     return {radius, none};
@@ -71,6 +85,12 @@ private:
     if (range.high)
       result.high = number(*range.high);
     return result;
+  }
+  geometry::Interval<Number> radii(geometry::Interval<Number> diameters) const {
+    for (std::optional<Number> *end : {&diameters.low, &diameters.high})
+      if (*end)
+        *end = lathe->half(**end);
+    return diameters;
   }
   Number on(const std::vector<AxisValue> &centre, Axis axis) const {
     for (const AxisValue &value : centre)

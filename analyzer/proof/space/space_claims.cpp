@@ -16,26 +16,6 @@ using smt::TermId;
 
 namespace {
 
-TermPoint inSpace(smt::TermStore &store, const std::array<SymbolicValue, kAxisCount> &point,
-                  const ToolPoint<SymbolicInterpretation> &tool) {
-  const auto at = [&](std::size_t i) { return store.add(point[i].number, tool.zero[i].number); };
-  return {at(0), at(1), at(2)};
-}
-
-geometry::TermMove termMove(smt::TermStore &store, const MoveInstance &instance) {
-  const Move<SymbolicValue> &move = instance.move;
-  geometry::TermMove result{move.kind, inSpace(store, move.start, instance.point),
-                            inSpace(store, move.end, instance.point), move.plane};
-  if (move.kind != MoveKind::ArcClockwise && move.kind != MoveKind::ArcCounterclockwise)
-    return result;
-  const auto zero = [&](Axis axis) { return instance.point.zero[indexOf(axis)].number; };
-  result.firstCentre = store.add(move.firstCentre.number, zero(move.plane.first));
-  result.secondCentre = store.add(move.secondCentre.number, zero(move.plane.second));
-  result.turns = move.turns;
-  result.radius = instance.radius;
-  return result;
-}
-
 bool isCondition(const TermShape &part) { return std::holds_alternative<geometry::Condition<TermId, TermId>>(part); }
 
 std::vector<FreeSpace> spacesOf(smt::TermStore &store, ObligationKind kind, const geometry::Tool<TermId> &tool,
@@ -118,8 +98,9 @@ bool isCutting(MoveKind kind) {
 }
 
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
-                         const SymbolicState &entry, TermId tolerance)
-    : store_(store), terms_(terms), contract_(contract), entry_(entry), tolerance_(tolerance) {
+                         const SymbolicState &entry, const Dialect &dialect, TermId tolerance)
+    : store_(store), terms_(terms), contract_(contract), entry_(entry), dialect_(dialect), tolerance_(tolerance),
+      space_(store, tip()) {
   if (!contract.lengths.empty())
     lengthInSpindle_ = terms.lengthInSpindle(contract, entry);
   addRegions(contract.keepIn, ObligationKind::KeepIn);
@@ -130,7 +111,7 @@ SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Cont
                       .clause = contract.clearance->clause,
                       .height = store_.subtract(number(contract.clearance->height.value), tolerance_)});
   const auto limits = [&](ClauseId clause, const Box &sides) {
-    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}}.sides(sides);
+    const geometry::Box<TermId> box = RegionShapes<TermId, TermId>{number, {}, diameters()}.sides(sides);
     rules_.push_back({.kind = ObligationKind::Travel,
                       .clause = clause,
                       .spaces = {geometry::inside(
@@ -146,10 +127,31 @@ SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Cont
   }
 }
 
+std::optional<LatheTip> SpaceClaims::tip() const {
+  if (dialect_.machine != MachineKind::Turning)
+    return std::nullopt;
+  if (!contract_.tool)
+    return LatheTip{geometry::tipDirection(0), store_.number(smt::Number(0))};
+  return LatheTip{geometry::tipDirection(contract_.tool->direction),
+                  terms_.number(contract_.tool->radius, entry_, entry_)};
+}
+
+std::optional<Diameters<TermId>> SpaceClaims::diameters() const {
+  if (!space_.isLathe())
+    return std::nullopt;
+  const TermId two = store_.number(smt::Number(2));
+  return Diameters<TermId>{[this, two](TermId number) { return store_.divide(number, two); },
+                           [this, two](TermId number) { return store_.multiply(number, two); },
+                           store_.number(smt::Number(0))};
+}
+
+std::string_view SpaceClaims::axesOfRegions() const { return space_.isLathe() ? "X and Z" : "X, Y and Z"; }
+
 void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind kind) {
   const RegionShapes<TermId, TermId> shapes{
       [this](ExpressionId expression) { return terms_.number(expression, entry_, entry_); },
-      [this](ExpressionId condition, const TermPoint &point) { return terms_.conditionAt(condition, entry_, point); }};
+      [this](ExpressionId condition, const TermPoint &point) { return terms_.conditionAt(condition, entry_, point); },
+      diameters()};
   const std::vector<std::string> names = namesOf(regions);
   for (std::size_t i = 0; i < names.size(); ++i) {
     SpaceRule rule{.kind = kind, .clause = regions.front().clause, .region = i, .name = names[i]};
@@ -162,7 +164,10 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
       }
     if (!contract_.tool) {
       rule.missing =
-          "the contract does not describe the tool; state it with `@TOOL`, for example `@TOOL FLAT RADIUS #7`";
+          space_.isLathe()
+              ? "the contract does not describe the tool; state it with `@TOOL`, for example `@TOOL TIP RADIUS 0.8 "
+                "DIRECTION 3`"
+              : "the contract does not describe the tool; state it with `@TOOL`, for example `@TOOL FLAT RADIUS #7`";
       rules_.push_back(std::move(rule));
       continue;
     }
@@ -209,8 +214,10 @@ std::optional<std::string> SpaceClaims::whyNotTold(const MoveInstance &instance)
     return "the motion of this block is unknown: it could not be read, its code is not modelled, or the motion code or "
            "the plane at the start is unknown, which `@MODAL` states";
   for (const Axis axis : kAllAxes)
-    if (indexOf(axis) > indexOf(Axis::Z) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
-      return fmt::format("axis {} moves; regions cover X, Y and Z only", letterOf(axis));
+    if (isBesideRegions(dialect_, axis) && instance.move.start[indexOf(axis)] != instance.move.end[indexOf(axis)])
+      return fmt::format("axis {} moves; regions cover {} only", letterOf(axis), axesOfRegions());
+  if (space_.isLathe() && isArc(instance.move.kind) && instance.move.plane.first != Axis::Z)
+    return "the arc is not in the plane of X and Z (G18), which regions of a lathe describe";
   return std::nullopt;
 }
 
@@ -242,11 +249,14 @@ std::vector<std::pair<TermId, std::string>> SpaceClaims::premises(const SpaceRul
   else
     premises.emplace_back(
         instance.point.lengthKnown.term,
-        "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
-        "was off at the start, state `@MODAL G49`; or the lengths of the tools, with `@LENGTH H* ..`");
+        space_.isLathe()
+            ? "no tool offset is in force (T0100), or it is not known which, so that the place of the tip is unknown"
+            : "tool length compensation has been cancelled (G49), so that the height of the tip is unknown; if it "
+              "was off at the start, state `@MODAL G49`; or the lengths of the tools, with `@LENGTH H* ..`");
   if (rule.kind != ObligationKind::Travel)
-    premises.emplace_back(instance.point.sameSide.term,
-                          "an axis other than X, Y and Z has moved since the start and may have rotated the part");
+    premises.emplace_back(
+        instance.point.sameSide.term,
+        fmt::format("an axis other than {} has moved since the start and may have rotated the part", axesOfRegions()));
   addUnits();
   return premises;
 }
@@ -284,7 +294,7 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
   const MoveInstance instance = placed(rule, asMoved);
   if (rule.kind == ObligationKind::Clearance)
     return {clearanceOf(rule, instance)};
-  const geometry::TermMove move = termMove(store_, instance);
+  const geometry::TermMove move = (isOfProgrammed(rule) ? space_.ofProgrammed() : space_).move(instance);
   geometry::ToolPath path(store_, move);
   std::vector<SpaceQuestion> questions;
   const geometry::ToolPath::Hull hull = path.hull();
@@ -339,8 +349,8 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
 /// Not below the height; or straight up, or straight down to where the tool has been, both without tolerance: many
 /// small steps aside or down would add up.
 SpaceQuestion SpaceClaims::clearanceOf(const SpaceRule &rule, const MoveInstance &instance) const {
-  const TermPoint start = inSpace(store_, instance.move.start, instance.point);
-  const TermPoint end = inSpace(store_, instance.move.end, instance.point);
+  const TermPoint start = space_.point(instance.move.start, instance.point.zero);
+  const TermPoint end = space_.point(instance.move.end, instance.point.zero);
   const TermId above =
       store_.logicalAnd(store_.lessOrEqual(*rule.height, start[2]), store_.lessOrEqual(*rule.height, end[2]));
   const TermId cut = store_.add(instance.column,
@@ -381,7 +391,9 @@ std::vector<TermId> SpaceClaims::startIsOutside() const {
 }
 
 std::vector<TermId> SpaceClaims::hints(const SymbolicState &state) const {
-  const TermPoint point{state.at(Axis::X).number, state.at(Axis::Y).number, state.at(Axis::Z).number};
+  std::array<SymbolicValue, 3> atStart;
+  atStart.fill({store_.no(), store_.number(smt::Number(0))});
+  const TermPoint point = space_.point(state.position, atStart);
   std::vector<TermId> hints;
   for (const SpaceRule &rule : rules_)
     for (const FreeSpace &space : rule.spaces)

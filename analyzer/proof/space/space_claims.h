@@ -5,6 +5,8 @@
 #include "proof/geometry/gouge.h"
 #include "proof/geometry/tool_path.h"
 #include "proof/obligation/obligation.h"
+#include "proof/space/region_shapes.h"
+#include "proof/space/term_space.h"
 #include "proof/symbolic/contract_terms.h"
 
 namespace feedhold::prove {
@@ -37,7 +39,7 @@ class SpaceClaims {
 public:
   /// `tolerance`: how far the tool may pass what a clause says.
   SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract, const SymbolicState &entry,
-              smt::TermId tolerance);
+              const Dialect &dialect, smt::TermId tolerance);
 
   const std::vector<SpaceRule> &rules() const { return rules_; }
   bool concerns(const SpaceRule &rule, const MoveInstance &move) const;
@@ -60,6 +62,9 @@ public:
   std::vector<smt::TermId> hints(const SymbolicState &state) const;
 
 private:
+  std::optional<LatheTip> tip() const;
+  std::optional<Diameters<smt::TermId>> diameters() const;
+  std::string_view axesOfRegions() const;
   void addRegions(const std::vector<Region> &regions, ObligationKind kind);
   std::vector<smt::TermId> simpleAlternatives(const geometry::FreeSpace &space,
                                               const std::vector<geometry::TermPoint> &corners) const;
@@ -71,7 +76,9 @@ private:
   ContractTerms &terms_;
   const Contract &contract_;
   const SymbolicState &entry_;
+  const Dialect &dialect_;
   smt::TermId tolerance_;
+  TermSpace space_;
   std::vector<SpaceRule> rules_;
   std::optional<smt::TermId> lengthInSpindle_;
 };

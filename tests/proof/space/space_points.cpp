@@ -209,6 +209,21 @@ SpacePoint towards(const geometry::Tool<double> &tool, const SpacePoint &tip, co
           tip[2] + endHeight(tool, radius)};
 }
 
+// ---- lathes: Z and the radius, in which regions lie flat (half_plane.h), by a way of their own ----
+
+RecordedMove byRadius(RecordedMove recorded) {
+  recorded.zero[0] /= 2;
+  for (auto *point : {&recorded.move.start, &recorded.move.end})
+    (*point)[0].number /= 2;
+  (recorded.move.plane.first == Axis::X ? recorded.move.firstCentre : recorded.move.secondCentre).number /= 2;
+  return recorded;
+}
+/// `point`: X as a radius, Y, Z of the programmed point.
+SpacePoint noseAt(const PlainSpace &space, const SpacePoint &point, SpaceClaim claim) {
+  const double radius = claim == SpaceClaim::Travel || !space.tool ? 0 : space.tool->radius;
+  return {point[2] - radius * space.tip->z, point[0] - radius * space.tip->x, 0};
+}
+
 bool isMeant(const RecordedMove &recorded, SpaceClaim claim) {
   const MoveKind kind = recorded.move.kind;
   if (!recorded.isOfTool)
@@ -262,6 +277,10 @@ std::optional<SpacePoint> wrongPoint(const PlainSpace &space, SpaceClaim claim, 
   return std::nullopt;
 }
 
+SpacePoint toolAt(const PlainSpace &space, SpaceClaim claim, const SpacePoint &programmed) {
+  return space.tip ? noseAt(space, {programmed[0] / 2, programmed[1], programmed[2]}, claim) : programmed;
+}
+
 std::optional<SeenGouge> seenGouge(const PlainSpace &space, SpaceClaim claim, std::size_t region,
                                    std::span<const RecordedMove> moves, Place own, double depth, Random &random) {
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -272,7 +291,8 @@ std::optional<SeenGouge> seenGouge(const PlainSpace &space, SpaceClaim claim, st
     if (claim == SpaceClaim::Clearance && goesAcross && std::min(start[2], end[2]) < *space.clearance - depth)
       return SeenGouge{i, start, end};
     for (int tip = 0; tip < kTips; ++tip) {
-      const SpacePoint at = anyTip(moves[i], random);
+      const SpacePoint at =
+          space.tip ? noseAt(space, anyTip(byRadius(moves[i]), random), claim) : anyTip(moves[i], random);
       if (const auto wrong = wrongPoint(space, claim, region, at, depth, random))
         return SeenGouge{i, at, *wrong};
     }

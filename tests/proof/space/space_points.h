@@ -26,6 +26,9 @@ std::optional<SeenGouge> seenGouge(const geometry::PlainSpace &space, geometry::
                                    std::span<const RecordedMove> moves, Place own, double depth,
                                    soundness::Random &random);
 
+/// Of the tool as shapes see it, where the programmed point is here.
+SpacePoint toolAt(const geometry::PlainSpace &space, geometry::SpaceClaim claim, const SpacePoint &programmed);
+
 /// Where the tip is: lines and arcs as the manual draws them, rapid moves anywhere between their ends.
 SpacePoint anyTip(const RecordedMove &recorded, soundness::Random &random);
 

@@ -4,6 +4,7 @@
 #include "proof/space/plain_space.h"
 #include "proof/space/space_clauses.h"
 #include "proof/space/space_points.h"
+#include "proof/space/turning_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -241,7 +242,8 @@ private:
   bool isSeen(const SpaceRun &run, const Clause &clause, const prove::GougeAt &gouge) {
     constexpr int kTries = 40;
     for (int i = 0; i < kTries; ++i)
-      if (wrongPoint(run.space, clause.claim, clause.region, gouge.at, kRounding, random_))
+      if (wrongPoint(run.space, clause.claim, clause.region, toolAt(run.space, clause.claim, gouge.at), kRounding,
+                     random_))
         return true;
     return false;
   }
@@ -376,7 +378,9 @@ Sample withSpaceClauses(Sample program, Random &random) {
   Sample result = program;
   std::set<std::string> kinds;
   for (const char *name : {"RA", "RB", "RC"}) {
-    const OpenClause open = openClause(random, name, anyTip(any(any(runs).result.moves), random));
+    const geometry::Point<double> way = anyTip(any(any(runs).result.moves), random);
+    const bool isLathe = loaded.loaded().dialect().machine == MachineKind::Turning;
+    const OpenClause open = isLathe ? openTurningClause(random, name, way) : openClause(random, name, way);
     const std::string kind = open.text.substr(0, 6);
     const bool isOnce = kind == "(@CLEA" || kind == "(@TRAV";
     if ((isOnce && !kinds.insert(kind).second) || random.oneIn(4))

@@ -1,9 +1,10 @@
-// Random milling programs: what is proved of their space is kept in runs on random arguments, and what is refuted is
-// broken by the witness.  SPACE_FIRST and SPACE_PROGRAMS choose other programs, SPACE_SHOW=1 shows
-// them, SPACE_REASONS=1 what is said of claims that are neither proved nor refuted.
+// Random programs of machining centres and lathes: what is proved of their space is kept in runs on random arguments,
+// and what is refuted is broken by the witness.  SPACE_FIRST and SPACE_PROGRAMS choose other programs, SPACE_SHOW=1
+// shows them, SPACE_REASONS=1 what is said of claims that are neither proved nor refuted.
 #include "base/support/parallel.h"
 #include "proof/space/space_programs.h"
 #include "proof/space/space_proofs.h"
+#include "proof/space/turning_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,11 @@ SpaceTally holdsOf(const ProgramKind &kind, std::uint64_t usualPrograms) {
 
 TEST(SpaceSoundness, MillingPrograms) {
   const SpaceTally tally = holdsOf({"milling", millingProgram, {.search = 100'000, .z3 = 0, .cvc5 = 0}}, 30);
+  EXPECT_GT(tally.proved, tally.claims / 5);
+}
+
+TEST(SpaceSoundness, TurningPrograms) {
+  const SpaceTally tally = holdsOf({"turning", turningProgram, {.search = 100'000, .z3 = 0, .cvc5 = 0}}, 16);
   EXPECT_GT(tally.proved, tally.claims / 5);
 }
 
