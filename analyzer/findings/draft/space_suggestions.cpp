@@ -148,6 +148,8 @@ bool isOnlyRead(const FlowFacts &facts, std::uint32_t variable) {
 } // namespace
 
 DraftClauses spaceSuggestions(const Project &project, const FlowFacts &facts, const FileContracts &contracts) {
+  if (facts.file.dialect->machine == MachineKind::Turning) // whose comments do not tell the tip of a tool
+    return {};
   std::optional<ToolNote> tool;
   for (const auto &[variable, note] : argumentNotes(project, facts.program))
     if (const auto named = toolIn(variable, note.name); named && isOnlyRead(facts, variable)) {

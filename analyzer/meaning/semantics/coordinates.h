@@ -28,6 +28,13 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
 /// Zero points have moved by distances that are not known.
 template <ValueAlgebra R> void havocOrigins(StepContext<R> &context);
 
+/// The words of a cycle that are in force may be others, or none.
+template <ValueAlgebra R> void forgetCycle(StepContext<R> &context) {
+  auto &[bottom, retract, initial, peck, dwell] = context.state.cycle;
+  for (auto *level : {&bottom, &retract, &initial, &peck, &dwell})
+    *level = context.interpretation.either(*level, context.interpretation.anything());
+}
+
 /// Nothing is known any more of where the tool is; a run takes it to be where it was.
 template <ValueAlgebra R> void havocPosition(StepContext<R> &context);
 
@@ -259,10 +266,9 @@ template <ValueAlgebra R> void shiftCoordinate(StepContext<R> &context, Axis axi
     else if (axis == plane->first || axis == plane->second)
       keep(state.transform.centre[axis == plane->first ? 0 : 1]);
   }
-  if (context.dialect().machine == MachineKind::Turning) { // words of a cycle that are in force (turning_cycles.h)
-    const auto none = interpretation.vacant();
-    state.cycle = {none, none, none, none, none};
-  } else if (!plane || axis == plane->normal || axis == Axis::Z)
+  if (context.dialect().machine == MachineKind::Turning)
+    forgetCycle(context);
+  else if (!plane || axis == plane->normal || axis == Axis::Z)
     for (auto *level : {&state.cycle.bottom, &state.cycle.retract, &state.cycle.initial})
       keep(*level);
 }

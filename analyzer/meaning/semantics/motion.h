@@ -209,8 +209,10 @@ private:
         return turningCycle(action, "a repeated turning cycle", context_.place());
       turning = context_.either(turning, isIt);
     }
-    if (context_.certain(turning))
+    if (context_.certain(turning)) {
+      forgetCycle(context_);
       return turningCycle(CodeAction::TurningCycle, "a repeated turning cycle", context_.place());
+    }
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
     if (hasCommaWord("A")) {
@@ -224,9 +226,11 @@ private:
       Arcs<R>(context_, words_, hasOtherWay()).follow(start, arc, interpretation_.both(arc, holds));
     if (!context_.certain(arc) && interpretation_.wantsMoves())
       tellLine(start);
-    if (interpretation_.mayBe(turning))
-      for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-        state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
+    if (!interpretation_.mayBe(turning))
+      return;
+    for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+      state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
+    forgetCycle(context_);
   }
   Truth isArc() {
     return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},

@@ -3,6 +3,7 @@
 #include "base/support/check.h"
 
 #include <array>
+#include <cstddef>
 
 namespace feedhold::geometry {
 
@@ -26,19 +27,22 @@ TipDirection tipDirection(std::uint8_t number) {
 RecordedMove inHalfPlane(RecordedMove recorded, const TipDirection &direction, double radius) {
   Move<ConcreteValue> &move = recorded.move;
   recorded.isOfTool = recorded.isOfTool && !leavesPlane(move);
-  const std::array<double, 2> toCentre = {-radius * direction.z, -radius * direction.x};
   for (auto *point : {&move.start, &move.end}) {
-    const double z = (*point)[kZ].number, x = (*point)[kX].number;
-    point->fill(ConcreteValue::of(0));
-    (*point)[0] = ConcreteValue::of(z + toCentre[0]);
-    (*point)[1] = ConcreteValue::of(x / 2 + toCentre[1]);
+    const auto laid = toHalfPlane({(*point)[kX].number, 0, (*point)[kZ].number}, direction, radius);
+    for (std::size_t i = 0; i < point->size(); ++i)
+      (*point)[i] = ConcreteValue::of(i < laid.size() ? laid[i] : 0);
   }
-  move.firstCentre = ConcreteValue::of(move.firstCentre.number + toCentre[0]);
-  move.secondCentre = ConcreteValue::of(move.secondCentre.number / 2 + toCentre[1]);
+  const auto centre = toHalfPlane({move.secondCentre.number, 0, move.firstCentre.number}, direction, radius);
+  move.firstCentre = ConcreteValue::of(centre[0]);
+  move.secondCentre = ConcreteValue::of(centre[1]);
   move.plane = kPlaneXY;
   recorded.zero = {recorded.zero[kZ], recorded.zero[kX] / 2, 0};
   recorded.centre.clear();
   return recorded;
+}
+
+Point<double> toHalfPlane(const Point<double> &programmed, const TipDirection &direction, double radius) {
+  return {programmed[kZ] - radius * direction.z, programmed[kX] / 2 - radius * direction.x, 0};
 }
 
 Point<double> fromHalfPlane(const Point<double> &centre, const TipDirection &direction, double radius) {

@@ -22,6 +22,8 @@ TipDirection tipDirection(std::uint8_t number);
 /// A move of the programmed point, as one of the centre of a nose of this radius.  Whatever leads out of the plane is
 /// not of the tool.
 RecordedMove inHalfPlane(RecordedMove recorded, const TipDirection &direction, double radius);
+/// Where the centre of the nose is, if the programmed point is here: X as a diameter, Y, Z.
+Point<double> toHalfPlane(const Point<double> &programmed, const TipDirection &direction, double radius);
 /// X as a diameter, Y, Z of the programmed point, where the centre of the nose is here.
 Point<double> fromHalfPlane(const Point<double> &centre, const TipDirection &direction, double radius);
 

@@ -123,7 +123,7 @@ public:
     for (std::size_t i = 0; i < picture.runs.size(); ++i)
       runs_.push_back(drawn(picture.runs[i], picture.runs.size() < 2 ? "" : i == 0 ? " both" : " second"));
     if (picture.gouge && picture.gouge->gouge.move < picture.runs.front().moves.size())
-      gougeAt_ = picture.gouge->gouge.at;
+      gougeAt_ = placeOf(*picture.gouge);
   }
 
   std::string draw() {
@@ -132,8 +132,8 @@ public:
     const double scale = std::min((kWidth - kLeft - kRight) / ranges_[0].size(),
                                   kMostHeight / std::max(ranges_[1].size(), ranges_[2].size()));
     widen(ranges_[0], (kWidth - kLeft - kRight) / scale);
-    for (const Axis up : {Axis::Y, Axis::Z})
-      addView({Axis::X, up, ranges_[0], ranges_[indexOf(up)], scale, kLeft, bottom_});
+    for (const Axis up : upwards())
+      addView({Axis::X, up, ranges_[0], ranges_[indexOf(up)], scale, kLeft, bottom_, picture_.isLathe});
     if (gougeAt_)
       addDetails(scale);
     addLegend();
@@ -154,12 +154,25 @@ private:
         ++tooFar_;
         continue;
       }
-      result.moves.push_back(converted(move, unit_));
+      result.moves.push_back(inSpace(converted(move, unit_)));
       if (!move.centre.empty())
         for (const RecordedMove &step : movesOfCentre(move))
           result.moves.push_back(converted(step, unit_));
     }
     return result;
+  }
+
+  RecordedMove inSpace(const RecordedMove &move) const {
+    return picture_.isLathe ? geometry::inHalfPlane(move, {0, 0}, 0) : move;
+  }
+  /// Of the tool: on a lathe the centre of its nose.
+  geometry::Point<double> placeOf(const PlottedGouge &gouge) const {
+    const geometry::PlainSpace &space = picture_.space;
+    return space.tip ? geometry::toHalfPlane(gouge.gouge.at, *space.tip, space.tool ? space.tool->radius : 0)
+                     : gouge.gouge.at;
+  }
+  std::vector<Axis> upwards() const {
+    return picture_.isLathe ? std::vector{Axis::Y} : std::vector{Axis::Y, Axis::Z};
   }
 
   static bool isNear(const RecordedMove &move) {
@@ -343,8 +356,8 @@ private:
     };
     const double top = bottom_;
     double left = kLeft;
-    for (const Axis up : {Axis::Y, Axis::Z}) {
-      addView({Axis::X, up, around(Axis::X), around(up), size / 2 / reach, left, top});
+    for (const Axis up : upwards()) {
+      addView({Axis::X, up, around(Axis::X), around(up), size / 2 / reach, left, top, picture_.isLathe});
       left += size + kLeft;
     }
   }

@@ -28,10 +28,11 @@ struct Picture {
   std::vector<std::string> notes = {}; // below the title
   std::vector<PlottedRun> runs;        // one, or two over each other
   geometry::PlainSpace space = {};
+  bool isLathe = false; // its moves have X as a diameter, and its space is that of half_plane.h
   std::optional<PlottedGouge> gouge = std::nullopt;
 };
 
-/// X Y from above, X Z from the front, and both again near a gouge.  Scales are in the unit of the first move.
+/// X Y from above, X Z from the front, and both again near a gouge; of a lathe Z X alone.  Scales are in the unit of the first move.
 std::string drawPicture(const Picture &picture);
 
 /// `0.25 mm outside of CAVITY at N40`; `place`: `N40`, `line 7`.

@@ -120,10 +120,11 @@ std::string drawAxes(const PlotView &view, std::string_view unit) {
   for (double i = std::ceil(view.upRange.low / step); i * step <= view.upRange.high; ++i) {
     const double y = view.top + view.y(i * step);
     grid(view.left, y, right, y, i == 0);
-    write(view.left - 6, y + 4, "end", plainNumber(i * step));
+    write(view.left - 6, y + 4, "end", plainNumber(i * step * (view.isLathe ? 2 : 1)));
   }
-  write(right, bottom + 30, "end", fmt::format("{} ({})", letterOf(view.across), unit));
-  write(view.left - 6, view.top - 8, "end", fmt::format("{} ({})", letterOf(view.up), unit));
+  const auto axis = [&](Axis shown) { return !view.isLathe ? letterOf(shown) : shown == Axis::X ? 'Z' : 'X'; };
+  write(right, bottom + 30, "end", fmt::format("{} ({})", axis(view.across), unit));
+  write(view.left - 6, view.top - 8, "end", fmt::format("{} ({})", axis(view.up), unit));
   return text + fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", px(view.left),
                             px(view.top), px(view.width()), px(view.height()));
 }

@@ -23,6 +23,7 @@ struct PlotView {
   PlotRange upRange;
   double scale;     // of the picture's units to those of length
   double left, top; // of the view, in the picture
+  bool isLathe = false; // across is Z, and up the radius, of which the scale shows diameters (half_plane.h)
 
   double width() const { return acrossRange.size() * scale; }
   double height() const { return upRange.size() * scale; }

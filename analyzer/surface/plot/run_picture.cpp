@@ -151,6 +151,7 @@ RunPicture drawRuns(const std::string &title, std::span<const PicturedRun> runs)
       picture.notes.push_back(std::move(note));
   }
   const PicturedRun &first = runs.front();
+  picture.isLathe = first.programs.set->file(first.start.file).dialect->machine == MachineKind::Turning;
   const MissingInputs missing = missingInputs(first);
   if (missing.ofRegions.empty())
     picture.space = prove::plainSpace(*first.programs.set, first.start, first.programs.file(first.start.file).contracts,

@@ -56,6 +56,19 @@ TEST(Picture, MovesOfOneBlockAreOnePath) {
   EXPECT_EQ(count(drawn({there, back, elsewhere}), "<path class=\"path\""), 5U);
 }
 
+// One view: Z to the right, X upwards; 40 in diameter lies as high as 20 in Z is long.
+TEST(Picture, OfALathe) {
+  const RecordedMove along = moveOf(MoveKind::Feed, {40, 0, 0}, {40, 0, -20});
+  const RecordedMove out = moveOf(MoveKind::Rapid, {40, 0, -20}, {80, 0, -20});
+  const std::vector<RecordedMove> moves = {along, out};
+  const std::string picture = drawPicture({.title = "T", .runs = {{.name = "T", .moves = moves}}, .isLathe = true});
+  EXPECT_EQ(count(picture, "<path class=\"path\""), 2U); // and the sign of the legend
+  EXPECT_NE(picture.find(">Z (mm)<"), std::string::npos);
+  EXPECT_NE(picture.find(">X (mm)<"), std::string::npos);
+  EXPECT_EQ(picture.find(">Y (mm)<"), std::string::npos);
+  EXPECT_NE(picture.find(">80</text>"), std::string::npos);
+}
+
 TEST(Picture, OtherUnitsAndShiftedZerosAreTheSamePlace) {
   const RecordedMove metric = moveOf(MoveKind::Feed, {0, 0, 0}, {25.4, 50.8, 0});
   RecordedMove inch = moveOf(MoveKind::Feed, {0, 0, 0}, {1, 2, 0});
