@@ -1,11 +1,16 @@
 """The page in Chromium, opened from a file: findings as one types, proofs, drawings, ranges, links, and no request at all."""
+import base64
+import io
 import json
 import subprocess
 import sys
+import tarfile
+import tempfile
 import time
 import unittest
+from pathlib import Path
 
-from packaged import ROOT, VERSION, linux_program
+from packaged import PROVED, ROOT, VERSION, linux_program
 from page import PAGE, WEB, main
 
 sys.path.insert(0, str(ROOT / "tests/browser"))
@@ -17,9 +22,11 @@ TEXT = "[...document.querySelectorAll('.cm-line')].map(line => line.textContent)
 CHECKED = "Number(document.body.dataset.checked ?? 0)"
 RULES = "[...document.querySelectorAll('#findings [data-rule]')].map(item => item.dataset.rule)"
 PROOF_ENDED = "document.getElementById('verdicts') && document.getElementById('stop').hidden"
-# Lets a test reach the workers of the page, and a failing worker be told from the others.
+# Lets a test reach the workers of the page and what it saves.
 WORKERS = """window.workers = [];
-window.Worker = class extends Worker { constructor(...all) { super(...all); workers.push(this); } };"""
+window.Worker = class extends Worker { constructor(...all) { super(...all); workers.push(this); } };
+const makeURL = URL.createObjectURL;
+URL.createObjectURL = blob => { window.lastBlob = blob; return makeURL.call(URL, blob); };"""
 SWEEP = """O2000
 #1=0
 WHILE[#1LT3]DO1
@@ -139,11 +146,22 @@ class Try(InBrowser):
         self.assertIn("PS0112", self.browser.wait("document.querySelector('#drawing details pre')?.textContent"))
 
     def test_certificates_are_verified_and_saved(self):
-        self.write("O9101\n(@REQUIRE #1 GT 0)\n#100=5/#1\nM99\n")
+        self.write(PROVED)
         self.prove()
-        told = self.browser.wait("document.getElementById('certificates')?.textContent")
-        self.assertRegex(told, r"\d+ certificates?, verified by the solver-free checker")
         self.assertEqual(len(self.of_verdict("proved")), 2)
+        self.browser.evaluate("document.querySelector('#certificates button').click()")
+        told = self.browser.wait("/Save/.test(document.getElementById('certificates')?.textContent) && "
+                                 "document.getElementById('certificates').textContent")
+        self.assertRegex(told, r"[1-9]\d* certificates? in exact arithmetic, verified by the solver-free checker")
+        self.browser.evaluate("document.querySelector('#certificates button').click()")
+        saved = self.browser.evaluate("""new Promise(done => { const reader = new FileReader();
+            reader.onload = () => done(reader.result.split(',')[1]); reader.readAsDataURL(lastBlob); })""")
+        with tempfile.TemporaryDirectory() as folder:
+            with tarfile.open(fileobj=io.BytesIO(base64.b64decode(saved))) as archive:
+                archive.extractall(f"{folder}/evidence")
+            (Path(folder) / "O9101.nc").write_text(PROVED)
+            told = subprocess.run([linux_program(), "recheck", "evidence"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
 
     # ---- links ----
 

@@ -24,7 +24,9 @@ export const EVIDENCE = "evidence";
 export const commands = {
   check: (source: Source) => request(source, "check", ["--format", "json"]),
   ranges: (source: Source) => request(source, "ranges", ["--format", "json"]),
-  prove: (source: Source) => request(source, "prove", ["--format", "json", "--certificate", EVIDENCE], EVIDENCE),
+  prove: (source: Source) => request(source, "prove", ["--format", "json"]),
+  /** In exact arithmetic, as all evidence. */
+  certify: (source: Source) => request(source, "prove", ["--format", "json", "--certificate", EVIDENCE], EVIDENCE),
   plot: (source: Source, options: string[]) => request(source, "plot", options),
   run: (source: Source, options: string[]) => request(source, "run", options),
   explain: (rule: string): Request => ({ words: ["explain", rule], files: {} }),

@@ -20,8 +20,9 @@ export interface Outcome {
 }
 
 export async function run(create: Create, module: WebAssembly.Module, request: Request): Promise<Outcome> {
+  let program: Program | undefined;
   try {
-    const program = await create({
+    program = await create({
       instantiateWasm(imports, receive) {
         WebAssembly.instantiate(module, imports).then((instance) => receive(instance));
         return {};
@@ -30,15 +31,22 @@ export async function run(create: Create, module: WebAssembly.Module, request: R
       printErr() {}, // of the runtime itself, whose exceptions say the same
     });
     const code = program.callMain(request.words);
-    return {
-      code,
-      output: program.FS.readFile(OUTPUT, { encoding: "utf8" }),
-      errors: program.FS.readFile(ERRORS, { encoding: "utf8" }),
-      files: request.collect === undefined ? {} : filesBelow(program, `${HOME}/${request.collect}`),
-    };
+    const errors = textOf(program, ERRORS);
+    if (errors.includes("std::bad_alloc")) return failed("it ran out of memory");
+    const files = request.collect === undefined ? {} : filesBelow(program, `${HOME}/${request.collect}`);
+    return { code, output: textOf(program, OUTPUT), errors, files };
   } catch (error) {
-    return { code: 2, output: "", errors: "", files: {}, fault: describe(error) };
+    const last = program && textOf(program, ERRORS).trim().split("\n").at(-1);
+    return failed(last || describe(error));
   }
+}
+
+function failed(fault: string): Outcome {
+  return { code: 2, output: "", errors: "", files: {}, fault };
+}
+
+function textOf(program: Program, path: string): string {
+  return program.FS.readFile(path, { encoding: "utf8" });
 }
 
 /** Files, and standard output and error as files: they are read as whole texts behind the run. */
@@ -78,5 +86,5 @@ function describe(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
   if (error instanceof RangeError && /stack/i.test(text)) return "it ran out of stack";
   if (/memory|OOM/i.test(text)) return "it ran out of memory";
-  return text;
+  return error instanceof Error ? text : "it threw an exception";
 }

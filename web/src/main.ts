@@ -145,22 +145,29 @@ async function prove(): Promise<void> {
   await working("Proving ...", async () => {
     const outcome = await ask(works, commands.prove(asked), "proof");
     const proved = outcome && read<Proved>(outcome, "proof");
-    if (!outcome || !proved) return;
-    const certificates = Object.keys(outcome.files).filter((name) => name.endsWith(".certificate")).length;
-    fill("proof", proofView(proved, certificates, actions));
-    if (certificates > 0) await verify(asked, outcome.files, certificates);
+    if (!proved) return;
+    const certificates = element("p", { id: "certificates" }, button("Write certificates", () => void certify(asked)));
+    fill("proof", certificates, proofView(proved, actions));
   });
 }
 
-/** The certificates again, in another run, by the checker that has no solver. */
-async function verify(asked: Source, evidence: Outcome["files"], certificates: number): Promise<void> {
-  const told = document.getElementById("certificates");
-  const outcome = await ask(works, commands.recheck(asked, evidence), undefined);
-  if (!told || !outcome) return;
-  const result = outcome.code === 0
-    ? `${plural(certificates, "certificate")}, verified by the solver-free checker. `
-    : `The certificates were not verified: ${outcome.output.trim() || complaintOf(outcome)} `;
-  told.replaceChildren(result, button("Save the certificates", () => save("evidence.tar", tarOf(evidence)), { class: "fix" }));
+/** Writes certificates, and has them verified in another run, by the checker that has no solver. */
+async function certify(asked: Source): Promise<void> {
+  const told = byId("certificates");
+  await working("Writing certificates ...", async () => {
+    told.textContent = "Proving in exact arithmetic ...";
+    const outcome = await ask(works, commands.certify(asked), "proof");
+    if (!outcome) return;
+    const count = Object.keys(outcome.files).filter((name) => name.endsWith(".certificate")).length;
+    told.textContent = count === 0 ? "No proof has a certificate." : "Verifying the certificates ...";
+    if (count === 0) return;
+    const checked = await ask(works, commands.recheck(asked, outcome.files), "proof");
+    if (!checked) return;
+    const result = checked.code === 0
+      ? `${plural(count, "certificate")} in exact arithmetic, verified by the solver-free checker. `
+      : `The certificates were not verified: ${checked.output.trim() || complaintOf(checked)} `;
+    told.replaceChildren(result, button("Save", () => save("evidence.tar", tarOf(outcome.files)), { class: "fix" }));
+  });
 }
 
 function save(name: string, content: Blob): void {
@@ -181,7 +188,7 @@ async function draw(options: string[], title: string): Promise<void> {
       return;
     }
     const holder = element("div", { class: "picture" });
-    holder.attachShadow({ mode: "open" }).innerHTML = drawn.output; // its styles are its own
+    holder.attachShadow({ mode: "open" }).innerHTML = `<style>svg { max-width: 100%; height: auto }</style>${drawn.output}`;
     const notes = drawn.errors.split("\n").filter((line) => line !== "").map(note);
     fill("drawing", element("p", { class: "where" }, title), ...notes, holder);
     const listed = await ask(works, commands.run(asked, options), undefined);

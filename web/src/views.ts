@@ -42,7 +42,7 @@ function findingItem(finding: Finding, actions: Actions): HTMLElement {
       {},
       element("span", { class: "badge" }, finding.severity),
       " ",
-      element("span", { class: "message" }, finding.message),
+      element("span", { class: "message" }, ...withCode(finding.message)),
     ),
     element(
       "p",
@@ -52,7 +52,7 @@ function findingItem(finding: Finding, actions: Actions): HTMLElement {
       button(finding.rule, () => actions.explain(finding.rule), { class: "link", title: "Explain this rule" }),
     ),
     ...finding.flow.map((step) =>
-      element("p", { class: "note" }, place(step.line, step.column, actions), `: ${step.message}`),
+      element("p", { class: "note" }, place(step.line, step.column, actions), ": ", ...withCode(step.message)),
     ),
     ...finding.notes.map(note),
     ...finding.fixes.map((fix) => fixButton(fix, actions)),
@@ -60,14 +60,19 @@ function findingItem(finding: Finding, actions: Actions): HTMLElement {
 }
 
 export function note(text: string): HTMLElement {
-  return element("p", { class: "note" }, text);
+  return element("p", { class: "note" }, ...withCode(text));
+}
+
+/** Between backticks stands code. */
+function withCode(text: string): (Node | string)[] {
+  return text.split("`").map((part, index) => (index % 2 === 0 ? part : element("code", {}, part)));
 }
 
 // ---- proofs ----
 
 const ORDER = ["refuted", "unknown", "proved", "unreachable"] as const;
 
-export function proofView(proved: Proved, certificates: number, actions: Actions): HTMLElement {
+export function proofView(proved: Proved, actions: Actions): HTMLElement {
   const obligations = proved.files.flatMap((file) => file.obligations);
   const view = element("div");
   for (const { message } of proved.errors) view.append(note(message));
@@ -77,10 +82,8 @@ export function proofView(proved: Proved, certificates: number, actions: Actions
   view.append(
     element("p", { class: "summary", id: "verdicts" }, told.map(([verdict, all]) => `${all.length} ${verdict}`).join(" · ")),
   );
-  if (certificates > 0)
-    view.append(
-      element("p", { id: "certificates" }, `${plural(certificates, "certificate")} of proofs; they are being verified ...`),
-    );
+  const certified = obligations.filter(({ grade }) => grade === "certified").length;
+  if (certified > 0) view.append(note(`${plural(certified, "proof")} verified by the solver-free checker`));
   for (const [, all] of counts)
     if (all.length > 0) {
       const list = element("ul", { class: "list" });
@@ -104,7 +107,7 @@ function obligationItem(obligation: Obligation, actions: Actions): HTMLElement {
       {},
       element("span", { class: "badge" }, obligation.verdict),
       " ",
-      element("span", { class: "message" }, obligation.claim),
+      element("span", { class: "message" }, ...withCode(obligation.claim)),
     ),
     element("p", { class: "where" }, place(obligation.line, obligation.column, actions), ` · ${howOf(obligation)}`),
     obligation.reason !== null && note(obligation.reason),
