@@ -22,15 +22,15 @@ if(FEEDHOLD_SANITIZE)
 endif()
 
 # feedhold_sources(OUT): the .cpp files of this folder; of twins (`NAME_posix.cpp`, `NAME_windows.cpp`, `NAME_wasm.cpp`) that
-# of the system.  WebAssembly has the files of POSIX, and a twin only for what it does otherwise.
+# of the system.  WebAssembly has the files of POSIX, and a twin only for what it does otherwise than all others.
 function(feedhold_sources out)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(EMSCRIPTEN)
     set(others windows)
     foreach(twin ${sources})
       if(twin MATCHES "_wasm\\.cpp$")
-        string(REGEX REPLACE "_wasm\\.cpp$" "_posix.cpp" replaced ${twin})
-        list(REMOVE_ITEM sources ${replaced})
+        string(REGEX REPLACE "_wasm\\.cpp$" "" name ${twin})
+        list(REMOVE_ITEM sources ${name}_posix.cpp ${name}.cpp)
       endif()
     endforeach()
   elseif(WIN32)
