@@ -24,8 +24,7 @@ void spendOn(const Number &left, const Number &right) {
   spend(20 + words + words * words / 8);
 }
 
-// GMP takes and gives `long`, which has 32 bits on some systems; its limbs have 64 bits, or 32 where it has no
-// assembly.
+// GMP takes and gives `long`, which has 32 bits on some systems; its limbs have 64 bits, or 32 in WebAssembly.
 constexpr std::size_t kLimbsOfWord = sizeof(std::uint64_t) / sizeof(mp_limb_t);
 static_assert(kLimbsOfWord == 1 || kLimbsOfWord == 2);
 
