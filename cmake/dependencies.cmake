@@ -8,13 +8,15 @@ if(FEEDHOLD_STATIC)
   set_target_properties(fmt::fmt PROPERTIES INTERFACE_COMPILE_DEFINITIONS FMT_HEADER_ONLY=1)
   set_target_properties(tomlplusplus::tomlplusplus PROPERTIES INTERFACE_COMPILE_DEFINITIONS TOML_HEADER_ONLY=1)
   set(Z3_LIBRARY "")
-  if(CMAKE_CROSSCOMPILING) # packaging/windows/libraries.sh has put there what this system has for itself alone
-    include_directories(SYSTEM ${PROJECT_SOURCE_DIR}/cmake/windows ${FEEDHOLD_LIBRARIES}/include)
+  if(CMAKE_CROSSCOMPILING) # packaging/cross_libraries.sh has put there what this system has for itself alone
+    include_directories(SYSTEM ${FEEDHOLD_SHIMS} ${FEEDHOLD_LIBRARIES}/include)
     set(GMP_LIBRARY ${FEEDHOLD_LIBRARIES}/lib/libgmp.a)
   else()
     find_library(GMP_LIBRARY libgmp.a REQUIRED)
   endif()
-  add_link_options(-static)
+  if(NOT EMSCRIPTEN) # which has nothing else
+    add_link_options(-static)
+  endif()
 else()
   find_package(fmt REQUIRED)
   find_package(CLI11 REQUIRED)

@@ -9,6 +9,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(feedhold_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds
                          -Wno-stringop-overflow)
 endif()
+if(EMSCRIPTEN)
+  target_compile_options(feedhold_options INTERFACE -Wno-shadow) # Clang reports names of other files of a batch, too
+endif()
 target_include_directories(feedhold_options INTERFACE ${PROJECT_SOURCE_DIR}/analyzer ${PROJECT_SOURCE_DIR})
 if(ALLOCATOR_LIBRARY)
   target_link_libraries(feedhold_options INTERFACE ${ALLOCATOR_LIBRARY})
@@ -18,14 +21,26 @@ if(FEEDHOLD_SANITIZE)
   target_link_options(feedhold_options INTERFACE -fsanitize=${FEEDHOLD_SANITIZE})
 endif()
 
-# feedhold_sources(OUT): the .cpp files of this folder, without those of another system (`NAME_windows.cpp`).
+# feedhold_sources(OUT): the .cpp files of this folder; of twins (`NAME_posix.cpp`, `NAME_windows.cpp`, `NAME_wasm.cpp`) that
+# of the system.  WebAssembly has the files of POSIX, and a twin only for what it does otherwise than all others.
 function(feedhold_sources out)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(WIN32)
-    list(FILTER sources EXCLUDE REGEX "_posix\\.cpp$")
+  if(EMSCRIPTEN)
+    set(others windows)
+    foreach(twin ${sources})
+      if(twin MATCHES "_wasm\\.cpp$")
+        string(REGEX REPLACE "_wasm\\.cpp$" "" name ${twin})
+        list(REMOVE_ITEM sources ${name}_posix.cpp ${name}.cpp)
+      endif()
+    endforeach()
+  elseif(WIN32)
+    set(others posix wasm)
   else()
-    list(FILTER sources EXCLUDE REGEX "_windows\\.cpp$")
+    set(others windows wasm)
   endif()
+  foreach(other ${others})
+    list(FILTER sources EXCLUDE REGEX "_${other}\\.cpp$")
+  endforeach()
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 

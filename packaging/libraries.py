@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from release import LINUX, ROOT, WINDOWS
+from release import LINUX, PAGE, ROOT, WINDOWS
 
 # By the source package in Debian: the licence (SPDX) of the parts that end up in the program.
 LICENCES = {
     "cli11": "BSD-3-Clause",
+    "emscripten": "MIT AND NCSA AND Apache-2.0 WITH LLVM-exception",
     "fmtlib": "MIT",
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "gcc-mingw-w64": "GPL-3.0-or-later WITH GCC-exception-3.1",
@@ -19,10 +20,11 @@ LICENCES = {
     "nlohmann-json3": "MIT",
     "tomlplusplus": "MIT",
 }
-COMPILERS = {LINUX: "g++", WINDOWS: "x86_64-w64-mingw32-g++-posix"}
+COMPILERS = {LINUX: "g++", WINDOWS: "x86_64-w64-mingw32-g++-posix", PAGE: "em++"}
 ARCHIVES = {
     LINUX: ["libgmp.a", "libgmpxx.a", "libstdc++.a", "libgcc.a", "libgcc_eh.a", "libc.a", "libm.a"],
     WINDOWS: ["libstdc++.a", "libgcc.a", "libgcc_eh.a", "libmingw32.a", "libmingwex.a", "libmsvcrt.a", "libwinpthread.a"],
+    PAGE: [],  # emscripten builds the libraries of its package when they are needed
 }
 SYSTEM = "linux-libc-dev"  # headers of the kernel's interface: no code
 
@@ -59,8 +61,8 @@ def installed(name):
 
 
 def cross_built(build):
-    """GMP, by packaging/windows/libraries.sh."""
-    sources = build.parent / "windows-libraries/source"
+    """GMP, by packaging/cross_libraries.sh."""
+    sources = build.parent / f"{build.name}-libraries/source"
     description = next(sources.glob("gmp_*.dsc")).read_text()
     version = re.search(r"^Version: (\S+)$", description, re.MULTILINE)[1]
     return Library("gmp", "gmp", version, "source", next(sources.glob("gmp-*/debian/copyright")))
@@ -74,7 +76,7 @@ def inside(built):
     owners = subprocess.run(["dpkg", "-S", *sorted(files)], capture_output=True, text=True).stdout
     names = {line.split(": ")[0].split(", ")[0] for line in owners.splitlines()} - {SYSTEM}
     found = [installed(name) for name in names]
-    if built.platform == WINDOWS:
+    if built.platform in (WINDOWS, PAGE):
         found.append(cross_built(built.build))
     unknown = {each.source for each in found if each.source not in LICENCES}
     if unknown:

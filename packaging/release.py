@@ -35,6 +35,7 @@ class Platform:
 LINUX = Platform("package", "linux-x86_64", "linux-x64", "POSIX :: Linux", "feedhold")
 WINDOWS = Platform("windows", "windows-x86_64", "win32-x64", "Microsoft :: Windows", "feedhold.exe")
 PLATFORMS = [LINUX, WINDOWS]
+PAGE = Platform("wasm", "wasm", "", "", "feedhold.wasm")  # in no package, but in the page
 
 
 @dataclass(frozen=True)

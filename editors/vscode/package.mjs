@@ -2,12 +2,14 @@
 // `package.mjs TARGET PROGRAM OUT` makes OUT/feedhold-TARGET-VERSION.vsix for one platform, with the files of the folder
 // PROGRAM inside.
 import { execFileSync } from "node:child_process";
-import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import { createVSIX } from "@vscode/vsce";
 import { build } from "esbuild";
+
+import { notices } from "../../packaging/notices.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../..");
@@ -38,19 +40,6 @@ if (program) cpSync(program, "bin", { recursive: true });
 const packagePath = join(out, `${[name, target, version].filter(Boolean).join("-")}.vsix`);
 await createVSIX({ cwd: here, target, packagePath, dependencies: false });
 rmSync("bin", { recursive: true, force: true });
-
-/** Name, version and licence text of each package that went into the bundle. */
-function notices(inputs) {
-  const folders = new Set(inputs.map((path) => /^.*node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
-  return [...folders].sort().map(notice).join("\n");
-}
-
-function notice(folder) {
-  const { name, version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
-  const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
-  if (!file) throw new Error(`${name}@${version} (${license}) has no text of its licence`);
-  return `${name} ${version} (${license})\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`;
-}
 
 /** 1980 is the first year that an archive can name: for trees without history. */
 function timeOfLastCommit() {

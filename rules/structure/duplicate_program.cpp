@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ranges>
+#include <span>
 
 namespace feedhold::rules::duplicate_program {
 namespace {
 
 /// That are shown with a program: of many namesakes, each would name all the others.
-constexpr std::ptrdiff_t kMostOthers = 4;
+constexpr std::size_t kMostOthers = 4;
 
 /// "b.nc, line 1"
 std::string placeOf(const ProgramRef &other, const FileContext &context) {
@@ -45,7 +45,7 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   if (others.empty())
     return;
   std::vector<Label> labels;
-  for (const ProgramRef &other : others | std::views::take(kMostOthers))
+  for (const ProgramRef &other : std::span(others).first(std::min(others.size(), kMostOthers)))
     labels.push_back({context.callGraph.model(other.file).programs[other.program].header, "the other one", other.file});
   const bool inOneFile = std::ranges::any_of(others, [&](const auto &other) { return other.file == program.file; });
   const bool isCalled = context.callGraph.isCalled(program);

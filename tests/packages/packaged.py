@@ -1,4 +1,5 @@
 """What the tests of packages share: where the packages are, clean places, and what an installed program must do."""
+import atexit
 import os
 import re
 import shutil
@@ -6,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -19,6 +21,15 @@ BAD = "%\nO1001(SLIP)\n#510-[0-1.5]\nM30\n%\n"
 GOOD = "%\nO1000(FACING)\nG90 G54 G00 X0. Y0.\n#100=10.\nIF[#100GT5.]GOTO10\nG01 X#100 F200.\nN10 G00 Z50.\nM30\n%\n"
 PROVED = "O9101\n(@REQUIRE #1 GT 0)\n#100=5/#1\nM99\n"
 REFUTED = "O9102\n#100=5/#1\nM99\n"
+
+
+@cache
+def linux_program():
+    """Out of its archive, once for all tests of a file, for those that compare another one with it."""
+    holder = tempfile.TemporaryDirectory()
+    atexit.register(holder.cleanup)
+    subprocess.run(["tar", "-xzf", DIST / f"feedhold-{VERSION}-linux-x86_64.tar.gz", "-C", holder.name], check=True)
+    return next(Path(holder.name).glob("*/bin/feedhold"))
 
 
 class Packaged(unittest.TestCase):

@@ -45,8 +45,7 @@ def made_place():
     top = Path(holder.name)
     with zipfile.ZipFile(DIST / f"feedhold-{VERSION}-windows-x86_64.zip") as archive:
         archive.extractall(top)
-    subprocess.run(["tar", "-xzf", DIST / f"feedhold-{VERSION}-linux-x86_64.tar.gz", "-C", top], check=True)
-    place = Place(top / "wine", next(top.glob("*/feedhold.exe")), next(top.glob("*/bin/feedhold")))
+    place = Place(top / "wine", next(top.glob("*/feedhold.exe")), packaged.linux_program())
     atexit.register(subprocess.run, [Path(WINE).with_name("wineserver"), "-k"], env=place.environment,
                     stderr=subprocess.DEVNULL)
     subprocess.run([WINE, "cmd.exe", "/c", "exit"], env=place.environment, capture_output=True, check=True,

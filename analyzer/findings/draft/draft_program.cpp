@@ -143,7 +143,7 @@ private:
   }
 
   std::vector<DraftClauses> promisesOf(const FlowFacts &facts) const {
-    std::vector<DraftClauses> groups = promiseGroups(project_, facts);
+    std::vector<DraftClauses> groups = promiseGroups(facts);
     if (std::ranges::any_of(draft_.clauses, [](const DraftClause &each) { return each.ground == Ground::Guard; }))
       groups.push_back({guardedClause()});
     for (DraftClauses &group : groups)

@@ -22,8 +22,8 @@ DraftClause promise(std::string text, std::string reason) {
 
 class PromiseMaker {
 public:
-  PromiseMaker(const Project &project, const FlowFacts &facts)
-      : project_(project), facts_(facts), program_(facts.file.model->programs[facts.program]), entry_(facts) {}
+  explicit PromiseMaker(const FlowFacts &facts)
+      : facts_(facts), program_(facts.file.model->programs[facts.program]), entry_(facts) {}
 
   std::vector<DraftClauses> make() {
     const bool returns = comesBack(facts_);
@@ -188,7 +188,6 @@ private:
     return reached.orAny ? std::nullopt : std::optional(written);
   }
 
-  const Project &project_;
   const FlowFacts &facts_;
   const Program &program_;
   EntryValues entry_;
@@ -197,8 +196,8 @@ private:
 
 } // namespace
 
-std::vector<DraftClauses> promiseGroups(const Project &project, const FlowFacts &facts) {
-  return facts.isComplete() ? PromiseMaker(project, facts).make() : std::vector<DraftClauses>();
+std::vector<DraftClauses> promiseGroups(const FlowFacts &facts) {
+  return facts.isComplete() ? PromiseMaker(facts).make() : std::vector<DraftClauses>();
 }
 
 } // namespace feedhold::draft

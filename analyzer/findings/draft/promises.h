@@ -4,11 +4,10 @@
 
 #include "findings/draft/conditions.h"
 #include "findings/draft/draft_clause.h"
-#include "findings/project/project.h"
 
 namespace feedhold::draft {
 
 /// Of each group the stronger ones first: of these the first that is proved is enough.
-std::vector<DraftClauses> promiseGroups(const Project &project, const FlowFacts &facts);
+std::vector<DraftClauses> promiseGroups(const FlowFacts &facts);
 
 } // namespace feedhold::draft

@@ -8,13 +8,20 @@ namespace feedhold {
 
 namespace fs = std::filesystem;
 
-std::strong_ordering operator<=>(const KnownFinding &a, const KnownFinding &b) {
-  return std::tie(a.path, a.rule, a.fingerprint) <=> std::tie(b.path, b.rule, b.fingerprint);
+namespace {
+
+/// Without the message: it is worded anew by each version of the program.
+auto keyOf(const KnownFinding &finding) { return std::tie(finding.path, finding.rule, finding.fingerprint); }
+auto keyOf(const KnownObligation &obligation) {
+  return std::tie(obligation.path, obligation.id, obligation.kind, obligation.verdict);
 }
 
-std::strong_ordering operator<=>(const KnownObligation &a, const KnownObligation &b) {
-  return std::tie(a.path, a.id, a.kind, a.verdict) <=> std::tie(b.path, b.id, b.kind, b.verdict);
-}
+} // namespace
+
+bool operator==(const KnownFinding &a, const KnownFinding &b) { return keyOf(a) == keyOf(b); }
+bool operator<(const KnownFinding &a, const KnownFinding &b) { return keyOf(a) < keyOf(b); }
+bool operator==(const KnownObligation &a, const KnownObligation &b) { return keyOf(a) == keyOf(b); }
+bool operator<(const KnownObligation &a, const KnownObligation &b) { return keyOf(a) < keyOf(b); }
 
 namespace {
 

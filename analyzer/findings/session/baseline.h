@@ -4,7 +4,6 @@
 #include "findings/session/proofs.h"
 #include "findings/session/result.h"
 
-#include <compare>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -19,8 +18,8 @@ struct KnownFinding {
   std::string message;     // for who reads the baseline
 
   /// Without the message: it is worded anew by each version of the program.
-  friend bool operator==(const KnownFinding &a, const KnownFinding &b) { return (a <=> b) == 0; }
-  friend std::strong_ordering operator<=>(const KnownFinding &a, const KnownFinding &b);
+  friend bool operator==(const KnownFinding &a, const KnownFinding &b);
+  friend bool operator<(const KnownFinding &a, const KnownFinding &b);
 };
 
 struct KnownObligation {
@@ -29,8 +28,8 @@ struct KnownObligation {
   std::string kind;
   prove::Verdict::Kind verdict; // Refuted or Unknown
 
-  friend bool operator==(const KnownObligation &a, const KnownObligation &b) { return (a <=> b) == 0; }
-  friend std::strong_ordering operator<=>(const KnownObligation &a, const KnownObligation &b);
+  friend bool operator==(const KnownObligation &a, const KnownObligation &b);
+  friend bool operator<(const KnownObligation &a, const KnownObligation &b);
 };
 
 /// Both sorted.

@@ -3,6 +3,7 @@
 #include "inference/absint/abstract_state.h"
 #include "inference/absint/comparison_error.h"
 
+#include <bit>
 #include <cmath>
 
 namespace feedhold {

@@ -95,7 +95,7 @@ void Partitions::add(AbstractInterpretation &interpretation, std::uint64_t key, 
     return;
   }
   const auto place = std::find_if(parts_.begin(), parts_.end(), [&](const Part &part) { return part.key > key; });
-  parts_.emplace(place, key, std::move(state));
+  parts_.insert(place, Part{key, std::move(state)});
   if (parts_.size() > kMost)
     merge(interpretation);
 }

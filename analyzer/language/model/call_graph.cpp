@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <unordered_map>
 
 namespace feedhold {
@@ -84,7 +85,7 @@ bool isBelow(std::string_view folder, std::string_view above) {
 struct CallGraph::Impl {
   struct ProgramRefHash {
     std::size_t operator()(const ProgramRef &ref) const {
-      return (std::size_t{ref.file.index()} << 32) ^ ref.program.index();
+      return std::hash<std::uint64_t>{}((std::uint64_t{ref.file.index()} << 32) ^ ref.program.index());
     }
   };
 

@@ -7,6 +7,7 @@
 
 #include "meaning/semantics/step.h"
 
+#include <compare>
 #include <functional>
 #include <span>
 #include <string>
@@ -34,7 +35,7 @@ struct GivenStart {
   std::vector<std::pair<Axis, double>> place = {};               // in their order
   std::vector<std::pair<SwitchId, bool>> settings = {};          // of the machine, where they are not known; sorted
   bool isEmpty() const { return codes.empty() && words.empty() && place.empty() && settings.empty(); }
-  friend auto operator<=>(const GivenStart &, const GivenStart &) = default;
+  friend std::partial_ordering operator<=>(const GivenStart &, const GivenStart &) = default;
 };
 
 /// What a run starts from and what it reads from outside: by number; others are vacant, or 0 for cells of the control.

@@ -4,6 +4,7 @@
 #include "meaning/machine/machine.h"
 #include "proof/explore/exploration.h"
 
+#include <compare>
 #include <functional>
 #include <map>
 #include <optional>
@@ -30,7 +31,7 @@ struct InputsKey {
   std::vector<std::pair<std::uint32_t, std::optional<double>>> inputs;
   std::vector<std::pair<std::uint32_t, std::vector<double>>> readings;
   GivenStart start;
-  friend auto operator<=>(const InputsKey &, const InputsKey &) = default;
+  friend std::partial_ordering operator<=>(const InputsKey &, const InputsKey &) = default;
 };
 InputsKey keyOf(const GivenVariables &given);
 

@@ -24,8 +24,12 @@ void spendOn(const Number &left, const Number &right) {
   spend(20 + words + words * words / 8);
 }
 
-// GMP takes and gives `long`, which has 32 bits on some systems; its limbs have 64 on all of ours.
-static_assert(sizeof(mp_limb_t) == sizeof(std::int64_t));
+// GMP takes and gives `long`, which has 32 bits on some systems; its limbs have 64 bits, or 32 in WebAssembly.
+constexpr std::size_t kLimbsOfWord = sizeof(std::uint64_t) / sizeof(mp_limb_t);
+static_assert(kLimbsOfWord == 1 || kLimbsOfWord == 2);
+
+/// Of 64 bits on every system: budgets are counted in them.
+std::size_t wordsOf(mpz_srcptr integer) { return (mpz_size(integer) + kLimbsOfWord - 1) / kLimbsOfWord; }
 
 mpz_class integerOf(std::int64_t value) {
   const std::uint64_t magnitude = value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
@@ -36,10 +40,12 @@ mpz_class integerOf(std::int64_t value) {
 
 /// Absent where it does not fit; the most negative value, which no Rational holds, counts among these.
 std::optional<std::int64_t> narrowed(const mpz_class &value) {
-  const mp_limb_t limb = mpz_getlimbn(value.get_mpz_t(), 0); // 0 of 0
-  if (mpz_size(value.get_mpz_t()) > 1 || limb > static_cast<mp_limb_t>(std::numeric_limits<std::int64_t>::max()))
+  std::uint64_t word = mpz_getlimbn(value.get_mpz_t(), 0); // 0 of 0
+  if (kLimbsOfWord == 2)
+    word |= std::uint64_t{mpz_getlimbn(value.get_mpz_t(), 1)} << 32;
+  if (wordsOf(value.get_mpz_t()) > 1 || word > std::uint64_t{std::numeric_limits<std::int64_t>::max()})
     return std::nullopt;
-  return sgn(value) < 0 ? -static_cast<std::int64_t>(limb) : static_cast<std::int64_t>(limb);
+  return sgn(value) < 0 ? -static_cast<std::int64_t>(word) : static_cast<std::int64_t>(word);
 }
 
 } // namespace
@@ -145,7 +151,7 @@ std::size_t Number::hash() const {
 std::size_t Number::words() const {
   if (!big_)
     return small_.isZero() ? 1 : 2;
-  return mpz_size(big_->get_num_mpz_t()) + mpz_size(big_->get_den_mpz_t());
+  return wordsOf(big_->get_num_mpz_t()) + wordsOf(big_->get_den_mpz_t());
 }
 
 Number Number::operator-() const {
