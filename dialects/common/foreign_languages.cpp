@@ -21,6 +21,7 @@ constexpr std::array kHeidenhainIso = {
     LanguageHint{TextSignal::HeidenhainIsoBlock, 4},
 };
 constexpr std::array kErosion = {
+    LanguageHint{TextSignal::ErosionRow, 30},
     LanguageHint{TextSignal::ErosionCondition, 8},
     LanguageHint{TextSignal::ErosionSwitch, 12},
     LanguageHint{TextSignal::ErosionValue, 4},
@@ -33,17 +34,18 @@ constexpr std::array kOkuma = {
     LanguageHint{TextSignal::OkumaFile, 30},       LanguageHint{TextSignal::OkumaFileName, 8},
     LanguageHint{TextSignal::OkumaLap, 12},
 };
-/// O-words alone are LinuxCNC's, which is read.
+/// O-words alone are LinuxCNC's, which is read.  A mark that LinuxCNC cannot read outweighs all others that are its
+/// own, probing and the name of the file (65 together).
 constexpr std::array kPlanet = {
     LanguageHint{TextSignal::OWord, 30},
     LanguageHint{TextSignal::AngleName, 30},
-    LanguageHint{TextSignal::PlanetMark, 40},
+    LanguageHint{TextSignal::PlanetMark, 70},
     LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kGrbl = {
     LanguageHint{TextSignal::OWord, 30},
     LanguageHint{TextSignal::AngleName, 30},
-    LanguageHint{TextSignal::GrblCommand, 40},
+    LanguageHint{TextSignal::GrblCommand, 70},
     LanguageHint{TextSignal::MacroBranch, -60},
 };
 constexpr std::array kSyntec = {
@@ -53,9 +55,8 @@ constexpr std::array kSyntec = {
 };
 /// Neither `%1234` nor `T1.1` alone is enough: Huazhong's controls have the one, and the other may be a mistake.
 constexpr std::array kFagor = {
-    LanguageHint{TextSignal::FagorStatement, 8},
-    LanguageHint{TextSignal::FagorNumber, 10},
-    LanguageHint{TextSignal::FagorTool, 2},
+    LanguageHint{TextSignal::FagorStatement, 8}, LanguageHint{TextSignal::FagorNumber, 10},
+    LanguageHint{TextSignal::FagorTool, 2}, LanguageHint{TextSignal::HashVariable, -8}, // its variables are P0 to P299
 };
 /// Variables and calls are not those of Macro B: a call copies the words A to Z to #0 to #25.
 constexpr std::array kHuazhong = {

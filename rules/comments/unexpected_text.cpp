@@ -36,16 +36,67 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-/// The o-word that is meant by what stands behind a label: `o<foo> ebdsub`, `o100 callsub`.
-std::optional<std::string_view> oWordMeant(const SyntaxIssue &issue, const FileContext &context) {
-  const auto words = context.tree.wordsOf(context.tree.blockAt(issue.span.begin));
-  const std::string written = toLower(trimmed(context.text(issue.span)));
-  if (!context.dialect.grammar.oWords || words.size() != 1 || words.front().address() != 'O' || written.size() > 12)
+/// What stands behind a label in the place of an o-word, as far as it is letters.  `enddo` is more than the `END` that
+/// could not be read.
+std::optional<Span> oWordPlace(const SyntaxIssue &issue, const FileContext &context) {
+  const BlockId block = context.tree.blockAt(issue.span.begin);
+  const auto words = context.tree.wordsOf(block);
+  if (!context.dialect.grammar.oWords || words.size() != 1 || words.front().address() != 'O' ||
+      words.front().span().end > issue.span.begin)
     return std::nullopt;
+  const std::string_view text = context.text({issue.span.begin, context.tree.blocks[block].end});
+  const auto end = std::ranges::find_if_not(text, isLetter);
+  return Span{issue.span.begin, issue.span.begin + static_cast<std::uint32_t>(end - text.begin())};
+}
+
+/// The o-word that is meant: `o<foo> ebdsub`, `o100 callsub`, and what closes a loop in other languages.
+std::optional<std::string_view> oWordMeant(std::string_view text) {
+  const std::string written = toLower(text);
+  if (written.size() > 12)
+    return std::nullopt;
+  if (written == "enddo" || written == "wend")
+    return "endwhile";
   for (const std::string_view each : kOWords)
     if (distance(written, each) == 1 || (each.size() > 3 && written.starts_with(each)))
       return each;
   return std::nullopt;
+}
+
+/// `o100 elseif if [..]`: the o-word itself is right.
+bool reportTextBehindOWord(Span place, const FileContext &context, const Reporter &reporter) {
+  const std::string word = toLower(context.text(place));
+  if (std::ranges::find(kOWords, word) == kOWords.end())
+    return false;
+  const std::string_view rest = context.text({place.end, context.tree.blocks[context.tree.blockAt(place.begin)].end});
+  const std::string_view excess = trimmed(rest.substr(0, rest.find_first_of("[(;")));
+  if (excess.empty())
+    return false;
+  const auto begin = place.end + static_cast<std::uint32_t>(excess.data() - rest.data());
+  const Span span{begin, begin + static_cast<std::uint32_t>(excess.size())};
+  const bool isBefore = trimmed(rest.substr(0, rest.find('['))) == excess && rest.find('[') != std::string_view::npos;
+  reporter.report(
+      {.message = isBefore ? fmt::format("{} stands between `{}` and its `[`", context.quoted(span), word)
+                           : fmt::format("{} is not part of the o-word `{}`", context.quoted(span), word),
+       .span = span,
+       .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+       .fixes = {{.title = fmt::format("delete {}", context.quoted(span)), .edits = {{{place.end, span.end}, ""}}}}});
+  return true;
+}
+
+bool reportOWord(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const std::optional<Span> place = oWordPlace(issue, context);
+  if (!place)
+    return false;
+  if (reportTextBehindOWord(*place, context, reporter))
+    return true;
+  const auto meant = oWordMeant(context.text(*place));
+  if (!meant)
+    return false;
+  reporter.report({.message = fmt::format("{} is no o-word; did you mean `{}`?", context.quoted(*place), *meant),
+                   .span = *place,
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                   .fixes = {{.title = fmt::format("write `{}`", *meant), .edits = {{*place, std::string(*meant)}}}}});
+  return true;
 }
 
 /// Lines that version control leaves around two versions of some others.
@@ -109,6 +160,29 @@ void reportUnlabelled(const SyntaxIssue &issue, const FileContext &context, cons
                  "`o100 endif`"}});
 }
 
+/// `M00 /clamp again`: `/` begins a remark in other languages.
+bool isBehindSlash(const SyntaxIssue &issue, const FileContext &context) {
+  const BlockId block = context.tree.blockAt(issue.span.begin);
+  const std::string_view before = trimmed(context.text({context.tree.blocks[block].begin, issue.span.begin}));
+  return issue.kind == SyntaxIssueKind::UnexpectedText && before.size() > 1 && before.ends_with('/') &&
+         isLetter(context.text(issue.span).front());
+}
+
+/// Once for all of the file: they have one cause.
+void reportBehindSlash(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  const auto isSame = [&](const SyntaxIssue &other) { return isBehindSlash(other, context); };
+  if (std::ranges::find_if(context.tree.issues, isSame)->span.begin != issue.span.begin)
+    return;
+  const auto others = std::ranges::count_if(context.tree.issues, isSame) - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format(", here and in {} more block{}", others, others == 1 ? "" : "s");
+  reporter.report({.message = fmt::format("`/` does not begin a remark{}", more),
+                   .span = issue.span,
+                   .label = "read as program text",
+                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),
+                             "put remarks in parentheses"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isPlaceholder(context.text(issue.span)))
     return;
@@ -119,14 +193,10 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   }
   if (isUnlabelled(issue, context))
     return reportUnlabelled(issue, context, reporter);
-  if (const auto meant = oWordMeant(issue, context)) {
-    reporter.report(
-        {.message = fmt::format("{} is no o-word; did you mean `{}`?", context.quoted(issue.span), *meant),
-         .span = issue.span,
-         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
-         .fixes = {{.title = fmt::format("write `{}`", *meant), .edits = {{issue.span, std::string(*meant)}}}}});
+  if (reportOWord(issue, context, reporter))
     return;
-  }
+  if (isBehindSlash(issue, context))
+    return reportBehindSlash(issue, context, reporter);
   reporter.report({.message = fmt::format("{} is not part of a word or statement", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),

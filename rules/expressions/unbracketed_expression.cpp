@@ -9,6 +9,16 @@
 namespace feedhold::rules::unbracketed_expression {
 namespace {
 
+/// `F#9+#1.`: what the number with a point was meant to be is not known, so that brackets alone do not mend the block.
+bool hasVariableWithPoint(std::string_view text) {
+  for (std::size_t hash = text.find('#'); hash != std::string_view::npos; hash = text.find('#', hash + 1)) {
+    const std::size_t end = text.find_first_not_of("0123456789 ", hash + 1);
+    if (end != std::string_view::npos && text[end] == '.')
+      return true;
+  }
+  return false;
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.wordMayBeUnbracketed)
     return;
@@ -16,13 +26,16 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
   const std::size_t equals = word.find('=');
   const auto letter = std::find_if(word.begin(), word.end(), isLetter);
   const auto before = equals != std::string_view::npos ? equals : static_cast<std::size_t>(letter - word.begin());
-  const auto open = issue.other.begin + static_cast<std::uint32_t>(before) + 1;
-  reporter.report({.message = fmt::format("{} needs brackets around the expression", context.quoted(issue.other)),
-                   .span = issue.other,
-                   .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
-                   .fixes = {{FixSafety::Safe,
-                              "put the expression in brackets",
-                              {{{open, open}, "["}, {{issue.span.end, issue.span.end}, "]"}}}}});
+  const std::size_t value = std::min(word.find_first_not_of(" \t", before + 1), word.size());
+  const auto open = issue.other.begin + static_cast<std::uint32_t>(value);
+  Diagnostic diagnostic{.message = fmt::format("{} needs brackets around the expression", context.quoted(issue.other)),
+                        .span = issue.other,
+                        .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))}};
+  if (context.dialect.grammar.anyIndex || !hasVariableWithPoint(word))
+    diagnostic.fixes = {{FixSafety::Safe,
+                         "put the expression in brackets",
+                         {{{open, open}, "["}, {{issue.span.end, issue.span.end}, "]"}}}};
+  reporter.report(std::move(diagnostic));
 }
 
 constexpr SyntaxIssueKind kIssues[] = {SyntaxIssueKind::UnbracketedExpression};

@@ -21,11 +21,28 @@ std::vector<const Jump *> lostJumps(const FileContext &context) {
   return jumps;
 }
 
-std::optional<BlockId> firstBlockBehind(const FileContext &context) {
-  for (std::size_t i = 0; i < context.tree.blockCount(); ++i)
-    if (context.tree.blocks[BlockId(i)].has(Block::kAfterEnd) && hasContent(context, BlockId(i)))
-      return BlockId(i);
-  return std::nullopt;
+/// The blocks of a file that hold more than comments.
+struct Shares {
+  std::size_t read = 0;
+  std::size_t behind = 0;
+  std::optional<BlockId> firstBehind;
+};
+
+Shares sharesOf(const FileContext &context) {
+  Shares shares;
+  for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
+    const Block &block = context.tree.blocks[BlockId(i)];
+    if (block.has(Block::kPercent) || block.has(Block::kLeader) || !hasContent(context, BlockId(i)))
+      continue;
+    if (!block.has(Block::kAfterEnd)) {
+      ++shares.read;
+      continue;
+    }
+    ++shares.behind;
+    if (!shares.firstBehind)
+      shares.firstBehind = BlockId(i);
+  }
+  return shares;
 }
 
 void reportJumps(const std::vector<const Jump *> &jumps, Span span, const FileContext &context,
@@ -45,18 +62,24 @@ void reportJumps(const std::vector<const Jump *> &jumps, Span span, const FileCo
 }
 
 void check(const FileContext &context, const Reporter &reporter) {
-  const auto first = firstBlockBehind(context);
-  if (!first)
+  const Shares shares = sharesOf(context);
+  if (!shares.firstBehind)
     return;
-  const Span span = context.tree.blocks[*first].span();
+  const Span span = context.tree.blocks[*shares.firstBehind].span();
   const auto jumps = lostJumps(context);
   if (!jumps.empty())
     return reportJumps(jumps, span, context, reporter);
+  constexpr auto *kWayOut = "these blocks are not stored in the control; delete them, or move the `%` to the end of "
+                            "the file";
+  if (shares.behind <= shares.read)
+    return reporter.report(
+        {.message = "the control does not read text after the closing `%`", .span = span, .notes = {kWayOut}},
+        Severity::Info);
   reporter.report(
-      {.message = "the control does not read text after the closing `%`",
+      {.message = "most of the file stands after the closing `%` and is not read",
        .span = span,
-       .notes = {"these blocks are not stored in the control; delete them, or move the `%` to the end of the file"}},
-      Severity::Info);
+       .notes = {fmt::format("blocks before the `%`: {}, after it: {}", shares.read, shares.behind), kWayOut}},
+      Severity::Warning);
 }
 
 } // namespace
@@ -64,7 +87,8 @@ void check(const FileContext &context, const Reporter &reporter) {
 extern const Rule codeAfterEndOfTape;
 const Rule codeAfterEndOfTape{
     .info = {"code-after-end-of-tape", Category::Structure, Severity::Error,
-             "Reports program text after the closing `%`; it is an error when the program jumps there."},
+             "Reports program text after the closing `%`; it is an error when the program jumps there, and a warning "
+             "when most of the file stands there."},
     .hooks = {.file = check}};
 
 } // namespace feedhold::rules::code_after_end_of_tape

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 
 namespace feedhold::rules::variable_not_available {
 namespace {
 
 constexpr std::size_t kForeignVariables = 4;
+constexpr std::size_t kForeignBesideCodes = 2; // in a program with as many G codes that do not exist
 
 /// The nearest ranges around a number that is in none, for "the control has #1-#33 and #100-#199".
 std::string neighbours(const Dialect &dialect, std::uint32_t number) {
@@ -51,8 +53,49 @@ void reportAll(const Uses &uses, const FileContext &context, const Reporter &rep
                   Severity::Warning);
 }
 
+/// Each G code that the control does not have, where first.
+std::map<std::string, Span> foreignCodesOf(const FileContext &context) {
+  std::map<std::string, Span> codes;
+  for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
+    if (context.tree.blocks[BlockId(i)].has(Block::kAfterEnd))
+      continue;
+    for (const Word &word : context.tree.wordsOf(BlockId(i))) {
+      const bool isCode = word.address() == 'G' && word.isNumber() && !word.has(Word::kArgument);
+      const auto tenths = isCode ? word.tenths() : std::nullopt;
+      if (isCode && !(tenths && hasGCode(context.dialect, *tenths)))
+        codes.emplace(std::string(context.text(word.span())), word.span());
+    }
+  }
+  return codes;
+}
+
+void reportOtherControl(const Uses &uses, const std::map<std::string, Span> &codes, const FileContext &context,
+                        const Reporter &reporter) {
+  const auto begin = [](const auto &each) { return each.second.begin; };
+  const Span variable = std::ranges::min_element(uses, {}, begin)->second;
+  const Span code = std::ranges::min_element(codes, {}, begin)->second;
+  const auto andMore = [](std::size_t count, std::string_view what) {
+    return count == 1 ? "" : fmt::format(" and {} more {}{}", count - 1, what, count == 2 ? "" : "s");
+  };
+  reporter.report(
+      {.message = fmt::format("the program seems to be for another control: {} has neither {}{} nor {}{}",
+                              context.dialect.id, context.quoted(variable), andMore(uses.size(), "variable"),
+                              context.quoted(code), andMore(codes.size(), "G code")),
+       .span = variable,
+       .labels = {{code, "the first of the codes"}},
+       .notes = {"choose the control with `dialect` in feedhold.toml",
+                 "variables of the machine builder are listed under `builders-variables` there, codes under "
+                 "`builders-codes`"}},
+      Severity::Info);
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
-  if (const Uses uses = usesOf(context); uses.size() >= kForeignVariables)
+  const Uses uses = usesOf(context);
+  // One code is the builder's own on many machines; beside a slip or two it says nothing.
+  const auto codes = uses.size() >= kForeignBesideCodes ? foreignCodesOf(context) : std::map<std::string, Span>();
+  if (codes.size() >= kForeignBesideCodes || (!codes.empty() && uses.size() >= kForeignVariables))
+    return reportOtherControl(uses, codes, context, reporter);
+  if (uses.size() >= kForeignVariables)
     return reportAll(uses, context, reporter);
   for (const VariableUse &use : context.model.variables) {
     if (!use.number || findVariable(context.dialect, *use.number))

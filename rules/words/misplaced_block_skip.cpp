@@ -1,10 +1,24 @@
 // misplaced-block-skip: `Z-1.0/M08`.
 #include "findings/rule/rule.h"
 
+#include "base/support/text.h"
+
+#include <algorithm>
+
 namespace feedhold::rules::misplaced_block_skip {
 namespace {
 
-void check(const SyntaxIssue &issue, const FileContext &, const Reporter &reporter) {
+/// `M00 /clamp again`: unexpected-text speaks of what follows.
+bool isBeforeProse(const SyntaxIssue &issue, const FileContext &context) {
+  const auto next = std::ranges::lower_bound(context.tree.issues, issue.span.end, {},
+                                             [](const SyntaxIssue &other) { return other.span.begin; });
+  return next != context.tree.issues.end() && next->kind == SyntaxIssueKind::UnexpectedText &&
+         trimmed(context.text({issue.span.end, next->span.begin})).empty();
+}
+
+void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (isBeforeProse(issue, context))
+    return;
   reporter.report(
       {.message = "block skip within a block",
        .span = issue.span,

@@ -85,7 +85,7 @@ std::size_t commentLength(std::string_view text) {
   return first == std::string_view::npos ? text.size() : first + 1;
 }
 
-CommentLanguage scanComment(std::string_view comment, TextScan &scan) {
+CommentLanguage scanComment(std::string_view comment, CommentPlace place, TextScan &scan) {
   static constexpr std::string_view kRsComments[] = {"DEBUG,", "PRINT,", "PROBEOPEN", "ABORT,", "LOG,"};
   static constexpr std::string_view kDialogs[] = {"DLG,", "DLGNAME,", "DLGNEW", "DLGSHOW"};
   const std::size_t inner = comment.size() > 1 && comment.back() == ')' ? comment.size() - 2 : comment.size() - 1;
@@ -99,7 +99,7 @@ CommentLanguage scanComment(std::string_view comment, TextScan &scan) {
     count(TextSignal::PlanetMark, scan);
     return CommentLanguage::Foreign;
   }
-  if (isFagorStatement(text)) {
+  if (place == CommentPlace::Alone && isFagorStatement(text)) {
     count(TextSignal::FagorStatement, scan);
     return CommentLanguage::Foreign;
   }

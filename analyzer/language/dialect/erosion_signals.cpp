@@ -8,17 +8,20 @@ namespace feedhold {
 bool LineScanner::scanErosion(char letter, const Number &number) {
   if (letter != 'E' && ((letter != 'C' && letter != 'H') || number.digits != 3))
     return false;
+  constexpr std::size_t kFewest = 3;
+  constexpr std::size_t kWholeRow = 6; // no other language writes so many numbers behind one address
   ++at_;
   skipBlanks();
-  if (letter == 'E' ? !isConditionList() : !isDigit(peek()) && peek() != '+' && peek() != '-')
+  const std::size_t numbers = letter == 'E' ? conditionNumbers() : 0;
+  if (letter == 'E' ? numbers < kFewest : !isDigit(peek()) && peek() != '+' && peek() != '-')
     return false;
-  count(TextSignal::ErosionCondition);
+  count(numbers >= kWholeRow ? TextSignal::ErosionRow : TextSignal::ErosionCondition);
   stop();
   return true;
 }
 
-/// Three numbers and more with blanks between them: a row of a table of conditions.
-bool LineScanner::isConditionList() const {
+/// The numbers with blanks between them: a row of a table of conditions.
+std::size_t LineScanner::conditionNumbers() const {
   std::size_t numbers = 0;
   std::size_t i = at_;
   while (i < line_.size() && isDigit(line_[i])) {
@@ -28,7 +31,7 @@ bool LineScanner::isConditionList() const {
     while (i < line_.size() && isBlank(line_[i]))
       ++i;
   }
-  return numbers >= 3;
+  return numbers;
 }
 
 /// `T84T86` in one block: pumps and wire of Sodick; other controls take one tool a block.

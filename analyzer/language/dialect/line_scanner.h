@@ -119,7 +119,7 @@ private:
   void scanMark(char c);
   bool scanErosion(char letter, const Number &number);
   void scanErosionTool(const Number &number);
-  bool isConditionList() const;
+  std::size_t conditionNumbers() const;
   void scanAt();
   void countLatheMarks();
   void countGCodeSystem();

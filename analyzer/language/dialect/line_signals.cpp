@@ -481,7 +481,9 @@ void LineScanner::scanVariable(const Number &number) {
 void LineScanner::scanComment() {
   hasComment_ = true;
   const std::size_t length = commentLength(rest());
-  if (feedhold::scanComment(rest().substr(0, length), scan_) == CommentLanguage::Foreign)
+  const bool isAlone = !hasHash_ && (letters_ & ~(1U << ('N' - 'A'))) == 0;
+  const CommentPlace place = isAlone ? CommentPlace::Alone : CommentPlace::BesideCode;
+  if (feedhold::scanComment(rest().substr(0, length), place, scan_) == CommentLanguage::Foreign)
     hasSignal_ = true;
   at_ += length;
 }
@@ -570,6 +572,8 @@ void LineScanner::countLatheMarks() {
     count(TextSignal::IncrementalAxis);
   if (hasNumber('X') && hasNumber('Z') && !hasLetter('Y') && !hasHome_ && !hasLetter('H'))
     count(TextSignal::PlaneMove);
+  if (gCodes_[32] && hasLetter('Z') && hasLetter('F') && !hasLetter('Y'))
+    count(TextSignal::ThreadPass);
   if (hasLetter('Y'))
     count(TextSignal::YAxis);
 }

@@ -57,7 +57,7 @@ void Parser::closeBlock() {
 }
 
 void Parser::readItem() {
-  contentSinceMark_ = true;
+  contentSinceMark_ = contentSinceMark_ || tape_ != Tape::Unmarked || !atTitle();
   if (++itemsInBlock_ > kMostItems)
     issue(SyntaxIssueKind::BlockTooLong, token_.span(), {}, Broken::Yes);
   if (broken_ && !at(TokenKind::Comment)) {
@@ -107,6 +107,12 @@ void Parser::readItem() {
   case TokenKind::EndOfFile:
   case TokenKind::EndOfBlock: return;
   }
+}
+
+/// The number or the name of a program, or a comment: what people write above the opening `%`, too.
+bool Parser::atTitle() const {
+  const bool isNumber = at(TokenKind::Address) && token_.letter() == 'O' && !grammar_.oWords;
+  return isNumber || at(TokenKind::Colon) || at(TokenKind::Name) || at(TokenKind::Comment);
 }
 
 /// `X12.5`, `:1000` (an O word), `M`, `O<name>`.
@@ -160,7 +166,7 @@ void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordF
   if (lexer_.lastNumber().points > 0)
     wordFlags |= Word::kPoint;
   advance();
-  if (peekOperator() && !at(TokenKind::Slash) && startsOperand(peek())) {
+  if (peekOperator() && slashCanDivide() && startsOperand(peek())) {
     const ExpressionId literal =
         tree_.expressions.add(Expression{digits.span(), NumberLiteral{value.value_or(Decimal())}});
     const ExpressionId left = negative ? addExpression(begin + 1, Negation{literal}) : literal;
@@ -174,10 +180,10 @@ void Parser::addNumberWord(char address, std::uint32_t begin, std::uint8_t wordF
     tree_.words.add(Word(address, WordForm::Broken, span, wordFlags));
 }
 
-/// The rest of `X#1+2`: an expression after an address that no bracket holds together.  A `/` is a block skip here.
+/// The rest of `X#1+2`: an expression after an address that no bracket holds together.
 void Parser::readUnbracketedRest(char address, std::uint32_t begin, std::uint8_t wordFlags, ExpressionId left) {
   ExpressionId value = left;
-  if (peekOperator() && !at(TokenKind::Slash) && startsOperand(peek())) {
+  if (peekOperator() && slashCanDivide() && startsOperand(peek())) {
     const std::uint32_t from = token_.begin;
     value = binaryRest(left, 1);
     issue(SyntaxIssueKind::UnbracketedExpression, since(from), {begin, lastEnd_}, Broken::No);

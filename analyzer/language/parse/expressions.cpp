@@ -47,6 +47,12 @@ ExpressionId Parser::binaryRest(ExpressionId left, int lowestPrecedence) {
   return left;
 }
 
+/// Outside brackets a `/` is a block skip.  A control that takes sums in brackets alone has block skips at the head of
+/// a block alone: before a value, a `/` further on was meant to divide.
+bool Parser::slashCanDivide() const {
+  return !at(TokenKind::Slash) || (grammar_.valueNeedsBrackets && startsOperand(peek()));
+}
+
 bool Parser::atWithin(OperatorKind relation) const {
   return inContract_ && (relation == OperatorKind::Equal || relation == OperatorKind::NotEqual) &&
          toUpper(text_.substr(token_.begin, kWithin.size())) == kWithin;

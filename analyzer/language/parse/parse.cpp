@@ -197,8 +197,9 @@ bool Parser::beginsNextProgram() const {
   return (code == 99 || code == 30 || code == 2) && (isFolder || peek().kind == TokenKind::Number);
 }
 
-/// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened.  The
-/// rest of its line is a leader that the control skips, unless it is the head of a program (`%O5000(TITLE)`).
+/// `%` at the head of a block opens the tape, or closes it when program text has been read since it was opened; the
+/// first `%` of a file, when more than a title stands in front of it.  The rest of its line is a leader that the
+/// control skips, unless it is the head of a program (`%O5000(TITLE)`).
 void Parser::readTapeMark() {
   const bool closes = contentSinceMark_ && tape_ != Tape::Closed;
   tape_ = closes ? Tape::Closed : Tape::Open;

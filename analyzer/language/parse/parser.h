@@ -39,6 +39,7 @@ private:
   void readLeader();
   void readRawLine(std::uint32_t begin, int flags);
   void readTapeMark();
+  bool atTitle() const;
   bool readDumpLine();
   bool readDirective();
   bool isEncryptedTextClosed(std::uint32_t from) const;
@@ -90,6 +91,7 @@ private:
   ExpressionId expression();
   ExpressionId binary(int lowestPrecedence);
   ExpressionId binaryRest(ExpressionId left, int lowestPrecedence);
+  bool slashCanDivide() const;
   bool atWithin(OperatorKind relation) const;
   ExpressionId within(const BinaryOperation &relation);
   std::optional<OperatorKind> peekOperator() const;
@@ -154,7 +156,7 @@ private:
   int itemsInBlock_ = 0;
   enum class Tape { Unmarked, Open, Closed } tape_ = Tape::Unmarked;
   bool isEncryptedTextOpen_ = false;
-  bool contentSinceMark_ = false;
+  bool contentSinceMark_ = false; // before the first `%`, a title is none
 };
 
 } // namespace feedhold

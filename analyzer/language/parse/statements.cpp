@@ -55,7 +55,7 @@ StatementId Parser::variableStatement() {
 /// The value where a sum needs brackets: `#1=#2+1` is read, and reported.
 ExpressionId Parser::assignedValue(std::uint32_t begin) {
   const ExpressionId value = operand();
-  if (!peekOperator() || at(TokenKind::Slash) || broken_)
+  if (!peekOperator() || !slashCanDivide() || broken_)
     return value;
   const std::uint32_t from = token_.begin;
   const ExpressionId whole = binaryRest(value, 1);

@@ -71,6 +71,12 @@ TEST(Guess, LathesWithoutCycles) {
   EXPECT_EQ(guessed("O1\nT0101 M06\nG43 H1 Z50.\nG0 X1. Y2.\nM30\n"), "fanuc-30i");
 }
 
+TEST(Guess, ThreadsWithoutYAreOfALathe) {
+  EXPECT_EQ(guessed("#1=0\nWHILE[#1LT3]DO1\nG0X#1\nG32Z-20.F1.5Q#1\nG0X30.\nG0Z2.\n#1=#1+1\nEND1\n"),
+            "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("#1=0\nG0X10.Y#1\nG32Z-20.F1.5\nG0Z2.\nG0Y0\nM30\n"), "fanuc-30i");
+}
+
 TEST(Guess, DistanceModesAreNoLathes) {
   EXPECT_EQ(guessed("O1\nG90 G0 X20. Z5.\nG1 X22. Z-1.\nG1 X30. Z-20.\nM30\n"), "fanuc-30i");
   EXPECT_EQ(guessed("O1\nG50 S2000\nT0101\nG90 X20. Z-5. F0.2\nX18.\nM30\n"), "fanuc-30i-lathe");
@@ -122,6 +128,28 @@ TEST(Guess, LanguagesThatAreRefused) {
             "a macro language with C operators (Centroid, Eding)");
   EXPECT_EQ(guessed("$INCLUDE COMMON\n@SPEED 100\n@FEED 101\nO9000\n#1=5\nM99\n"), "macro compiler source");
   EXPECT_EQ(guessed("%wait\n%X0=posx, Y0=posy\nG21\nM5\n"), "sender macro (CNCjs)");
+}
+
+TEST(Guess, StatementsOfFagorStandAlone) {
+  EXPECT_EQ(guessed("O1\n#100=1. (p1=1)\n#101=2. (p2=2)\n#102=3. (p3=[1,2])\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("O1\n(p1=1)\n#100=1.\n(p2=2)\n#101=2.\n(p3=3)\n#102=#101\nM30\n"), "fanuc-30i");
+  EXPECT_EQ(guessed("N10 (P1=5)\n(P2=P1+1)\nG1 X10\n(RET)\n"), "Fagor 8055");
+}
+
+TEST(Guess, OneRowOfConditionsIsWireErosion) {
+  constexpr std::string_view kErosion = "wire erosion (Sodick, Mitsubishi, Accutex)";
+  EXPECT_EQ(guessed("//OFFSET\nE001=11 14 12 08 07 09 40 12;CUT1\nH1=0.15\nM26Q0.01\nG90 G21\n#1=8.\n#2=#1*2\n"
+                    "IF [#2 GT #1] GOTO 1\nN1 G1 G41 H1 X#1 Y#2 A0\nX-#1\nY-#2\nM02\n"),
+            kErosion);
+  EXPECT_EQ(guessed("G21 G90\nM68 E1 Q5\nG0 X1\nE1=5\nM30\n"), "fanuc-30i");
+}
+
+TEST(Guess, OneCommandOfFluidNcRefusesAProgramWithNames) {
+  EXPECT_EQ(guessed("G38.3 Z[#<_a>] F300\nG38.2 Z[#<_b>] F20\nG38.5 Z0 F20\nG38.2 Z[#<_c>] F10\nG38.2 Z[#<_c>] F5\n"
+                    "o9 if [#<_c> GT 1]\n  $Alarm/Send=2\no9 endif\nM2\n",
+                    "check.ngc"),
+            "RS274NGC of grblHAL or FluidNC");
+  EXPECT_EQ(guessed("G38.3 Z[#<_a>] F300\no9 if [#<_a> GT 1]\n(abort, bad)\no9 endif\nM2\n", "check.ngc"), "linuxcnc");
 }
 
 TEST(Guess, Huazhong) {
