@@ -53,7 +53,7 @@ public:
       idle_ += last_ ? 1U : 0U;
       return;
     }
-    move(node, state);
+    moveIn(node, state);
   }
 
   void report(const FlowFacts &, const FileContext &, const Reporter &reporter) override {
@@ -101,7 +101,7 @@ private:
               code->role == CodeRole::MachinePosition || isSkip(code->role));
     });
   }
-  void move(NodeId node, const AbstractState &state) {
+  void moveIn(NodeId node, const AbstractState &state) {
     const auto &[x, y] = before_[node];
     const auto toX = coordinate(state, Axis::X), toY = coordinate(state, Axis::Y);
     const bool isLine = view_.surely(state, ModalKind::Motion, {CodeAction::Rapid, CodeAction::Linear});
