@@ -41,10 +41,16 @@ def rounded():
 def proofs(*options):
     """path -> obligations"""
     start = time.monotonic()
-    result = feedhold("prove", "--no-cache", "--format", "json", "--isolated", "--dialect", "fanuc-30i", *options,
-                      "packages")
+    folders = {}  # by dialect: a folder has programs of one
+    for program in programs():
+        folders.setdefault(program["dialect"], set()).add(str(Path(program["path"]).parent))
+    found = {}
+    for dialect, paths in folders.items():
+        result = feedhold("prove", "--no-cache", "--format", "json", "--isolated", "--dialect", dialect, *options,
+                          *sorted(paths))
+        found.update((file["path"], file["obligations"]) for file in json.loads(result.stdout)["files"])
     print(f"all proofs: {time.monotonic() - start:.2f} s")
-    return {file["path"]: file["obligations"] for file in json.loads(result.stdout)["files"]}
+    return found
 
 
 class Seeds(unittest.TestCase):
