@@ -171,9 +171,7 @@ private:
     return space.tip ? geometry::toHalfPlane(gouge.gouge.at, *space.tip, space.tool ? space.tool->radius : 0)
                      : gouge.gouge.at;
   }
-  std::vector<Axis> upwards() const {
-    return picture_.isLathe ? std::vector{Axis::Y} : std::vector{Axis::Y, Axis::Z};
-  }
+  std::vector<Axis> upwards() const { return picture_.isLathe ? std::vector{Axis::Y} : std::vector{Axis::Y, Axis::Z}; }
 
   static bool isNear(const RecordedMove &move) {
     const GougePath path(move);

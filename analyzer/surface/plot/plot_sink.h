@@ -32,7 +32,8 @@ struct Picture {
   std::optional<PlottedGouge> gouge = std::nullopt;
 };
 
-/// X Y from above, X Z from the front, and both again near a gouge; of a lathe Z X alone.  Scales are in the unit of the first move.
+/// X Y from above, X Z from the front, and both again near a gouge; of a lathe Z X alone.  Scales are in the unit of
+/// the first move.
 std::string drawPicture(const Picture &picture);
 
 /// `0.25 mm outside of CAVITY at N40`; `place`: `N40`, `line 7`.

@@ -21,8 +21,8 @@ struct PlotView {
   Axis up;
   PlotRange acrossRange;
   PlotRange upRange;
-  double scale;     // of the picture's units to those of length
-  double left, top; // of the view, in the picture
+  double scale;         // of the picture's units to those of length
+  double left, top;     // of the view, in the picture
   bool isLathe = false; // across is Z, and up the radius, of which the scale shows diameters (half_plane.h)
 
   double width() const { return acrossRange.size() * scale; }
