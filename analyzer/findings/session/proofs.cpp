@@ -42,7 +42,7 @@ std::uint64_t stepsFor(std::uint64_t stepsOfOne, std::size_t programsInFile) {
 
 /// Of the steps of a program with a contract.  What needs more without one is seldom proved at all: twice as many steps
 /// complete no more of 156 files of other authors, and half as many lose some.
-constexpr std::uint64_t kShareWithoutContract = 8;
+constexpr std::uint64_t kShareWithoutContract = 10;
 /// Of the work of Z3 in one question: arcs of any size take seconds of it, and are not decided.
 constexpr std::uint64_t kShareOfZ3WithoutContract = 40;
 

@@ -5,7 +5,10 @@
 #include "proof/termination/recurrence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <tuple>
 
 namespace feedhold::prove {
 
@@ -17,6 +20,7 @@ template <typename Suffices> GivenVariables fewest(GivenVariables given, const S
     for (std::size_t first = 0; first < given.entries().size();) {
       GivenVariables fewer;
       fewer.start = given.start;
+      fewer.readings = given.readings;
       for (std::size_t i = 0; i < given.entries().size(); ++i)
         if (i < first || i >= first + size)
           fewer.set(given.entries()[i].first, given.entries()[i].second);
@@ -34,40 +38,56 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
          endsInside(subject.programs, subject.program, loop.head, run);
 }
 
-/// With these inputs the loop never ends.  Signals are taken to stay 0, so that given readings are not looked at.
-std::optional<Recurrence> goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
-  if (!given.readings.entries().empty())
-    return std::nullopt;
-  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
-                        context.witnesses.modelOf(given));
+/// What each input reads, if it stays so.
+std::optional<std::map<std::uint32_t, double>> steadyReadings(const GivenVariables &given) {
+  std::map<std::uint32_t, double> steady;
+  for (const auto &[variable, script] : given.readings.entries()) {
+    if (std::ranges::any_of(script, [&](double reading) { return reading != script.front(); }))
+      return std::nullopt;
+    steady.emplace(variable, script.front());
+  }
+  return steady;
 }
 
-/// Because iterations read all of these as 0 for ever.
-std::string neverEnds(const std::set<std::uint32_t> &signals) {
+/// With these inputs the loop never ends, while signals stay as they are.
+std::optional<Recurrence> goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
+  const auto signals = steadyReadings(given);
+  if (!signals)
+    return std::nullopt;
+  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
+                        context.witnesses.modelOf(given), *signals);
+}
+
+/// Because iterations read these for ever.
+std::string neverEnds(const std::map<std::uint32_t, double> &signals) {
   if (signals.empty())
     return "each iteration leads to another one: the loop never ends";
   std::string names;
-  for (const std::uint32_t signal : signals)
-    names += fmt::format("{}#{}", names.empty() ? "" : ", ", signal);
-  return signals.size() == 1
-             ? fmt::format("while {} reads 0, each iteration leads to another one: the loop ends only if it changes",
-                           names)
-             : fmt::format("while {} read 0, each iteration leads to another one: the loop ends only if one of them "
-                           "changes",
-                           names);
+  for (const auto &[signal, reading] : signals)
+    names += fmt::format("{}#{} reads {:.15g}", names.empty() ? "" : " and ", signal, reading);
+  return fmt::format("while {}, each iteration leads to another one: the loop ends only if {} changes", names,
+                     signals.size() == 1 ? "it" : "one of them");
+}
+
+/// How many inputs, and how large: with a large one the loop may only be long.
+std::tuple<std::size_t, std::size_t, double> sizeOf(const GivenVariables &given) {
+  double largest = 0;
+  for (const auto &[variable, value] : given.entries())
+    largest = std::max(largest, std::fabs(value.number));
+  return {given.readings.entries().size(), given.entries().size(), largest};
 }
 
 /// Inputs of a sampled run that did not come out of the loop, with which it never ends; as few as possible.
 std::optional<Witness> endless(const ProofContext &context, const LoopInstance &loop) {
-  constexpr std::size_t kMostTried = 3;
+  constexpr std::size_t kMostTried = 4; // the smallest and the largest in turn
   const WitnessSearch &witnesses = context.witnesses;
   std::vector<WitnessSearch::Sample> runs;
   for (const WitnessSearch::Sample &sample : witnesses.samples())
-    if (sample.given.readings.entries().empty() && staysIn(context.subject, loop, sample.result))
+    if (steadyReadings(sample.given) && staysIn(context.subject, loop, sample.result))
       runs.push_back(sample);
   std::stable_sort(runs.begin(), runs.end(),
-                   [](const auto &a, const auto &b) { return a.given.entries().size() < b.given.entries().size(); });
-  std::set<std::uint32_t> signals; // of the last inputs with which the loop was found to be endless
+                   [](const auto &a, const auto &b) { return sizeOf(a.given) < sizeOf(b.given); });
+  std::map<std::uint32_t, double> signals; // of the last inputs with which the loop was found to be endless
   const auto isEndless = [&](const GivenVariables &given) {
     throwIfCancelled();
     if (!witnesses.allowed(given) || !staysIn(context.subject, loop, witnesses.runOf(given)))
@@ -77,11 +97,13 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
       signals = std::move(found->signals);
     return found.has_value();
   };
-  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i)
-    if (isEndless(runs[i].given)) {
-      GivenVariables given = fewest(runs[i].given, isEndless);
-      return Witness{std::move(given), runs[i].result.end, neverEnds(signals)};
+  for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i) {
+    const WitnessSearch::Sample &run = i % 2 == 0 ? runs[i / 2] : runs[runs.size() - 1 - i / 2];
+    if (isEndless(run.given)) {
+      GivenVariables given = fewest(run.given, isEndless);
+      return Witness{std::move(given), run.result.end, neverEnds(signals)};
     }
+  }
   return std::nullopt;
 }
 

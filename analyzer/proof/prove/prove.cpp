@@ -47,6 +47,7 @@ public:
       witnesses_->sampleVariants();
       witnesses_->sampleDecimals({});
     }
+    witnesses_->sampleSignals();
   }
 
   ProgramProof run() {

@@ -327,7 +327,6 @@ void WitnessSearch::addStartReads(GivenVariables &given, const smt::Model &model
 /// The model says what the reads of a path give, by their places; which read of the run that is, the run tells.  A read
 /// of which the model says no more gives what the last one gave.
 InputReadings WitnessSearch::readingsOf(const smt::Model &model, const GivenVariables &given) const {
-  constexpr std::size_t kMostReadings = 64;
   const smt::TermStore &store = interpretation_.store();
   std::map<std::pair<std::optional<Place>, std::uint32_t>, std::deque<double>> said;
   for (const InputRead &read : interpretation_.inputReads())
@@ -346,7 +345,7 @@ InputReadings WitnessSearch::readingsOf(const smt::Model &model, const GivenVari
     const double reading = !next.empty() ? next.front() : script.empty() ? 0 : script.back();
     if (!next.empty())
       next.pop_front();
-    if (script.size() < kMostReadings) {
+    if (script.size() < kLongestScript) {
       script.push_back(reading);
       readings.set(variable, std::move(script));
     }

@@ -67,6 +67,8 @@ public:
   /// Variants of the runs so far, each kept if it ends at another place or in another way: programs that check what
   /// they are given let few other runs through.
   void sampleVariants();
+  /// Some of these runs, with other answers where they read signals: each is kept if it ends in a new way.
+  void sampleSignals();
   /// Inputs that are allowed, of small whole numbers: runs on them show how loops go on.
   std::vector<GivenVariables> smallInputs() const;
   /// Among the sampled runs, the one nearest to a call that a shop makes.
@@ -107,6 +109,7 @@ public:
 private:
   static constexpr std::uint64_t kSampleFuel = 4'000;
   static constexpr std::uint64_t kStepsOfInstruction = 30;
+  static constexpr std::size_t kLongestScript = 64; // of one input that a witness names
 
   std::vector<std::uint32_t> inputs() const;
   std::vector<std::uint32_t> variables() const;
@@ -116,6 +119,13 @@ private:
   static GivenVariables variantOf(GivenVariables given, const std::vector<std::uint32_t> &names,
                                   const std::vector<double> &pool, std::mt19937 &random);
   std::set<std::uint32_t> inputsRead() const;
+  std::set<std::uint32_t> signalsRead() const;
+  struct AnsweredRun {
+    Sample sample;
+    std::size_t reads; // of signals
+  };
+  AnsweredRun runWithAnswers(const GivenVariables &given, const std::set<std::uint32_t> &signals,
+                             std::span<const double> answers, double others) const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.
   static std::optional<std::string> broken(const Sample &run, const Violation &violation);

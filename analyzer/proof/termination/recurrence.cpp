@@ -42,9 +42,9 @@ std::optional<std::uint32_t> signalRead(const smt::Term &variable) {
 class RecurrenceSearch {
 public:
   RecurrenceSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const Exploration &exploration,
-                   const LoopInstance &loop, const Model &inputs)
+                   const LoopInstance &loop, const Model &inputs, const std::map<std::uint32_t, double> &signals)
       : store_(store), exploration_(exploration), loop_(loop), facts_(interpretation.facts()), index_(store),
-        inputs_(inputs) {
+        inputs_(inputs), signals_(signals) {
     index_.add(facts_);
     for (const auto &[variable, value] : interpretation.entryValues())
       for (const TermId part : {value.number, value.vacant})
@@ -101,14 +101,25 @@ private:
     }
     for (const std::vector<TermId> *path : paths_)
       for (std::size_t i = 0; i < path->size(); ++i)
-        for (const TermId variable : smt::variablesOf(store_, (*path)[i]))
-          if (const auto signal = signalRead(store_[variable])) {
-            if (i >= loop_.arrival.size())
-              result_.signals.insert(*signal);
-            fixed_.emplace(variable, store_.number(Number(0)));
-            inputs_.emplace(store_[variable].name, Number(0));
-          }
+        fixSignals((*path)[i], i >= loop_.arrival.size());
+    for (const LoopInstance *each : taken)
+      for (const Transition &iteration : each->transitions)
+        for (const auto &[variable, value] : iteration.next)
+          fixSignals(value, true);
     return true;
+  }
+
+  /// The reads of signals in the term, which iterations make or the way to the loop.
+  void fixSignals(TermId term, bool isOfIteration) {
+    for (const TermId variable : smt::variablesOf(store_, term))
+      if (const auto signal = signalRead(store_[variable])) {
+        const auto held = signals_.find(*signal);
+        const double reading = held == signals_.end() ? 0 : held->second;
+        if (isOfIteration)
+          result_.signals.insert_or_assign(*signal, reading);
+        fixed_.emplace(variable, store_.number(Number::fromDouble(reading)));
+        inputs_.emplace(store_[variable].name, Number::fromDouble(reading));
+      }
   }
 
   void fix(TermId part) {
@@ -292,6 +303,8 @@ private:
         std::vector<TermId> conditions;
         for (const TermId condition : iteration.conditions)
           conditions.push_back(withInputs(condition));
+        if (std::ranges::find(conditions, store_.no()) != conditions.end()) // not with these inputs
+          continue;
         for (std::size_t i = 0; i < set.size();) {
           if (work_ > kMostRecurrenceWork)
             return false;
@@ -370,6 +383,7 @@ private:
   const std::vector<TermId> &facts_;
   FactIndex index_;
   Model inputs_;
+  const std::map<std::uint32_t, double> &signals_;
   smt::Substitution fixed_;
   std::set<TermId> known_; // facts of loops, which are no branches
   std::vector<const std::vector<TermId> *> paths_;
@@ -384,10 +398,10 @@ private:
 } // namespace
 
 std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &interpretation, smt::TermStore &store,
-                                         const Exploration &exploration, const LoopInstance &loop,
-                                         const Model &inputs) {
+                                         const Exploration &exploration, const LoopInstance &loop, const Model &inputs,
+                                         const std::map<std::uint32_t, double> &signals) {
   return smt::within(3 * kStepsOfWork * kMostRecurrenceWork,
-                     [&] { return RecurrenceSearch(interpretation, store, exploration, loop, inputs).run(); })
+                     [&] { return RecurrenceSearch(interpretation, store, exploration, loop, inputs, signals).run(); })
       .value_or(std::nullopt);
 }
 

@@ -11,8 +11,8 @@
 #include "proof/explore/exploration.h"
 #include "proof/smt/model.h"
 
+#include <map>
 #include <optional>
-#include <set>
 #include <vector>
 
 namespace feedhold::prove {
@@ -21,14 +21,14 @@ struct Recurrence {
   std::vector<smt::TermId> facts; // of the set, over the variables of the loop
   std::size_t stem = 0;           // iterations before the state is in the set
   std::vector<Outcome> evidence;
-  std::set<std::uint32_t> signals; // that iterations read, and that are taken to stay 0
+  std::map<std::uint32_t, double> signals; // that iterations read, and what they are taken to stay
 };
 
 /// `inputs`: of every variable of programs whose first value is used.  Signals that the program reads are taken to stay
-/// 0.
+/// as `signals` says, the others 0.
 std::optional<Recurrence> recurrenceFrom(const SymbolicInterpretation &interpretation, smt::TermStore &store,
                                          const Exploration &exploration, const LoopInstance &loop,
-                                         const smt::Model &inputs);
+                                         const smt::Model &inputs, const std::map<std::uint32_t, double> &signals = {});
 
 /// The run was in an iteration of the loop when it ended.
 bool endsInside(const ProgramSet &programs, Callee entry, Place head, const RunResult &run);
