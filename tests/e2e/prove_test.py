@@ -203,6 +203,18 @@ class Prove(Scratch):
         self.assertIn(self.one("O1.alarm-unreachable.N90", "A.nc")["verdict"], ("proved", "unreachable"))
         self.assertEqual(self.one("O1.alarm-unreachable.N90", "I.nc")["verdict"], "refuted")
 
+    # ---- few passes ----
+
+    def test_count_without_bound(self):
+        self.write("W.nc", "O1\n#1=0\n#2=0\nN10 IF[#1000EQ1]GOTO20\n#1=#1+1\n#2=#2+1\nGOTO10\n"
+                           "N20 IF[#1NE#2]GOTO90\nM30\nN90#3000=1(NOT THE SAME)\n"
+                           "O2\n#1=0\nN10 #1=#1+1\nIF[#1GT0]GOTO10\nM30\n")
+        alarm = self.one("O1.alarm-unreachable.N90", "W.nc")
+        self.assertEqual((alarm["verdict"], alarm["ifPassesAtMost"]), ("unreachable", 10 ** 12))
+        ends = self.one("O1.program-ends", "W.nc")
+        self.assertEqual((ends["verdict"], ends["ifPassesAtMost"]), ("refuted", None))
+        self.assertNotEqual(self.one("O2.program-ends", "W.nc")["verdict"], "proved")
+
     # ---- hints ----
 
     def test_false_invariant_is_not_believed(self):

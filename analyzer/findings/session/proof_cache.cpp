@@ -74,7 +74,8 @@ void trim(const fs::path &folder) {
 std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
-  const auto &[only, budget, steps, guards, arithmetic, missing, contractsOf] = options;
+  const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses, contractsOf] =
+      options;
   static_cast<void>(contractsOf);
   const auto &[search, z3, cvc5] = budget;
   Material material;
@@ -86,8 +87,10 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
   material.add(only.size());
   for (const prove::ObligationKind kind : only)
     material.add(prove::nameOf(kind));
-  for (const std::uint64_t number : {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards),
-                                     static_cast<std::uint64_t>(arithmetic), static_cast<std::uint64_t>(missing)})
+  for (const std::uint64_t number :
+       {search, z3, cvc5, steps, static_cast<std::uint64_t>(guards), static_cast<std::uint64_t>(arithmetic),
+        static_cast<std::uint64_t>(missing), static_cast<std::uint64_t>(mayTakeFewPasses),
+        static_cast<std::uint64_t>(takesFewPasses)})
     material.add(number);
   material.add(program.index());
   addFiles(material, programs);

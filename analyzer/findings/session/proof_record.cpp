@@ -319,7 +319,7 @@ prove::Verdict readVerdict(Reader &reader, Place place) {
 
 void write(Writer &writer, const Obligation &obligation) {
   // Names every member, so that one that is new has to be thought of here.
-  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning] = obligation;
+  const auto &[kind, id, place, span, claim, alarm, verdict, effort, tolerance, returning, takesFewPasses] = obligation;
   const auto enumeration = [&](auto value) { writer.number(static_cast<std::uint64_t>(value)); };
   enumeration(kind);
   writer.text(id);
@@ -334,6 +334,7 @@ void write(Writer &writer, const Obligation &obligation) {
   writer.number(returning.size());
   for (const std::string &name : returning)
     writer.text(name);
+  writer.number(takesFewPasses ? 1 : 0);
 }
 
 Obligation readObligation(Reader &reader) {
@@ -350,6 +351,7 @@ Obligation readObligation(Reader &reader) {
     obligation.tolerance = reader.real();
   for (std::uint64_t left = reader.count(); left > 0; --left)
     obligation.returning.emplace_back(reader.text());
+  obligation.takesFewPasses = reader.numberUpTo(1) == 1;
   return obligation;
 }
 

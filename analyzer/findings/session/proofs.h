@@ -16,7 +16,8 @@ enum class KeepSteps : std::uint8_t { No, Yes };
 
 struct ProofOptions {
   CheckOptions files; // which, how they are read, and on how many threads
-  prove::ProveOptions prove = {.arithmetic = prove::Arithmetic::Doubles, .missing = MissingPrograms::Return};
+  prove::ProveOptions prove = {
+      .arithmetic = prove::Arithmetic::Doubles, .missing = MissingPrograms::Return, .mayTakeFewPasses = true};
   std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
   KeepSteps steps = KeepSteps::No;      // of what is proved anew
   enum class Which : std::uint8_t { All, WithContract } which = Which::All; // of the programs

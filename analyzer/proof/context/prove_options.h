@@ -16,6 +16,9 @@ struct ProveOptions {
   InferGuards guards = InferGuards::Yes;
   Arithmetic arithmetic = Arithmetic::Exact; // in which claims have to hold
   MissingPrograms missing = MissingPrograms::DoAnything;
+  /// May claims rest on loops making no more than kMostPasses?  A verdict that does says so.
+  bool mayTakeFewPasses = false;
+  bool takesFewPasses = false;                         // in this proof: set by prove() alone
   std::vector<const FileContracts *> contractsOf = {}; // by file: of the programs that may be called; empty: none
 };
 

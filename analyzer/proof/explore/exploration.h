@@ -211,11 +211,16 @@ using LoopHints = std::function<std::vector<smt::TermId>(Place head, const Symbo
 /// which claims are open.
 enum class InvariantSearch : std::uint8_t { Usual, Wide };
 
+/// More than a machine makes in its life: a thousand passes a second would take 30 years.
+inline constexpr std::int64_t kMostPasses = 1'000'000'000'000;
+
 struct ExploreOptions {
   std::vector<smt::TermId> assumptions = {}; // of the contract
   LoopTreatment loops = LoopTreatment::AnyIteration;
   /// However large they are; otherwise it is proved that they are small enough where results are rounded.
   bool wholeNumbersAreExact = false;
+  /// Each loop is taken to make no more passes than kMostPasses before it is left.  Not for claims that loops end.
+  bool takesFewPasses = false;
   /// Conditions without variables may be decided by enclosing them, without a certificate: for single runs, which make
   /// refutations alone.
   bool mayEnclose = false;

@@ -417,6 +417,8 @@ bool LoopSummarizer::tryKinds(Work &work, bool &grew) {
             }))
           part.kind = PartKind::Free;
   work.facts = {store.lessOrEqual(store.number(Number(0)), work.iterations)};
+  if (explorer_.options_.takesFewPasses)
+    work.facts.push_back(store.lessOrEqual(work.iterations, store.number(Number(kMostPasses))));
   addErrors(work);
   build(work);
   addTravels(work);

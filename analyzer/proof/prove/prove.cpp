@@ -305,6 +305,8 @@ bool isByRounding(const Obligation &exact) {
   return exact.verdict.holds() || (witness && witness->happened.ends_with(kByRounding));
 }
 
+constexpr std::string_view kRoundingMayBreak = "holds in exact arithmetic; rounding on the control may break it";
+
 /// Holds in exact arithmetic, or would with a guard that was found there.
 void takeFromExact(Obligation &row, const Obligation &exact) {
   if (const Witness *found = row.verdict.witness(); found && isByRounding(exact)) {
@@ -313,7 +315,7 @@ void takeFromExact(Obligation &row, const Obligation &exact) {
     row.verdict = std::move(witness);
   }
   if (isOpen(row) && exact.verdict.holds())
-    row.verdict = Verdict::unknown("holds in exact arithmetic; rounding on the control may break it");
+    row.verdict = Verdict::unknown(std::string(kRoundingMayBreak));
   if (const auto *guard = exact.verdict.guard(); guard && !row.verdict.holds()) {
     Guard known = *guard;
     known.exactOnly = true;
@@ -371,6 +373,39 @@ void compareWithExact(const ProofSubject &subject, std::vector<WholeProof> &part
   std::ranges::move(inExact.contradictions, std::back_inserter(parts.front().proof.contradictions));
 }
 
+/// A run of few passes is a part of each run, which says nothing of how the run ends.
+bool speaksOfEnds(ObligationKind kind) {
+  return kind == ObligationKind::LoopEnds || kind == ObligationKind::ProgramEnds || kind == ObligationKind::AlarmIff ||
+         kind == ObligationKind::Guarded || kind == ObligationKind::ContractSatisfiable;
+}
+
+/// What only the rounding of huge counts may break is proved of runs in which no loop makes so many passes.
+void proveOfFewPasses(const ProofSubject &subject, ProgramProof &proof) {
+  const auto isOpenByRounding = [](const Obligation &row) {
+    return isOpen(row) && row.verdict.reason() == kRoundingMayBreak && !speaksOfEnds(row.kind);
+  };
+  Kinds kinds;
+  for (const Obligation &row : proof.obligations)
+    if (isOpenByRounding(row))
+      kinds.insert(row.kind);
+  if (!subject.options.mayTakeFewPasses || kinds.empty())
+    return;
+  ProveOptions options = withOnly(subject.options, kinds);
+  options.takesFewPasses = true;
+  if (!subject.contract())
+    options.steps /= 3;
+  const ProofSubject few{subject.programs, subject.program, subject.contracts, options};
+  ProgramProof found = std::move(proveIn(few).proof);
+  for (Obligation &row : proof.obligations)
+    for (const Obligation &other : found.obligations)
+      if (isOpenByRounding(row) && isSameClaim(row, other) && other.verdict.holds()) {
+        row.verdict = other.verdict;
+        row.returning = other.returning;
+        row.takesFewPasses = true;
+      }
+  std::ranges::move(found.contradictions, std::back_inserter(proof.contradictions));
+}
+
 /// Claims about space are proved apart, with the movements of the program: they need much, and take nothing from the
 /// others.
 ProgramProof proveRounded(const ProofSubject &subject) {
@@ -388,6 +423,7 @@ ProgramProof proveRounded(const ProofSubject &subject) {
   if (asksOfSpace)
     parts.push_back(proveIn(inSpace));
   compareWithExact(subject, parts);
+  proveOfFewPasses(subject, parts.front().proof);
   ProgramProof &whole = parts.front().proof;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     ProgramProof &part = parts[i].proof;

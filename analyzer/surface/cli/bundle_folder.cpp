@@ -38,6 +38,7 @@ void keepEvidence(ProofOptions &options) {
   options.prove.guards = prove::InferGuards::No;
   options.prove.arithmetic = prove::Arithmetic::Exact;
   options.prove.missing = MissingPrograms::DoAnything;
+  options.prove.mayTakeFewPasses = false;
 }
 
 std::optional<Error> whyNoBundleFits(const fs::path &folder, std::string_view mark) {

@@ -93,6 +93,7 @@ ProofsResult proofsOf(std::string_view text) {
   ProofOptions options{.files = optionsFor(text), .steps = KeepSteps::Yes};
   options.prove.arithmetic = prove::Arithmetic::Exact;
   options.prove.missing = MissingPrograms::DoAnything;
+  options.prove.mayTakeFewPasses = false;
   return proveAll(options, everything());
 }
 

@@ -208,11 +208,14 @@ std::string happenedIn(const prove::Witness &witness, const Obligation &obligati
                                      programs == 1 ? "returns and changes nothing" : "return and change nothing");
 }
 
-std::string returningIn(const Obligation &obligation) {
-  return obligation.returning.empty() ? std::string()
-                                      : fmt::format("if {} {}, which {} not in the files", listOf(obligation.returning),
-                                                    obligation.returning.size() == 1 ? "returns" : "return",
-                                                    obligation.returning.size() == 1 ? "is" : "are");
+std::vector<std::string> assumedIn(const Obligation &obligation) {
+  std::vector<std::string> assumed;
+  if (const std::size_t programs = obligation.returning.size(); programs > 0)
+    assumed.push_back(fmt::format("if {} {}, which {} not in the files", listOf(obligation.returning),
+                                  programs == 1 ? "returns" : "return", programs == 1 ? "is" : "are"));
+  if (obligation.takesFewPasses)
+    assumed.emplace_back("if no loop makes more than 10^12 passes");
+  return assumed;
 }
 
 std::string remedyOf(const prove::Guard &guard) {

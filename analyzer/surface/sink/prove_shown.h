@@ -59,9 +59,8 @@ inline constexpr std::string_view kExactOnly = "holds in exact arithmetic only: 
 std::string claimOf(const prove::Obligation &obligation, const Dialect &dialect);
 /// What the run of the witness came to: `stops with PS0112 (divided by zero)`
 std::string happenedIn(const prove::Witness &witness, const prove::Obligation &obligation, const Dialect &dialect);
-/// Of a verdict that holds under an assumption on missing programs: `if O9832 returns, which is not in the files`;
-/// empty: there is none.
-std::string returningIn(const prove::Obligation &obligation);
+/// Under which assumptions of its own a verdict holds: `if O9832 returns, which is not in the files`.
+std::vector<std::string> assumedIn(const prove::Obligation &obligation);
 /// With what a claim would be proved: ``with the clause `@REQUIRE #22 GT 0` in the contract, this is proved``
 std::string remedyOf(const prove::Guard &guard);
 /// Of what is not proved: what was seen, in one sentence: `this alarm can be raised`.

@@ -136,7 +136,7 @@ private:
       text_ += fmt::format("            {}\n", why);
     if (obligation.verdict.exactOnly())
       text_ += fmt::format("            {}\n", kExactOnly);
-    if (const std::string assumed = returningIn(obligation); !assumed.empty())
+    for (const std::string &assumed : assumedIn(obligation))
       text_ += fmt::format("            {}\n", assumed);
     if (report_.showMethods == ShowMethods::Yes && !obligation.verdict.method().empty())
       text_ += fmt::format("            by {}, effort {}\n", obligation.verdict.method(), obligation.effort);
