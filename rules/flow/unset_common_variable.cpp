@@ -31,6 +31,35 @@ bool setsUnseen(const FlowFacts &facts, const FileContext &context) {
                              [](const VariableUse &use) { return use.write && !use.number; });
 }
 
+/// The call comes before the block, or around to it in a loop.
+bool isBefore(const Call &call, BlockId block, ProgramId program, const FileContext &context) {
+  if (call.block <= block)
+    return true;
+  const auto loops = context.model.loopsOf(program);
+  const auto jumps = context.model.jumpsOf(program);
+  return std::ranges::any_of(loops,
+                             [&](const Loop &loop) {
+                               return loop.doBlock <= block && (!loop.endBlock || call.block < *loop.endBlock);
+                             }) ||
+         std::ranges::any_of(jumps, [&](const Jump &jump) {
+           return !jump.target || (*jump.target <= block && call.block <= jump.block);
+         });
+}
+
+/// As setsUnseen, on the way from the head of the program to the block.
+bool setsUnseenBefore(const FlowFacts &facts, const FileContext &context, BlockId block) {
+  const auto calls = context.model.callsOf(facts.program);
+  return std::ranges::any_of(calls,
+                             [&](const Call &call) {
+                               return call.kind != CallKind::ModalCancel &&
+                                      isBefore(call, block, facts.program, context) &&
+                                      (!context.callGraph.callee(context.file, call) ||
+                                       context.callGraph.reachesEncrypted(context.file, call));
+                             }) ||
+         std::ranges::any_of(context.model.variablesOf(facts.program),
+                             [](const VariableUse &use) { return use.write && !use.number; });
+}
+
 /// `#110-1.5` is no statement: it may have been meant to set the variable.
 bool isMeantAsAssignment(const FileContext &context, const VariableUse &use) {
   const auto statements = context.tree.statementsOf(use.block);
@@ -148,7 +177,6 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (!isMainProgram(facts))
     return;
   checkCounters(facts, context, reporter);
-  const bool unseen = setsUnseen(facts, context);
   std::vector<std::uint32_t> done;
   for (const Read &read : readsOf(facts)) {
     const auto kind = read.number ? commonKind(context, *read.number) : std::nullopt;
@@ -156,6 +184,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     done.push_back(*read.number);
     const bool isPassed = read.use == ReadUse::Argument;
+    const bool unseen = setsUnseenBefore(facts, context, read.block);
     if (isSet(facts, context, *read.number) || (unseen && !isPassed) ||
         isTestedForVacancy(facts.file, facts.program, *read.number) || !reachedNode(facts, read.block))
       continue;
