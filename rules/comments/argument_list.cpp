@@ -20,10 +20,13 @@ public:
     for (at_ = 1; at_ < text_.size(); ++at_) {
       if (isLetter(text_[at_ - 1]) || isDigit(text_[at_ - 1]))
         continue;
-      const auto variable = text_[at_] == '#' ? numbered() : lettered();
+      const bool isNumber = text_[at_] == '#';
+      const auto variable = isNumber ? numbered() : lettered();
       if (!variable)
         continue;
       pending_.insert(*variable);
+      if (isNumber) // whatever is said of it
+        found.insert(*variable);
       skipBlanks();
       if (isNaming())
         found.insert(pending_.begin(), pending_.end());
@@ -74,8 +77,10 @@ private:
 std::optional<ArgumentList> argumentListOf(const FileContext &context, ProgramId program) {
   const Program &whole = context.model.programs[program];
   std::optional<ArgumentList> list;
+  bool isHead = true;
   for (BlockId block = whole.first; block < whole.last; block = block.next()) {
-    if (block != whole.first && hasContent(context, block))
+    isHead = isHead && (block == whole.first || !hasContent(context, block));
+    if (!isHead && !list)
       break;
     for (const Comment &comment : context.tree.commentsOf(block)) {
       const auto named = Reader(toUpper(context.text(comment.span)), context.dialect).variables();

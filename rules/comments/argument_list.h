@@ -13,7 +13,7 @@ struct ArgumentList {
   Span comment; // the last remark that names some
 };
 
-/// Of the remarks before the first block that does something; absent where they name none.
+/// Absent where the remarks before the first block that does something name none.  What later remarks name is in it, too.
 std::optional<ArgumentList> argumentListOf(const FileContext &context, ProgramId program);
 
 } // namespace feedhold::rules

@@ -23,4 +23,13 @@ inline bool saysAny(std::string_view remark, std::initializer_list<std::string_v
   return std::ranges::any_of(words, [&](std::string_view word) { return remark.find(word) != std::string_view::npos; });
 }
 
+/// `M00 (MEASURED: ) #150`: only blanks are between a remark and the place.
+inline bool standsBehindRemark(const FileContext &context, Span place) {
+  const BlockId block = context.tree.blockAt(place.begin);
+  return std::ranges::any_of(context.tree.commentsOf(block), [&](const Comment &comment) {
+    return comment.closed && comment.span.end <= place.begin &&
+           trimmed(context.text({comment.span.end, place.begin})).empty();
+  });
+}
+
 } // namespace feedhold::rules
