@@ -13,7 +13,8 @@ struct ArgumentList {
   Span comment; // the last remark that names some
 };
 
-/// Absent where the remarks before the first block that does something name none.  What later remarks name is in it, too.
+/// Absent where the remarks before the first block that does something name none.  What later remarks name is in it,
+/// too.
 std::optional<ArgumentList> argumentListOf(const FileContext &context, ProgramId program);
 
 } // namespace feedhold::rules

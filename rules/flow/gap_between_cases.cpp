@@ -23,8 +23,7 @@ struct Case {
 /// Absent for another statement, and for a condition with more than one comparison.
 std::optional<Case> caseIn(const FlowFacts &facts, const FileContext &context, NodeId node) {
   const auto *test = std::get_if<Test>(&facts.node(node).instruction);
-  const auto *relation =
-      test && test->condition ? asInside<BinaryOperation>(context.tree, *test->condition) : nullptr;
+  const auto *relation = test && test->condition ? asInside<BinaryOperation>(context.tree, *test->condition) : nullptr;
   if (!relation || !isRelation(relation->op))
     return std::nullopt;
   const auto asked = variableNumber(context.tree, unwrapped(context.tree, relation->left));
@@ -49,7 +48,8 @@ std::vector<Case> casesOf(const FlowFacts &facts, const FileContext &context) {
 }
 
 /// Only these cases set the variable: it has no value before them.
-bool hasNoDefault(const FileContext &context, ProgramId program, const std::vector<Case> &cases, std::uint32_t variable) {
+bool hasNoDefault(const FileContext &context, ProgramId program, const std::vector<Case> &cases,
+                  std::uint32_t variable) {
   return std::ranges::all_of(context.model.variablesOf(program), [&](const VariableUse &use) {
     return !use.write || (use.number && use.number != variable) ||
            std::ranges::find(cases, use.block, &Case::block) != cases.end();
