@@ -43,14 +43,43 @@ void checkValue(const Word &table, BlockId block, const FileContext &context, co
   reporter.report(std::move(diagnostic), Severity::Warning);
 }
 
-/// LinuxCNC and grbl, whose programs have no O number, have P0 for the offset in force, P7 to P9, and Z for a tool.
+/// LinuxCNC refuses a P that is missing or beyond the table.  Source: the check of G10 in its interpreter.
+void checkNgc(BlockId block, const FileContext &context, const Reporter &reporter) {
+  constexpr std::uint32_t kToolTable = 1;
+  constexpr std::uint32_t kLast = 9; // G59.3
+  const Word *table = findWord(context.tree, block, 'L');
+  const Word *number = findWord(context.tree, block, 'P');
+  const auto kind = table ? table->integer() : std::nullopt;
+  const bool isWork = kind == kWorkOffsets || kind == kMoreWorkOffsets;
+  const bool isTool = kind == kToolTable || kind == kFirstToolTable || kind == kFirstToolTable + 1;
+  if (!isWork && !isTool)
+    return;
+  const auto which = number ? number->integer() : std::nullopt;
+  const bool isBeyond = which && ((isWork && *which > kLast) || (isTool && *which == 0));
+  if (number && !isBeyond)
+    return;
+  const Word &shown = number ? *number : *table;
+  reporter.report(
+      {.message = number ? fmt::format("{} with {} names no {}", context.quoted(number->span()),
+                                       context.quoted(table->span()), isWork ? "coordinate system" : "tool")
+                         : fmt::format("{} needs a P", context.quoted(table->span())),
+       .span = shown.span(),
+       .notes = {"the interpreter stops with an error, and nothing is set",
+                 isWork ? "write P1 for G54 to P9 for G59.3, or P0 for the one in force" : "write the tool as P"}});
+}
+
+/// LinuxCNC, and grbl, whose programs have no O number, have P0 for the offset in force, P7 to P9, and Z for a tool.
 bool isForOtherControl(BlockId block, const FileContext &context) {
   return context.dialect.grammar.oWords || !context.model.programs[context.model.programOf(block)].name.number;
 }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   if (!findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
-      context.tree.blocks[block].has(Block::kBroken) || isForOtherControl(block, context))
+      context.tree.blocks[block].has(Block::kBroken))
+    return;
+  if (context.dialect.grammar.oWords)
+    checkNgc(block, context, reporter);
+  if (isForOtherControl(block, context))
     return;
   const Word *table = findWord(context.tree, block, 'L');
   const Word *number = findWord(context.tree, block, 'P');
