@@ -37,13 +37,13 @@ std::uint32_t variableOf(std::uint32_t offset, std::size_t axis) {
 void checkOffset(BlockId block, const FileContext &context, const Reporter &reporter) {
   constexpr std::string_view kAxes = "XYZ";
   constexpr std::uint32_t kLast = 6; // G59
-  if (context.dialect.grammar.oWords || context.dialect.machine != MachineKind::Milling ||
+  const Word *table = findWord(context.tree, block, 'L');
+  if (!table || context.dialect.grammar.oWords || context.dialect.machine != MachineKind::Milling ||
       !findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
       findAction(context.tree, block, context.dialect, {CodeAction::Incremental}))
     return;
-  const Word *table = findWord(context.tree, block, 'L');
   const Word *offset = findWord(context.tree, block, 'P');
-  const auto number = table && table->integer() == 2U && offset ? offset->integer() : std::nullopt;
+  const auto number = table->integer() == 2U && offset ? offset->integer() : std::nullopt;
   if (!number || *number > kLast)
     return;
   const Word *first = nullptr;

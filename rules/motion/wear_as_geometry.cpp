@@ -58,13 +58,13 @@ private:
 };
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.grammar.oWords || context.dialect.machine != MachineKind::Milling ||
+  const Word *table = findWord(context.tree, block, 'L');
+  if (!table || context.dialect.grammar.oWords || context.dialect.machine != MachineKind::Milling ||
       !findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
       findAction(context.tree, block, context.dialect, {CodeAction::Incremental}))
     return;
-  const Word *table = findWord(context.tree, block, 'L');
   const Word *value = findWord(context.tree, block, 'R');
-  const auto kind = table ? table->integer() : std::nullopt;
+  const auto kind = table->integer();
   if (!value || value->form() != WordForm::Expression || (kind != kLength && kind != kRadius))
     return;
   Origin origin(context.model.programOf(block), context);

@@ -74,16 +74,16 @@ bool isForOtherControl(BlockId block, const FileContext &context) {
 }
 
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (!findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
+  const Word *table = findWord(context.tree, block, 'L');
+  if (!table || !findCode(context.tree, block, context.dialect, CodeRole::DataSetting) ||
       context.tree.blocks[block].has(Block::kBroken))
     return;
   if (context.dialect.grammar.oWords)
     checkNgc(block, context, reporter);
   if (isForOtherControl(block, context))
     return;
-  const Word *table = findWord(context.tree, block, 'L');
   const Word *number = findWord(context.tree, block, 'P');
-  const auto kind = table ? table->integer() : std::nullopt;
+  const auto kind = table->integer();
   if (!kind || !number)
     return;
   const auto which = number->integer();
