@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
+#include "rules/comments/remarks_of_block.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,7 +32,24 @@ void reportLoneVariable(const SyntaxIssue &issue, const FileContext &context, co
                      : "write the letter of the axis or function before it"}});
 }
 
+/// `M00 (MEASURED: ) #150`, `#3006=1 (SIZE: ) #120 (MM)`: the value was to be shown.
+void reportValueOfMessage(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  Span value = issue.other;
+  for (const Comment &comment : context.tree.commentsOf(context.tree.blockAt(value.begin)))
+    if (value.begin < comment.span.begin && comment.span.begin < value.end)
+      value.end = comment.span.begin;
+  reporter.report({.message = fmt::format("{} stands behind a message, which cannot show it", context.quoted(value)),
+                   .span = value,
+                   .notes = {fmt::format("a message is text alone; at the variable behind it the control {}",
+                                         stopsWith(context.dialect, AlarmKind::MissingEquals)),
+                             "name the variable in the text, for the operator to look it up, or print it with DPRNT"}});
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (issue.span.empty() && standsBehindRemark(context, issue.other)) {
+    reportValueOfMessage(issue, context, reporter);
+    return;
+  }
   if (stopsBehindWords(issue, context)) {
     reportLoneVariable(issue, context, reporter);
     return;

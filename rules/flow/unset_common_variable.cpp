@@ -1,5 +1,5 @@
 // unset-common-variable: `X#110`, and no program of the run sets `#110`.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/loop_view.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,6 +24,35 @@ bool setsUnseen(const FlowFacts &facts, const FileContext &context) {
   return std::ranges::any_of(calls,
                              [&](const Call &call) {
                                return call.kind != CallKind::ModalCancel &&
+                                      (!context.callGraph.callee(context.file, call) ||
+                                       context.callGraph.reachesEncrypted(context.file, call));
+                             }) ||
+         std::ranges::any_of(context.model.variablesOf(facts.program),
+                             [](const VariableUse &use) { return use.write && !use.number; });
+}
+
+/// The call comes before the block, or around to it in a loop.
+bool isBefore(const Call &call, BlockId block, ProgramId program, const FileContext &context) {
+  if (call.block <= block)
+    return true;
+  const auto loops = context.model.loopsOf(program);
+  const auto jumps = context.model.jumpsOf(program);
+  return std::ranges::any_of(loops,
+                             [&](const Loop &loop) {
+                               return loop.doBlock <= block && (!loop.endBlock || call.block < *loop.endBlock);
+                             }) ||
+         std::ranges::any_of(jumps, [&](const Jump &jump) {
+           return !jump.target || (*jump.target <= block && call.block <= jump.block);
+         });
+}
+
+/// As setsUnseen, on the way from the head of the program to the block.
+bool setsUnseenBefore(const FlowFacts &facts, const FileContext &context, BlockId block) {
+  const auto calls = context.model.callsOf(facts.program);
+  return std::ranges::any_of(calls,
+                             [&](const Call &call) {
+                               return call.kind != CallKind::ModalCancel &&
+                                      isBefore(call, block, facts.program, context) &&
                                       (!context.callGraph.callee(context.file, call) ||
                                        context.callGraph.reachesEncrypted(context.file, call));
                              }) ||
@@ -99,6 +128,47 @@ void checkParameters(const FlowFacts &facts, const FileContext &context, const R
   }
 }
 
+/// Of the conditions that end a loop: a common variable that nothing sets but its own steps in the loop.
+std::optional<Read> bareCounter(const LoopFlow &loop, const FlowFacts &facts, const FileContext &context) {
+  for (const LoopExit &exit : loop.exits)
+    for (const Read &read : readsIn(facts.file, exit.condition, facts.node(exit.test).block)) {
+      if (read.use != ReadUse::Ordering || !read.number || commonKind(context, *read.number) != VariableKind::Common ||
+          isPromised(facts, context, *read.number))
+        continue;
+      const auto writes = writesTo(facts, loop, *read.number);
+      const auto all = std::ranges::count_if(
+          context.model.variables, [&](const VariableUse &use) { return use.write && use.number == read.number; });
+      const bool onlySteps = writes && !writes->empty() && std::ranges::all_of(*writes, [&](const LoopWrite &write) {
+                               return stepOf(facts, write.assignment, *read.number).has_value();
+                             });
+      if (onlySteps && all == static_cast<std::ptrdiff_t>(writes->size()) &&
+          !facts.programs.isWrittenInCalled(*read.number))
+        return read;
+    }
+  return std::nullopt;
+}
+
+/// `WHILE[#100LE5]DO1`, `#100=#100+1`: where the first run has left the counter, the second does not enter the loop.
+void checkCounters(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isTooLarge(facts) || setsUnseen(facts, context))
+    return;
+  std::vector<std::uint32_t> done;
+  for (const LoopFlow &loop : loopsOf(facts)) {
+    const auto read = bareCounter(loop, facts, context);
+    if (!read || std::ranges::find(done, *read->number) != done.end())
+      continue;
+    done.push_back(*read->number);
+    const Span span = context.tree.expressions[read->expression].span;
+    const LoopWrite step = writesTo(facts, loop, *read->number)->front();
+    reporter.report({.message = fmt::format("{} counts this loop, but nothing sets it before", context.quoted(span)),
+                     .span = span,
+                     .labels = {{context.tree.blocks[facts.node(step.node).block].span(), "counted here"}},
+                     .notes = {"the next run of the program finds it where this one has left it, and does not repeat "
+                               "the loop",
+                               "set it before the loop"}});
+  }
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.grammar.oWords) {
     checkParameters(facts, context, reporter);
@@ -106,7 +176,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   }
   if (!isMainProgram(facts))
     return;
-  const bool unseen = setsUnseen(facts, context);
+  checkCounters(facts, context, reporter);
   std::vector<std::uint32_t> done;
   for (const Read &read : readsOf(facts)) {
     const auto kind = read.number ? commonKind(context, *read.number) : std::nullopt;
@@ -114,6 +184,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     done.push_back(*read.number);
     const bool isPassed = read.use == ReadUse::Argument;
+    const bool unseen = setsUnseenBefore(facts, context, read.block);
     if (isSet(facts, context, *read.number) || (unseen && !isPassed) ||
         isTestedForVacancy(facts.file, facts.program, *read.number) || !reachedNode(facts, read.block))
       continue;

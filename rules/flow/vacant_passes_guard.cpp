@@ -20,15 +20,20 @@ std::optional<ExpressionId> comparedWithZero(const SyntaxTree &tree, const Binar
   return std::nullopt;
 }
 
+enum class OtherComparison : std::uint8_t { Any, WithLiteral };
+
 /// Some comparison in the program refuses the vacant variable as well: with `#0`, or `LE 0`, `LT 1`.
-bool isRefusedElsewhere(const FlowFacts &facts, std::uint32_t variable) {
+bool isRefusedElsewhere(const FlowFacts &facts, std::uint32_t variable, OtherComparison which = OtherComparison::Any) {
   const SyntaxTree &tree = *facts.file.tree;
   const auto isOther = [&](ExpressionId id) {
     const auto *relation = as<BinaryOperation>(tree, id);
     if (!relation || !isRelation(relation->op) || comparedWithZero(tree, *relation))
       return false;
-    return variableNumber(tree, unwrapped(tree, relation->left)) == variable ||
-           variableNumber(tree, unwrapped(tree, relation->right)) == variable;
+    const auto left = variableNumber(tree, unwrapped(tree, relation->left));
+    const auto right = variableNumber(tree, unwrapped(tree, relation->right));
+    const auto other = left == variable ? right : left;
+    return (left == variable || right == variable) &&
+           (which == OtherComparison::Any || !other || other == kVacantVariable);
   };
   for (const VariableUse &use : facts.file.model->variablesOf(facts.program))
     if (use.number == variable && !use.write) {
@@ -47,6 +52,22 @@ bool givesDefault(const FlowFacts &facts, BlockId block, std::uint32_t variable)
          std::ranges::any_of(facts.file.model->variablesIn(block, block.next()), sets);
 }
 
+/// The same for a common variable that the operator may set: no other block of the run sets it.
+bool givesCommonDefault(const FlowFacts &facts, const FileContext &context, BlockId block, std::uint32_t variable) {
+  const VariableRange *range = findVariable(context.dialect, variable);
+  if (!range || (range->kind != VariableKind::Common && range->kind != VariableKind::Retentive) ||
+      isPromised(facts, context, variable) || isRefusedElsewhere(facts, variable, OtherComparison::WithLiteral))
+    return false;
+  std::ptrdiff_t writes = 0;
+  for (std::size_t i = 0; i < facts.programs.size(); ++i)
+    writes += std::ranges::count_if(facts.programs.file(FileId(i)).model->variables, [&](const VariableUse &use) {
+      return use.write && (!use.number || use.number == variable);
+    });
+  return writes == 1 &&
+         std::ranges::any_of(facts.file.model->variablesIn(block, block.next()),
+                             [&](const VariableUse &use) { return use.write && use.number == variable; });
+}
+
 /// A common variable that the operator sets, as far as the checked programs show.
 bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::uint32_t variable, BlockId block) {
   const VariableRange *range = findVariable(context.dialect, variable);
@@ -60,7 +81,7 @@ bool isSetByOperator(const FlowFacts &facts, const FileContext &context, std::ui
   });
 }
 
-enum class GuardKind : std::uint8_t { Alarm, Default, Operator, Division };
+enum class GuardKind : std::uint8_t { Alarm, Default, CommonDefault, Operator, Division };
 
 struct Guard {
   Span span;
@@ -77,9 +98,13 @@ std::optional<Guard> passingGuard(const FlowFacts &facts, const FileContext &con
   const auto variable = relation ? comparedWithZero(context.tree, *relation) : std::nullopt;
   const AbstractValue *value = variable ? facts.valueOf(*variable) : nullptr;
   const auto number = variable ? variableNumber(context.tree, *variable) : std::nullopt;
-  if (!value || !value->mayBeVacant() || !value->mayBeNumber() || isRefusedElsewhere(facts, *number))
+  if (!value || !value->mayBeVacant() || !value->mayBeNumber())
     return std::nullopt;
   const bool isNotEqual = relation->op == OperatorKind::NotEqual;
+  if (!isNotEqual && givesCommonDefault(facts, context, block, *number))
+    return Guard{context.tree.expressions[part].span, *number, GuardKind::CommonDefault};
+  if (isRefusedElsewhere(facts, *number))
+    return std::nullopt;
   if (isNotEqual && alarmWhenTrue(facts, test) != false)
     return std::nullopt;
   const Span span = context.tree.expressions[part].span;
@@ -140,6 +165,11 @@ std::vector<std::string> notesFor(const Guard &guard, const FileContext &context
             fmt::format("check {} as well", test)};
   if (guard.isNotEqual)
     return {"`NE` tells vacant from 0: the jump past the alarm is taken", fmt::format("check {} as well", test)};
+  if (guard.kind == GuardKind::CommonDefault)
+    return {
+        "a common variable that nobody has set is vacant, and `EQ` does not treat vacant as 0: it does not get this "
+        "value",
+        fmt::format("check {} as well", test)};
   if (guard.kind == GuardKind::Operator)
     return {"a common variable that nobody has set is vacant, and `EQ` does not treat vacant as 0: no alarm is raised",
             fmt::format("check {} as well", test)};

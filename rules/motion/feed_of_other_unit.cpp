@@ -1,5 +1,6 @@
-// feed-of-other-unit: `G01 X30. F0.2` and `G01 Z-40. F200` in one lathe program, and no code of the feed mode.
-#include "findings/rule/rule.h"
+// feed-of-other-unit: `G01 X30. F0.2` and `G01 Z-40. F200` in one lathe program, and no code of the feed mode; `G98`
+// and then `F0.2`.
+#include "rules/motion/tool_sections.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +14,9 @@ namespace {
 constexpr std::int64_t kMostPerRevolution = 1;
 constexpr std::int64_t kLeastPerMinute = 20;
 
-bool hasFeedMode(BlockId block, const FileContext &context) {
+const Word *feedModeIn(BlockId block, const FileContext &context) {
   return findAction(context.tree, block, context.dialect,
-                    {CodeAction::FeedPerMinute, CodeAction::FeedPerRevolution, CodeAction::FeedInverse}) != nullptr;
+                    {CodeAction::FeedPerMinute, CodeAction::FeedPerRevolution, CodeAction::FeedInverse});
 }
 
 bool isThreadOrCall(BlockId block, const FileContext &context) {
@@ -47,7 +48,7 @@ std::optional<Feeds> feedsOf(ProgramId program, const FileContext &context) {
   Feeds feeds;
   const Program &whole = context.model.programs[program];
   for (BlockId block = whole.first; block < whole.last; block = block.next()) {
-    if (hasFeedMode(block, context))
+    if (feedModeIn(block, context))
       return std::nullopt;
     if (isThreadOrCall(block, context))
       continue;
@@ -58,9 +59,7 @@ std::optional<Feeds> feedsOf(ProgramId program, const FileContext &context) {
   return feeds.perRevolution && feeds.perMinute ? std::optional(feeds) : std::nullopt;
 }
 
-void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.machine != MachineKind::Turning)
-    return;
+void checkMixed(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const auto feeds = feedsOf(program, context);
   if (!feeds)
     return;
@@ -74,13 +73,117 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
                  "write the code of the unit, such as `G99` for feed per revolution"}});
 }
 
+/// What the text of a program says of units, taken as a whole.
+struct Units {
+  bool isMetric = false; // G21 and no G20
+  bool hasMode = false;  // some code of the feed mode
+  bool isOfMill = false; // it moves in Y, and starts no lathe's constant surface speed
+};
+
+Units unitsOf(ProgramId program, const FileContext &context) {
+  Units units{.isOfMill = context.dialect.machine == MachineKind::Milling};
+  bool hasMetric = false;
+  bool hasInch = false;
+  bool movesInY = false;
+  const Program &whole = context.model.programs[program];
+  for (BlockId block = whole.first; block < whole.last; block = block.next()) {
+    const auto does = [&](CodeAction action) { return findAction(context.tree, block, context.dialect, {action}); };
+    hasMetric = hasMetric || does(CodeAction::Metric);
+    hasInch = hasInch || does(CodeAction::Inch);
+    units.hasMode = units.hasMode || feedModeIn(block, context);
+    movesInY = movesInY || findWord(context.tree, block, 'Y');
+    units.isOfMill = units.isOfMill && !does(CodeAction::ConstantSurface);
+  }
+  units.isMetric = hasMetric && !hasInch;
+  units.isOfMill = units.isOfMill && movesInY;
+  return units;
+}
+
+/// Goes through the text of a program with the feed mode that is in force.
+class Walk {
+public:
+  Walk(ProgramId program, const FileContext &context)
+      : context_(context), units_(unitsOf(program, context)), hidden_(program, context) {
+    // A mill counts by the minute until something else is said.
+    isPerMinute_ = units_.isOfMill && units_.isMetric && !units_.hasMode;
+  }
+
+  void read(BlockId block, const Reporter &reporter) {
+    const bool isHidden = hidden_.isIn(block);
+    if (isHidden && units_.hasMode)
+      lose();
+    if (const Word *mode = feedModeIn(block, context_)) {
+      const CodeAction action = codeOf(*mode, context_.dialect)->action;
+      mode_ = mode;
+      isPerMinute_ = action == CodeAction::FeedPerMinute;
+      isPerRevolution_ = action == CodeAction::FeedPerRevolution;
+    }
+    if (isHidden || isThread(block) || meansOwnWords(context_.tree, block, context_.dialect))
+      return;
+    for (const Word &word : context_.tree.wordsOf(block))
+      if (word.address() == 'F' && word.isNumber() && word.has(Word::kPoint))
+        judge(word, reporter);
+  }
+
+private:
+  void lose() {
+    mode_ = nullptr;
+    isPerMinute_ = isPerRevolution_ = false;
+  }
+  bool isThread(BlockId block) const {
+    return findAction(context_.tree, block, context_.dialect,
+                      {CodeAction::Thread, CodeAction::CycleTap, CodeAction::CycleTapLeft, CodeAction::TurningCycle,
+                       CodeAction::OtherCycle}) ||
+           (!units_.isOfMill && findCode(context_.tree, block, context_.dialect, CodeRole::CannedCycle));
+  }
+  /// So slow that it would take a minute for a millimetre, or for some hundredths of an inch.
+  bool isCreep(const Decimal &feed) const {
+    return !feed.isZero() && !feed.isNegative() && feed < (units_.isMetric ? Decimal(1, 0) : Decimal(5, 2));
+  }
+  void judge(const Word &word, const Reporter &reporter) {
+    if (told_)
+      return;
+    const Decimal &feed = word.number();
+    if (isPerMinute_ && isCreep(feed))
+      tell(word, "per minute", "the tool creeps: by its size this is a feed per revolution", reporter);
+    else if (isPerRevolution_ && feed >= Decimal(kLeastPerMinute, 0))
+      tell(word, "per revolution", "by its size this is a feed per minute: the tool runs into the part", reporter);
+  }
+  void tell(const Word &word, std::string_view unit, std::string note, const Reporter &reporter) {
+    told_ = true;
+    Diagnostic diagnostic{.message = fmt::format("{} is counted {}", context_.quoted(word.span()), unit),
+                          .span = word.span(),
+                          .notes = {std::move(note), "correct the number, or write the code of its unit"}};
+    if (mode_)
+      diagnostic.labels.push_back({mode_->span(), fmt::format("feeds are {} from here", unit)});
+    reporter.report(std::move(diagnostic));
+  }
+
+  const FileContext &context_;
+  Units units_;
+  HiddenWork hidden_;
+  const Word *mode_ = nullptr; // its code, where the program has one
+  bool isPerMinute_ = false;
+  bool isPerRevolution_ = false;
+  bool told_ = false;
+};
+
+void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.machine == MachineKind::Turning)
+    checkMixed(program, context, reporter);
+  Walk walk(program, context);
+  const Program &whole = context.model.programs[program];
+  for (BlockId block = whole.first; block < whole.last; block = block.next())
+    walk.read(block, reporter);
+}
+
 } // namespace
 
 extern const Rule feedOfOtherUnit;
 const Rule feedOfOtherUnit{
     .info = {"feed-of-other-unit", Category::Motion, Severity::Warning,
-             "Reports a lathe program with feeds per revolution and per minute, and no code that "
-             "changes the unit."},
+             "Reports a feed that by its size is counted in another unit than the one in force: per minute, or per "
+             "revolution."},
     .hooks = {.program = check}};
 
 } // namespace feedhold::rules::feed_of_other_unit

@@ -1,7 +1,10 @@
-// offset-value-as-number: `G43 H#11001`, the length of tool 1 in the place of its number.
+// offset-value-as-number: `G43 H#11001`, the length of tool 1 in the place of its number; `G41 D#501` with `#501=0.01`.
 #include "rules/flow/system_variables.h"
 
 #include <fmt/format.h>
+
+#include <cmath>
+#include <span>
 
 namespace feedhold::rules::offset_value_as_number {
 namespace {
@@ -24,11 +27,39 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
                  fmt::format("write the number of the offset, such as `{}1`", word.address())}});
 }
 
+/// `D#501`, where `#501` is a part of a millimetre and no number of an offset.
+void checkFraction(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    if (!facts.isReached(node) || !std::holds_alternative<ExecuteWords>(facts.node(node).instruction))
+      continue;
+    const BlockId block = facts.node(node).block;
+    const bool usesOffset = findAction(context.tree, block, context.dialect,
+                                       {CodeAction::CompensationLeft, CodeAction::CompensationRight,
+                                        CodeAction::LengthPlus, CodeAction::LengthMinus}) != nullptr;
+    for (const Word &word : usesOffset ? context.tree.wordsOf(block) : std::span<const Word>{}) {
+      if ((word.address() != 'D' && word.address() != 'H') || word.form() != WordForm::Expression)
+        continue;
+      const AbstractValue *value = facts.valueOf(word.expression());
+      const auto constant = value && value->isNumber() ? value->number().constantValue() : std::nullopt;
+      if (!constant || *constant == std::round(*constant))
+        continue;
+      reporter.report({.message = fmt::format("{} is the number of an offset, and its value is {:.6g}",
+                                              context.quoted(word.span()), *constant),
+                       .span = word.span(),
+                       .flow = pathFromEntry(facts, node),
+                       .notes = {"the control rounds it to the number of another offset, or refuses it",
+                                 "write the number here, and the value with G10 or by hand into the offset"}});
+    }
+  }
+}
+
 } // namespace
 
 extern const Rule offsetValueAsNumber;
-const Rule offsetValueAsNumber{.info = {"offset-value-as-number", Category::Motion, Severity::Warning,
-                                        "Reports an H or D that takes the value of a tool offset for its number."},
-                               .hooks = {.word = check, .wordAddresses = "HD"}};
+const Rule offsetValueAsNumber{
+    .info = {"offset-value-as-number", Category::Motion, Severity::Warning,
+             "Reports an H or D that takes the value of a tool offset, or a fraction, for its number."},
+
+    .hooks = {.word = check, .wordAddresses = "HD", .flow = checkFraction}};
 
 } // namespace feedhold::rules::offset_value_as_number

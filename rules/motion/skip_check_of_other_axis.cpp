@@ -1,7 +1,6 @@
 // skip-check-of-other-axis: `G31 Z-10. F100`, and then `IF[#5061EQ#5041]`: X has not moved.
-#include "rules/flow/definitions.h"
 #include "rules/flow/system_variables.h"
-#include "rules/motion/motion_view.h"
+#include "rules/motion/touch_view.h"
 
 #include <fmt/format.h>
 
@@ -10,18 +9,11 @@
 namespace feedhold::rules::skip_check_of_other_axis {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
-
-/// The axis of `#5061` or `#5041`: tables of positions follow the axes from their last digit on.
+/// The axis of `#5061` or `#5041`.
 std::optional<char> axisOf(const FileContext &context, ExpressionId id, bool ofSkip) {
   const auto number = variableNumber(context.tree, unwrapped(context.tree, id));
-  if (!number)
-    return std::nullopt;
-  const VariableRole role = roleOf(context, *number);
-  const std::uint32_t axis = (*number - 1) % 20;
-  return isPosition(role) && (role == VariableRole::SkipPosition) == ofSkip && axis < kAxes.size()
-             ? std::optional(kAxes[axis])
-             : std::nullopt;
+  return number && (roleOf(context, *number) == VariableRole::SkipPosition) == ofSkip ? axisOfPosition(context, *number)
+                                                                                      : std::nullopt;
 }
 
 /// The axis of a comparison of the skip position with where the axis is, or was to go.
@@ -33,20 +25,6 @@ std::optional<char> comparedIn(const FileContext &context, ExpressionId conditio
        {std::pair{relation->left, relation->right}, std::pair{relation->right, relation->left}})
     if (const auto axis = axisOf(context, skip, true); axis && axisOf(context, other, false) == axis)
       return axis;
-  return std::nullopt;
-}
-
-/// The skip move from which every run comes to the place, with no other movement between.
-std::optional<NodeId> skipBefore(const FlowFacts &facts, const MotionView &view, NodeId node) {
-  constexpr int kFarthest = 12;
-  std::optional<NodeId> at = onlyPredecessor(facts, node);
-  for (int i = 0; at && i < kFarthest; ++i) {
-    if (view.mayDo(*at, {CodeAction::Skip}) && view.findAction(*at, {CodeAction::Skip}))
-      return at;
-    if (!view.axisWords(*at).empty())
-      return std::nullopt;
-    at = onlyPredecessor(facts, *at);
-  }
   return std::nullopt;
 }
 

@@ -131,9 +131,8 @@ EarlyStart startBefore(BlockId change, ProgramId program, const FileContext &con
 /// `M03 S300`, `M06 T04`, and cuts without another M03 in the whole program.
 void checkEarly(std::span<const Section> sections, BlockId change, ProgramId program, const FileContext &context,
                 const Reporter &reporter) {
-  const bool isStarted =
-      std::ranges::any_of(sections, [](const Section &section) { return section.start || section.mayStartUnseen; });
-  if (sections.empty() || isStarted || !sections.front().cut)
+  const bool isStarted = std::ranges::any_of(sections, [](const Section &section) { return section.start != nullptr; });
+  if (sections.empty() || isStarted || sections.front().mayStartUnseen || !sections.front().cut)
     return;
   const EarlyStart early = startBefore(change, program, context);
   if (early.start)
@@ -145,6 +144,24 @@ void checkEarly(std::span<const Section> sections, BlockId change, ProgramId pro
                     {sections.front().change->span(), "the spindle stops for the tool change"}},
          .notes = {"the tool is fed into the part with the spindle stopped",
                    fmt::format("write {} and S behind the tool change", context.quoted(early.start->span()))}});
+}
+
+/// A macro that changes the tool and then cuts: whatever its caller has started stands since the change.
+void checkMacro(const Section &section, ProgramId program, const FileContext &context, const Reporter &reporter) {
+  const Program &its = context.model.programs[program];
+  if (!its.returns || !its.name.number || context.dialect.grammar.oWords || section.mayStartUnseen || section.start ||
+      !section.cut)
+    return;
+  const bool readsArguments = std::ranges::any_of(context.model.variablesOf(program), [](const VariableUse &use) {
+    return use.number && *use.number > 0 && *use.number <= kLocalVariables;
+  });
+  if (readsArguments)
+    reporter.report({.message = fmt::format("no `M03` or `M04` comes between {} and this cut",
+                                            context.quoted(section.change->span())),
+                     .span = section.cut->span(),
+                     .labels = {{section.change->span(), "the spindle stops for the tool change"}},
+                     .notes = {"the tool is fed into the part with the spindle stopped",
+                               "start the spindle with S and M03 before this cut"}});
 }
 
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
@@ -160,6 +177,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   if (like == sections.end()) {
     if (!tools.empty())
       checkEarly(sections, tools.front().first, program, context, reporter);
+    if (sections.size() == 1)
+      checkMacro(sections.front(), program, context, reporter);
     return;
   }
   const auto others = std::ranges::count_if(sections, starts);
@@ -180,8 +199,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 extern const Rule spindleNotRestarted;
 const Rule spindleNotRestarted{
     .info = {"spindle-not-restarted", Category::Motion, Severity::Warning,
-             "Reports a tool that cuts without an `M03` or an `S` behind its tool change, when other tools of the "
-             "program have them."},
+             "Reports a tool that cuts without an `M03` or an `S` behind its tool change, in a macro, or when other "
+             "tools of the program have them."},
     .hooks = {.program = check}};
 
 } // namespace feedhold::rules::spindle_not_restarted

@@ -33,7 +33,9 @@ std::vector<ProgramRef> othersOf(const ProgramRef &program, const FileContext &c
   if (context.model.programs[program.program].name.isSubroutine && !isLocal)
     return {};
   std::erase_if(others, [&](const ProgramRef &other) {
-    return other.file == program.file ? program.program < other.program : isLocal;
+    // What stands before the only `O9010` of O9010.nc has its number from the file alone.
+    const bool isHead = context.callGraph.model(other.file).programs[other.program].name.empty();
+    return other.file == program.file ? isHead || program.program < other.program : isLocal;
   });
   return others;
 }

@@ -51,9 +51,17 @@ bool isWholeProgram(const FileContext &context, const Program &program) {
   return moves && context.dialect.grammar.sequenceJumps;
 }
 
+/// `G65 P9010 ..`, and behind it `O9010`: what calls it is a program, and runs on into it.
+bool callsNext(const FileContext &context, ProgramId id) {
+  return std::ranges::any_of(context.model.callsOf(id), [&](const Call &call) {
+    return call.callee.number && id.next().index() < context.model.programs.size() &&
+           context.model.programs[id.next()].name.number == call.callee.number;
+  });
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
-  if (!isNamed(program) && !isWholeProgram(context, program))
+  if (!isNamed(program) && !isWholeProgram(context, program) && !callsNext(context, id))
     return;
   const auto last = openEnd(context, id);
   if (!last || program.isEncrypted ||

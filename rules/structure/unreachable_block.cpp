@@ -195,12 +195,72 @@ void reportAlarmAtEnd(const DeadBlocks::Run &run, BlockId start, const FileConte
                   Severity::Warning);
 }
 
+/// `#3000=1(X)`, and directly behind it `#3000=2(Y)`: the second one was to be told as well.
+std::optional<BlockId> secondAlarm(const DeadBlocks::Run &run, const FileContext &context) {
+  if (!isAlarm(run.ender, context))
+    return std::nullopt;
+  for (BlockId block = run.ender.next(); block <= run.last; block = block.next()) {
+    if (!isRead(context.tree.blocks[block]) || !hasContent(context, block))
+      continue;
+    const bool isBehind = !findWord(context.tree, block, 'N') && isAlarm(block, context);
+    return isBehind ? std::optional(block) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void reportSecondAlarm(BlockId alarm, BlockId first, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "this alarm is never raised: the one before it has stopped the program",
+                   .span = context.tree.blocks[alarm].span(),
+                   .labels = {{context.tree.blocks[first].span(), "the program never continues past this block"}},
+                   .notes = {"raise one alarm for each case, each behind a condition of its own"}},
+                  Severity::Warning);
+}
+
+bool movesAxes(BlockId block, const FileContext &context) {
+  return findWord(context.tree, block, 'X') || findWord(context.tree, block, 'Y') || findWord(context.tree, block, 'Z');
+}
+
+/// `M02` before anything has moved or was called, and the work of the program behind it.
+bool endsBeforeWork(const DeadBlocks::Run &run, ProgramId program, const FileContext &context) {
+  constexpr int kWork = 3; // blocks with movements
+  if (!findCode(context.tree, run.ender, context.dialect, CodeRole::ProgramEnd) ||
+      context.tree.blocks[run.ender].has(Block::kSkip))
+    return false;
+  for (BlockId block = context.model.programs[program].first; block <= run.ender; block = block.next())
+    if (movesAxes(block, context) || !context.tree.statementsOf(block).empty() ||
+        !context.model.callsIn(block, block.next()).empty() || findWord(context.tree, block, 'T'))
+      return false;
+  int work = 0;
+  for (BlockId block = run.first; block <= run.last; block = block.next()) {
+    if (findWord(context.tree, block, 'N') || findCode(context.tree, block, context.dialect, CodeRole::Return))
+      return false; // a subprogram that is kept behind the end
+    work += movesAxes(block, context) ? 1 : 0;
+  }
+  return work >= kWork;
+}
+
+void reportEarlyEnd(const DeadBlocks::Run &run, BlockId start, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "the program ends here, before it has done anything",
+                   .span = context.tree.blocks[run.ender].span(),
+                   .labels = {{context.tree.blocks[start].span(), "never executed from here on"}},
+                   .notes = {"write the code that is meant here, or move the end to the end"}},
+                  Severity::Warning);
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
+    if (const auto alarm = secondAlarm(run, context); alarm && context.model.programOf(*alarm) == program) {
+      reportSecondAlarm(*alarm, run.ender, context, reporter);
+      continue;
+    }
     const auto start = firstUnintended(run, context);
     if (!start || context.model.programOf(*start) != program || isNamedToUnseen(run, program, context))
       continue;
+    if (endsBeforeWork(run, program, context)) {
+      reportEarlyEnd(run, *start, context, reporter);
+      continue;
+    }
     if (alwaysEndsInAlarm(run, program, context)) {
       reportAlarmAtEnd(run, *start, context, reporter);
       continue;

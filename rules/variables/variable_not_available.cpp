@@ -42,6 +42,19 @@ Uses usesOf(const FileContext &context) {
   return uses;
 }
 
+/// Once, where it is used first.
+void reportOne(std::uint32_t number, Span place, const FileContext &context, const Reporter &reporter) {
+  const auto more = std::ranges::count(context.model.variables, std::optional(number), &VariableUse::number) - 1;
+  Diagnostic diagnostic{
+      .message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(place)),
+      .span = place,
+      .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::VariableNotAvailable)),
+                neighbours(context.dialect, number)}};
+  if (more > 0)
+    diagnostic.notes.push_back(fmt::format("it is used {} more time{}", more, more == 1 ? "" : "s"));
+  reporter.report(std::move(diagnostic));
+}
+
 /// One slip names one variable; a program for another control, or for the options of a machine, names many.
 void reportAll(const Uses &uses, const FileContext &context, const Reporter &reporter) {
   const auto first = std::ranges::min_element(uses, {}, [](const auto &use) { return use.second.begin; });
@@ -97,16 +110,8 @@ void check(const FileContext &context, const Reporter &reporter) {
     return reportOtherControl(uses, codes, context, reporter);
   if (uses.size() >= kForeignVariables)
     return reportAll(uses, context, reporter);
-  for (const VariableUse &use : context.model.variables) {
-    if (!use.number || findVariable(context.dialect, *use.number))
-      continue;
-    const Span span = context.tree.expressions[use.expression].span;
-    reporter.report(
-        {.message = fmt::format("{} does not have {}", context.dialect.id, context.quoted(span)),
-         .span = span,
-         .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::VariableNotAvailable)),
-                   neighbours(context.dialect, *use.number)}});
-  }
+  for (const auto &[number, place] : uses)
+    reportOne(number, place, context, reporter);
 }
 
 } // namespace

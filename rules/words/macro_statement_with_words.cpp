@@ -1,6 +1,7 @@
 // macro-statement-with-words: `G00 X1. #1=2`.
 #include "findings/rule/rule.h"
 
+#include "rules/comments/remarks_of_block.h"
 #include "rules/expressions/expression_view.h"
 #include "rules/structure/structure_view.h"
 
@@ -53,8 +54,14 @@ void checkStatement(const Statement &statement, BlockId block, const FileContext
   }
 }
 
+/// `#3006=1 (SIZE: ) #120`: another rule says what is wrong.
+bool isValueOfMessage(const SyntaxIssue &issue, const FileContext &context) {
+  return standsBehindRemark(context, issue.span) && context.text(issue.span).starts_with('#') &&
+         context.text(issue.span).find('=') == std::string_view::npos;
+}
+
 void checkIssue(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.grammar.macroWithWords)
+  if (context.dialect.grammar.macroWithWords || isValueOfMessage(issue, context))
     return;
   const std::string second = context.quoted(issue.span);
   reporter.report({.message = fmt::format("{} is a second macro statement in one block", second),

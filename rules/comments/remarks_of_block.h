@@ -1,0 +1,35 @@
+// What the remarks of a block say, for rules that compare them with its words.
+#pragma once
+
+#include "base/support/text.h"
+#include "findings/rule/rule.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace feedhold::rules {
+
+/// All remarks of the block, in capitals.
+inline std::string remarksOf(const FileContext &context, BlockId block) {
+  std::string text;
+  for (const Comment &comment : context.tree.commentsOf(block))
+    text += toUpper(context.text(comment.span)) + " ";
+  return text;
+}
+
+inline bool saysAny(std::string_view remark, std::initializer_list<std::string_view> words) {
+  return std::ranges::any_of(words, [&](std::string_view word) { return remark.find(word) != std::string_view::npos; });
+}
+
+/// `M00 (MEASURED: ) #150`: only blanks are between a remark and the place.
+inline bool standsBehindRemark(const FileContext &context, Span place) {
+  const BlockId block = context.tree.blockAt(place.begin);
+  return std::ranges::any_of(context.tree.commentsOf(block), [&](const Comment &comment) {
+    return comment.closed && comment.span.end <= place.begin &&
+           trimmed(context.text({comment.span.end, place.begin})).empty();
+  });
+}
+
+} // namespace feedhold::rules

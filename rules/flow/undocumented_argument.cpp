@@ -1,0 +1,79 @@
+// undocumented-argument: `(A=WIDTH, X=CENTER, Y=CENTER)` at the head of a macro that moves to X#4.
+#include "rules/comments/argument_list.h"
+#include "rules/flow/definitions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace feedhold::rules::undocumented_argument {
+namespace {
+
+constexpr std::size_t kLeast = 3; // named arguments, to be a list of them
+
+/// Some call of the run passes the argument.
+bool isPassed(const FlowFacts &facts, std::uint32_t variable) {
+  const auto callers = facts.programs.callGraph().callers({facts.file.file, facts.program});
+  return std::ranges::any_of(callers, [&](const CallGraph::Caller &caller) {
+    const Call &call = facts.programs.file(caller.file).model->calls[caller.call];
+    return std::ranges::find(call.arguments, variable, &Argument::variable) != call.arguments.end();
+  });
+}
+
+/// In a block that could not be read: it may have been meant to set the variable.
+bool isInBrokenBlock(const FileContext &context, ProgramId program, std::uint32_t variable) {
+  return std::ranges::any_of(context.model.variablesOf(program), [&](const VariableUse &use) {
+    return use.number == variable && use.write && context.tree.blocks[use.block].has(Block::kBroken);
+  });
+}
+
+/// Reads of arguments that the list does not name, as a call has passed them; the first of each variable.
+std::vector<Read> otherReads(const FlowFacts &facts, const FileContext &context, const ArgumentList &list) {
+  std::vector<Read> found;
+  for (const Read &read : readsOf(facts)) {
+    const bool isOther = read.number && read.use != ReadUse::Other && letterOfArgument(context.dialect, *read.number) &&
+                         !list.variables.contains(*read.number) &&
+                         std::ranges::find(found, read.number, &Read::number) == found.end();
+    if (!isOther || isTested(facts.file, facts.program, *read.number) || isPassed(facts, *read.number) ||
+        isInBrokenBlock(context, facts.program, *read.number))
+      continue;
+    const auto node = nodeOf(facts, read.block, read.expression);
+    const auto known = node ? definitionsOf(facts, *read.number, *node) : std::nullopt;
+    if (known && known->fromEntry && known->nodes.empty())
+      found.push_back(read);
+  }
+  return found;
+}
+
+void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
+  if (isTooLarge(facts) || !context.model.programs[facts.program].returns || isCalledAsSubprogram(facts) ||
+      !context.dialect.behaviour.variablesMayBeVacant)
+    return;
+  const auto list = argumentListOf(context, facts.program);
+  if (!list || list->variables.size() < kLeast)
+    return;
+  const std::vector<Read> others = otherReads(facts, context, *list);
+  if (others.empty())
+    return;
+  const Read &read = others.front();
+  Diagnostic diagnostic{.message = fmt::format("{} is read here, but the list of arguments does not name it",
+                                               describeVariable(context.dialect, *read.number)),
+                        .span = context.tree.expressions[read.expression].span,
+                        .labels = {{list->comment, "the list"}},
+                        .notes = {"who calls the macro by its remarks does not pass it: it is vacant here",
+                                  "read the variable of an argument that is passed, or add this one to the list"}};
+  for (std::size_t i = 1; i < others.size(); ++i)
+    diagnostic.labels.push_back({context.tree.expressions[others[i].expression].span, "nor this one"});
+  reporter.report(std::move(diagnostic));
+}
+
+} // namespace
+
+extern const Rule undocumentedArgument;
+const Rule undocumentedArgument{
+    .info = {"undocumented-argument", Category::Flow, Severity::Warning,
+             "Reports a macro that reads an argument which the list in its head does not name."},
+    .hooks = {.flow = check}};
+
+} // namespace feedhold::rules::undocumented_argument

@@ -1,0 +1,70 @@
+// compensation-at-tool-change: `M06` while G41 is in force.
+#include "rules/motion/motion_view.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace feedhold::rules::compensation_at_tool_change {
+namespace {
+
+class CompensationAtToolChange final : public FlowRule {
+public:
+  CompensationAtToolChange(ProgramId program, const FileContext &context)
+      : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling) {}
+
+  void after(NodeId node, const AbstractState &state) override {
+    if (!isAsked_ || !view_.mayHave(node, 'M') || !view_.findAction(node, {CodeAction::ToolChange}))
+      return;
+    const bool isOn = !isHavocked(state) && view_.surely(state, ModalKind::Compensation,
+                                                         {CodeAction::CompensationLeft, CodeAction::CompensationRight});
+    const auto [at, isNew] = seen_.emplace(node, isOn);
+    if (!isNew)
+      at->second = at->second && isOn;
+  }
+  void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
+    for (const auto &[node, isOn] : seen_) {
+      if (!isOn)
+        continue;
+      const Word *change = view_.findAction(node, {CodeAction::ToolChange});
+      Diagnostic diagnostic{.message = fmt::format("{} changes the tool while cutter compensation is active",
+                                                   context.quoted(change->span())),
+                            .span = change->span(),
+                            .flow = pathFromEntry(facts, node),
+                            .notes = {"the control stops, or moves the next tool by the radius of this one",
+                                      "cancel it with G40 in a move away from the part"}};
+      if (const Word *start = startBefore(node))
+        diagnostic.labels = {{start->span(), "started here"}};
+      reporter.report(std::move(diagnostic));
+      return;
+    }
+  }
+
+private:
+  /// The last one in the text before the change.
+  const Word *startBefore(NodeId change) const {
+    for (NodeId node = change; node.index() > 0;) {
+      node = NodeId(node.index() - 1);
+      if (const Word *start = view_.findAction(node, {CodeAction::CompensationLeft, CodeAction::CompensationRight}))
+        return start;
+    }
+    return nullptr;
+  }
+
+  MotionView view_;
+  bool isAsked_;
+  std::map<NodeId, bool> seen_; // on all paths
+};
+
+std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
+  return std::make_unique<CompensationAtToolChange>(program, context);
+}
+
+} // namespace
+
+extern const Rule compensationAtToolChange;
+const Rule compensationAtToolChange{.info = {"compensation-at-tool-change", Category::Motion, Severity::Warning,
+                                             "Reports a tool change while cutter compensation is active."},
+                                    .hooks = {.watch = watch}};
+
+} // namespace feedhold::rules::compensation_at_tool_change
