@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kFormat = "feedhold proof 5";
+constexpr std::string_view kFormat = "feedhold proof 6";
 /// Of the 256 folders: together 16384 proofs of some kilobytes each.
 constexpr std::size_t kMostInFolder = 64;
 

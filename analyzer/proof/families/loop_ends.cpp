@@ -14,6 +14,20 @@ namespace feedhold::prove {
 
 namespace {
 
+/// Each input reads the same for ever, if it matters at all.
+template <typename Suffices> GivenVariables withFewReadings(GivenVariables given, const Suffices &suffices) {
+  const InputReadings readings = given.readings;
+  for (const auto &[variable, script] : readings.entries()) {
+    GivenVariables fewer = given;
+    fewer.readings.erase(variable);
+    if (suffices(fewer))
+      given = std::move(fewer);
+    else
+      given.readings.set(variable, {script.front()});
+  }
+  return given;
+}
+
 /// The inputs without those that do not matter; halves are tried first.
 template <typename Suffices> GivenVariables fewest(GivenVariables given, const Suffices &suffices) {
   for (std::size_t size = given.entries().size(); size > 0; size /= 2)
@@ -49,16 +63,28 @@ std::optional<std::map<std::uint32_t, double>> steadyReadings(const GivenVariabl
   return steady;
 }
 
+/// A word is made of signals, which no two readings may contradict for ever: only all of them 0 are taken together.
+bool canStay(const ProofSubject &subject, const std::map<std::uint32_t, double> &signals) {
+  const auto isWord = [&](const auto &signal) {
+    const VariableRange *range = findVariable(*subject.file().dialect, signal.first);
+    return range && range->role == VariableRole::SignalWord;
+  };
+  const auto words = std::ranges::count_if(signals, isWord);
+  return words == 0 || words == std::ssize(signals) ||
+         std::ranges::all_of(signals, [](const auto &signal) { return signal.second == 0; });
+}
+
 /// With these inputs the loop never ends, while signals stay as they are.
 std::optional<Recurrence> goesOn(const ProofContext &context, const LoopInstance &loop, const GivenVariables &given) {
   const auto signals = steadyReadings(given);
   if (!signals)
     return std::nullopt;
-  return recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
-                        context.witnesses.modelOf(given), *signals);
+  auto found = recurrenceFrom(context.start.interpretation(), context.start.store(), context.found, loop,
+                              context.witnesses.modelOf(given), *signals);
+  return found && canStay(context.subject, found->signals) ? found : std::nullopt;
 }
 
-/// Because iterations read these for ever.
+/// `while #1000 reads 1, each iteration leads to another one: the loop ends only if it changes`
 std::string neverEnds(const std::map<std::uint32_t, double> &signals) {
   if (signals.empty())
     return "each iteration leads to another one: the loop never ends";
@@ -100,7 +126,7 @@ std::optional<Witness> endless(const ProofContext &context, const LoopInstance &
   for (std::size_t i = 0; i < runs.size() && i < kMostTried; ++i) {
     const WitnessSearch::Sample &run = i % 2 == 0 ? runs[i / 2] : runs[runs.size() - 1 - i / 2];
     if (isEndless(run.given)) {
-      GivenVariables given = fewest(run.given, isEndless);
+      GivenVariables given = fewest(withFewReadings(run.given, isEndless), isEndless);
       return Witness{std::move(given), run.result.end, neverEnds(signals)};
     }
   }

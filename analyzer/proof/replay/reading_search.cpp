@@ -1,4 +1,4 @@
-// The part of WitnessSearch that chooses what the signals of the control give, read by read.
+// The part of WitnessSearch that chooses what the signals of the control give, answer by answer.
 //
 // Where a run asks for a signal, both answers are tried, each in a run of its own that goes on with 0 (P. Godefroid, N.
 // Klarlund, K. Sen, "DART", PLDI 2005, with answers in place of branches).  Scripts with few 1s come first, so that the
@@ -21,10 +21,10 @@ constexpr int kMostRuns = 400;
 constexpr int kIdleRuns = 150; // that end as others before the search stops
 constexpr std::size_t kMostAnswers = 12;
 
-struct Start {
-  std::size_t sample;
+struct Script {
+  std::size_t sample; // whose other inputs the run has
   std::vector<double> answers;
-  double others = 0; // behind these
+  double afterwards = 0;
 };
 
 } // namespace
@@ -33,15 +33,16 @@ std::set<std::uint32_t> WitnessSearch::signalsRead() const {
   std::set<std::uint32_t> signals;
   for (const std::uint32_t variable : inputsRead())
     if (const VariableRange *range = findVariable(*programs_.file(entry_.file).dialect, variable);
-        range && (range->role == VariableRole::Signal || range->role == VariableRole::SignalWord))
+        range && range->role == VariableRole::Signal)
       signals.insert(variable);
   return signals;
 }
 
-/// The run that gets these answers from the signals, and then always the same; its inputs name all that it read.
+/// The run that gets these answers from the signals, and then always the same; its inputs name what it read, as far as
+/// a witness has room for it.
 WitnessSearch::AnsweredRun WitnessSearch::runWithAnswers(const GivenVariables &given,
                                                          const std::set<std::uint32_t> &signals,
-                                                         std::span<const double> answers, double others) const {
+                                                         std::span<const double> answers, double afterwards) const {
   AnsweredRun run{{given, {}}, 0};
   std::map<std::uint32_t, std::vector<double>> scripts;
   RunOptions options = runOptions(given);
@@ -49,9 +50,9 @@ WitnessSearch::AnsweredRun WitnessSearch::runWithAnswers(const GivenVariables &g
   options.inputs = [&](Place, std::uint32_t variable) {
     if (!signals.contains(variable))
       return 0.0;
-    const double answer = run.reads < answers.size() ? answers[run.reads] : others;
-    if (run.reads < kLongestScript)
-      scripts[variable].push_back(answer);
+    const double answer = run.reads < answers.size() ? answers[run.reads] : afterwards;
+    if (std::vector<double> &script = scripts[variable]; script.size() < kLongestScript)
+      script.push_back(answer);
     ++run.reads;
     return answer;
   };
@@ -65,30 +66,30 @@ void WitnessSearch::sampleSignals() {
   const std::set<std::uint32_t> signals = signalsRead();
   if (signals.empty())
     return;
-  const auto endOf = [](const RunResult &run) { return std::tuple(run.place, run.end, run.alarm); };
-  std::set<decltype(endOf({}))> ends;
+  std::set<EndOfRun> ends;
   for (const Sample &sample : samples_)
     ends.insert(endOf(sample.result));
-  std::deque<Start> open;
+  std::deque<Script> open;
   for (std::size_t i = 0; i < samples_.size() && open.size() < kMostStarts; ++i)
     if (samples_[i].given.readings.entries().empty())
-      open.insert(open.end(), {Start{i, {}, 0}, Start{i, {}, 1}});
+      open.insert(open.end(), {Script{i, {}, 0}, Script{i, {}, 1}});
   int idle = 0;
   for (int runs = 0; runs < kMostRuns && idle < kIdleRuns && !open.empty() && !smt::areStepsUsedUp(); ++runs, ++idle) {
     throwIfCancelled();
-    const Start next = std::move(open.front());
+    const Script next = std::move(open.front());
     open.pop_front();
-    AnsweredRun found = runWithAnswers(samples_[next.sample].given, signals, next.answers, next.others);
+    AnsweredRun found = runWithAnswers(samples_[next.sample].given, signals, next.answers, next.afterwards);
     smt::spend(kStepsOfInstruction * found.sample.result.steps);
-    const std::size_t later = next.others == 0 ? std::min(found.reads, kMostAnswers) : 0;
-    for (std::size_t read = next.answers.size(); read < later; ++read) {
-      Start other = next;
+    const std::size_t end = next.afterwards == 0 ? std::min(found.reads, kMostAnswers) : 0;
+    for (std::size_t read = next.answers.size(); read < end; ++read) {
+      Script other = next;
       other.answers.resize(read, 0);
       other.answers.push_back(1);
       open.push_back(std::move(other));
     }
-    if (ends.insert(endOf(found.sample.result)).second && allowed(found.sample.given)) {
-      samples_.push_back(std::move(found.sample));
+    if (!ends.contains(endOf(found.sample.result)) && allowed(found.sample.given)) {
+      keepRun(std::move(found.sample.given)); // as a witness would be run
+      ends.insert(endOf(samples_.back().result));
       idle = 0;
     }
   }

@@ -147,8 +147,7 @@ void WitnessSearch::sampleVariants() {
   const std::vector<std::uint32_t> names = variables();
   if (names.empty() || samples_.empty())
     return;
-  const auto endOf = [](const RunResult &run) { return std::tuple(run.place, run.end, run.alarm); };
-  std::map<decltype(endOf({})), std::size_t> parents; // of each end, the longest run
+  std::map<EndOfRun, std::size_t> parents; // of each end, the longest run
   const auto isFarther = [&](std::size_t sample) {
     const RunResult &run = samples_[sample].result;
     const auto [known, isNew] = parents.try_emplace(endOf(run), sample);
@@ -248,6 +247,10 @@ void WitnessSearch::keepSample(GivenVariables given) {
   if (smt::areStepsUsedUp() || !allowed(given))
     return;
   throwIfCancelled();
+  keepRun(std::move(given));
+}
+
+void WitnessSearch::keepRun(GivenVariables given) {
   RunOptions options = runOptions(given);
   options.fuel = kSampleFuel;
   RunResult result = run(programs_, entry_, options);

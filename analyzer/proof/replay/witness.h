@@ -125,7 +125,7 @@ private:
     std::size_t reads; // of signals
   };
   AnsweredRun runWithAnswers(const GivenVariables &given, const std::set<std::uint32_t> &signals,
-                             std::span<const double> answers, double others) const;
+                             std::span<const double> answers, double afterwards) const;
   InputReadings readingsOf(const smt::Model &model, const GivenVariables &given) const;
   /// A run that passes over what may change anything shows nothing: it is one of many.
   static std::optional<std::string> broken(const Sample &run, const Violation &violation);
@@ -133,6 +133,9 @@ private:
   bool isAllowed(const GivenVariables &given) const;
   void addReadings(GivenVariables &given, std::mt19937 &random, std::size_t most) const;
   void keepSample(GivenVariables given);
+  void keepRun(GivenVariables given);
+  using EndOfRun = std::tuple<Place, RunEnd, decltype(RunResult::alarm)>;
+  static EndOfRun endOf(const RunResult &run) { return {run.place, run.end, run.alarm}; }
   /// Absent: there is none, or none that is a number.
   std::optional<double> endIn(const GivenVariables &given, const std::optional<smt::TermId> &end) const;
   bool isExact(const GivenVariables &given, const RunResult &run) const;

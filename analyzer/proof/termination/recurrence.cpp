@@ -31,20 +31,22 @@ bool isPrefix(const std::vector<TermId> &prefix, const std::vector<TermId> &whol
 }
 
 /// The interface input, which the world may hold as it is, of which the variable is a read.
-std::optional<std::uint32_t> signalRead(const smt::Term &variable) {
+std::optional<std::uint32_t> signalRead(const Dialect &dialect, const smt::Term &variable) {
   constexpr std::string_view kRead = "read of #";
   if (variable.kind != TermKind::Variable || !variable.name.starts_with(kRead))
     return std::nullopt;
-  const int number = std::atoi(variable.name.c_str() + kRead.size());
-  return number >= 1000 && number <= 1035 ? std::optional(static_cast<std::uint32_t>(number)) : std::nullopt;
+  const auto number = static_cast<std::uint32_t>(std::atoi(variable.name.c_str() + kRead.size()));
+  const VariableRange *range = findVariable(dialect, number);
+  const bool isSignal = range && (range->role == VariableRole::Signal || range->role == VariableRole::SignalWord);
+  return isSignal ? std::optional(number) : std::nullopt;
 }
 
 class RecurrenceSearch {
 public:
   RecurrenceSearch(const SymbolicInterpretation &interpretation, smt::TermStore &store, const Exploration &exploration,
                    const LoopInstance &loop, const Model &inputs, const std::map<std::uint32_t, double> &signals)
-      : store_(store), exploration_(exploration), loop_(loop), facts_(interpretation.facts()), index_(store),
-        inputs_(inputs), signals_(signals) {
+      : store_(store), dialect_(interpretation.dialect()), exploration_(exploration), loop_(loop),
+        facts_(interpretation.facts()), index_(store), inputs_(inputs), signals_(signals) {
     index_.add(facts_);
     for (const auto &[variable, value] : interpretation.entryValues())
       for (const TermId part : {value.number, value.vacant})
@@ -112,7 +114,7 @@ private:
   /// The reads of signals in the term, which iterations make or the way to the loop.
   void fixSignals(TermId term, bool isOfIteration) {
     for (const TermId variable : smt::variablesOf(store_, term))
-      if (const auto signal = signalRead(store_[variable])) {
+      if (const auto signal = signalRead(dialect_, store_[variable])) {
         const auto held = signals_.find(*signal);
         const double reading = held == signals_.end() ? 0 : held->second;
         if (isOfIteration)
@@ -378,6 +380,7 @@ private:
   }
 
   smt::TermStore &store_;
+  const Dialect &dialect_;
   const Exploration &exploration_;
   const LoopInstance &loop_;
   const std::vector<TermId> &facts_;
