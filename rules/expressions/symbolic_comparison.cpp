@@ -33,7 +33,26 @@ std::vector<FixIt> fixesFor(std::string_view written, Span span) {
   return {};
 }
 
+/// `THEN[#33=1]`: the brackets make a condition of the assignment.
+bool isBehindThen(const SyntaxIssue &issue, const FileContext &context) {
+  const Block &block = context.tree.blocks[context.tree.blockAt(issue.span.begin)];
+  std::string before;
+  for (const char c : context.text({block.begin, issue.span.begin}))
+    if (!isBlank(c))
+      before.push_back(toUpper(c));
+  const std::size_t then = before.rfind("THEN[");
+  return then != std::string::npos && context.text(issue.span) == "=" &&
+         before.find_first_not_of("#0123456789", then + 5) == std::string::npos;
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
+  if (isBehindThen(issue, context))
+    return reporter.report(
+        {.message = "an assignment behind `THEN` has no brackets around it",
+         .span = issue.span,
+         .notes = {"the brackets make an expression of it, in which `=` has no meaning",
+                   fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat)),
+                   "leave the brackets out, as in `THEN#100=1`"}});
   reporter.report({.message = fmt::format("{} is not a comparison operator", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::ExpressionFormat)),

@@ -42,8 +42,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     if (hidden.isIn(block) || findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd) ||
         findCode(context.tree, block, context.dialect, CodeRole::Return))
       cancel = nullptr;
-    if (const Word *tool = findWord(context.tree, block, 'T'))
+    if (const Word *tool = findWord(context.tree, block, 'T')) {
       cancel = cancelsOffset(*tool) && !hidden.isIn(block) ? tool : nullptr;
+      continue; // moves of its own block lead away, or to where the next tool begins
+    }
     const Word *cut = cancel ? cutIn(block, context) : nullptr;
     if (!cut)
       continue;

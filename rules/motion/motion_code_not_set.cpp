@@ -14,7 +14,7 @@ public:
     const auto codes = view_.inForce(state, ModalKind::Motion);
     if (!codes || !codes->mayBeAtEntry() || isHavocked(state) || view_.modalMotionWords(node).empty())
       return;
-    if (!view_.sets(node, ModalKind::Cycle))
+    if (!view_.sets(node, ModalKind::Cycle) && !isInCycle(state))
       first_.note(node);
   }
 
@@ -37,6 +37,12 @@ public:
   }
 
 private:
+  /// A canned cycle that the program has begun: the block is one more hole.
+  bool isInCycle(const AbstractState &state) const {
+    const auto cycles = view_.inForce(state, ModalKind::Cycle);
+    return cycles && !cycles->mayBeAtEntry() && !view_.mayBe(state, ModalKind::Cycle, {CodeAction::CycleOff});
+  }
+
   MotionView view_;
   FirstSeen first_;
 };

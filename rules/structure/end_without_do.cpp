@@ -1,6 +1,7 @@
 // end-without-do: `END1` that no `DO1` leads to.
 #include "findings/rule/rule.h"
 
+#include "base/support/text.h"
 #include "rules/structure/structure_view.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,17 @@ std::optional<BlockId> firstOpenDo(ProgramId program, const ProgramModel &model)
   return open == loops.end() ? std::nullopt : std::optional(open->doBlock);
 }
 
+/// A block that could not be read holds the `DO`: that is what is reported.
+bool hasUnreadDo(ProgramId program, const LoneEnd &end, const FileContext &context) {
+  const std::string wanted = fmt::format("DO{}", *end.number);
+  for (BlockId block = context.model.programs[program].first; block < end.block; block = block.next()) {
+    const Block &row = context.tree.blocks[block];
+    if (row.has(Block::kBroken) && toUpper(context.text({row.begin, row.end})).find(wanted) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   std::optional<DeadBlocks> dead;
   const std::optional<BlockId> openDo = firstOpenDo(program, context.model);
@@ -25,7 +37,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     if (!dead)
       dead.emplace(context, program);
-    if (dead->contains(end.block))
+    if (dead->contains(end.block) || hasUnreadDo(program, end, context))
       continue;
     reporter.report({.message = fmt::format("`END{}` has no `DO{}`", *end.number, *end.number),
                      .span = context.tree.statements[end.statement].span,

@@ -25,6 +25,12 @@ bool isCycle(const Word &word, const FileContext &context) {
   return code && (code->role == CodeRole::Contour || code->role == CodeRole::CannedCycle);
 }
 
+/// On a lathe with a C axis, H is what C moves by: `G28 H0.0`.
+bool isMoveOfC(const Word &word, const FileContext &context, BlockId block) {
+  return word.address() == 'H' && findAction(context.tree, block, context.dialect,
+                                             {CodeAction::ReferenceReturn, CodeAction::Rapid, CodeAction::Linear});
+}
+
 /// A word beside M98 is meant as an argument, and arguments-of-subprogram says so.
 bool isBesideCall(const Word &word, const FileContext &context, BlockId block) {
   return word.address() != 'P' && word.address() != 'L' &&
@@ -44,7 +50,8 @@ bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
-      format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block))
+      format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block) ||
+      isMoveOfC(word, context, block))
     return;
   const bool knownToStop = alarmNumber(context.dialect, AlarmKind::MisplacedPoint).has_value();
   reporter.report(

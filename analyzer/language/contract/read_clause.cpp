@@ -546,9 +546,12 @@ void refuseUnknown(ContractReading &reading, const RawClause &raw, const ClauseH
   std::vector<std::string_view> names(std::begin(kClauseNames), std::end(kClauseNames));
   names.insert(names.end(), {"@ALLOW", "@ALLOW-PROGRAM", "@AT"});
   const auto nearest = nearestWord(head.name, names);
+  const Span word = wordAt(text, raw.span);
+  if (!nearest && text.substr(word.begin, word.size()).find(':') != std::string_view::npos)
+    return; // no clause has a colon in its name: a mark of another program, such as `@NCE-SIM:1`
   contractOf(reading, raw.program).isSound = false;
-  addIssue(reading, {ContractIssueKind::UnknownClause, raw.source, wordAt(text, raw.span),
-                     std::string(nearest.value_or("")), std::nullopt, raw.program});
+  addIssue(reading, {ContractIssueKind::UnknownClause, raw.source, word, std::string(nearest.value_or("")),
+                     std::nullopt, raw.program});
 }
 
 void refuse(ContractReading &reading, const RawClause &raw, Span span, std::string expected) {

@@ -509,7 +509,7 @@ void LineScanner::scanAngle() {
 
 void LineScanner::scanString() {
   const std::size_t end = line_.find('"', at_ + 1);
-  if (hasG65_)
+  if (hasG65_ || hasM98_) // a subprogram by the name of its file
     count(TextSignal::CentroidStatement);
   else
     hasUnknown_ = true;
