@@ -56,9 +56,10 @@ bool staysIn(const ProofSubject &subject, const LoopInstance &loop, const RunRes
 std::optional<std::map<std::uint32_t, double>> steadyReadings(const GivenVariables &given) {
   std::map<std::uint32_t, double> steady;
   for (const auto &[variable, script] : given.readings.entries()) {
-    if (std::ranges::any_of(script, [&](double reading) { return reading != script.front(); }))
+    const double first = script.front();
+    if (std::ranges::any_of(script, [first](double reading) { return reading != first; }))
       return std::nullopt;
-    steady.emplace(variable, script.front());
+    steady.emplace(variable, first);
   }
   return steady;
 }
