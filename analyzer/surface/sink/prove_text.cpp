@@ -102,7 +102,7 @@ private:
           fmt::format("{} is allowed; move in G90, or round each step to whole increments before the loop, or "
                       "state what the part allows: `@TOLERANCE 0.05`",
                       decimalText(*obligation.tolerance, kMarginDecimals)));
-    if (obligation.kind == ObligationKind::AlarmUnreachable)
+    if (obligation.kind == prove::ObligationKind::AlarmUnreachable)
       notes.emplace_back("if the alarm is meant for such calls, declare it in the contract with `@ALARM`");
     if (obligation.verdict.witness()->gouge)
       notes.push_back(fmt::format("draw it: {} -o gouge.svg", witness.plot()));
