@@ -6,6 +6,8 @@
 #include "findings/project/project.h"
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"
+#include "findings/session/analysis_keys.h"
+#include "findings/session/file_analysis.h"
 #include "findings/session/fingerprint.h"
 
 #include <fmt/format.h>
@@ -20,11 +22,6 @@
 namespace feedhold {
 
 namespace {
-
-CheckedFile headOf(const WorkItem &item) {
-  return {item.shown,   item.source,           item.profile->dialect.id,  item.choice,
-          item.reasons, item.profile->errorOn, item.profile->minSeverity, {}};
-}
 
 Severity severityOf(const RawFinding &finding, const Profile &profile) {
   for (const SeveritySetting &setting : profile.severities)
@@ -92,22 +89,16 @@ std::optional<CheckedFile> checkSidecar(const WorkItem &item, const FileContext 
   return file.findings.empty() ? std::nullopt : std::optional(std::move(file));
 }
 
-/// What rules say of one file and of those beside it.
-struct Analysed {
-  std::vector<Finding> findings;
-  std::vector<ProgramHead> programs;
-  std::vector<CheckedFile> sidecars;
-};
-
-Analysed analyseOne(const WorkItem &item, const FileContext &context, const RuleRegistry &rules) {
-  Analysed result;
+FileAnalysis analyseOne(const WorkItem &item, const FileContext &context, const RuleRegistry &rules) {
+  FileAnalysis result;
   SuppressionResult raw =
       applySuppressions(runRules(item.profile->rules, context), context, rules, item.profile->rules);
   const std::vector<SidecarFinding> ofSidecars = std::move(raw.ofSidecars);
   result.findings = findingsOf(std::move(raw), context, *item.profile);
   for (const Program &program : context.model.programs)
     result.programs.push_back({toString(program.name), program.header});
-  for (std::size_t i = 1; i < context.contracts[context.file.index()]->sources.size(); ++i)
+  const std::vector<SourceFile> &sources = context.contracts[context.file.index()]->sources;
+  for (std::size_t i = 1; i < sources.size(); ++i)
     if (std::optional<CheckedFile> file = checkSidecar(item, context, ContractSourceId(i), ofSidecars))
       result.sidecars.push_back(std::move(*file));
   return result;
@@ -116,20 +107,20 @@ Analysed analyseOne(const WorkItem &item, const FileContext &context, const Rule
 bool isOfUnused(const Finding &finding) { return finding.rule->name == kUnusedSuppressionRule; }
 
 /// Two programs of one number in a folder share a file: what one of them uses is not unused.
-std::vector<CheckedFile> joinSidecars(std::vector<Analysed> analysed, const std::vector<CheckedFile> &programs) {
+std::vector<CheckedFile> joinSidecars(std::vector<FileAnalysis> analysed, const std::vector<CheckedFile> &programs) {
   std::map<std::string, std::size_t> readers;
   for (const CheckedFile &program : programs)
     for (const std::string &path : program.sidecars)
       readers[path] += program.isOnlyCalled ? 0U : 1U;
   std::map<std::pair<std::string, std::string>, std::size_t> unused; // by path and fingerprint
-  for (const Analysed &of : analysed)
+  for (const FileAnalysis &of : analysed)
     for (const CheckedFile &file : of.sidecars)
       for (const Finding &finding : file.findings)
         if (isOfUnused(finding))
           ++unused[{file.path, finding.fingerprint}];
   std::vector<CheckedFile> joined;
   std::set<std::string> seen;
-  for (Analysed &of : analysed)
+  for (FileAnalysis &of : analysed)
     for (CheckedFile &file : of.sidecars) {
       std::erase_if(file.findings, [&](const Finding &finding) {
         return isOfUnused(finding) && unused.at({file.path, finding.fingerprint}) < readers[file.path];
@@ -174,22 +165,28 @@ bool anyAsksFlow(std::span<const WorkItem> items) {
   });
 }
 
-} // namespace
+/// What is known of all files, by item.
+struct RunAnalysis {
+  std::vector<FileAnalysis> files;
+  std::vector<InferredSetting> inferred;
+  std::vector<PathProblem> errors = {};
+};
 
-AnalysedFiles analyse(std::span<const WorkItem> items, const RuleRegistry &rules, const AnalyseOptions &options) {
+RunAnalysis analyseAll(std::span<const WorkItem> items, const KnownNames &known, const AnalyseOptions &options) {
   Project project = loadProject(items, {.graphs = anyAsksFlow(items) ? LoadGraphs::Yes : LoadGraphs::No,
                                         .infer = InferMachines::Yes,
                                         .jobs = options.jobs,
                                         .open = options.open});
   const std::vector<const FileContracts *> contracts = project.contracts();
-  std::vector<Analysed> analysed(items.size());
+  RunAnalysis analysis{std::vector<FileAnalysis>(items.size()), std::move(project.inferred)};
   std::atomic<std::size_t> done{0};
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
     const WorkItem &item = items[i];
+    FileAnalysis &result = analysis.files[i];
     if (isOnlyCalled(item, options))
       return;
     if (item.foreign != nullptr) {
-      analysed[i].findings = refuse(item);
+      result.findings = refuse(item);
     } else {
       const ProjectFile &file = project.file(FileId(i));
       const FileContext context{FileId(i),
@@ -200,26 +197,75 @@ AnalysedFiles analyse(std::span<const WorkItem> items, const RuleRegistry &rules
                                 project.callGraph,
                                 project.set ? &*project.set : nullptr,
                                 contracts};
-      analysed[i] = analyseOne(item, context, rules);
+      result = analyseOne(item, context, known.rules);
     }
+    for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)
+      result.sidecarPaths.push_back(contracts[i]->sources[k].path());
     if (options.progress)
       options.progress(++done, items.size());
   });
+  return analysis;
+}
 
+/// Of a run that is joined from its parts.
+RunAnalysis givenAnalysis(std::span<const WorkItem> items, const KnownNames &known, const AnalyseOptions &options) {
+  const Answers &given = *options.answers.given;
+  const AnalysisKeys keys(items);
+  RunAnalysis analysis{std::vector<FileAnalysis>(items.size()), {}};
+  std::vector<std::uint8_t> isKnown(items.size(), 1);
+  parallelFor(items.size(), options.jobs, [&](std::size_t i) {
+    if (isOnlyCalled(items[i], options))
+      return;
+    const std::string *record = given.find(keys.of(items[i]));
+    std::optional<FileAnalysis> found =
+        record == nullptr ? std::nullopt : readFileAnalysis(*record, items[i], known.rules);
+    isKnown[i] = found ? 1 : 0;
+    if (found)
+      analysis.files[i] = std::move(*found);
+  });
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (isKnown[i] == 0)
+      analysis.errors.push_back({items[i].shown, kNoAnswer});
+  const std::string *inferred = given.find(keys.ofInferred());
+  if (inferred != nullptr)
+    analysis.inferred = readInferred(*inferred, known.dialects).value_or(std::vector<InferredSetting>());
+  return analysis;
+}
+
+void keep(const RunAnalysis &analysis, std::span<const WorkItem> items, const AnalyseOptions &options) {
+  const AnalysisKeys keys(items);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!isOnlyCalled(items[i], options))
+      options.answers.kept->add(keys.of(items[i]), writeFileAnalysis(analysis.files[i]));
+  options.answers.kept->add(keys.ofInferred(), writeInferred(analysis.inferred));
+}
+
+AnalysedFiles joined(std::span<const WorkItem> items, RunAnalysis analysis, const AnalyseOptions &options) {
   std::vector<CheckedFile> files;
   files.reserve(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
-    files.push_back(headOf(items[i]));
-    files.back().findings = std::move(analysed[i].findings);
-    files.back().programs = std::move(analysed[i].programs);
-    files.back().foreign = items[i].foreign == nullptr ? std::string_view() : items[i].foreign->name;
-    files.back().isOnlyCalled = isOnlyCalled(items[i], options);
-    for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)
-      files.back().sidecars.push_back(contracts[i]->sources[k].path());
+    FileAnalysis &of = analysis.files[i];
+    CheckedFile &file = files.emplace_back(headOf(items[i]));
+    file.findings = std::move(of.findings);
+    file.programs = std::move(of.programs);
+    file.foreign = items[i].foreign == nullptr ? std::string_view() : items[i].foreign->name;
+    file.isOnlyCalled = isOnlyCalled(items[i], options);
+    file.sidecars = std::move(of.sidecarPaths);
   }
-  std::vector<CheckedFile> sidecars = joinSidecars(std::move(analysed), files);
+  std::vector<CheckedFile> sidecars = joinSidecars(std::move(analysis.files), files);
   std::move(sidecars.begin(), sidecars.end(), std::back_inserter(files));
-  return {std::move(files), std::move(project.inferred)};
+  return {std::move(files), std::move(analysis.inferred), std::move(analysis.errors)};
+}
+
+} // namespace
+
+AnalysedFiles analyse(std::span<const WorkItem> items, const KnownNames &known, const AnalyseOptions &options) {
+  if (options.answers.given != nullptr)
+    return joined(items, givenAnalysis(items, known, options), options);
+  RunAnalysis analysis = analyseAll(items, known, options);
+  if (options.answers.kept != nullptr)
+    keep(analysis, items, options);
+  return joined(items, std::move(analysis), options);
 }
 
 } // namespace feedhold

@@ -64,7 +64,7 @@ public:
 
 private:
   std::vector<CheckedFile> analyseAll() const {
-    return analyse(workload_.items, known_.rules,
+    return analyse(workload_.items, known_,
                    {options_.jobs, options_.progress, options_.open, options_.only ? &*options_.only : nullptr})
         .files;
   }

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kFormat = "feedhold proof 6";
-/// Of the 256 folders: together 16384 proofs of some kilobytes each.
-constexpr std::size_t kMostInFolder = 64;
+/// Of the 256 folders: together 131072 proofs of some kilobytes each.
+constexpr std::size_t kMostInFolder = 512;
 
 /// Texts that cannot run into one another.
 class Material {
@@ -49,9 +49,9 @@ void addFiles(Material &material, const Project &programs) {
   }
 }
 
-fs::path placeOf(const ProofCache &cache, const std::string &key) {
-  return cache.folder / key.substr(0, 2) / key.substr(2);
-}
+std::string nameOf(const std::string &key) { return key.substr(0, 2) + "/" + key.substr(2); }
+
+fs::path placeOf(const ProofCache &cache, const std::string &key) { return cache.folder / nameOf(key); }
 
 std::string headOf(const std::string &key, std::string_view record) {
   return fmt::format("{}\n{}\n{}\n", kFormat, key, sha256(record));
@@ -69,9 +69,32 @@ void trim(const fs::path &folder) {
     fs::remove(entries[i].second);
 }
 
+std::optional<std::string> readEntry(const fs::path &place) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(place, ignored))
+    return std::nullopt;
+  const Result<SourceFile> file = SourceFile::open(place);
+  return file ? std::optional(std::string(file.value().text())) : std::nullopt;
+}
+
+void keepEntry(const ProofCache &cache, const std::string &key, const std::string &entry) {
+  const fs::path place = placeOf(cache, key);
+  try {
+    fs::create_directories(place.parent_path());
+    trim(place.parent_path());
+  } catch (const fs::filesystem_error &) {
+    // Another process has been here, or nobody may write: the next line decides.
+  }
+  static_cast<void>(putFile(place, entry));
+}
+
 } // namespace
 
-std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId program,
+std::string proverOf(const ProofCache &cache) {
+  return fmt::format("{}, {}", cache.tool, smt::z3Version().value_or("no Z3"));
+}
+
+std::string proofKey(std::string_view prover, const Project &programs, ProgramId program,
                      const prove::ProveOptions &options) {
   // All of them: a new option has to be thought of here.  The contracts are among the files.
   const auto &[only, budget, steps, guards, arithmetic, missing, mayTakeFewPasses, takesFewPasses, contractsOf] =
@@ -80,8 +103,7 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
   const auto &[search, z3, cvc5] = budget;
   Material material;
   material.add(kFormat);
-  material.add(cache.tool);
-  material.add(smt::z3Version().value_or("no Z3"));
+  material.add(prover);
   material.add(programs.dialect().id);
   material.add(textOf(programs.dialect().switches));
   material.add(only.size());
@@ -98,18 +120,18 @@ std::string proofKey(const ProofCache &cache, const Project &programs, ProgramId
 }
 
 std::optional<RememberedProof> recall(const ProofCache &cache, const std::string &key, const ProgramSet &programs) {
-  const fs::path place = placeOf(cache, key);
-  std::error_code ignored;
-  if (!fs::is_regular_file(place, ignored))
+  std::optional<std::string> entry = readEntry(placeOf(cache, key));
+  if (!entry && cache.shared != nullptr) {
+    entry = cache.shared->fetch(nameOf(key));
+    if (entry)
+      keepEntry(cache, key, *entry); // whoever asks the server once need not ask again
+  }
+  if (!entry)
     return std::nullopt;
-  const Result<SourceFile> file = SourceFile::open(place);
-  if (!file)
-    return std::nullopt;
-  const std::string_view text = file.value().text();
   const std::size_t head = headOf(key, "").size();
-  if (text.size() < head || text.substr(0, head) != headOf(key, text.substr(head)))
+  if (entry->size() < head || entry->substr(0, head) != headOf(key, std::string_view(*entry).substr(head)))
     return std::nullopt;
-  auto record = std::make_shared<const std::string>(text.substr(head));
+  auto record = std::make_shared<const std::string>(entry->substr(head));
   std::optional<prove::ProgramProof> proof = readProofRecord(*record, programs);
   if (!proof)
     return std::nullopt;
@@ -117,15 +139,11 @@ std::optional<RememberedProof> recall(const ProofCache &cache, const std::string
 }
 
 void remember(const ProofCache &cache, const std::string &key, const prove::ProgramProof &proof) {
-  const fs::path place = placeOf(cache, key);
   const std::string record = writeProofRecord(proof);
-  try {
-    fs::create_directories(place.parent_path());
-    trim(place.parent_path());
-  } catch (const fs::filesystem_error &) {
-    // Another process has been here, or nobody may write: the next line decides.
-  }
-  static_cast<void>(putFile(place, headOf(key, record) + record));
+  const std::string entry = headOf(key, record) + record;
+  keepEntry(cache, key, entry);
+  if (cache.shared != nullptr)
+    cache.shared->store(nameOf(key), entry);
 }
 
 } // namespace feedhold

@@ -1,11 +1,7 @@
 #include "findings/session/proof_record.h"
 
 #include "base/support/match.h"
-
-#include <fmt/format.h>
-
-#include <bit>
-#include <charconv>
+#include "base/support/record.h"
 
 namespace feedhold {
 
@@ -23,15 +19,9 @@ constexpr std::uint64_t kAlarmKinds = 0
 #include "language/dialect/alarms.def"
     ;
 
-/// Numbers with a blank behind them; texts as their size, a blank and their bytes.
-class Writer {
+/// A record that names places of programs.
+class Writer : public RecordWriter {
 public:
-  void number(std::uint64_t value) { bytes_ += fmt::format("{} ", value); }
-  void text(std::string_view value) {
-    number(value.size());
-    bytes_ += value;
-  }
-  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
   void place(Place place) {
     number(place.file.index());
     number(place.node.index());
@@ -40,41 +30,12 @@ public:
     number(span.begin);
     number(span.end);
   }
-  template <typename Value, typename Write> void optional(const std::optional<Value> &value, Write write) {
-    number(value ? 1 : 0);
-    if (value)
-      write(*value);
-  }
-  std::string finish() { return std::move(bytes_); }
-
-private:
-  std::string bytes_;
 };
 
-/// After the first thing that does not fit everything is 0 and empty.
-class Reader {
+class Reader : public RecordReader {
 public:
-  Reader(std::string_view bytes, const ProgramSet &programs) : rest_(bytes), programs_(programs) {}
+  Reader(std::string_view bytes, const ProgramSet &programs) : RecordReader(bytes), programs_(programs) {}
 
-  std::uint64_t number() {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    const auto size = static_cast<std::size_t>(end - rest_.data());
-    if (error != std::errc{} || size >= rest_.size() || *end != ' ')
-      return fail();
-    rest_.remove_prefix(size + 1);
-    return value;
-  }
-  std::uint64_t numberUpTo(std::uint64_t most) {
-    const std::uint64_t value = number();
-    return value <= most ? value : fail();
-  }
-  std::string_view text() {
-    const std::string_view value = rest_.substr(0, numberUpTo(rest_.size()));
-    rest_.remove_prefix(value.size());
-    return value;
-  }
-  double real() { return std::bit_cast<double>(number()); }
   Place place() {
     const FileId file(numberUpTo(programs_.size() - 1));
     return {file, NodeId(numberUpTo(programs_.file(file).cfg.nodes.size()))};
@@ -84,22 +45,9 @@ public:
     const auto begin = static_cast<std::uint32_t>(numberUpTo(size));
     return {begin, static_cast<std::uint32_t>(numberUpTo(size))};
   }
-  template <typename Enum> Enum oneOf(std::uint64_t count) { return static_cast<Enum>(numberUpTo(count - 1)); }
-  template <typename Enum> Enum upTo(Enum last) { return oneOf<Enum>(static_cast<std::uint64_t>(last) + 1); }
-  bool isPresent() { return numberUpTo(1) == 1; }
-  /// How many rows follow: no more than there are bytes.
-  std::uint64_t count() { return numberUpTo(rest_.size()); }
-  bool isDone() const { return !failed_ && rest_.empty(); }
 
 private:
-  std::uint64_t fail() {
-    failed_ = true;
-    rest_ = {};
-    return 0;
-  }
-  std::string_view rest_;
   const ProgramSet &programs_;
-  bool failed_ = false;
 };
 
 void write(Writer &writer, const GivenStart &start) {

@@ -3,6 +3,7 @@
 
 #include "base/support/parallel.h"
 #include "base/support/process.h"
+#include "findings/session/proof_record.h"
 #include "proof/decide/cancel.h"
 
 #include <fmt/format.h>
@@ -32,6 +33,7 @@ std::optional<PathProblem> contractMistake(const ProjectFile &file, ProgramId pr
 struct Job {
   const Project *project;
   ProvedProgram *result;
+  bool isMissing = false; // among the answers that are given
 };
 
 /// All programs of a file together have fewer steps than one large program, since each of them costs something before
@@ -60,6 +62,22 @@ void proveAnew(const Job &job, const prove::ProveOptions &options) {
   job.result->proof = prove::prove(*project.set, callee, &project.file(FileId(0)).contracts, own);
 }
 
+/// The part that holds the answers names the build; its solver is no matter of who joins the parts.
+std::string answerKey(const Job &job, const ProofOptions &options) {
+  return "proof " + proofKey("", *job.project, job.result->program, options.prove);
+}
+
+void takeGiven(Job &job, const Answers &given, const ProofOptions &options) {
+  const std::string *record = given.find(answerKey(job, options));
+  if (record != nullptr)
+    job.result->record = std::make_shared<const std::string>(*record);
+  std::optional<prove::ProgramProof> proof =
+      record == nullptr ? std::nullopt : readProofRecord(*job.result->record, *job.project->set);
+  job.isMissing = !proof;
+  if (proof)
+    job.result->proof = std::move(*proof);
+}
+
 void proveOrRecall(const Job &job, const ProofOptions &options) {
   if (!options.cache && options.steps == KeepSteps::Yes) {
     prove::CertificateLog log;
@@ -71,7 +89,7 @@ void proveOrRecall(const Job &job, const ProofOptions &options) {
     proveAnew(job, options.prove);
     return;
   }
-  const std::string key = proofKey(*options.cache, *job.project, job.result->program, options.prove);
+  const std::string key = proofKey(proverOf(*options.cache), *job.project, job.result->program, options.prove);
   if (auto remembered = recall(*options.cache, key, *job.project->set)) {
     job.result->record = std::move(remembered->record);
     job.result->proof = std::move(remembered->proof);
@@ -84,11 +102,21 @@ void proveOrRecall(const Job &job, const ProofOptions &options) {
     remember(*options.cache, key, job.result->proof);
 }
 
-void proveUnlessStopped(const Job &job, const ProofOptions &options) {
+void answer(Job &job, const ProofOptions &options) {
+  if (options.answers.given != nullptr) {
+    takeGiven(job, *options.answers.given, options);
+    return;
+  }
+  proveOrRecall(job, options);
+  if (options.answers.kept != nullptr && job.result->proof.contradictions.empty())
+    options.answers.kept->add(answerKey(job, options), writeProofRecord(job.result->proof));
+}
+
+void proveUnlessStopped(Job &job, const ProofOptions &options) {
   const prove::StopScope scope(options.stop);
   try {
     prove::throwIfCancelled();
-    proveOrRecall(job, options);
+    answer(job, options);
   } catch (const prove::Cancelled &) {
     // proveAll sees it, too.
   }
@@ -101,7 +129,9 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
   ProofsResult result{{}, std::move(workload.skipped), std::move(workload.errors)};
   std::vector<const WorkItem *> items;
   for (const WorkItem &item : workload.items)
-    if (item.foreign != nullptr)
+    if (options.files.only && !options.files.only->contains(item.shown))
+      continue;
+    else if (item.foreign != nullptr)
       result.skipped.push_back({item.shown, fmt::format("{}, which Feedhold does not read", item.foreign->name)});
     else
       items.push_back(&item);
@@ -136,6 +166,9 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
     if (options.files.progress)
       options.files.progress(++done, jobs.size());
   });
+  for (const Job &job : jobs)
+    if (job.isMissing)
+      result.errors.push_back({job.project->file(FileId(0)).shown, kNoAnswer});
   if (options.stop.stop_requested())
     result.files.clear(); // a program that was not proved to its end would look like one without mistakes
   return result;

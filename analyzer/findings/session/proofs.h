@@ -1,6 +1,7 @@
 // Proofs: every program of a set of files, with its folder, and the verdicts on what it has to keep.
 #pragma once
 
+#include "findings/session/answers.h"
 #include "findings/session/proof_cache.h"
 #include "proof/prove/prove.h"
 
@@ -21,6 +22,7 @@ struct ProofOptions {
   std::optional<ProofCache> cache = {}; // absent: everything is proved anew, with its evidence
   KeepSteps steps = KeepSteps::No;      // of what is proved anew
   enum class Which : std::uint8_t { All, WithContract } which = Which::All; // of the programs
+  AnswerUse answers = {};                                                   // of proofs without their evidence
   std::stop_token stop = {}; // once it is requested, there are no files in the result
 };
 

@@ -4,6 +4,7 @@
 #include "findings/session/analyse.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace feedhold {
 
@@ -20,11 +21,12 @@ bool anyFails(const CheckResult &result) {
   });
 }
 
-CheckResult check(const CheckOptions &options, const KnownNames &known) {
+CheckResult check(const CheckOptions &options, const KnownNames &known, const AnswerUse &answers) {
   Workload workload = loadWorkload(options, known);
   AnalysedFiles analysis =
-      analyse(workload.items, known.rules,
-              {options.jobs, options.progress, options.open, options.only ? &*options.only : nullptr});
+      analyse(workload.items, known,
+              {options.jobs, options.progress, options.open, options.only ? &*options.only : nullptr, answers});
+  std::move(analysis.errors.begin(), analysis.errors.end(), std::back_inserter(workload.errors));
   return {std::move(analysis.files), std::move(workload.skipped), std::move(workload.errors),
           std::move(analysis.inferred)};
 }

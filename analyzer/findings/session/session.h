@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings/project/workload.h"
+#include "findings/session/answers.h"
 #include "findings/session/result.h"
 
 #include <string>
@@ -10,7 +11,7 @@
 namespace feedhold {
 
 /// A file, a text or a configuration that refuses is named in the result; the others are analysed all the same.
-CheckResult check(const CheckOptions &options, const KnownNames &known);
+CheckResult check(const CheckOptions &options, const KnownNames &known, const AnswerUse &answers = {});
 
 /// Which fixes a person wants.
 enum class FixKind { Safe, All };

@@ -106,7 +106,7 @@ Explorer::Explorer(SymbolicInterpretation &interpretation, const ProgramSet &pro
 Exploration Explorer::run(Callee entry, const SymbolicState &start) {
   result_.treatment = options_.loops;
   entry_ = start;
-  interpretation_.start();
+  interpretation_.startOver();
   Path path{.at = {entry.file, entry.entry},
             .state = start,
             .conditions = {},

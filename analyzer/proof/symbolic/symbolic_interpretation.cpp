@@ -52,6 +52,13 @@ void SymbolicInterpretation::start() {
   stopped_ = moved_ = false;
 }
 
+void SymbolicInterpretation::startOver() {
+  start();
+  notes_.clear();
+  returning_.clear();
+  tooLarge_ = false;
+}
+
 TermId SymbolicInterpretation::fresh(std::string_view what, Sort sort) {
   return store_.variable(fmt::format("{} {}", what, nextFresh_++), sort);
 }

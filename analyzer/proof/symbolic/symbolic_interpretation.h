@@ -163,6 +163,8 @@ public:
   smt::TermId isCell(smt::TermId index, std::uint32_t variable) { return isAmong(index, {variable, variable}); }
   /// Begins a step.
   void start();
+  /// Before the first step: an exploration that was given up in the middle of one has left what belongs to its place.
+  void startOver();
   bool stopped() const { return stopped_; }
   /// What may have stopped the run in the step, in order.
   const std::vector<PossibleStop> &possibleStops() const { return possibleStops_; }

@@ -10,6 +10,7 @@
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
+#include "surface/cli/shard_options.h"
 #include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/sink.h"
@@ -49,6 +50,8 @@ struct CheckArguments {
   bool watch = false;
   BaselineOptions baseline;
   ChangeOptions change;
+  ShardOptions shard;
+  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
@@ -86,6 +89,19 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
   app.add_flag("--watch", arguments.watch, "check again whenever a file changes; stop with Ctrl-C");
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
+  addShardOptions(app, arguments.shard);
+}
+
+/// An option that changes what a run does so that it cannot be a part of another.
+std::string apartFromShards(const CheckArguments &arguments) {
+  if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
+    return "standard input";
+  return arguments.fix                ? "--fix"
+         : arguments.diff             ? "--diff"
+         : arguments.watch            ? "--watch"
+         : arguments.baseline.update  ? "--update-baseline"
+         : arguments.change.isAsked() ? "--changed-since"
+                                      : "";
 }
 
 const KnownNames &knownNames() {
@@ -100,6 +116,8 @@ std::optional<std::string> complaintAbout(const CheckArguments &arguments) {
       if (auto complaint = complaintAboutRuleName(name, allRules()))
         return complaint;
   if (auto complaint = complaintAbout(arguments.control))
+    return complaint;
+  if (auto complaint = complaintAbout(arguments.shard, apartFromShards(arguments)))
     return complaint;
   const bool isPiped = std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end();
   if (isPiped && arguments.fix && !arguments.diff)
@@ -229,37 +247,44 @@ int presentNew(CheckResult result, const Baseline &baseline, const CheckArgument
   return exitCode;
 }
 
-/// Errors among the files come again when they are checked.
-Result<std::set<std::string>> affectedPrograms(const CheckOptions &options, const CheckArguments &arguments) {
+/// The files on which rules run; absent: all.  Errors among the files come again when they are checked.
+Result<std::optional<std::set<std::string>>> filesToCheck(const CheckOptions &options,
+                                                          const CheckArguments &arguments) {
+  if (!arguments.change.isAsked())
+    return filesOf(arguments.shard, options, knownNames());
   if (auto complaint = complaintAbout(arguments.change, options))
     return Error{std::move(*complaint)};
   Result<Affected> found = affected(arguments.change, options, knownNames());
   if (!found)
     return found.error();
-  return found.take().programs;
+  return std::optional(found.take().programs);
 }
 
-int runCheck(const CheckArguments &arguments) {
+int runCheck(const CheckArguments &arguments, const CLI::App &command) {
   const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
   if (!baseline)
     return kExitCouldNotRun;
   CheckOptions options = toOptions(arguments);
-  if (arguments.change.isAsked()) {
-    Result<std::set<std::string>> affected = affectedPrograms(options, arguments);
-    if (!affected) {
-      printError(affected.error().message);
-      return kExitCouldNotRun;
-    }
-    options.only = affected.take();
+  Result<std::optional<std::set<std::string>>> files = filesToCheck(options, arguments);
+  if (!files) {
+    printError(files.error().message);
+    return kExitCouldNotRun;
   }
+  options.only = files.take();
   ProgressLine progress;
   if (!arguments.quiet)
     options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   if (arguments.fix || arguments.diff)
     return repair(options, arguments, progress);
-  CheckResult result = check(options, knownNames());
+  Answers kept;
+  CheckResult result =
+      check(options, knownNames(), {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.given});
   progress.clear();
   complainIfNothingWasChecked(result, arguments);
+  if (const auto error = writePartOf(arguments.shard, command, kept, {})) {
+    printError(error->message);
+    return kExitCouldNotRun;
+  }
   if (arguments.baseline.update)
     return updateBaseline(result, *baseline, arguments);
   if (arguments.baseline.isAsked())
@@ -290,9 +315,9 @@ Stamps waitForChange(Stamps before, const CheckArguments &arguments) {
 }
 
 /// Never comes back but for a failing output: Ctrl-C ends the program.
-int watch(const CheckArguments &arguments) {
+int watch(const CheckArguments &arguments, const CLI::App &command) {
   for (Stamps stamps = stampsFor(arguments);; stamps = waitForChange(std::move(stamps), arguments)) {
-    runCheck(arguments);
+    runCheck(arguments, command);
     if (!outputArrived())
       return kExitCouldNotRun;
     printAside(
@@ -302,14 +327,16 @@ int watch(const CheckArguments &arguments) {
 
 } // namespace
 
-Command addCheckCommand(CLI::App &parent) {
+Command addCheckCommand(CLI::App &parent, const Answers *given) {
   CLI::App *app = parent.add_subcommand("check", "report mistakes in programs");
   app->footer("Exit codes: 0 no findings, 1 findings, 2 the command could not run.\n"
               "Example: feedhold check --fix nc/");
   const auto arguments = std::make_shared<CheckArguments>();
   addOptions(*app, *arguments);
-  return {app, [arguments] {
-            return arguments->watch && !complaintAbout(*arguments) ? watch(*arguments) : runCheck(*arguments);
+  arguments->given = given;
+  return {app, [app, arguments] {
+            return arguments->watch && !complaintAbout(*arguments) ? watch(*arguments, *app)
+                                                                   : runCheck(*arguments, *app);
           }};
 }
 

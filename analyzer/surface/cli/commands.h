@@ -1,6 +1,8 @@
 // The sub-commands of `feedhold`; each adds its options and says what to run.
 #pragma once
 
+#include "findings/session/answers.h"
+
 #include <CLI/CLI.hpp>
 
 #include <functional>
@@ -19,7 +21,8 @@ struct Command {
   std::function<int()> run;
 };
 
-Command addCheckCommand(CLI::App &parent);
+/// `given`: answers of parts, which `merge` joins by this command; null: the command works everything out.
+Command addCheckCommand(CLI::App &parent, const Answers *given = nullptr);
 Command addRunCommand(CLI::App &parent);
 Command addPlotCommand(CLI::App &parent);
 Command addExplainCommand(CLI::App &parent);
@@ -30,7 +33,8 @@ Command addTreeCommand(CLI::App &parent);
 Command addModelCommand(CLI::App &parent);
 Command addCfgCommand(CLI::App &parent);
 Command addRangesCommand(CLI::App &parent);
-Command addProveCommand(CLI::App &parent);
+Command addProveCommand(CLI::App &parent, const Answers *given = nullptr);
+Command addMergeCommand(CLI::App &parent);
 Command addDraftCommand(CLI::App &parent);
 Command addCertifyCommand(CLI::App &parent);
 Command addRecheckCommand(CLI::App &parent);

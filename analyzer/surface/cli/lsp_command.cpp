@@ -4,6 +4,7 @@
 #include "surface/cli/cache_place.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/shared_options.h"
+#include "surface/cli/terminal.h"
 #include "surface/lsp/server.h"
 
 #include <iostream>
@@ -24,8 +25,14 @@ int runLsp(const LspArguments &arguments) {
       arguments.cache.folder.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.cache.folder);
   lsp::ServerOptions options{
       .known = {allDialects(), allRules()}, .version = FEEDHOLD_VERSION, .cache = std::nullopt, .pages = std::nullopt};
-  if (!arguments.cache.off)
-    options.cache = proofCache(folder);
+  if (!arguments.cache.off) {
+    Result<std::optional<ProofCache>> cache = proofCache(folder, arguments.cache.url);
+    if (!cache) {
+      printError(cache.error().message);
+      return kExitCouldNotRun;
+    }
+    options.cache = cache.take();
+  }
   if (options.cache)
     options.pages = std::filesystem::absolute(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
   std::ios::sync_with_stdio(false); // a stream with a buffer reads bodies in one piece

@@ -21,11 +21,11 @@ int run(std::vector<std::string> words) {
   app.get_formatter()->label("Needs", "needs");
   app.require_subcommand(1);
   const std::vector<Command> commands = {
-      addCheckCommand(app),     addRunCommand(app),         addPlotCommand(app),    addExplainCommand(app),
-      addRulesCommand(app),     addDialectsCommand(app),    addTokensCommand(app),  addTreeCommand(app),
-      addModelCommand(app),     addCfgCommand(app),         addRangesCommand(app),  addProveCommand(app),
-      addDraftCommand(app),     addCertifyCommand(app),     addRecheckCommand(app), addLspCommand(app),
-      addSelfCheckCommand(app), addCompletionsCommand(app), addManCommand(app)};
+      addCheckCommand(app), addRunCommand(app),       addPlotCommand(app),        addExplainCommand(app),
+      addRulesCommand(app), addDialectsCommand(app),  addTokensCommand(app),      addTreeCommand(app),
+      addModelCommand(app), addCfgCommand(app),       addRangesCommand(app),      addProveCommand(app),
+      addMergeCommand(app), addDraftCommand(app),     addCertifyCommand(app),     addRecheckCommand(app),
+      addLspCommand(app),   addSelfCheckCommand(app), addCompletionsCommand(app), addManCommand(app)};
   // Only now: the commands would take it over.
   app.footer("`feedhold COMMAND --help` describes the options of a command; `feedhold check FOLDER` is a good start.");
   try {

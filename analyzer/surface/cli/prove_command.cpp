@@ -8,6 +8,7 @@
 #include "surface/cli/change_options.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/kind_options.h"
+#include "surface/cli/shard_options.h"
 #include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 #include "surface/sink/prove_sink.h"
@@ -46,6 +47,8 @@ struct ProveArguments {
   bool statistics = false;
   BaselineOptions baseline;
   ChangeOptions change;
+  ShardOptions shard;
+  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, ProveArguments &arguments) {
@@ -84,13 +87,15 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
   addBaselineOptions(app, arguments.baseline);
   addChangedSince(app, arguments.change);
   addWithCallers(app, arguments.change);
+  addShardOptions(app, arguments.shard);
 }
 
 /// The evidence is not in the cache.
-std::optional<ProofCache> cacheFor(const ProveArguments &arguments) {
-  if (arguments.cache.off || !arguments.certificate.empty())
-    return std::nullopt;
-  return proofCache(arguments.cache.folder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cache.folder));
+Result<std::optional<ProofCache>> cacheFor(const ProveArguments &arguments) {
+  if (arguments.cache.off || !arguments.certificate.empty() || arguments.given != nullptr)
+    return std::optional<ProofCache>();
+  return proofCache(arguments.cache.folder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cache.folder),
+                    arguments.cache.url);
 }
 
 ProofOptions proofOptionsOf(const ProveArguments &arguments) {
@@ -103,7 +108,6 @@ ProofOptions proofOptionsOf(const ProveArguments &arguments) {
   options.files.control = controlFrom(arguments.control);
   options.files.config = configFrom(arguments.config);
   options.files.jobs = arguments.jobs;
-  options.cache = cacheFor(arguments);
   options.prove.only = kindsFrom(arguments.only);
   if (arguments.arithmetic == "exact")
     options.prove.arithmetic = prove::Arithmetic::Exact;
@@ -158,8 +162,20 @@ void complainIfNothingWasProved(ProofsResult &result, const ProveArguments &argu
     result.errors.push_back({mistake->path, "nothing to prove: " + mistake->reason});
 }
 
+/// An option that changes what a run does so that it cannot be a part of another.
+std::string apartFromShards(const ProveArguments &arguments) {
+  if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
+    return "standard input";
+  return !arguments.certificate.empty() ? "--certificate"
+         : arguments.baseline.update    ? "--update-baseline"
+         : arguments.change.isAsked()   ? "--changed-since or --with-callers"
+                                        : "";
+}
+
 std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
   if (auto complaint = complaintAbout(arguments.control))
+    return complaint;
+  if (auto complaint = complaintAbout(arguments.shard, apartFromShards(arguments)))
     return complaint;
   if (arguments.certificate.empty())
     return std::nullopt;
@@ -195,8 +211,14 @@ int present(const ProofsResult &result, const ProveArguments &arguments) {
 
 /// Leaves what a change concerns; the result is what is wrong with the files among which was searched.
 Result<std::vector<PathProblem>> narrow(ProofOptions &options, const ProveArguments &arguments) {
-  if (!arguments.change.isAsked())
+  if (!arguments.change.isAsked()) {
+    Result<std::optional<std::set<std::string>>> files =
+        filesOf(arguments.shard, options.files, {allDialects(), allRules()});
+    if (!files)
+      return files.error();
+    options.files.only = files.take();
     return std::vector<PathProblem>();
+  }
   if (auto complaint = complaintAbout(arguments.change, options.files))
     return Error{std::move(*complaint)};
   Result<Affected> found = affected(arguments.change, options.files, {allDialects(), allRules()});
@@ -215,19 +237,45 @@ void addErrors(ProofsResult &result, const std::vector<PathProblem> &errors) {
       result.errors.push_back(error);
 }
 
-int runProve(const ProveArguments &arguments) {
+/// What the proofs of a file cost, in steps.
+FileCosts costsOf(const ProofsResult &result) {
+  FileCosts costs;
+  for (const ProvedFile &file : result.files) {
+    std::uint64_t cost = 1;
+    for (const ProvedProgram &program : file.programs)
+      for (const prove::Obligation &obligation : program.proof.obligations)
+        cost += obligation.effort;
+    costs.emplace(file.file().shown, cost);
+  }
+  return costs;
+}
+
+int runProve(const ProveArguments &arguments, const CLI::App &command) {
   const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
   if (!baseline)
     return kExitCouldNotRun;
   ProofOptions options = proofOptionsOf(arguments);
-  const Result<std::vector<PathProblem>> narrowed = narrow(options, arguments);
+  Result<std::optional<ProofCache>> cache = cacheFor(arguments);
+  const Result<std::vector<PathProblem>> narrowed =
+      cache ? narrow(options, arguments) : Result<std::vector<PathProblem>>(cache.error());
   if (!narrowed) {
     printError(narrowed.error().message);
     return kExitCouldNotRun;
   }
+  options.cache = cache.take();
+  Answers kept;
+  options.answers = {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.given};
   ProofsResult result = proveAll(options, {allDialects(), allRules()});
   addErrors(result, narrowed.value());
-  complainIfNothingWasProved(result, arguments);
+  if (options.cache && options.cache->shared)
+    for (const std::string &problem : options.cache->shared->problems())
+      printAside(fmt::format("feedhold: {}\n", problem));
+  if (arguments.shard.shard.empty())
+    complainIfNothingWasProved(result, arguments);
+  if (const auto error = writePartOf(arguments.shard, command, kept, costsOf(result))) {
+    printError(error->message);
+    return kExitCouldNotRun;
+  }
   if (!arguments.certificate.empty())
     if (const auto error = writeBundle(arguments.certificate, makeBundle(result, bundleReading(arguments),
                                                                          FEEDHOLD_VERSION, arguments.certificate)))
@@ -248,14 +296,15 @@ int runProve(const ProveArguments &arguments) {
 
 } // namespace
 
-Command addProveCommand(CLI::App &parent) {
+Command addProveCommand(CLI::App &parent, const Answers *given) {
   CLI::App *app =
       parent.add_subcommand("prove", "prove contracts, and that programs end and raise no alarm, for all inputs");
   app->footer("Exit codes: 0 all proved, 1 something is refuted, 2 the command could not run, 3 something is unknown.\n"
               "Example: feedhold prove O9100.nc");
   const auto arguments = std::make_shared<ProveArguments>();
   addOptions(*app, *arguments);
-  return {app, [arguments] { return runProve(*arguments); }};
+  arguments->given = given;
+  return {app, [app, arguments] { return runProve(*arguments, *app); }};
 }
 
 } // namespace feedhold

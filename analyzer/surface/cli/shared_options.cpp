@@ -72,7 +72,12 @@ void addCache(CLI::App &app, CacheArguments &arguments) {
   CLI::Option *folder =
       app.add_option("--cache-dir", arguments.folder, "keep verdicts here (default: user cache folder)")
           ->type_name("FOLDER");
-  app.add_flag("--no-cache", arguments.off, "neither read nor write cached verdicts")->excludes(folder);
+  CLI::Option *url =
+      app.add_option(
+             "--cache-url", arguments.url,
+             "share verdicts over this web folder, signed with $FEEDHOLD_CACHE_KEY (default: $FEEDHOLD_CACHE_URL)")
+          ->type_name("URL");
+  app.add_flag("--no-cache", arguments.off, "neither read nor write cached verdicts")->excludes(folder)->excludes(url);
 }
 
 } // namespace feedhold

@@ -46,9 +46,10 @@ void addQuiet(CLI::App &app, bool &quiet, const std::string &meaning = "print no
 /// `--stdin-filename`; `path` holds the default.
 void addStdinFilename(CLI::App &app, std::string &path);
 
-/// `--cache-dir` and `--no-cache`.
+/// `--cache-dir`, `--cache-url` and `--no-cache`.
 struct CacheArguments {
   std::string folder;
+  std::string url;
   bool off = false;
 };
 void addCache(CLI::App &app, CacheArguments &arguments);

@@ -1,0 +1,18 @@
+// The words of a command line, made again from the options that were read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace feedhold {
+
+/// The options that were given, each as `--name` or `--name=value`, in the order in which the command lists them, then
+/// the paths.  Different spellings of the same options give the same words.
+std::vector<std::string> wordsOf(const CLI::App &command, const std::vector<std::string> &without);
+
+/// `words`, but for the options that are among `instead`, and those behind them.
+std::vector<std::string> replaced(std::vector<std::string> words, const std::vector<std::string> &instead);
+
+} // namespace feedhold
