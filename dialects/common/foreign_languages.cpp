@@ -79,14 +79,17 @@ constexpr std::array kFadalProgram = {
     LanguageHint{TextSignal::FadalOffset, 6},
     LanguageHint{TextSignal::FadalSubprogram, 2}, // Sinumerik calls subprograms in this way, too
 };
+/// Of languages that share operators with a wrong RS274NGC program, but do not have o-words.
+constexpr int kNoOWords = -12;
 constexpr std::array kBeagle = {
     LanguageHint{TextSignal::BeagleLoop, 14},
     LanguageHint{TextSignal::CLikeOperator, 6},
+    LanguageHint{TextSignal::OWord, kNoOWords},
 };
 constexpr std::array kCLike = {
     LanguageHint{TextSignal::CLikeOperator, 6},      LanguageHint{TextSignal::BareCondition, 4},
     LanguageHint{TextSignal::CentroidStatement, 20}, LanguageHint{TextSignal::EdingStatement, 12},
-    LanguageHint{TextSignal::LoneEndWhile, 12},
+    LanguageHint{TextSignal::LoneEndWhile, 12},      LanguageHint{TextSignal::OWord, kNoOWords},
 };
 /// Its macros are Macro B with variables of their own; comparisons by characters are common, words are accepted.
 constexpr std::array kDdcs = {
@@ -94,7 +97,7 @@ constexpr std::array kDdcs = {
     LanguageHint{TextSignal::DdcsOffset, 40},   LanguageHint{TextSignal::DdcsFile, 16},
     LanguageHint{TextSignal::DdcsWord, 8},      LanguageHint{TextSignal::DdcsPosition, 2},
     LanguageHint{TextSignal::DdcsTitle, 2},     LanguageHint{TextSignal::CLikeOperator, 6},
-    LanguageHint{TextSignal::BareCondition, 4},
+    LanguageHint{TextSignal::BareCondition, 4}, LanguageHint{TextSignal::OWord, kNoOWords},
 };
 constexpr std::array kCompiler = {
     LanguageHint{TextSignal::CompilerDirective, 25},
@@ -102,6 +105,12 @@ constexpr std::array kCompiler = {
 constexpr std::array kSimulator = {
     LanguageHint{TextSignal::SimulatorSection, 40},
     LanguageHint{TextSignal::SimulatorCall, 8},
+    LanguageHint{TextSignal::SimulatorCommand, 30},
+};
+/// Sliding-head lathes of Citizen, and controls of Mitsubishi with several systems.  A program has a part for each, and
+/// none of them can be followed without those that it waits for.
+constexpr std::array kSystems = {
+    LanguageHint{TextSignal::SystemMark, 40},
 };
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
@@ -139,8 +148,10 @@ constexpr std::array kLanguages = {
                     "its variables mean something else than on a Macro B control; exclude these files", kDdcs,
                     Resemblance::MacroB},
     ForeignLanguage{"macro compiler source", "check the part programs, or the compiled text", kCompiler},
-    ForeignLanguage{"a macro of a machine simulator", "parts of it are for the simulator; exclude these files",
+    ForeignLanguage{"a program for a machine simulator", "parts of it are for the simulator; exclude these files",
                     kSimulator},
+    ForeignLanguage{"a program for a machine with several systems (Citizen, Mitsubishi)",
+                    "the parts for `$1`, `$2`, .. run at the same time; exclude these files", kSystems},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };

@@ -37,11 +37,15 @@ public:
     if ((level && !level->isNumber()) || !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) ||
         isInCycle(state) || view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}))
       return forget();
-    if (view_.surely(state, ModalKind::Motion, {CodeAction::Rapid}))
-      return afterRapid(node, level);
+    if (view_.surely(state, ModalKind::Motion, {CodeAction::Rapid})) {
+      if (!standsAt(words))
+        afterRapid(node, level);
+      return goTo(words);
+    }
     if (!view_.surely(state, ModalKind::Motion, kFeeding))
       return forget();
     afterFeed(node, level, words.size() == 1);
+    goTo(words);
   }
 
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
@@ -58,20 +62,39 @@ public:
 
 private:
   void forget() {
+    forgetDepth();
+    place_.clear();
+  }
+  void forgetDepth() {
     depth_.reset();
     rapid_.reset();
+  }
+  void goTo(const std::vector<const Word *> &words) {
+    for (const Word *word : words)
+      if (word->isNumber())
+        place_.insert_or_assign(word->address(), word->number());
+      else
+        place_.erase(word->address());
+  }
+  /// The block moves no axis.
+  bool standsAt(const std::vector<const Word *> &words) const {
+    return std::ranges::all_of(words, [&](const Word *word) {
+      const auto known = place_.find(word->address());
+      return word->isNumber() && known != place_.end() && known->second == word->number();
+    });
   }
   /// A code that moves by itself, changes the tool or its length, or the coordinates.
   void afterNoMove(NodeId node) {
     if (!view_.axisWords(node).empty() ||
-        view_.findAction(node, {CodeAction::ToolChange, CodeAction::LengthPlus, CodeAction::LengthMinus,
-                                CodeAction::LengthOff, CodeAction::WorkOffset, CodeAction::LocalShift,
+        view_.findAction(node, {CodeAction::ToolChange, CodeAction::WorkOffset, CodeAction::LocalShift,
                                 CodeAction::CoordinateSet, CodeAction::ReferenceReturn, CodeAction::MachineMove}))
       forget();
+    else if (view_.findAction(node, {CodeAction::LengthPlus, CodeAction::LengthMinus, CodeAction::LengthOff}))
+      forgetDepth();
   }
   void afterRapid(NodeId node, const Word *level) {
     if (level)
-      return forget();
+      return forgetDepth();
     rapid_ = depth_ ? std::optional(node) : std::nullopt;
   }
   void afterFeed(NodeId node, const Word *level, bool isAlone) {
@@ -89,8 +112,9 @@ private:
   MotionView view_;
   bool asked_;
   NodeId next_{0};
-  std::optional<Decimal> depth_; // to which the tool was fed, and where it is
-  std::optional<NodeId> rapid_;  // the last block, at that depth
+  std::optional<Decimal> depth_;  // to which the tool was fed, and where it is
+  std::optional<NodeId> rapid_;   // the last block, at that depth
+  std::map<char, Decimal> place_; // coordinates of the last blocks, by axis
   std::map<NodeId, NodeId> found_;
 };
 

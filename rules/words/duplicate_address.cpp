@@ -3,8 +3,10 @@
 
 #include "rules/words/block_words.h"
 
-#include <array>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 
 namespace feedhold::rules::duplicate_address {
 namespace {
@@ -12,6 +14,15 @@ namespace {
 bool counts(const Word &word, const FileContext &context) {
   return word.address() != 'G' && word.address() != 'M' && !word.has(Word::kComma) && !word.has(Word::kAfterThen) &&
          !word.has(Word::kAfterSkip) && formatOf(context.dialect, word.address()).kind != AddressKind::None;
+}
+
+constexpr std::int64_t kToolChange = 6; // M06
+
+/// `T2 T0 M6`: the tool that comes into the spindle, and the one that the changer prepares (Mazak, EIA/ISO programs).
+bool namesNextTool(std::span<const Word> words, const Word &word) {
+  return word.address() == 'T' && std::ranges::any_of(words, [](const Word &other) {
+           return other.address() == 'M' && other.isNumber() && other.number().asInteger() == kToolChange;
+         });
 }
 
 void reportPair(const Word &first, const Word &second, const FileContext &context, const Reporter &reporter) {
@@ -36,7 +47,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
       continue;
     const Word *&first = seen[static_cast<std::size_t>(word.address() - 'A')];
     if (first) {
-      if (!meansOwnWords(context, block))
+      if (!meansOwnWords(context, block) && !namesNextTool(words, word))
         reportPair(*first, word, context, reporter);
       return;
     }

@@ -4,6 +4,16 @@
 
 namespace feedhold {
 
+namespace {
+
+/// `AddRegPart`
+bool isCamelCase(std::string_view word) {
+  const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  return word.size() > 1 && isUpper(word[0]) && isLetter(word[1]) && !isUpper(word[1]);
+}
+
+} // namespace
+
 void LineScanner::scanHead() {
   if (peek() == '/') {
     ++at_;
@@ -32,6 +42,7 @@ void LineScanner::scanHead() {
     }
     return;
   case '<': scanAngle(); return;
+  case '!': scanWaiting(); return;
   case '&':
     if (beginsUpper(rest(), "&F=")) {
       count(TextSignal::FanucFolderLine);
@@ -89,6 +100,18 @@ void LineScanner::scanPercent() {
   stop();
 }
 
+/// `!L10`, `!2L10`: the systems of a machine wait for each other.
+void LineScanner::scanWaiting() {
+  ++at_;
+  if (isDigit(peek()))
+    takeNumber();
+  if (toUpper(peek()) == 'L' && isDigit(peek(1)))
+    count(TextSignal::SystemMark);
+  else
+    hasUnknown_ = true;
+  stop();
+}
+
 void LineScanner::scanDollar() {
   static constexpr std::string_view kControl[] = {"IF",  "ELSE",   "ELSEIF", "ENDIF",   "WHILE",     "ENDWHILE",
                                                   "FOR", "ENDFOR", "GOTO",   "SWITCH",  "ENDSWITCH", "CASE",
@@ -97,6 +120,16 @@ void LineScanner::scanDollar() {
   // Homing, jogging, switches of states, and settings by name or by path.
   static constexpr std::string_view kGrbl[] = {"H", "J", "G", "I", "X", "C", "N", "SLP", "ALARM", "SETTINGS"};
   ++at_;
+  if (isDigit(peek())) { // `$2`: what follows is for the second system of the machine
+    takeNumber();
+    skipBlanks();
+    if (atEnd())
+      count(TextSignal::SystemMark);
+    else
+      hasUnknown_ = true;
+    stop();
+    return;
+  }
   const std::string_view run = takeRun();
   const bool isPath = run.size() > 1 && peek() == '/' && isLetter(peek(1));
   const bool isReading = peek() == '=' && beginsUpper(rest().substr(1), "READ"); // `$TCS=READ id=0`: uCNC
@@ -109,6 +142,8 @@ void LineScanner::scanDollar() {
     count(TextSignal::CompilerDirective);
   } else if (trimmed(line_).back() == '%') {
     count(TextSignal::OkumaFile);
+  } else if (isCamelCase(run)) {
+    count(TextSignal::SimulatorCommand);
   } else {
     hasUnknown_ = true;
   }

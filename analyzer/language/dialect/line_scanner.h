@@ -94,6 +94,7 @@ private:
   void scanHead();
   void scanPercent();
   void scanDollar();
+  void scanWaiting();
   void scanHashHead();
   void scanNumberHead();
   bool scanOWord();

@@ -240,8 +240,10 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
   }
 }
 
+/// A branch over a comparison by a character is none of Macro B.
 void LineScanner::noteBranch() {
-  if (hasIf_ && !hasOWord_)
+  const std::string_view before = line_.substr(0, at_);
+  if (hasIf_ && !hasOWord_ && before.find_first_of("<>") == std::string_view::npos)
     note(TextSignal::MacroBranch);
 }
 
