@@ -112,6 +112,23 @@ constexpr std::array kSimulator = {
 constexpr std::array kSystems = {
     LanguageHint{TextSignal::SystemMark, 40},
 };
+/// NUM 1040 to 1060, Philips (Maho), Traub: the letter that holds the number of passes elsewhere holds a variable.
+constexpr std::array kLetterVariables = {
+    LanguageHint{TextSignal::LetterVariable, 12},
+    LanguageHint{TextSignal::HashVariable, -8},
+};
+constexpr std::array kOsai = {
+    LanguageHint{TextSignal::OsaiStatement, 12},
+    LanguageHint{TextSignal::LetterVariable, 8},
+    LanguageHint{TextSignal::HashVariable, -8},
+};
+constexpr std::array kAcramatic = {
+    LanguageHint{TextSignal::AlignmentBlock, 12},
+};
+constexpr std::array kPrinter = {
+    LanguageHint{TextSignal::PrinterMessage, 15},
+    LanguageHint{TextSignal::PrinterHeater, 8},
+};
 constexpr std::array kSender = {
     LanguageHint{TextSignal::SenderStatement, 12},
 };
@@ -152,6 +169,12 @@ constexpr std::array kLanguages = {
                     kSimulator},
     ForeignLanguage{"a program for a machine with several systems (Citizen, Mitsubishi)",
                     "the parts for `$1`, `$2`, .. run at the same time; exclude these files", kSystems},
+    ForeignLanguage{"a program for NUM, Philips or Traub", "variables such as `L1` and `E1` are not supported",
+                    kLetterVariables},
+    ForeignLanguage{"a program for OSAI", "statements in parentheses would be read as comments", kOsai},
+    ForeignLanguage{"a program for Acramatic (Cincinnati)", "its codes are not those of a Macro B control", kAcramatic},
+    ForeignLanguage{"G code of a printer or a hobby control (Marlin, Smoothieware, Carvera)",
+                    "its M codes and messages are not those of a Macro B control; exclude these files", kPrinter},
     ForeignLanguage{"sender macro (CNCjs)",
                     "lines that begin with `%` and a name are executed by the sender, not by the control", kSender},
 };

@@ -28,6 +28,13 @@ bool isFagorStatement(std::string_view text) {
   return isAssignment || isCondition || beginsUpper(text, "RPT N") || equalsUpper(text, "RET");
 }
 
+/// `(RPT,5)`, `(GTO,START,E1>5)`, `(CLS,PROG1)`: three letters and a comma.
+bool isOsaiStatement(std::string_view text) {
+  static constexpr std::string_view kStatements[] = {"RPT,", "GTO,", "CLS,", "UGS,", "DIS,", "UAO,", "UTO,", "UOT,",
+                                                     "UIO,", "MIR,", "ROT,", "SCF,", "SPA,", "EPP,", "DPT,", "UDA,"};
+  return beginsWithAny(text, kStatements);
+}
+
 /// `3" MITSUBISHI FACE MILL`, `HAAS VISE`: makers of controls also sell tools and vices.
 bool namesEquipment(std::string_view text) {
   static constexpr std::string_view kEquipment[] = {"MILL",   "DRILL", "TAP",     "INSERT", "REAM", "BORING",
@@ -97,6 +104,10 @@ CommentLanguage scanComment(std::string_view comment, CommentPlace place, TextSc
   }
   if (beginsWithAny(text, kDialogs)) {
     count(TextSignal::PlanetMark, scan);
+    return CommentLanguage::Foreign;
+  }
+  if (place == CommentPlace::Alone && isOsaiStatement(text)) {
+    count(TextSignal::OsaiStatement, scan);
     return CommentLanguage::Foreign;
   }
   if (place == CommentPlace::Alone && isFagorStatement(text)) {

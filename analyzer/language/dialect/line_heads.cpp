@@ -2,6 +2,8 @@
 #include "language/dialect/line_scanner.h"
 #include "language/dialect/remarks.h"
 
+#include <algorithm>
+
 namespace feedhold {
 
 namespace {
@@ -39,6 +41,9 @@ void LineScanner::scanHead() {
       hasWord_ = true;
     } else if (peek(1) == '(') {
       ++at_; // marks a remark above the O word
+    } else if (beginsUpper(rest(), ":G") && isDigit(peek(2))) {
+      count(TextSignal::AlignmentBlock);
+      ++at_;
     }
     return;
   case '<': scanAngle(); return;
@@ -74,6 +79,22 @@ void LineScanner::scanHead() {
     scanNumberHead();
   else if (toUpper(peek()) == 'O')
     scanOWord();
+  else if (toUpper(peek()) == 'M')
+    scanPrinterCommand();
+}
+
+/// `M118 Probing`, `M104 S200`: messages and heaters of hobby controls and printers.
+void LineScanner::scanPrinterCommand() {
+  static constexpr std::string_view kMessages[] = {"M117 ", "M118 "};
+  static constexpr std::string_view kHeaters[] = {"M104 S", "M109 S", "M140 S", "M190 S"};
+  const auto begins = [&](std::string_view command) { return beginsUpper(rest(), command); };
+  if (std::ranges::any_of(kMessages, begins) && isLetter(peek(5)) && isLetter(peek(6))) {
+    count(TextSignal::PrinterMessage);
+    hasWord_ = true;
+    stop();
+  } else if (std::ranges::any_of(kHeaters, begins) && isDigit(peek(6))) {
+    count(TextSignal::PrinterHeater);
+  }
 }
 
 /// The rest of a line that begins with `%`: leader text, unless a language makes something of it.

@@ -95,6 +95,7 @@ private:
   void scanPercent();
   void scanDollar();
   void scanWaiting();
+  void scanPrinterCommand();
   void scanHashHead();
   void scanNumberHead();
   bool scanOWord();

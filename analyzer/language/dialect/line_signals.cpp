@@ -307,6 +307,8 @@ void LineScanner::scanNumberedWord(char letter, const Number &number) {
       return;
     else if (letter == 'Q')
       count(TextSignal::KlartextParameter);
+    else if (letter == 'L' || letter == 'E')
+      count(TextSignal::LetterVariable);
   }
   at_ = after;
   switch (letter) {
