@@ -36,7 +36,7 @@ public:
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, plane] : places_) {
       const Word *outside = plane ? findWordOf(node, plane->outside) : nullptr;
-      if (!outside || isZero(*outside))
+      if (!outside || isZero(*outside) || outside->form() == WordForm::Missing) // missing-value tells of it
         continue;
       reporter.report({.message = fmt::format("{} does not belong to an arc in `{}`, the active plane",
                                               context.quoted(outside->span()), plane->code),

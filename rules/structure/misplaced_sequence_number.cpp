@@ -29,7 +29,7 @@ std::optional<Span> contentBefore(const Word &word, BlockId block, const FileCon
 }
 
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (ownsItsWords(context, block))
+  if (word.form() == WordForm::Missing || ownsItsWords(context, block)) // missing-value tells of it
     return;
   const auto before = contentBefore(word, block, context);
   if (!before)

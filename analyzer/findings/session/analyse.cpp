@@ -50,6 +50,12 @@ bool comesBefore(const Finding &a, const Finding &b) {
   return a.rule->name < b.rule->name;
 }
 
+/// A subprogram that several programs of the file run into is followed in each.
+bool saysTheSame(const Finding &a, const Finding &b) {
+  return a.rule == b.rule && a.diagnostic.span == b.diagnostic.span && a.diagnostic.message == b.diagnostic.message &&
+         a.suppressed == b.suppressed;
+}
+
 std::vector<Finding> findingsOf(SuppressionResult raw, const FileContext &context, const Profile &profile) {
   std::vector<Finding> findings;
   findings.reserve(raw.kept.size() + raw.suppressed.size());
@@ -58,6 +64,7 @@ std::vector<Finding> findingsOf(SuppressionResult raw, const FileContext &contex
   for (SuppressedFinding &finding : raw.suppressed)
     findings.push_back(toFinding(std::move(finding), context, profile));
   std::stable_sort(findings.begin(), findings.end(), comesBefore);
+  findings.erase(std::unique(findings.begin(), findings.end(), saysTheSame), findings.end());
   Fingerprints fingerprints(context);
   for (Finding &finding : findings)
     finding.fingerprint = fingerprints.of(*finding.rule, finding.diagnostic.span);

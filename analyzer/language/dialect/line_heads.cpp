@@ -27,12 +27,7 @@ void LineScanner::scanHead() {
   case '%': scanPercent(); return;
   case '$': scanDollar(); return;
   case '#': scanHashHead(); return;
-  case '@':
-    if (isLetter(peek(1))) {
-      count(TextSignal::CompilerDirective);
-      stop();
-    }
-    return;
+  case '@': scanAtHead(); return;
   case ':':
     if (isDigit(peek(1))) {
       count(TextSignal::ProgramNumber);
@@ -118,6 +113,19 @@ void LineScanner::scanPercent() {
     skipBlanks();
     return;
   }
+  stop();
+}
+
+/// Windows batch files begin their commands so, too.
+void LineScanner::scanAtHead() {
+  static constexpr std::string_view kBatch[] = {"ECHO", "IF", "SET", "SETLOCAL", "REM", "CALL", "START"};
+  if (!isLetter(peek(1)))
+    return;
+  ++at_;
+  if (isOneOf(peekRun(), kBatch))
+    hasUnknown_ = true;
+  else
+    count(TextSignal::CompilerDirective);
   stop();
 }
 

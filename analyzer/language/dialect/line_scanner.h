@@ -93,6 +93,7 @@ private:
 
   void scanHead();
   void scanPercent();
+  void scanAtHead();
   void scanDollar();
   void scanWaiting();
   void scanPrinterCommand();
