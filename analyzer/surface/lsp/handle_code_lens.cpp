@@ -2,6 +2,7 @@
 #include "surface/lsp/feature_handlers.h"
 #include "surface/lsp/feature_json.h"
 #include "surface/lsp/feature_meaning.h"
+#include "surface/sink/prove_shown.h"
 
 #include <fmt/format.h>
 
@@ -17,22 +18,33 @@ struct Lens {
   Json argument;
 };
 
-/// `12 proved, 1 refuted: run witness`
+/// The rounding of the control, programs that are not in the files, or the number of passes may break it.
+bool isConditional(const prove::Obligation &obligation) {
+  return obligation.verdict.exactOnly() || !assumedIn(obligation).empty();
+}
+
+/// `12 proved (2 on a condition), 1 refuted: run witness`
 Lens lensOf(const DocumentProof &proved, Json argument) {
-  std::size_t held = 0, refuted = 0, unknown = 0;
+  std::size_t held = 0, conditional = 0, refuted = 0, unknown = 0;
   const prove::Obligation *shown = nullptr;
   for (const prove::Obligation &obligation : proved.proof.obligations)
     switch (obligation.verdict.kind()) {
     case prove::Verdict::Proved:
-    case prove::Verdict::Unreachable: ++held; break;
+    case prove::Verdict::Unreachable:
+      ++held;
+      conditional += isConditional(obligation) ? 1U : 0U;
+      break;
     case prove::Verdict::Unknown: ++unknown; break;
     case prove::Verdict::Refuted:
       ++refuted;
       shown = shown || !obligation.verdict.witness() ? shown : &obligation;
       break;
     }
+  const std::string proofs =
+      conditional == 0 ? std::string("proved") : fmt::format("proved ({} on a condition)", conditional);
   std::string title;
-  for (const auto &[count, word] : {std::pair{held, "proved"}, {refuted, "refuted"}, {unknown, "unknown"}})
+  for (const auto &[count, word] :
+       {std::pair<std::size_t, std::string_view>{held, proofs}, {refuted, "refuted"}, {unknown, "unknown"}})
     if (count != 0)
       title += fmt::format("{}{} {}", title.empty() ? "" : ", ", count, word);
   if (proved.proof.incomplete)
