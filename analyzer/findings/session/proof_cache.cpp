@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kFormat = "feedhold proof 6";
+constexpr std::string_view kFormat = "feedhold proof 7";
 /// Of the 256 folders: together 131072 proofs of some kilobytes each.
 constexpr std::size_t kMostInFolder = 512;
 
@@ -132,10 +132,10 @@ std::optional<RememberedProof> recall(const ProofCache &cache, const std::string
   if (entry->size() < head || entry->substr(0, head) != headOf(key, std::string_view(*entry).substr(head)))
     return std::nullopt;
   auto record = std::make_shared<const std::string>(entry->substr(head));
-  std::optional<prove::ProgramProof> proof = readProofRecord(*record, programs);
-  if (!proof)
+  std::optional<RecordedProof> read = readProofRecord(*record, programs);
+  if (!read)
     return std::nullopt;
-  return RememberedProof{std::move(*proof), std::move(record)};
+  return RememberedProof{std::move(read->proof), std::move(record)};
 }
 
 void remember(const ProofCache &cache, const std::string &key, const prove::ProgramProof &proof) {

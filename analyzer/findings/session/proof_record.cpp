@@ -22,6 +22,9 @@ constexpr std::uint64_t kAlarmKinds = 0
 /// A record that names places of programs.
 class Writer : public RecordWriter {
 public:
+  explicit Writer(bool keepsEvidence) : keepsEvidence_(keepsEvidence) {}
+
+  bool keepsEvidence() const { return keepsEvidence_; }
   void place(Place place) {
     number(place.file.index());
     number(place.node.index());
@@ -30,6 +33,9 @@ public:
     number(span.begin);
     number(span.end);
   }
+
+private:
+  bool keepsEvidence_;
 };
 
 class Reader : public RecordReader {
@@ -192,12 +198,55 @@ prove::Guard readGuard(Reader &reader, Place place) {
   return guard;
 }
 
+void write(Writer &writer, const prove::Proved &proved) {
+  writer.number(static_cast<std::uint64_t>(proved.grade));
+  writer.number(proved.evidence.index());
+  match(
+      proved.evidence,
+      [&](const prove::CertificateEvidence &evidence) {
+        writer.text(evidence.claim);
+        writer.text(evidence.certificate);
+      },
+      [&](const prove::SolverEvidence &evidence) {
+        writer.text(evidence.smtlib);
+        writer.list(evidence.solvers, [&](const std::string &solver) { writer.text(solver); });
+      });
+}
+
+prove::Outcome readOutcome(Reader &reader) {
+  prove::Proved proved{.grade = reader.upTo(prove::Grade::TwoSolvers), .evidence = prove::CertificateEvidence()};
+  if (reader.numberUpTo(1) == 0) {
+    const std::string_view claim = reader.text();
+    proved.evidence = prove::CertificateEvidence{std::string(claim), std::string(reader.text())};
+  } else {
+    prove::SolverEvidence evidence{.smtlib = std::string(reader.text()), .solvers = {}};
+    reader.list([&] { evidence.solvers.emplace_back(reader.text()); });
+    proved.evidence = std::move(evidence);
+  }
+  prove::Outcome outcome{.answer = std::move(proved), .method = std::string(reader.text())};
+  outcome.effort = reader.number();
+  return outcome;
+}
+
+/// Outcomes that prove nothing are no evidence.
+void write(Writer &writer, const std::vector<prove::Outcome> &evidence) {
+  std::vector<const prove::Outcome *> kept;
+  for (const prove::Outcome &outcome : evidence)
+    if (writer.keepsEvidence() && outcome.proved())
+      kept.push_back(&outcome);
+  writer.list(kept, [&](const prove::Outcome *outcome) {
+    write(writer, std::get<prove::Proved>(outcome->answer));
+    writer.text(outcome->method);
+    writer.number(outcome->effort);
+  });
+}
+
 void write(Writer &writer, const prove::verdict::Proved &verdict) {
   const auto &[proof, why, bound, margin, exactOnly] = verdict;
   const auto &[grade, method, evidence] = proof;
-  static_cast<void>(evidence);
   writer.number(static_cast<std::uint64_t>(grade));
   writer.text(method);
+  write(writer, evidence);
   writer.text(why);
   writer.text(bound);
   writer.optional(margin, [&](double value) { writer.real(value); });
@@ -208,6 +257,7 @@ prove::verdict::Proved readProved(Reader &reader) {
   prove::verdict::Proved verdict;
   verdict.proof.grade = reader.upTo(prove::Grade::TwoSolvers);
   verdict.proof.method = reader.text();
+  reader.list([&] { verdict.proof.evidence.push_back(readOutcome(reader)); });
   verdict.why = reader.text();
   verdict.bound = reader.text();
   if (reader.isPresent())
@@ -305,36 +355,40 @@ Obligation readObligation(Reader &reader) {
 
 } // namespace
 
-std::string writeProofRecord(const ProgramProof &proof) {
+std::string writeProofRecord(const ProgramProof &proof, const ProofSteps *steps) {
   const auto &[obligations, unmodelled, incomplete, contradictions] = proof;
   static_cast<void>(contradictions); // a proof that has any is not kept
-  Writer writer;
-  writer.number(obligations.size());
-  for (const Obligation &obligation : obligations)
-    write(writer, obligation);
-  writer.number(unmodelled.size());
-  for (const prove::Unmodelled &each : unmodelled) {
+  Writer writer(steps != nullptr);
+  writer.list(obligations, [&](const Obligation &obligation) { write(writer, obligation); });
+  writer.list(unmodelled, [&](const prove::Unmodelled &each) {
     writer.text(each.reason);
     writer.place(each.place);
     writer.span(each.span);
-  }
+  });
   writer.optional(incomplete, [&](const std::string &reason) { writer.text(reason); });
+  writer.list(steps == nullptr ? ProofSteps() : *steps, [&](const auto &step) {
+    writer.text(step.first);
+    writer.text(step.second);
+  });
   return writer.finish();
 }
 
-std::optional<ProgramProof> readProofRecord(std::string_view record, const ProgramSet &programs) {
+std::optional<RecordedProof> readProofRecord(std::string_view record, const ProgramSet &programs) {
   Reader reader(record, programs);
-  ProgramProof proof;
-  for (std::uint64_t left = reader.count(); left > 0; --left)
-    proof.obligations.push_back(readObligation(reader));
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  RecordedProof read;
+  reader.list([&] { read.proof.obligations.push_back(readObligation(reader)); });
+  reader.list([&] {
     const std::string_view reason = reader.text();
     const Place place = reader.place();
-    proof.unmodelled.push_back({reason, place, reader.span(place)});
-  }
+    read.proof.unmodelled.push_back({reason, place, reader.span(place)});
+  });
   if (reader.isPresent())
-    proof.incomplete = reader.text();
-  return reader.isDone() ? std::optional(std::move(proof)) : std::nullopt;
+    read.proof.incomplete = reader.text();
+  reader.list([&] {
+    const std::string_view claim = reader.text();
+    read.steps.emplace(claim, reader.text());
+  });
+  return reader.isDone() ? std::optional(std::move(read)) : std::nullopt;
 }
 
 } // namespace feedhold

@@ -3,7 +3,6 @@
 
 #include "base/support/parallel.h"
 #include "base/support/process.h"
-#include "findings/session/proof_record.h"
 #include "proof/decide/cancel.h"
 
 #include <fmt/format.h>
@@ -64,18 +63,21 @@ void proveAnew(const Job &job, const prove::ProveOptions &options) {
 
 /// The part that holds the answers names the build; its solver is no matter of who joins the parts.
 std::string answerKey(const Job &job, const ProofOptions &options) {
-  return "proof " + proofKey("", *job.project, job.result->program, options.prove);
+  return (options.steps == KeepSteps::Yes ? "evidence " : "proof ") +
+         proofKey("", *job.project, job.result->program, options.prove);
 }
 
 void takeGiven(Job &job, const Answers &given, const ProofOptions &options) {
   const std::string *record = given.find(answerKey(job, options));
   if (record != nullptr)
     job.result->record = std::make_shared<const std::string>(*record);
-  std::optional<prove::ProgramProof> proof =
+  std::optional<RecordedProof> read =
       record == nullptr ? std::nullopt : readProofRecord(*job.result->record, *job.project->set);
-  job.isMissing = !proof;
-  if (proof)
-    job.result->proof = std::move(*proof);
+  job.isMissing = !read;
+  if (!read)
+    return;
+  job.result->proof = std::move(read->proof);
+  job.result->steps = std::move(read->steps);
 }
 
 void proveOrRecall(const Job &job, const ProofOptions &options) {
@@ -109,7 +111,9 @@ void answer(Job &job, const ProofOptions &options) {
   }
   proveOrRecall(job, options);
   if (options.answers.kept != nullptr && job.result->proof.contradictions.empty())
-    options.answers.kept->add(answerKey(job, options), writeProofRecord(job.result->proof));
+    options.answers.kept->add(
+        answerKey(job, options),
+        writeProofRecord(job.result->proof, options.steps == KeepSteps::Yes ? &job.result->steps : nullptr));
 }
 
 void proveUnlessStopped(Job &job, const ProofOptions &options) {
@@ -172,6 +176,18 @@ ProofsResult proveAll(const ProofOptions &options, const KnownNames &known) {
   if (options.stop.stop_requested())
     result.files.clear(); // a program that was not proved to its end would look like one without mistakes
   return result;
+}
+
+FileCosts costsOf(const ProofsResult &result) {
+  FileCosts costs;
+  for (const ProvedFile &file : result.files) {
+    std::uint64_t cost = 1;
+    for (const ProvedProgram &program : file.programs)
+      for (const prove::Obligation &obligation : program.proof.obligations)
+        cost += obligation.effort;
+    costs.emplace(file.file().shown, cost);
+  }
+  return costs;
 }
 
 } // namespace feedhold

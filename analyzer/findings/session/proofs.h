@@ -1,11 +1,12 @@
 // Proofs: every program of a set of files, with its folder, and the verdicts on what it has to keep.
 #pragma once
 
+#include "findings/project/shards.h"
 #include "findings/session/answers.h"
 #include "findings/session/proof_cache.h"
+#include "findings/session/proof_record.h"
 #include "proof/prove/prove.h"
 
-#include <map>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -29,7 +30,7 @@ struct ProofOptions {
 struct ProvedProgram {
   ProgramId program;
   prove::ProgramProof proof;
-  std::map<std::string, std::string> steps = {};       // claims and their certificates
+  ProofSteps steps = {};
   std::shared_ptr<const std::string> record = nullptr; // of a remembered proof: where its reasons lie
 };
 
@@ -47,5 +48,8 @@ struct ProofsResult {
 };
 
 ProofsResult proveAll(const ProofOptions &options, const KnownNames &known);
+
+/// What the proofs of each file cost, in steps.
+FileCosts costsOf(const ProofsResult &result);
 
 } // namespace feedhold

@@ -1,9 +1,11 @@
 // `feedhold certify [PATHS] -o FOLDER`: a report of proofs for people who release programs.
 #include "dialects/registry.h"
+#include "rules/registry.h"
 #include "surface/cli/bundle_folder.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/kind_options.h"
 #include "surface/cli/report_run.h"
+#include "surface/cli/shard_options.h"
 #include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
 
@@ -29,13 +31,14 @@ struct CertifyArguments {
   std::string date;
   unsigned jobs = 0;
   bool quiet = false;
+  ShardOptions shard;
+  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, CertifyArguments &arguments) {
   app.add_option("paths", arguments.paths, "files and folders (default: current folder)")->type_name("PATH");
   app.add_option("-o,--output", arguments.output, "folder of the report; an existing report there is replaced")
-      ->type_name("FOLDER")
-      ->required();
+      ->type_name("FOLDER");
   addOnlyKinds(app, arguments.only);
   addControl(app, arguments.control);
   addConfiguration(app, arguments.config);
@@ -43,6 +46,50 @@ void addOptions(CLI::App &app, CertifyArguments &arguments) {
       ->type_name("TEXT");
   addJobs(app, arguments.jobs);
   addQuiet(app, arguments.quiet, "print no summary");
+  addShardOptions(app, arguments.shard);
+}
+
+int exitCodeOf(ReleaseStatus status) {
+  switch (status) {
+  case ReleaseStatus::Ready: return kExitClean;
+  case ReleaseStatus::Open: return kExitUnknown;
+  case ReleaseStatus::Alarms:
+  case ReleaseStatus::Broken: return kExitFindings;
+  }
+  return kExitCouldNotRun;
+}
+
+/// A shard writes its part, every other run a report.
+std::optional<std::string> complaintAboutOutput(const CertifyArguments &arguments) {
+  if (const auto complaint = complaintAbout(arguments.shard, arguments.output.empty() ? "" : "--output"))
+    return complaint;
+  if (!arguments.shard.shard.empty() && arguments.shard.part.empty())
+    return "a shard of a report needs --part FILE; `feedhold merge` writes the report";
+  if (arguments.output.empty() && !arguments.shard.isAsked())
+    return "--output is required: the folder of the report";
+  return std::nullopt;
+}
+
+/// The files of the shard, and what it keeps or is given.
+Result<ReportPart> partOf(const CertifyArguments &arguments, const ReportOptions &options, Answers &kept) {
+  Result<std::optional<std::set<std::string>>> files =
+      filesOf(arguments.shard, filesOfReport(options, arguments.jobs), {allDialects(), allRules()});
+  if (!files)
+    return files.error();
+  ReportPart part{.files = files.take(), .answers = {.given = arguments.given}};
+  if (!arguments.shard.part.empty())
+    part.answers.kept = &kept;
+  return part;
+}
+
+Result<int> finishShard(const CertifyArguments &arguments, const CLI::App &command, const ReportRun &run,
+                        const Answers &kept) {
+  if (const auto error = writePartOf(arguments.shard, command, kept, run.costs))
+    return *error;
+  if (!arguments.quiet)
+    print(fmt::format("{} in {} program{}: {}\n", textOf(run.counts), run.programs, run.programs == 1 ? "" : "s",
+                      arguments.shard.part));
+  return exitCodeOf(run.status);
 }
 
 /// The reproducible-builds.org convention: seconds since 1970, in UTC.
@@ -89,27 +136,25 @@ Result<ReportOptions> optionsOf(const CertifyArguments &arguments) {
   return options;
 }
 
-int exitCodeOf(ReleaseStatus status) {
-  switch (status) {
-  case ReleaseStatus::Ready: return kExitClean;
-  case ReleaseStatus::Open: return kExitUnknown;
-  case ReleaseStatus::Alarms:
-  case ReleaseStatus::Broken: return kExitFindings;
-  }
-  return kExitCouldNotRun;
-}
-
-Result<int> certify(const CertifyArguments &arguments) {
+Result<int> certify(const CertifyArguments &arguments, const CLI::App &command) {
+  if (const auto complaint = complaintAboutOutput(arguments))
+    return Error{*complaint};
   const Result<ReportOptions> options = optionsOf(arguments);
   if (!options)
     return options.error();
+  Answers kept;
+  const Result<ReportPart> part = partOf(arguments, options.value(), kept);
+  if (!part)
+    return part.error();
   if (const auto refusal = whyNoBundleFits(arguments.output, kReportDocument))
     return Error{arguments.output + ": " + refusal->message};
-  const ReportRun run = runReport(options.value(), arguments.output, arguments.jobs);
+  const ReportRun run = runReport(options.value(), arguments.output, arguments.jobs, part.value());
   for (const PathProblem &problem : run.problems)
     printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())
     return Error{"no report was written, since it would not cover all of the named files"};
+  if (arguments.shard.isAsked())
+    return finishShard(arguments, command, run, kept);
   if (const auto error = writeBundle(arguments.output, run.report))
     return Error{arguments.output + ": " + error->message};
   if (!arguments.quiet)
@@ -118,8 +163,8 @@ Result<int> certify(const CertifyArguments &arguments) {
   return exitCodeOf(run.status);
 }
 
-int certifyOrComplain(const CertifyArguments &arguments) {
-  const Result<int> exitCode = certify(arguments);
+int certifyOrComplain(const CertifyArguments &arguments, const CLI::App &command) {
+  const Result<int> exitCode = certify(arguments, command);
   if (exitCode)
     return exitCode.value();
   printError(exitCode.error().message);
@@ -128,11 +173,12 @@ int certifyOrComplain(const CertifyArguments &arguments) {
 
 } // namespace
 
-Command addCertifyCommand(CLI::App &parent) {
+Command addCertifyCommand(CLI::App &parent, const Answers *given) {
   CLI::App *app = parent.add_subcommand("certify", "write a release report of all proofs, to be signed");
   const auto arguments = std::make_shared<CertifyArguments>();
   addOptions(*app, *arguments);
-  return {app, [arguments] { return certifyOrComplain(*arguments); }};
+  arguments->given = given;
+  return {app, [app, arguments] { return certifyOrComplain(*arguments, *app); }};
 }
 
 } // namespace feedhold

@@ -36,7 +36,7 @@ Command addRangesCommand(CLI::App &parent);
 Command addProveCommand(CLI::App &parent, const Answers *given = nullptr);
 Command addMergeCommand(CLI::App &parent);
 Command addDraftCommand(CLI::App &parent);
-Command addCertifyCommand(CLI::App &parent);
+Command addCertifyCommand(CLI::App &parent, const Answers *given = nullptr);
 Command addRecheckCommand(CLI::App &parent);
 Command addSelfCheckCommand(CLI::App &parent);
 Command addCompletionsCommand(CLI::App &parent);

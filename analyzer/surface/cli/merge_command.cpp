@@ -1,5 +1,5 @@
-// `feedhold merge PARTS`: joins what the shards of `check` or `prove` have found into what one run would have written.
-// It is that run, which takes its answers from the parts.
+// `feedhold merge PARTS`: joins what the shards of `check`, `prove` or `certify` have found into what one run would
+// have written. It is that run, which takes its answers from the parts.
 #include "surface/cli/baseline_file.h"
 #include "surface/cli/command_words.h"
 #include "surface/cli/commands.h"
@@ -16,7 +16,7 @@ namespace feedhold {
 
 namespace {
 
-/// Those of `check` and `prove` that decide how results are told, not what they are.
+/// Those of the commands that decide how results are told, not what they are.
 struct MergeArguments {
   std::vector<std::string> parts;
   std::string format = "that of the shards";
@@ -35,7 +35,9 @@ void addOptions(CLI::App &app, MergeArguments &arguments) {
       ->type_name("PART")
       ->required();
   addFormat(app, arguments.format, {"text", "concise", "json", "sarif", "junit", "github"});
-  app.add_option("--output", arguments.output, "write the results to this file (of check)")->type_name("FILE");
+  app.add_option("--output", arguments.output,
+                 "write the findings of check to this file, the report of certify to this folder")
+      ->type_name("PLACE");
   addColor(app, arguments.color);
   app.add_flag("--show-suppressed", arguments.showSuppressed, "also print findings that @ALLOW suppresses (of check)");
   app.add_flag("-v,--verbose", arguments.verbose, "print how each proof was found and what it cost (of prove)");
@@ -51,8 +53,10 @@ int runCommand(const RunPart &run, std::vector<std::string> words) {
   for (const auto &[key, record] : run.answers)
     answers.add(key, record);
   CLI::App app("", "feedhold");
-  const Command command =
-      run.command.front() == "prove" ? addProveCommand(app, &answers) : addCheckCommand(app, &answers);
+  const std::string &name = run.command.front();
+  const Command command = name == "prove"     ? addProveCommand(app, &answers)
+                          : name == "certify" ? addCertifyCommand(app, &answers)
+                                              : addCheckCommand(app, &answers);
   try {
     words.insert(words.begin(), run.command.front());
     std::reverse(words.begin(), words.end()); // as CLI11 takes them

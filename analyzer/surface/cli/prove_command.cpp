@@ -237,19 +237,6 @@ void addErrors(ProofsResult &result, const std::vector<PathProblem> &errors) {
       result.errors.push_back(error);
 }
 
-/// What the proofs of a file cost, in steps.
-FileCosts costsOf(const ProofsResult &result) {
-  FileCosts costs;
-  for (const ProvedFile &file : result.files) {
-    std::uint64_t cost = 1;
-    for (const ProvedProgram &program : file.programs)
-      for (const prove::Obligation &obligation : program.proof.obligations)
-        cost += obligation.effort;
-    costs.emplace(file.file().shown, cost);
-  }
-  return costs;
-}
-
 int runProve(const ProveArguments &arguments, const CLI::App &command) {
   const std::optional<Baseline> baseline = baselineToStart(complaintAbout(arguments), arguments.baseline);
   if (!baseline)

@@ -19,20 +19,6 @@ namespace {
 
 KnownNames known() { return {allDialects(), allRules()}; }
 
-/// Absolute paths: what is said of a file must not depend on the folder in which somebody stands.
-CheckOptions filesOf(const ReportOptions &options, unsigned jobs) {
-  CheckOptions files;
-  for (const fs::path &path : options.paths)
-    files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
-  files.control = options.reading.control;
-  if (options.reading.isolated)
-    files.config.source = ConfigSource::None;
-  else if (options.reading.config)
-    files.config = {ConfigSource::Named, fs::absolute(*options.reading.config).lexically_normal()};
-  files.jobs = jobs;
-  return files;
-}
-
 std::optional<fs::path> configFor(const ConfigOptions &options, const fs::path &file) {
   if (options.source == ConfigSource::Named)
     return options.file;
@@ -48,13 +34,13 @@ void addGuards(ProofsResult &proofs, const ProofOptions &made) {
   ProofOptions options = made;
   options.steps = KeepSteps::No;
   options.prove.guards = prove::InferGuards::Yes;
-  options.files.paths.clear();
+  options.files.only.emplace();
   for (const ProvedFile &file : proofs.files)
     if (std::any_of(file.programs.begin(), file.programs.end(), [](const ProvedProgram &program) {
           return std::any_of(program.proof.obligations.begin(), program.proof.obligations.end(), isOpen);
         }))
-      options.files.paths.push_back(file.file().shown);
-  if (options.files.paths.empty())
+      options.files.only->insert(file.file().shown);
+  if (options.files.only->empty())
     return;
   const ProofsResult guarded = proveAll(options, known());
   std::map<std::pair<std::string, std::string>, const prove::Guard *> guards; // by file and obligation
@@ -76,15 +62,31 @@ std::vector<std::string> solvers() {
 
 } // namespace
 
+/// Absolute paths: what is said of a file must not depend on the folder in which somebody stands.
+CheckOptions filesOfReport(const ReportOptions &options, unsigned jobs) {
+  CheckOptions files;
+  for (const fs::path &path : options.paths)
+    files.paths.push_back(fs::absolute(path).lexically_normal().generic_string());
+  files.control = options.reading.control;
+  if (options.reading.isolated)
+    files.config.source = ConfigSource::None;
+  else if (options.reading.config)
+    files.config = {ConfigSource::Named, fs::absolute(*options.reading.config).lexically_normal()};
+  files.jobs = jobs;
+  return files;
+}
+
 /// An installation that fails its self-check releases nothing.
-ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsigned jobs) {
+ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsigned jobs, const ReportPart &part) {
   std::vector<SelfCheckStep> steps = selfCheck();
   if (!passed(steps)) {
     ReportRun failed;
     failed.problems.push_back({"this installation", "the self-check failed; `feedhold self-check` shows how"});
     return failed;
   }
-  ProofOptions proofOptions{.files = filesOf(options, jobs)};
+  ProofOptions proofOptions{.files = filesOfReport(options, jobs)};
+  proofOptions.files.only = part.files;
+  proofOptions.answers = part.answers;
   proofOptions.prove.only = options.reading.only;
   keepEvidence(proofOptions);
   ProofsResult proofs = proveAll(proofOptions, known());
@@ -95,13 +97,16 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
   if (!run.problems.empty())
     return run;
   addGuards(proofs, proofOptions);
-  const CheckResult findings = check(proofOptions.files, known());
+  const CheckResult findings = check(proofOptions.files, known(), part.answers);
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
       run.counts.add(program.proof);
       ++run.programs;
     }
   run.status = releaseStatusOf(proofs);
+  run.costs = costsOf(proofs);
+  if (part.files)
+    return run;
   run.report = makeReport({.options = options,
                            .proofs = proofs,
                            .findings = findings,
