@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
+#include "rules/words/letter_for_digit.h"
 
 #include <algorithm>
 #include <array>
@@ -197,6 +198,14 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
     return;
   if (isBehindSlash(issue, context))
     return reportBehindSlash(issue, context, reporter);
+  if (const auto digits = mistypedDigitsAt(issue.span.begin, context)) {
+    reporter.report({.message = fmt::format("{} is not part of a word or statement: {}", context.quoted(issue.span),
+                                            describe(*digits)),
+                     .span = issue.span,
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                     .fixes = fixesFor(*digits)});
+    return;
+  }
   reporter.report({.message = fmt::format("{} is not part of a word or statement", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),

@@ -4,18 +4,21 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 
 namespace feedhold::rules::number_without_point {
 namespace {
 
 // So many whole lengths with a point must stand in the file for each one without before the latter is a slip.  In the
-// programs looked at the writers either had more than twenty for one, or about as many of both kinds.
-constexpr std::size_t kHabit = 10;
+// programs looked at the writers either had at least that many for one, or about as many of both kinds.
+constexpr std::size_t kHabit = 4;
 // A zero in front says more: there are controls whose programs have numbers of a fixed width, all without a point.
 constexpr std::size_t kHabitOfZeros = 3;
 // The same coordinate stands elsewhere with its point.
 constexpr std::size_t kHabitOfTwins = 5;
 constexpr std::size_t kMostSlips = 10; // each is compared with the whole file
+// A whole number beside it has its point: `X10 Y5.`
+constexpr std::size_t kHabitOfNeighbours = 2;
 
 /// A word of the file with the same address and the same number, and with a point.
 const Word *twinOf(const Word &word, const FileContext &context) {
@@ -27,7 +30,29 @@ const Word *twinOf(const Word &word, const FileContext &context) {
   return nullptr;
 }
 
-void reportWord(const Word &word, const Word *twin, const FileContext &context, const Reporter &reporter) {
+/// A length of its block that is a whole number and has its point, as all others of the block: whoever wrote it does
+/// not leave out points that seem to say nothing.
+const Word *neighbourOf(const Word &word, const FileContext &context) {
+  const Word *found = nullptr;
+  for (const Word &other : context.tree.wordsOf(context.tree.blockAt(word.span().begin))) {
+    if (&other == &word || formatOf(context.dialect, other.address()).kind != AddressKind::Length)
+      continue;
+    if (!other.isNumber() || !other.has(Word::kPoint))
+      return nullptr;
+    if (other.number().isInteger())
+      found = &other;
+  }
+  return found;
+}
+
+/// What shows that a point is missing.
+struct Witness {
+  const Word *word;
+  std::string_view saying; // ends the message
+};
+
+void reportWord(const Word &word, const std::optional<Witness> &witness, const FileContext &context,
+                const Reporter &reporter) {
   const bool sure = context.dialect.switches.dpi == Switch::Off;
   const std::string_view unless = context.dialect.hasFanucParameters
                                       ? "with parameter 3401#0 (DPI) off "
@@ -37,12 +62,23 @@ void reportWord(const Word &word, const Word *twin, const FileContext &context, 
   const LeastIncrements increments = leastIncrementsOf(context.dialect);
   reporter.report(
       {.message = fmt::format("{} has no decimal point, but {}", context.quoted(word.span()),
-                              twin ? "has one elsewhere" : "the lengths around it do"),
+                              witness ? witness->saying : "the lengths around it do"),
        .span = word.span(),
-       .labels = twin ? std::vector<Label>{{twin->span(), "with a point"}} : std::vector<Label>{},
+       .labels = witness ? std::vector<Label>{{witness->word->span(), "with a point"}} : std::vector<Label>{},
        .notes = {fmt::format("{}the control reads it in least increments: {} mm or {} inch, not {}", sure ? "" : unless,
                              read(increments.metric), read(increments.inch), counts)},
        .fixes = {{.title = "add the decimal point", .edits = {{{word.span().end, word.span().end}, "."}}}}});
+}
+
+std::optional<Witness> witnessOf(const Word &word, const WrittenLengths &lengths, const FileContext &context) {
+  const std::size_t slips = lengths.withoutPoint.size();
+  if (lengths.withPoint >= kHabitOfTwins * slips)
+    if (const Word *twin = twinOf(word, context))
+      return Witness{twin, "has one elsewhere"};
+  if (lengths.wholeWithPoint >= kHabitOfNeighbours * slips)
+    if (const Word *neighbour = neighbourOf(word, context))
+      return Witness{neighbour, "the other lengths of its block do"};
+  return std::nullopt;
 }
 
 /// `Z-0560`: nobody writes a zero in front of a number, but behind a point that got lost there is one.
@@ -71,14 +107,14 @@ void check(const FileContext &context, const Reporter &reporter) {
   lengths.withoutPoint.erase(odd.begin(), odd.end());
   if (context.dialect.switches.dpi == Switch::On)
     return;
-  if (lengths.wholeWithPoint >= kHabit * lengths.withoutPoint.size()) {
+  const std::size_t slips = lengths.withoutPoint.size();
+  if (lengths.wholeWithPoint >= kHabit * slips) {
     for (const WordId word : lengths.withoutPoint)
-      reportWord(context.tree.words[word], nullptr, context, reporter);
-  } else if (lengths.withoutPoint.size() <= kMostSlips &&
-             lengths.withPoint >= kHabitOfTwins * lengths.withoutPoint.size()) {
+      reportWord(context.tree.words[word], std::nullopt, context, reporter);
+  } else if (slips <= kMostSlips) {
     for (const WordId word : lengths.withoutPoint)
-      if (const Word *twin = twinOf(context.tree.words[word], context))
-        reportWord(context.tree.words[word], twin, context, reporter);
+      if (const auto witness = witnessOf(context.tree.words[word], lengths, context))
+        reportWord(context.tree.words[word], witness, context, reporter);
   }
 }
 
