@@ -26,11 +26,13 @@ Span pieceAround(std::uint32_t place, std::string_view text) {
 /// Reads a piece as words, each an address and a number.
 class Reader {
 public:
-  bool read(std::string_view piece) {
+  /// `goesOn`: behind the piece stands the value of its last word, `GOIX#1`.
+  bool read(std::string_view piece, bool goesOn) {
     for (const char c : piece)
       if (!take(c))
         return false;
-    return (hasO || hasI) && (isNumber() || piece.size() == 2);
+    const bool isOpen = goesOn && !hasDigit_ && !hasPoint_;
+    return (hasO || hasI) && (isOpen || isNumber() || piece.size() == 2);
   }
   std::string meant;
   bool hasO = false;
@@ -86,14 +88,19 @@ private:
 
 std::optional<MistypedDigits> mistypedDigitsAt(std::uint32_t place, const FileContext &context) {
   const Span span = pieceAround(place, context.source.text());
+  const std::string_view piece = context.text(span);
+  const std::string_view behind = context.source.text().substr(span.end, 1);
+  if (piece.starts_with("GOT0"))
+    return MistypedDigits{.span = span, .meant = fmt::format("GOTO{}", piece.substr(4)), .isJump = true};
   Reader reader;
-  // `GOT0300` is a jump with the digit 0 for its O.
-  if (span.size() > kLongest || context.text(span).starts_with("GOT") || !reader.read(context.text(span)))
+  if (span.size() > kLongest || piece.starts_with("GOT") || !reader.read(piece, behind == "#" || behind == "["))
     return std::nullopt;
   return MistypedDigits{span, std::move(reader.meant), reader.hasO, reader.hasI};
 }
 
 std::string describe(const MistypedDigits &digits) {
+  if (digits.isJump)
+    return "`GOTO` is written with the digit 0";
   if (digits.hasO && digits.hasI)
     return "letters stand in the place of the digits 0 and 1";
   return digits.hasO ? "the letter `O` stands in the place of the digit 0"

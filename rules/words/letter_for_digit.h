@@ -13,7 +13,8 @@ struct MistypedDigits {
   Span span;
   std::string meant;
   bool hasO = false;
-  bool hasI = false; // I or l
+  bool hasI = false;   // I or l
+  bool isJump = false; // the other way round: `GOT0300`
 };
 
 /// Around the place at which a block could not be read.  Absent where the letters are none that look like digits, or
