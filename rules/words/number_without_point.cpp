@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
+#include <string_view>
 
 namespace feedhold::rules::number_without_point {
 namespace {
@@ -97,6 +99,47 @@ void reportLeadingZero(const Word &word, const FileContext &context, const Repor
                  "write the point, or the number without the zero"}});
 }
 
+/// A drilling cycle of a mill, whose R is a level and whose Q a depth.
+bool isDrilling(BlockId block, const FileContext &context) {
+  return findAction(context.tree, block, context.dialect,
+                    {CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck, CodeAction::CycleChipBreak,
+                     CodeAction::CycleTap, CodeAction::CycleTapLeft, CodeAction::CycleBore, CodeAction::CycleBoreStop});
+}
+
+/// The word counts in least increments, though its address has other meanings, too: R and Q of a cycle, R of an arc.
+/// Large numbers of Q are meant so, as old controls need them.
+bool isSmallLength(const Word &word, std::string_view addresses) {
+  constexpr std::int64_t kMostOfPeck = 20;
+  return addresses.find(word.address()) != std::string_view::npos && word.isNumber() && !word.has(Word::kPoint) &&
+         !word.has(Word::kComma) && !word.has(Word::kArgument) && !word.number().isZero() &&
+         (word.address() != 'Q' || word.number() <= Decimal(kMostOfPeck, 0));
+}
+
+/// A whole number of the block with its point.
+const Word *wholeLengthIn(std::span<const Word> words, std::string_view addresses) {
+  const auto found = std::ranges::find_if(words, [&](const Word &word) {
+    return addresses.find(word.address()) != std::string_view::npos && word.isNumber() && word.has(Word::kPoint) &&
+           word.number().isInteger() && !word.number().isZero();
+  });
+  return found == words.end() ? nullptr : &*found;
+}
+
+/// `G83 Z-40. R2 Q5`, `G02 X20. Y5. R10`
+void checkFlexible(const WrittenLengths &lengths, const FileContext &context, const Reporter &reporter) {
+  if (lengths.wholeWithPoint < kHabitOfNeighbours * (lengths.withoutPoint.size() + 1))
+    return;
+  for (std::size_t i = 0; i < context.tree.blockCount(); ++i) {
+    const BlockId block(i);
+    const bool drills = isDrilling(block, context);
+    if (!drills && !findCode(context.tree, block, context.dialect, CodeRole::Arc))
+      continue;
+    const Word *whole = wholeLengthIn(context.tree.wordsOf(block), drills ? "Z" : "XYZUW");
+    for (const Word &word : context.tree.wordsOf(block))
+      if (whole && isSmallLength(word, drills ? "RQ" : "R"))
+        reportWord(word, Witness{whole, "other lengths of its block do"}, context, reporter);
+  }
+}
+
 void check(const FileContext &context, const Reporter &reporter) {
   WrittenLengths lengths = lengthsOf(context.tree, context.dialect);
   const auto odd = std::ranges::stable_partition(
@@ -107,6 +150,7 @@ void check(const FileContext &context, const Reporter &reporter) {
   lengths.withoutPoint.erase(odd.begin(), odd.end());
   if (context.dialect.switches.dpi == Switch::On)
     return;
+  checkFlexible(lengths, context, reporter);
   const std::size_t slips = lengths.withoutPoint.size();
   if (lengths.wholeWithPoint >= kHabit * slips) {
     for (const WordId word : lengths.withoutPoint)
