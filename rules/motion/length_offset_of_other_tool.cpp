@@ -136,6 +136,23 @@ bool differs(const Section &section) {
   return !section.lengths.empty() && !agrees(section) && section.lengths.front().number != 0;
 }
 
+/// Only H0, which is the offset of no tool.
+bool hasNone(const Section &section) {
+  return section.tool != 0 && !section.lengths.empty() &&
+         std::ranges::all_of(section.lengths, [](const Offset &offset) { return offset.number == 0; });
+}
+
+void tellNone(const Section &section, const FileContext &context, const Reporter &reporter) {
+  const Offset &offset = section.lengths.front();
+  reporter.report(
+      {.message = fmt::format("{} is no length offset, and {} has no other one", context.quoted(offset.word->span()),
+                              context.quoted(section.toolWord->span())),
+       .span = offset.word->span(),
+       .labels = {{section.toolWord->span(), "the tool in the spindle"}},
+       .notes = {fmt::format("tool {} moves as if its length were 0: it goes down into the part", section.tool),
+                 fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}});
+}
+
 /// A second offset of the same tool by a scheme of the shop: H12 or H52 of T2.
 bool isSecondOffset(const Section &section, std::uint32_t length, const std::set<std::uint32_t> &tools,
                     const std::set<std::uint32_t> &paired) {
@@ -256,6 +273,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       tell(section, context, reporter,
            isLone && !section.radiusAgrees && !isPairedByRemark(section.tool, context) ? Severity::Info
                                                                                        : Severity::Warning);
+    if (hasNone(section) && !paired.empty())
+      tellNone(section, context, reporter);
     if (countsRadii)
       checkRadius(section, tools, context, reporter);
   }
