@@ -34,6 +34,15 @@ bool mayBeReversed(std::string_view name) {
          std::ranges::any_of(kEnds, [&](std::string_view end) { return name.find(end) != std::string_view::npos; });
 }
 
+/// What a name says it is, as a place in a list; values of two kinds are never exchanged on purpose.
+std::size_t kindOf(std::string_view name) {
+  constexpr std::array<std::string_view, 8> kKinds = {"DEPTH", "FEED",  "SPEED",  "TOOL",
+                                                      "ANGLE", "COUNT", "RADIUS", "DIAM"};
+  const auto found =
+      std::ranges::find_if(kKinds, [&](std::string_view kind) { return name.find(kind) != std::string_view::npos; });
+  return static_cast<std::size_t>(found - kKinds.begin());
+}
+
 struct Parameter {
   std::string name; // empty: the subroutine gives it none, or several
   Span copied = {}; // `#<length> = #1`
@@ -93,7 +102,7 @@ void check(CallId id, const FileContext &context, const Reporter &reporter) {
       const bool isExchanged = !passed[i].empty() && !passed[j].empty() && passed[i] != passed[j] &&
                                passed[i] == parameters[j].name && passed[j] == parameters[i].name;
       if (!isExchanged || mayBeReversed(passed[i]) || mayBeReversed(passed[j]) ||
-          isPassedInOrder(*callee, i, parameters, context))
+          (kindOf(passed[i]) == kindOf(passed[j]) && isPassedInOrder(*callee, i, parameters, context)))
         continue;
       const Span first = context.tree.expressions[call.values[i]].span;
       const Span second = context.tree.expressions[call.values[j]].span;

@@ -26,6 +26,8 @@ public:
     if (isHavocked(state) || !movesTool(node) || !cuts(state) || isAbovePart(node, state))
       return;
     first_.note(node);
+    if (drills(state))
+      hole_.note(node);
     if (drills(state) || (!isLathe_ && goesBelowZero(node, state)))
       intoPart_.note(node);
   }
@@ -35,9 +37,10 @@ public:
       return;
     if (!preparesTool(facts)) {
       // Grinders, warm-ups and running-in move their axes by G01, and nothing is cut.
-      if (!intoPart_.node() || !isWholeAndStarts(facts))
+      const bool drillsOnly = hole_.node() && isNumbered() && comesToItsEnd(facts) && !isLathe_;
+      if (!intoPart_.node() || !(isWholeAndStarts(facts) || drillsOnly))
         return;
-      first_ = intoPart_;
+      first_ = isWholeAndStarts(facts) ? intoPart_ : hole_;
     }
     if (isLathe_ && !isLateOnLathe(facts) && !neverStartsOnLathe(facts))
       return;
@@ -135,8 +138,9 @@ private:
     bool hasLength = false;
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       hasLength = hasLength || view_.mayHave(node, 'H');
-    return hasLength && comesToItsEnd(facts) && !view_.context().model.programs[view_.program()].name.empty();
+    return hasLength && comesToItsEnd(facts) && isNumbered();
   }
+  bool isNumbered() const { return !view_.context().model.programs[view_.program()].name.empty(); }
   const Word *mistypedStart(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       for (const Word *word : view_.wordsOf(node))
@@ -225,6 +229,7 @@ private:
   bool mayBeStartedUnseen_ = false;
   FirstSeen first_;
   FirstSeen intoPart_; // below the zero of the part, or a hole
+  FirstSeen hole_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
