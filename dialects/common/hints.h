@@ -16,7 +16,7 @@ inline constexpr std::array kMacroBHints = {
 
 /// Only turning dialects carry these: milling is what is assumed.
 inline constexpr std::array kTurningHints = {
-    LanguageHint{TextSignal::TurningCycle, 6},    LanguageHint{TextSignal::SpindleLimit, 6},
+    LanguageHint{TextSignal::TurningCycle, 6},    LanguageHint{TextSignal::SpindleLimit, 16},
     LanguageHint{TextSignal::SurfaceSpeed, 3},    LanguageHint{TextSignal::TurretTool, 2},
     LanguageHint{TextSignal::ThreadPass, 6}, // a mill threads by G33
     LanguageHint{TextSignal::IncrementalAxis, 1}, LanguageHint{TextSignal::YAxis, -4},

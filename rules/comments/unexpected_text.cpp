@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
+#include "rules/words/letter_for_digit.h"
 
 #include <algorithm>
 #include <array>
@@ -97,6 +98,23 @@ bool reportOWord(const SyntaxIssue &issue, const FileContext &context, const Rep
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
                    .fixes = {{.title = fmt::format("write `{}`", *meant), .edits = {{*place, std::string(*meant)}}}}});
   return true;
+}
+
+/// What a printed page, or a keyboard of other letters, has for a sign of the program.
+struct Sign {
+  std::string_view written;
+  std::string_view meant;
+};
+constexpr std::array<Sign, 7> kSigns = {{{"\u2605", "*"},
+                                         {"\u00d7", "*"},
+                                         {"\u2217", "*"},
+                                         {"\u00f7", "/"},
+                                         {"\u2212", "-"},
+                                         {"\u2013", "-"},
+                                         {"\uff1d", "="}}};
+const Sign *signAt(const SyntaxIssue &issue, const FileContext &context) {
+  const auto sign = std::ranges::find(kSigns, context.text(issue.span), &Sign::written);
+  return sign == kSigns.end() ? nullptr : sign;
 }
 
 /// Lines that version control leaves around two versions of some others.
@@ -197,6 +215,22 @@ void check(const SyntaxIssue &issue, const FileContext &context, const Reporter 
     return;
   if (isBehindSlash(issue, context))
     return reportBehindSlash(issue, context, reporter);
+  if (const Sign *sign = signAt(issue, context)) {
+    reporter.report({.message = fmt::format("{} is no sign that the control knows", context.quoted(issue.span)),
+                     .span = issue.span,
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                     .fixes = {{.title = fmt::format("write `{}`", sign->meant),
+                                .edits = {{issue.span, std::string(sign->meant)}}}}});
+    return;
+  }
+  if (const auto digits = mistypedDigitsAt(issue.span.begin, context)) {
+    reporter.report({.message = fmt::format("{} is not part of a word or statement: {}", context.quoted(issue.span),
+                                            describe(*digits)),
+                     .span = issue.span,
+                     .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat))},
+                     .fixes = fixesFor(*digits)});
+    return;
+  }
   reporter.report({.message = fmt::format("{} is not part of a word or statement", context.quoted(issue.span)),
                    .span = issue.span,
                    .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::WordFormat)),

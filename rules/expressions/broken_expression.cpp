@@ -23,6 +23,23 @@ struct Slip {
   std::string message;
   std::string meant;
 };
+/// `#1GTO.` for `#1GT0.`, `#1x0.5` for `#1*0.5`
+std::optional<Slip> mistypedSignAt(Span place, const FileContext &context) {
+  const std::string_view text = context.source.text();
+  if (place.begin == 0 || place.begin + 1 >= text.size())
+    return std::nullopt;
+  const char sign = toUpper(text[place.begin]);
+  const char before = text[place.begin - 1];
+  const char behind = text[place.begin + 1];
+  const Span span{place.begin, place.begin + 1};
+  if (sign == 'O' && std::string_view(".]*/+-").find(behind) != std::string_view::npos)
+    return Slip{span, "the letter `O` stands in the place of the digit 0", "0"};
+  const bool isFactor = isDigit(behind) || behind == '#' || behind == '[';
+  if (sign == 'X' && isFactor && (isDigit(before) || before == ']' || before == '.'))
+    return Slip{span, fmt::format("{} is no sign of multiplication", context.quoted(span)), "*"};
+  return std::nullopt;
+}
+
 std::optional<Slip> slipAt(Span place, const FileContext &context) {
   const std::string_view text = context.source.text();
   if (text.substr(place.begin).starts_with("<#")) {
@@ -33,6 +50,8 @@ std::optional<Slip> slipAt(Span place, const FileContext &context) {
     const std::string meant = fmt::format("#<{}", context.text({span.begin + 2, span.end}));
     return Slip{span, fmt::format("the `#` of {} stands inside the brackets", context.quoted(span)), meant};
   }
+  if (auto slip = mistypedSignAt(place, context))
+    return slip;
   const std::size_t open = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", place.begin);
   const bool isName = open != std::string_view::npos && open > place.begin + 1 && text[open] == '[';
   if (place.begin == 0 || text[place.begin - 1] != '#' || !isName)

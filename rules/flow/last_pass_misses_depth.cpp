@@ -100,13 +100,31 @@ std::optional<LastPass> lastPass(const Formulas &formulas, const LoopEnd &end, c
   return depth && depth->exact != limit->exact ? std::optional(LastPass{*depth, *limit}) : std::nullopt;
 }
 
+/// One side of the comparison is the counter itself, before its step or behind it.
+bool comparesCounter(const Formulas &formulas, const LoopEnd &end) {
+  const ExpressionId counted = end.countsOnLeft ? end.relation->left : end.relation->right;
+  return variableOf(formulas.facts(), counted) == formulas.input(end.counter).variable;
+}
+
+/// From the test, the loop goes back to its head at once.
+bool leadsOnlyTo(const FlowFacts &facts, const LoopFlow &loop, NodeId test) {
+  bool isBack = true;
+  forEachSuccessor(facts.file.cfg, *facts.file.model, test, ProgramUse::Called, [&](NodeId next) {
+    isBack = isBack && (next == loop.head || !std::ranges::binary_search(loop.nodes, next));
+  });
+  return isBack;
+}
+
+/// The test stands at the head, or at the end of each pass: `IF[#1LE#2]GOTO20`.
+bool isTestedOncePerPass(const FlowFacts &facts, const LoopFlow &loop) {
+  const NodeId test = loop.exits.front().test;
+  return test == loop.head || (passesAlways(facts, loop, test) && leadsOnlyTo(facts, loop, test));
+}
+
 void checkLoop(const FlowFacts &facts, const LoopFlow &flow, const FileContext &context, const Reporter &reporter) {
   Formulas formulas(facts);
   const auto end = endOf(formulas, flow, flow.exits.front());
-  if (!end || isEquality(*end) || end->testsAfterStep)
-    return;
-  const FormulaId counted = end->countsOnLeft ? end->left : end->right;
-  if (formulas.asInput(counted) != end->counter)
+  if (!end || isEquality(*end) || !comparesCounter(formulas, *end))
     return;
   const Loop loop(facts, context, flow);
   const FormulaInput counter = formulas.input(end->counter); // a copy: the guards add inputs
@@ -139,7 +157,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   if (isTooLarge(facts) || context.dialect.machine != MachineKind::Milling)
     return;
   for (const LoopFlow &loop : loopsOf(facts))
-    if (loop.exitsAreKnown && loop.exits.size() == 1 && loop.exits.front().test == loop.head && !loop.changesUnseen)
+    if (loop.exitsAreKnown && loop.exits.size() == 1 && isTestedOncePerPass(facts, loop) && !loop.changesUnseen)
       checkLoop(facts, loop, context, reporter);
 }
 

@@ -13,6 +13,9 @@ namespace {
 /// Feeds that only fit one of the units: up to a millimetre in a revolution, or from 20 in a minute.
 constexpr std::int64_t kMostPerRevolution = 1;
 constexpr std::int64_t kLeastPerMinute = 20;
+/// Below the pitches of all taps, in millimetres and in inches.
+constexpr double kNoPitch = 0.1;
+constexpr double kNoPitchInInches = 0.004;
 
 const Word *feedModeIn(BlockId block, const FileContext &context) {
   return findAction(context.tree, block, context.dialect,
@@ -110,6 +113,7 @@ public:
 
   void read(BlockId block, const Reporter &reporter) {
     const bool isHidden = hidden_.isIn(block);
+    noteSpeed(block);
     if (isHidden && units_.hasMode)
       lose();
     if (const Word *mode = feedModeIn(block, context_)) {
@@ -118,7 +122,11 @@ public:
       isPerMinute_ = action == CodeAction::FeedPerMinute;
       isPerRevolution_ = action == CodeAction::FeedPerRevolution;
     }
-    if (isHidden || isThread(block) || meansOwnWords(context_.tree, block, context_.dialect))
+    if (isHidden || meansOwnWords(context_.tree, block, context_.dialect))
+      return;
+    if (findAction(context_.tree, block, context_.dialect, {CodeAction::CycleTap, CodeAction::CycleTapLeft}))
+      judgeTap(block, reporter);
+    if (isThread(block))
       return;
     for (const Word &word : context_.tree.wordsOf(block))
       if (word.address() == 'F' && word.isNumber() && word.has(Word::kPoint))
@@ -149,6 +157,25 @@ private:
     else if (isPerRevolution_ && feed >= Decimal(kLeastPerMinute, 0))
       tell(word, "per revolution", "by its size this is a feed per minute: the tool runs into the part", reporter);
   }
+  /// The pitch of a tap where its feed belongs.  `,R1` stands for a cycle of other makers, whose F is the pitch.
+  void judgeTap(BlockId block, const Reporter &reporter) {
+    const Word *feed = findWord(context_.tree, block, 'F');
+    const auto words = context_.tree.wordsOf(block);
+    if (told_ || !mode_ || !feed || !feed->isNumber() || feed->number().isZero() ||
+        std::ranges::any_of(words, [](const Word &word) { return word.has(Word::kComma); }))
+      return;
+    if (isPerRevolution_ && feed->number() >= Decimal(kLeastPerMinute, 0))
+      tell(*feed, "per revolution", "no tap has that pitch: by its size this is a feed per minute", reporter);
+    else if (isPerMinute_ && feed->has(Word::kPoint) && speed_ &&
+             feed->number().toDouble() < *speed_ * (units_.isMetric ? kNoPitch : kNoPitchInInches))
+      tell(*feed, "per minute", "the tap does not follow its thread: by its size this is a pitch, as with `G95`",
+           reporter);
+  }
+  void noteSpeed(BlockId block) {
+    const Word *speed = findWord(context_.tree, block, 'S');
+    if (speed)
+      speed_ = speed->isNumber() ? std::optional(speed->number().toDouble()) : std::nullopt;
+  }
   void tell(const Word &word, std::string_view unit, std::string note, const Reporter &reporter) {
     told_ = true;
     Diagnostic diagnostic{.message = fmt::format("{} is counted {}", context_.quoted(word.span()), unit),
@@ -163,6 +190,7 @@ private:
   Units units_;
   HiddenWork hidden_;
   const Word *mode_ = nullptr; // its code, where the program has one
+  std::optional<double> speed_;
   bool isPerMinute_ = false;
   bool isPerRevolution_ = false;
   bool told_ = false;

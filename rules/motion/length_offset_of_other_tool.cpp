@@ -1,6 +1,8 @@
 // length-offset-of-other-tool: `T2 M06`, then `G43 H1` or `G41 D1`.
 #include "rules/motion/folder_programs.h"
 
+#include "base/support/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,6 +136,23 @@ bool differs(const Section &section) {
   return !section.lengths.empty() && !agrees(section) && section.lengths.front().number != 0;
 }
 
+/// Only H0, which is the offset of no tool.
+bool hasNone(const Section &section) {
+  return section.tool != 0 && !section.lengths.empty() &&
+         std::ranges::all_of(section.lengths, [](const Offset &offset) { return offset.number == 0; });
+}
+
+void tellNone(const Section &section, const FileContext &context, const Reporter &reporter) {
+  const Offset &offset = section.lengths.front();
+  reporter.report(
+      {.message = fmt::format("{} is no length offset, and {} has no other one", context.quoted(offset.word->span()),
+                              context.quoted(section.toolWord->span())),
+       .span = offset.word->span(),
+       .labels = {{section.toolWord->span(), "the tool in the spindle"}},
+       .notes = {fmt::format("tool {} moves as if its length were 0: it goes down into the part", section.tool),
+                 fmt::format("write `H{}` if tool {} is meant", section.tool, section.tool)}});
+}
+
 /// A second offset of the same tool by a scheme of the shop: H12 or H52 of T2.
 bool isSecondOffset(const Section &section, std::uint32_t length, const std::set<std::uint32_t> &tools,
                     const std::set<std::uint32_t> &paired) {
@@ -210,6 +229,28 @@ bool isLoneMismatch(const std::vector<Section> &sections, ProgramId program, con
          sections.front().lengths.front().number < kMostOfSmallMagazine && !hasOtherScheme(program, context);
 }
 
+/// The text holds the letter and the number, and no digit more: `T02`, `H2`.
+bool names(std::string_view text, char letter, std::uint32_t number) {
+  for (std::size_t at = text.find(letter); at != std::string_view::npos; at = text.find(letter, at + 1)) {
+    std::size_t end = at + 1;
+    std::uint32_t read = 0;
+    for (; end < text.size() && isDigit(text[end]) && end - at < 5; ++end)
+      read = read * 10 + static_cast<std::uint32_t>(text[end] - '0');
+    const bool isWord = at == 0 || !isLetter(text[at - 1]);
+    if (isWord && end > at + 1 && read == number)
+      return true;
+  }
+  return false;
+}
+
+/// A remark gives the tool its own number for its length: `(T02 - END MILL, H02)`.
+bool isPairedByRemark(std::uint32_t tool, const FileContext &context) {
+  return std::ranges::any_of(context.tree.comments, [&](const Comment &comment) {
+    const std::string text = toUpper(context.text(comment.span));
+    return names(text, 'T', tool) && names(text, 'H', tool);
+  });
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (turns(program, context))
     return;
@@ -229,7 +270,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   for (const Section &section : sections) {
     const bool isHabit = section.radiusAgrees || isLone || (!paired.empty() && odd.size() <= paired.size());
     if (differs(section) && isHabit && !isSecondOffset(section, section.lengths.front().number, tools, paired))
-      tell(section, context, reporter, isLone && !section.radiusAgrees ? Severity::Info : Severity::Warning);
+      tell(section, context, reporter,
+           isLone && !section.radiusAgrees && !isPairedByRemark(section.tool, context) ? Severity::Info
+                                                                                       : Severity::Warning);
+    if (hasNone(section) && !paired.empty())
+      tellNone(section, context, reporter);
     if (countsRadii)
       checkRadius(section, tools, context, reporter);
   }

@@ -24,7 +24,7 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeSetUnseen_ || !comesToItsEnd(facts) || !changesTool(facts) || hasSpeed())
+    if (!first_.node() || mayBeSetUnseen_ || !comesToItsEnd(facts) || !usesTools(facts) || hasSpeed())
       return;
     const Word *start =
         view_.findAction(*first_.node(), {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise});
@@ -39,9 +39,10 @@ public:
   }
 
 private:
-  bool changesTool(const FlowFacts &facts) const {
+  /// It changes tools, or calls the length of one: no router or torch whose speed is set by hand.
+  bool usesTools(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
-      if (view_.findAction(node, {CodeAction::ToolChange}))
+      if (view_.findAction(node, {CodeAction::ToolChange, CodeAction::LengthPlus}))
         return true;
     return false;
   }
@@ -69,8 +70,9 @@ std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
 } // namespace
 
 extern const Rule speedNotSet;
-const Rule speedNotSet{.info = {"speed-not-set", Category::Motion, Severity::Warning,
-                                "Reports an `M03` or `M04` of a main program that changes tools and has no `S`."},
-                       .hooks = {.watch = watch}};
+const Rule speedNotSet{
+    .info = {"speed-not-set", Category::Motion, Severity::Warning,
+             "Reports an `M03` or `M04` of a main program that uses tools of several lengths and has no `S`."},
+    .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::speed_not_set

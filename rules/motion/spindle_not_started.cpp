@@ -26,11 +26,23 @@ public:
     if (isHavocked(state) || !movesTool(node) || !cuts(state) || isAbovePart(node, state))
       return;
     first_.note(node);
+    if (drills(state))
+      hole_.note(node);
+    if (drills(state) || (!isLathe_ && goesBelowZero(node, state)))
+      intoPart_.note(node);
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeStartedUnseen_ || !preparesTool(facts) ||
-        (isLathe_ && !isLateOnLathe(facts) && !neverStartsOnLathe(facts)))
+    if (!first_.node() || mayBeStartedUnseen_)
+      return;
+    if (!preparesTool(facts)) {
+      // Grinders, warm-ups and running-in move their axes by G01, and nothing is cut.
+      const bool drillsOnly = hole_.node() && isNumbered() && comesToItsEnd(facts) && !isLathe_;
+      if (!intoPart_.node() || !(isWholeAndStarts(facts) || drillsOnly))
+        return;
+      first_ = isWholeAndStarts(facts) ? intoPart_ : hole_;
+    }
+    if (isLathe_ && !isLateOnLathe(facts) && !neverStartsOnLathe(facts))
       return;
     const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
     Diagnostic diagnostic{.message = {},
@@ -48,7 +60,7 @@ public:
       if (const Word *mistyped = mistypedStart(facts))
         diagnostic.labels = {{mistyped->span(), "this code does not start the spindle"}};
     }
-    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) || isStartedInFile() || isOfMagazine(facts)
+    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) || isStartedInFile() || isOfTools(facts)
                                                ? Severity::Warning
                                                : Severity::Info);
   }
@@ -74,8 +86,7 @@ private:
     }
     return std::nullopt;
   }
-  /// A tool, its length or a speed stands before the move.  Grinders, warm-ups and running-in move their axes by G01,
-  /// and nothing is cut.
+  /// A tool, its length or a speed stands before the move.
   bool preparesTool(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       if (std::ranges::any_of(view_.wordsOf(node), [](const Word *word) {
@@ -84,6 +95,16 @@ private:
           }))
         return true;
     return false;
+  }
+  /// The tool is in the part before the first M03 or M04 of the program.
+  bool isWholeAndStarts(const FlowFacts &facts) const {
+    bool startsLater = false;
+    for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+      if (starts(node) && node < *intoPart_.node())
+        return false; // on another path
+      startsLater = startsLater || starts(node);
+    }
+    return startsLater && comesToItsEnd(facts);
   }
   /// A speed stands before the first cut, and the spindle is started behind it, for another tool.
   bool isLateOnLathe(const FlowFacts &facts) const {
@@ -112,17 +133,14 @@ private:
     return hasSpeed && hasTool && !isStartedInFile() && comesToItsEnd(facts) &&
            context.model.callsOf(view_.program()).empty();
   }
-  /// A numbered program that changes tools and calls their lengths is for no plotter and no laser.
-  bool isOfMagazine(const FlowFacts &facts) const {
-    bool changes = false;
+  /// A numbered program that calls the lengths of its tools is for no plotter and no laser.
+  bool isOfTools(const FlowFacts &facts) const {
     bool hasLength = false;
-    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next()) {
-      changes = changes || view_.findAction(node, {CodeAction::ToolChange});
+    for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       hasLength = hasLength || view_.mayHave(node, 'H');
-    }
-    return changes && hasLength && comesToItsEnd(facts) &&
-           !view_.context().model.programs[view_.program()].name.empty();
+    return hasLength && comesToItsEnd(facts) && isNumbered();
   }
+  bool isNumbered() const { return !view_.context().model.programs[view_.program()].name.empty(); }
   const Word *mistypedStart(const FlowFacts &facts) const {
     for (NodeId node = facts.entry(); node <= *first_.node(); node = node.next())
       for (const Word *word : view_.wordsOf(node))
@@ -172,6 +190,11 @@ private:
                         {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
            drills(state);
   }
+  bool goesBelowZero(NodeId node, const AbstractState &state) const {
+    const auto words = view_.modalMotionWords(node);
+    return std::ranges::any_of(words, [](const Word *word) { return word->address() == 'Z'; }) &&
+           state.at(Axis::Z).number().interval().hi < 0;
+  }
   /// Tapping cycles start the spindle on some controls, and rigid tapping does on all.
   bool drills(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Cycle,
@@ -205,6 +228,8 @@ private:
   bool isLathe_;
   bool mayBeStartedUnseen_ = false;
   FirstSeen first_;
+  FirstSeen intoPart_; // below the zero of the part, or a hole
+  FirstSeen hole_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
+#include "rules/words/letter_for_digit.h"
 
 #include <fmt/format.h>
 
@@ -37,11 +38,27 @@ void reportColons(const SyntaxIssue &issue, const FileContext &context, const Re
                              "delete the `:`; the parentheses make the remark"}});
 }
 
+/// `GO`: both letters lack a number, and one message says why.
+bool isFirstIn(Span piece, const SyntaxIssue &issue, const FileContext &context) {
+  return std::ranges::none_of(context.tree.issues, [&](const SyntaxIssue &other) {
+    return other.kind == issue.kind && piece.contains(other.span) && other.span.begin < issue.span.begin;
+  });
+}
+
 void check(const SyntaxIssue &issue, const FileContext &context, const Reporter &reporter) {
   if (isColonOfRemark(issue, context))
     return reportColons(issue, context, reporter);
   if (isPlaceholder(context.text({issue.span.end, context.tree.blocks[context.tree.blockAt(issue.span.begin)].end})))
     return;
+  if (const auto digits = mistypedDigitsAt(issue.span.begin, context)) {
+    if (isFirstIn(digits->span, issue, context))
+      reporter.report(
+          {.message = fmt::format("{} has no number: {}", context.quoted(issue.span), describe(*digits)),
+           .span = issue.span,
+           .notes = {fmt::format("the control {}", stopsWith(context.dialect, AlarmKind::NoDataAfterAddress))},
+           .fixes = fixesFor(*digits)});
+    return;
+  }
   reporter.report(
       {.message = fmt::format("{} has no number", context.quoted(issue.span)),
        .span = issue.span,

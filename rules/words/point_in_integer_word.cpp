@@ -2,6 +2,7 @@
 #include "findings/rule/rule.h"
 
 #include "rules/words/block_words.h"
+#include "rules/words/letter_for_digit.h"
 
 #include <fmt/format.h>
 
@@ -47,12 +48,27 @@ bool mayBeArgument(const Word &word, const FileContext &context, BlockId block) 
   return std::ranges::find(calls, CallKind::ModalEach, &Call::kind) != calls.end();
 }
 
+/// `X1O.`: a letter in the place of a digit began a word.
+void reportDigits(const Word &word, const FileContext &context, const Reporter &reporter) {
+  const auto digits = mistypedDigitsAt(word.span().begin, context);
+  const bool isReported = std::ranges::any_of(
+      context.tree.issues, [&](const SyntaxIssue &issue) { return digits->span.contains(issue.span); });
+  if (isReported)
+    return;
+  reporter.report(
+      {.message = fmt::format("{} takes no decimal point: {}", context.quoted(word.span()), describe(*digits)),
+       .span = word.span(),
+       .fixes = fixesFor(*digits)});
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const AddressFormat &format = formatOf(context.dialect, word.address());
   if (!word.isNumber() || !word.has(Word::kPoint) || word.has(Word::kComma) || format.kind != AddressKind::Integer ||
       format.literalMayHavePoint || mayBeArgument(word, context, block) || isBesideCall(word, context, block) ||
       isMoveOfC(word, context, block))
     return;
+  if (mistypedDigitsAt(word.span().begin, context))
+    return reportDigits(word, context, reporter);
   const bool knownToStop = alarmNumber(context.dialect, AlarmKind::MisplacedPoint).has_value();
   reporter.report(
       {.message = fmt::format("{} takes no decimal point", context.quoted(word.span())),

@@ -82,6 +82,17 @@ TEST(Guess, DistanceModesAreNoLathes) {
   EXPECT_EQ(guessed("O1\nG50 S2000\nT0101\nG90 X20. Z-5. F0.2\nX18.\nM30\n"), "fanuc-30i-lathe");
 }
 
+TEST(Guess, ALimitOfTheSpindleSaysLatheInSpiteOfAYAxis) {
+  EXPECT_EQ(
+      guessed(
+          "O1\nG50S1800\nG97S2000M3\nG0X12.0Z2.0\nG0W-2.0\nT3200\nG0X3.0Y17.0Z5.5C0.0\nM6\nG1X2.9F0.2\nG1Y-8.5F0.03\n"
+          "G0Y8.5\nM7\nG0W-0.2\nM99\n"),
+      "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nG50S1800\nG18\nM6T025300\nG17G98\nG00Z140.\nX160.Y0\nG12.1\nG01X80.F100.\nG13.1\nM30\n"),
+            "fanuc-30i-lathe");
+  EXPECT_EQ(guessed("O1\nT1M6\nG90G54G0X0Y0\nG92S3000\nG43H1Z50.\nG1Y10.F100.\nM30\n"), "fanuc-30i");
+}
+
 TEST(Guess, WhatItRestsOn) {
   const auto basisOf = [](std::string_view text) { return guessLanguage(text, "", allDialects()).basis; };
   EXPECT_EQ(basisOf("G0 X1. Y2.\nM30\n"), GuessBasis::Nothing);
