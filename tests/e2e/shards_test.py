@@ -224,6 +224,7 @@ class SameBytes(Tree):
     def test_baseline(self):
         for command in ("check", "prove"):
             with self.subTest(command=command):
+                self.write("alone/O1001.nc", BAD)
                 one = self.feedhold(command, "--baseline", ".one.json", "--update-baseline")
                 self.shards(command, 2)
                 merged = self.merge("--baseline", ".merged.json", "--update-baseline")
