@@ -89,7 +89,8 @@ class Tree(Scratch):
         self.parts.mkdir()
         for cell, tens in ((1, 0), (2, 1)):
             name = f"cell {cell}"
-            self.write(f"{name}/O10{tens}0.nc", MAIN.format(number=f"10{tens}0", macro=f"90{tens}1", helper=f"90{tens}2"))
+            main = MAIN.format(number=f"10{tens}0", macro=f"90{tens}1", helper=f"90{tens}2")
+            self.write(f"{name}/O10{tens}0.nc", main)
             self.write(f"{name}/O90{tens}1.nc", MACRO.format(number=f"90{tens}1"))
             self.write(f"{name}/O90{tens}2.nc", HELPER.format(number=f"90{tens}2"))
         self.write("cell 1/O9001.contract", CONTRACT)

@@ -207,7 +207,8 @@ class SharedCache(Machines):
         self.assertExit(self.feedhold("recheck", "proofs", environment=environment), 0)
 
     def test_machines_side_by_side(self):
-        runs = [subprocess.Popen([FEEDHOLD, "prove", "--cache-dir", self.cache / str(number), "--cache-url", self.url, "nc"],
+        command = [FEEDHOLD, "prove", "--cache-url", self.url, "nc", "--cache-dir"]
+        runs = [subprocess.Popen([*command, self.cache / str(number)],
                                  cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                  env=self.environment({"FEEDHOLD_CACHE_KEY": KEY})) for number in range(4)]
         self.assertEqual({run.communicate()[0] for run in runs}, {self.expected.stdout})
@@ -385,8 +386,13 @@ class Troubled(Machines):
 
     def test_elsewhere(self):
         self.fill()
-        self.trouble(lambda handler: handler.answer(302, b"", [("Location", handler.path[4:])])
-                     if handler.path.startswith("/old") else handler.answer(200, self.server.files[handler.path]), "GET")
+        def send_on(handler):
+            if not handler.path.startswith("/old"):
+                return False
+            handler.answer(302, b"", [("Location", handler.path[4:])])
+            return True
+
+        self.server.trouble = send_on
         self.assertHits(self.prove("second", "--cache-url", self.url.replace("/feedhold", "/old/feedhold"), "nc"), 3)
 
     def test_password(self):
@@ -427,7 +433,8 @@ class Nginx(SharedCache):
         self.fail((holder / "error.log").read_text())
 
     def kept(self):
-        return {path.relative_to(self.files).as_posix(): path.read_bytes() for path in self.files.rglob("*") if path.is_file()}
+        files = [path for path in self.files.rglob("*") if path.is_file()]
+        return {path.relative_to(self.files).as_posix(): path.read_bytes() for path in files}
 
     def keep(self, name, body):
         (self.files / name).write_bytes(body)
