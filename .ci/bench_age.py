@@ -24,6 +24,7 @@ MEASURED = {
     "whole-process": [*CHECK, "tests/bench/whole_process.py", "tests/bench/generate.cpp"],
     "folder": [*CHECK, "tests/bench/folder_bench.py"],
     "prove": [*PROOF, "corpus/packages", "tests/bench/prove_bench.py"],
+    "shards": [*PROOF, "tests/bench/shards_bench.py"],
     "simulation": [*PROOF, "corpus/packages", "tests/bench/simulation_bench.cpp"],
     "lsp": [*CHECK, "analyzer/surface/lsp", "tests/bench/lsp_bench.py"],
 }

@@ -114,7 +114,7 @@ constexpr std::array kSystems = {
 };
 /// NUM 1040 to 1060, Philips (Maho), Traub: the letter that holds the number of passes elsewhere holds a variable.
 constexpr std::array kLetterVariables = {
-    LanguageHint{TextSignal::LetterVariable, 12},
+    LanguageHint{TextSignal::LetterVariable, 8},
     LanguageHint{TextSignal::HashVariable, -8},
 };
 constexpr std::array kOsai = {

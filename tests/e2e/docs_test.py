@@ -13,7 +13,8 @@ from pathlib import Path
 
 from harness import FEEDHOLD, LONGEST_RUN, ROOT
 
-PAGES = ["README.md", "docs/draft.md", "docs/install.md", "docs/prove.md", "docs/ranges.md", "docs/run.md"]
+PAGES = ["README.md", "docs/draft.md", "docs/install.md", "docs/many-machines.md", "docs/prove.md",
+         "docs/ranges.md", "docs/run.md"]
 FENCE = re.compile(r"^```(\S*)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = "$ feedhold "
 

@@ -195,15 +195,15 @@ class Cache(Scratch):
         self.prove()
         [path] = self.entries()
         path.unlink()
-        for number in range(100):
+        for number in range(600):
             old = path.parent / f"{number:062x}"
             old.write_text("old")
             os.utime(old, (number, number))
         self.prove()
         names = sorted(entry.name for entry in path.parent.iterdir())
-        self.assertEqual(len(names), 64)
+        self.assertEqual(len(names), 512)
         self.assertIn(path.name, names)
-        self.assertIn(f"{99:062x}", names)
+        self.assertIn(f"{599:062x}", names)
 
     # ---- damage ----
 

@@ -49,7 +49,7 @@ private:
   const std::stop_token *outer_;
 };
 
-/// How many children of this process were stopped or could not be started so far: what came of them may be otherwise
+/// How many children of this thread were stopped or could not be started so far: what came of them may be otherwise
 /// another time.
 std::uint64_t failedChildren();
 

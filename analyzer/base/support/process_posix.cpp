@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -24,7 +23,7 @@ constexpr int kNotFound = 127;
 /// Of a function in a child that ended without its text.
 constexpr int kGaveUp = 1;
 
-std::atomic<std::uint64_t> failures = 0;
+thread_local std::uint64_t failures = 0;
 
 thread_local const std::stop_token *childrenStop = nullptr;
 bool isStopped() { return childrenStop != nullptr && childrenStop->stop_requested(); }

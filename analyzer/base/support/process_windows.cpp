@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string_view>
@@ -15,7 +14,7 @@
 namespace feedhold {
 namespace {
 
-std::atomic<std::uint64_t> failures = 0;
+thread_local std::uint64_t failures = 0;
 
 thread_local const std::stop_token *childrenStop = nullptr;
 bool isStopped() { return childrenStop != nullptr && childrenStop->stop_requested(); }

@@ -32,7 +32,12 @@ std::uint64_t RecordReader::numberUpTo(std::uint64_t most) {
 }
 
 std::string_view RecordReader::text() {
-  const std::string_view value = rest_.substr(0, numberUpTo(rest_.size()));
+  const std::uint64_t size = number();
+  if (size > rest_.size()) {
+    fail();
+    return {};
+  }
+  const std::string_view value = rest_.substr(0, size);
   rest_.remove_prefix(value.size());
   return value;
 }

@@ -4,6 +4,7 @@
 #include "base/source/disk_path.h"
 #include "base/support/system_words.h"
 #include "base/support/text.h"
+#include "findings/project/shards.h"
 #include "findings/project/sidecars.h"
 #include "language/dialect/text_signals.h"
 
@@ -132,7 +133,8 @@ private:
         walk(path);
       return;
     }
-    if (!entry.is_regular_file(ignored) || name == kConfigFileName || isSidecarName(path))
+    if (!entry.is_regular_file(ignored) || name == kConfigFileName || isSidecarName(path) ||
+        path.extension() == kPartEnd)
       return;
     if (const std::optional<FoundBy> kind = kindOf(path, name, config))
       take(path, *kind, config);

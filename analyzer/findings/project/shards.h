@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace feedhold {
 
@@ -16,6 +17,14 @@ struct Shard {
   std::uint32_t count = 1;
   friend bool operator==(const Shard &, const Shard &) = default;
 };
+
+inline constexpr std::uint32_t kMostShards = 100'000;
+inline bool isShard(Shard shard) {
+  return 1 <= shard.index && shard.index <= shard.count && shard.count <= kMostShards;
+}
+
+/// How the names of files end that hold what a shard has found; they are no programs.
+inline constexpr std::string_view kPartEnd = ".part";
 
 /// By file as it is shown; what is not in it costs about as much as its size says.
 using FileCosts = std::map<std::string, std::uint64_t>;

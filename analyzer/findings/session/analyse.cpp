@@ -187,28 +187,27 @@ RunAnalysis analyseAll(std::span<const WorkItem> items, const KnownNames &known,
   const std::vector<const FileContracts *> contracts = project.contracts();
   RunAnalysis analysis{std::vector<FileAnalysis>(items.size()), std::move(project.inferred)};
   std::atomic<std::size_t> done{0};
+  const auto contextOf = [&](std::size_t i) {
+    const ProjectFile &file = project.file(FileId(i));
+    return FileContext{FileId(i),
+                       items[i].source,
+                       *file.dialect,
+                       file.tree,
+                       file.model,
+                       project.callGraph,
+                       project.set ? &*project.set : nullptr,
+                       contracts};
+  };
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
-    const WorkItem &item = items[i];
     FileAnalysis &result = analysis.files[i];
-    if (isOnlyCalled(item, options))
-      return;
-    if (item.foreign != nullptr) {
-      result.findings = refuse(item);
-    } else {
-      const ProjectFile &file = project.file(FileId(i));
-      const FileContext context{FileId(i),
-                                item.source,
-                                *file.dialect,
-                                file.tree,
-                                file.model,
-                                project.callGraph,
-                                project.set ? &*project.set : nullptr,
-                                contracts};
-      result = analyseOne(item, context, known.rules);
-    }
+    const bool isOwn = !isOnlyCalled(items[i], options);
+    if (isOwn && items[i].foreign != nullptr)
+      result.findings = refuse(items[i]);
+    else if (isOwn)
+      result = analyseOne(items[i], contextOf(i), known.rules);
     for (std::size_t k = 1; k < contracts[i]->sources.size(); ++k)
       result.sidecarPaths.push_back(contracts[i]->sources[k].path());
-    if (options.progress)
+    if (isOwn && options.progress)
       options.progress(++done, items.size());
   });
   return analysis;

@@ -3,10 +3,15 @@
 #include "base/support/record.h"
 #include "base/support/sha256.h"
 #include "findings/project/config.h"
+#include "findings/project/sidecars.h"
 
+#include <filesystem>
 #include <map>
+#include <set>
 
 namespace feedhold {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -27,6 +32,34 @@ std::string hashOf(const Profile &profile) {
   return sha256(writer.finish());
 }
 
+/// The contracts beside the programs and in the folders above, where a set-up may lie.
+std::set<fs::path> foldersOf(std::span<const WorkItem> items) {
+  std::set<fs::path> folders;
+  for (const WorkItem &item : items)
+    for (fs::path folder = fs::absolute(item.path).lexically_normal().parent_path();
+         folders.insert(folder).second && folder.has_relative_path();)
+      folder = folder.parent_path();
+  return folders;
+}
+
+void addContracts(RecordWriter &writer, const std::set<fs::path> &folders) {
+  std::error_code ignored;
+  for (const fs::path &folder : folders) {
+    std::map<std::string, std::string> contracts;
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder, ignored))
+      if (isSidecarName(entry.path()))
+        if (const Result<SourceFile> file = SourceFile::open(entry.path()))
+          contracts.emplace(entry.path().filename().generic_string(), sha256(file.value().text()));
+    if (contracts.empty())
+      continue;
+    writer.text(folder.lexically_proximate(fs::current_path()).generic_string());
+    writer.list(contracts, [&](const auto &row) {
+      writer.text(row.first);
+      writer.text(row.second);
+    });
+  }
+}
+
 } // namespace
 
 AnalysisKeys::AnalysisKeys(std::span<const WorkItem> items) {
@@ -41,6 +74,7 @@ AnalysisKeys::AnalysisKeys(std::span<const WorkItem> items) {
     writer.text(profile);
     writer.text(item.foreign == nullptr ? std::string_view() : item.foreign->name);
   }
+  addContracts(writer, foldersOf(items));
   run_ = sha256(writer.finish());
 }
 

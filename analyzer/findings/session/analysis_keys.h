@@ -18,7 +18,7 @@ public:
   std::string ofInferred() const;
 
 private:
-  std::string run_; // a hash of the names, the texts and the settings of all files
+  std::string run_; // a hash of the names, the texts and the settings of all files and of the contracts beside them
 };
 
 } // namespace feedhold

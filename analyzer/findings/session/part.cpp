@@ -55,8 +55,8 @@ Result<RunPart> readPart(std::string_view bytes) {
   RunPart part;
   part.tool = reader.text();
   reader.list([&] { part.command.emplace_back(reader.text()); });
-  part.shard.index = static_cast<std::uint32_t>(reader.number());
-  part.shard.count = static_cast<std::uint32_t>(reader.number());
+  part.shard.index = static_cast<std::uint32_t>(reader.numberUpTo(kMostShards));
+  part.shard.count = static_cast<std::uint32_t>(reader.numberUpTo(kMostShards));
   reader.list([&] {
     const std::string_view file = reader.text();
     part.costs.emplace(file, reader.number());
@@ -65,7 +65,7 @@ Result<RunPart> readPart(std::string_view bytes) {
     const std::string_view key = reader.text();
     part.answers.emplace(key, reader.text());
   });
-  if (!reader.isDone())
+  if (!reader.isDone() || !isShard(part.shard))
     return Error{"the part is damaged; run its shard again"};
   return part;
 }

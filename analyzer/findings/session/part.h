@@ -12,9 +12,6 @@
 
 namespace feedhold {
 
-/// How the name of such a file ends.
-inline constexpr std::string_view kPartEnd = ".part";
-
 struct RunPart {
   std::string tool;                 // differs from one build of the program to the next
   std::vector<std::string> command; // that was run, and its options, but for those of the shard

@@ -28,19 +28,7 @@ void LineScanner::scanHead() {
   case '$': scanDollar(); return;
   case '#': scanHashHead(); return;
   case '@': scanAtHead(); return;
-  case ':':
-    if (isDigit(peek(1))) {
-      count(TextSignal::ProgramNumber);
-      ++at_;
-      takeNumber();
-      hasWord_ = true;
-    } else if (peek(1) == '(') {
-      ++at_; // marks a remark above the O word
-    } else if (beginsUpper(rest(), ":G") && isDigit(peek(2))) {
-      count(TextSignal::AlignmentBlock);
-      ++at_;
-    }
-    return;
+  case ':': scanColon(); return;
   case '<': scanAngle(); return;
   case '!': scanWaiting(); return;
   case '&':
@@ -114,6 +102,21 @@ void LineScanner::scanPercent() {
     return;
   }
   stop();
+}
+
+/// A program number of ISO tapes, a remark above the O word, or a block of Acramatic.
+void LineScanner::scanColon() {
+  if (isDigit(peek(1))) {
+    count(TextSignal::ProgramNumber);
+    ++at_;
+    takeNumber();
+    hasWord_ = true;
+  } else if (peek(1) == '(') {
+    ++at_;
+  } else if (beginsUpper(rest(), ":G") && isDigit(peek(2))) {
+    count(TextSignal::AlignmentBlock);
+    ++at_;
+  }
 }
 
 /// Windows batch files begin their commands so, too.

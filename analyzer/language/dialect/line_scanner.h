@@ -94,6 +94,7 @@ private:
   void scanHead();
   void scanPercent();
   void scanAtHead();
+  void scanColon();
   void scanDollar();
   void scanWaiting();
   void scanPrinterCommand();

@@ -240,13 +240,6 @@ void LineScanner::scanKeyword(const Keyword &keyword) {
   }
 }
 
-/// A branch over a comparison by a character is none of Macro B.
-void LineScanner::noteBranch() {
-  const std::string_view before = line_.substr(0, at_);
-  if (hasIf_ && !hasOWord_ && before.find_first_of("<>") == std::string_view::npos)
-    note(TextSignal::MacroBranch);
-}
-
 void LineScanner::scanCondition() {
   skipBlanks();
   if (peek() == '#')

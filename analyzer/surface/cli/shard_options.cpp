@@ -9,14 +9,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 namespace feedhold {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uint32_t kMostShards = 100'000;
 
 std::optional<std::uint32_t> numberIn(std::string_view text) {
   std::uint32_t number = 0;
@@ -30,13 +29,13 @@ std::optional<Shard> shardNamed(std::string_view text) {
     return std::nullopt;
   const auto index = numberIn(text.substr(0, slash));
   const auto count = numberIn(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *index > *count || *count > kMostShards)
-    return std::nullopt;
-  return Shard{*index, *count};
+  const Shard shard{index.value_or(0), count.value_or(0)};
+  return isShard(shard) ? std::optional(shard) : std::nullopt;
 }
 
 /// The options that are not the same in all shards of a run.
-const std::vector<std::string> kOwnOptions = {"--shard", "--part", "--costs", "--jobs"};
+const std::vector<std::string> kOwnOptions = {"--shard",     "--part",      "--costs",   "--jobs",
+                                              "--cache-dir", "--cache-url", "--no-cache"};
 
 std::vector<fs::path> partsIn(const fs::path &path) {
   std::error_code ignored;
