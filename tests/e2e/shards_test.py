@@ -368,7 +368,7 @@ class Merging(Tree):
         moved = self.cache / "elsewhere"
         shutil.copytree(self.folder, moved)
         self.feedhold("prove", "--shard", "1/2", "--part", self.part(1, 2), "--no-cache", "--jobs", "1", cwd=moved)
-        self.assertEqual(len(self.part(1, 2).read_bytes()), len(before) + len("10 --no-cache"))
+        self.assertEqual(self.part(1, 2).read_bytes(), before)
 
     def test_missing_parts(self):
         self.shards("check", 5)

@@ -29,6 +29,8 @@ std::string keyOf(const ProgramName &name) {
   return name.number ? "#" + std::to_string(*name.number) : "<" + toUpper(name.text);
 }
 
+std::string placeOf(const std::string &folder, const ProgramName &name) { return folder + '\n' + keyOf(name); }
+
 bool transfersControl(CallKind kind) {
   switch (kind) {
   case CallKind::Macro:
@@ -97,6 +99,7 @@ struct CallGraph::Impl {
   std::vector<ModelledFile> files;
   std::unordered_map<std::uint32_t, std::size_t> slotOf; // FileId -> index in files
   std::unordered_map<std::string, std::vector<ProgramRef>> byName;
+  std::unordered_map<std::string, std::vector<ProgramRef>> byPlace; // folder and name
   std::unordered_map<ProgramRef, std::vector<Edge>, ProgramRefHash> callees;
   std::unordered_map<ProgramRef, std::vector<Caller>, ProgramRefHash> callers;
   std::unordered_map<ProgramRef, std::optional<Depth>, ProgramRefHash> depths;
@@ -106,7 +109,10 @@ struct CallGraph::Impl {
 
   void indexPrograms();
   void indexCalls();
+  void indexProgram(const ModelledFile &where, ProgramRef ref, const ProgramName &name);
   std::vector<ProgramRef> find(ProgramRef from, const ProgramName &name) const;
+  std::vector<ProgramRef> nearest(const std::vector<ProgramRef> &among, ProgramRef from, const ProgramName &name,
+                                  int farthest) const;
   bool isPacked(FileId file, const Call &call) const;
   std::vector<ProgramRef> candidates(FileId file, const Call &call) const;
   int distance(ProgramRef from, ProgramRef to) const;
@@ -124,11 +130,16 @@ void CallGraph::Impl::indexPrograms() {
       const ProgramName &name = each.model->programs[ref.program].name;
       ++programCount;
       if (!name.empty())
-        byName[keyOf(name)].push_back(ref);
+        indexProgram(each, ref, name);
       else if (const auto number = numberFromStem(each.stem); number && i == 0)
-        byName[keyOf({number, ""})].push_back(ref);
+        indexProgram(each, ref, {number, ""});
     }
   }
+}
+
+void CallGraph::Impl::indexProgram(const ModelledFile &where, ProgramRef ref, const ProgramName &name) {
+  byName[keyOf(name)].push_back(ref);
+  byPlace[placeOf(where.folder, name)].push_back(ref);
 }
 
 /// How far a control looks for a program: none has the programs of another machine.
@@ -146,19 +157,29 @@ int CallGraph::Impl::distance(ProgramRef from, ProgramRef to) const {
 
 /// The programs of the nearest place.  A subroutine of o-words is found in the caller's own file or in the one named
 /// after it (`name.ngc`), wherever that lies.
+/// A plant has a program of the same number in each of its folders: first those of the caller's folder are asked.
 std::vector<ProgramRef> CallGraph::Impl::find(ProgramRef from, const ProgramName &name) const {
-  const auto found = name.empty() ? byName.end() : byName.find(keyOf(name));
-  if (found == byName.end())
+  if (name.empty())
     return {};
-  int nearest = kOutOfReach;
+  if (const auto here = byPlace.find(placeOf(file(from.file).folder, name)); here != byPlace.end())
+    if (std::vector<ProgramRef> programs = nearest(here->second, from, name, kSameFolder); !programs.empty())
+      return programs;
+  const auto found = byName.find(keyOf(name));
+  return found == byName.end() ? std::vector<ProgramRef>() : nearest(found->second, from, name, kFolderNear);
+}
+
+/// The nearest of them, none beyond the distance `farthest`.
+std::vector<ProgramRef> CallGraph::Impl::nearest(const std::vector<ProgramRef> &among, ProgramRef from,
+                                                 const ProgramName &name, int farthest) const {
+  int nearest = farthest;
   std::vector<ProgramRef> programs;
-  for (const ProgramRef &ref : found->second) {
+  for (const ProgramRef &ref : among) {
     int here = distance(from, ref);
     if (name.isSubroutine && ref.file != from.file)
       here = comparedName(file(ref.file).stem) == name.text ? std::min(here, kFolderNear) : kOutOfReach;
     if (here < nearest)
       programs.clear();
-    if (here < kOutOfReach && here <= nearest)
+    if (here <= nearest)
       programs.push_back(ref);
     nearest = std::min(nearest, here);
   }
