@@ -48,6 +48,14 @@ std::optional<double> timeIn(std::string_view remark) {
   return found;
 }
 
+/// `(THIS MACHINE TAKES DWELL VALUES IN SECONDS)`
+bool tellsUnit(const FileContext &context) {
+  return std::ranges::any_of(context.tree.comments, [&](const Comment &comment) {
+    const std::string text = toUpper(context.text(comment.span));
+    return text.find("DWELL") != std::string::npos && text.find("IN SECONDS") != std::string::npos;
+  });
+}
+
 /// LinuxCNC and grbl, whose programs have no O number, count P in seconds.
 bool isInMilliseconds(const Word &word, BlockId block, const FileContext &context) {
   return word.isNumber() && !word.has(Word::kPoint) && !context.dialect.grammar.oWords &&
@@ -63,7 +71,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   if (!said || *said <= 0 || time->number().isZero())
     return;
   const double waits = time->number().toDouble() * kMillisecond;
-  if (waits < *said * kMostApart && *said < waits * kMostApart)
+  if ((waits < *said * kMostApart && *said < waits * kMostApart) || tellsUnit(context))
     return;
   reporter.report(
       {.message = fmt::format("{} waits {:.4g} seconds, not {:.4g} as the remark says", context.quoted(time->span()),

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace feedhold::rules::motion_code_not_set {
 namespace {
 
@@ -12,7 +14,9 @@ public:
 
   void after(NodeId node, const AbstractState &state) override {
     const auto codes = view_.inForce(state, ModalKind::Motion);
-    if (!codes || !codes->mayBeAtEntry() || isHavocked(state) || view_.modalMotionWords(node).empty())
+    const auto words = view_.modalMotionWords(node);
+    if (!codes || !codes->mayBeAtEntry() || isHavocked(state) ||
+        std::ranges::all_of(words, [](const Word *word) { return word->form() == WordForm::Missing; }))
       return;
     if (!view_.sets(node, ModalKind::Cycle) && !isInCycle(state))
       first_.note(node);

@@ -16,6 +16,7 @@ constexpr std::array kDrilling = {CodeAction::CycleDrill,     CodeAction::CycleD
                                   CodeAction::CycleBoreDwell, CodeAction::CycleFineBore};
 constexpr std::array kFeeding = {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise};
 constexpr std::array kStarting = {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise};
+constexpr std::array kTapping = {CodeAction::CycleTap, CodeAction::CycleTapLeft}; // many controls start it then
 constexpr std::array kHarmless = {CodeAction::CoolantOn, CodeAction::CoolantOff, CodeAction::SpindleStop};
 
 /// What is programmed between two tool changes.
@@ -63,7 +64,7 @@ private:
       readCut(word, isOneOf(code, kDrilling), section);
     else if (code && code->action == CodeAction::CoolantOn)
       section.cutsForSure = true;
-    if (mayStart(word, code))
+    if (mayStart(word, code) || isOneOf(code, kTapping))
       section.mayStartUnseen = true;
   }
   static void readCut(const Word &word, bool drills, Section &section) {
