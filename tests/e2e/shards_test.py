@@ -71,7 +71,7 @@ class Fields:
 def files_of(part, command):
     """The files of a shard: those of which its part has findings, or, of proofs, costs."""
     fields = Fields(part)
-    fields.text()
+    fields.text(), fields.text()  # the build, the solvers
     fields.rows(fields.text)
     fields.number(), fields.number()
     costs = fields.rows(fields.text, fields.number)
@@ -370,6 +370,28 @@ class Merging(Tree):
         self.feedhold("prove", "--shard", "1/2", "--part", self.part(1, 2), "--no-cache", "--jobs", "1", cwd=moved)
         self.assertEqual(self.part(1, 2).read_bytes(), before)
 
+    def test_empty_values_and_strange_paths(self):
+        self.write("-y.nc", GOOD)
+        before = (self.folder / "-y.nc").read_bytes()
+        expected = self.feedhold("check", "--isolated", "--", "-y.nc", "alone")
+        self.feedhold("check", "--isolated", "--output", "", "--statistics=false", "--shard", "1/1", "--part",
+                      self.part(1, 1), "--", "-y.nc", "alone")
+        self.assertSame(self.merge(), expected)
+        self.assertEqual((self.folder / "-y.nc").read_bytes(), before)
+
+    def test_report(self):
+        """`certify` by shards, more of them than there are programs: the report is that of one run."""
+        paths = ["cell 1", "notes.txt"]
+        self.feedhold("certify", *paths, "-o", self.cache / "one" / "report")
+        for index in range(1, 6):
+            self.feedhold("certify", *paths, "--shard", f"{index}/5", "--part", self.part(index, 5))
+        self.assertRefused(self.feedhold("certify", *paths, "--shard", "1/5"), "--part")
+        self.merge("--output", self.cache / "two" / "report")
+        one, two = (({path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()})
+                    for folder in (self.cache / "one", self.cache / "two"))
+        self.assertTrue(one)
+        self.assertEqual(one, two)
+
     def test_missing_parts(self):
         self.shards("check", 5)
         self.part(3, 5).unlink()
@@ -407,7 +429,7 @@ class Merging(Tree):
                 for path in self.parts.iterdir():
                     path.unlink()
                 tool, command = b"8 feedhold", b"1 5 check"
-                record = b"%s%s%d %d 0 0 " % (tool, command, index, count)
+                record = b"%s0 %s%d %d 0 0 " % (tool, command, index, count)
                 path = self.parts / "a.part"
                 path.write_bytes(b"\n".join([b"feedhold part 1", hashlib.sha256(record).hexdigest().encode(), record]))
                 result = subprocess.run([FEEDHOLD, "merge", self.parts], cwd=self.folder, capture_output=True, timeout=20)

@@ -17,6 +17,8 @@ struct ProcessLimits {
   std::uint32_t processorSeconds = 60;
   /// By the clock: against children that wait for ever.
   std::uint32_t watchdogSeconds = 120;
+  /// Of its output: against children that never stop talking.
+  std::size_t mostBytes = std::size_t{1} << 30;
 };
 
 struct ProcessOutput {

@@ -78,7 +78,7 @@ ProcessOutput collect(pid_t child, int from, const ProcessLimits &limits) {
     const int ready = isOver ? 0 : poll(&wait, 1, static_cast<int>(pause));
     if ((ready < 0 && errno == EINTR) || (ready == 0 && !isOver && pause < left))
       continue;
-    if (ready <= 0) {
+    if (ready <= 0 || result.output.size() > limits.mostBytes) {
       kill(child, SIGKILL);
       isCutShort = true;
       break;

@@ -115,7 +115,7 @@ bool readAll(HANDLE from, const ProcessLimits &limits, std::string &output) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(limits.watchdogSeconds);
   std::array<char, 4096> buffer{};
-  while (Clock::now() < end && !isStopped()) {
+  while (Clock::now() < end && !isStopped() && output.size() <= limits.mostBytes) {
     DWORD available = 0;
     DWORD count = 0;
     if (::PeekNamedPipe(from, nullptr, 0, nullptr, &available, nullptr) == 0)

@@ -45,9 +45,10 @@ public:
   /// How many rows follow: no more than there are bytes.
   std::uint64_t count() { return numberUpTo(rest_.size()); }
   template <typename Read> void list(Read read) {
-    for (std::uint64_t left = count(); left > 0; --left)
+    for (std::uint64_t left = count(); left > 0 && !failed_; --left)
       read();
   }
+  bool hasFailed() const { return failed_; }
   bool isDone() const { return !failed_ && rest_.empty(); }
   /// Makes what was read useless; 0.
   std::uint64_t fail();

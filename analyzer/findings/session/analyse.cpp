@@ -52,8 +52,8 @@ bool comesBefore(const Finding &a, const Finding &b) {
 
 /// A subprogram that several programs of the file run into is followed in each.
 bool saysTheSame(const Finding &a, const Finding &b) {
-  return a.rule == b.rule && a.diagnostic.span == b.diagnostic.span && a.diagnostic.message == b.diagnostic.message &&
-         a.suppressed == b.suppressed;
+  return a.rule == b.rule && a.severity == b.severity && a.diagnostic.span == b.diagnostic.span &&
+         a.diagnostic.message == b.diagnostic.message && a.suppressed == b.suppressed;
 }
 
 std::vector<Finding> findingsOf(SuppressionResult raw, const FileContext &context, const Profile &profile) {
@@ -224,7 +224,7 @@ RunAnalysis givenAnalysis(std::span<const WorkItem> items, const KnownNames &kno
       return;
     const std::string *record = given.find(keys.of(items[i]));
     std::optional<FileAnalysis> found =
-        record == nullptr ? std::nullopt : readFileAnalysis(*record, items[i], known.rules);
+        record == nullptr ? std::nullopt : readFileAnalysis(*record, items[i], {items, known.rules});
     isKnown[i] = found ? 1 : 0;
     if (found)
       analysis.files[i] = std::move(*found);

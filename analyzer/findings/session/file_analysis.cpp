@@ -12,19 +12,30 @@ void write(RecordWriter &writer, Span span) {
   writer.number(span.end);
 }
 
-/// Of the file that is read.
+/// Of one file of a run: what lies in a text is checked against its size.
 class FindingReader : public RecordReader {
 public:
-  FindingReader(std::string_view bytes, const RuleRegistry &rules) : RecordReader(bytes), rules_(rules) {}
+  FindingReader(std::string_view bytes, const AnalysedRun &run, const SourceFile &source)
+      : RecordReader(bytes), run_(run), source_(source) {}
 
-  std::uint32_t offset() { return static_cast<std::uint32_t>(numberUpTo(SourceFile::kLargestSize)); }
-  Span span() {
-    const std::uint32_t begin = offset();
-    return {begin, offset()};
+  /// The findings that follow are of another text.
+  void goTo(const SourceFile &source) { source_ = source; }
+  Span span() { return spanIn(source_); }
+  Span spanIn(const SourceFile &source) {
+    const std::uint64_t size = source.text().size();
+    const auto begin = static_cast<std::uint32_t>(numberUpTo(size));
+    return {begin, static_cast<std::uint32_t>(numberUpTo(size))};
+  }
+  /// Of the run; absent: the file itself.
+  std::optional<FileId> file() {
+    return isPresent() ? std::optional(FileId(numberUpTo(run_.items.size() - 1))) : std::nullopt;
+  }
+  const SourceFile &sourceOf(std::optional<FileId> file) const {
+    return file ? run_.items[file->index()].source : source_;
   }
   /// The name of a rule; null when there is none.
   const RuleInfo *rule() {
-    const RegisteredRule *found = findRule(rules_, text());
+    const RegisteredRule *found = findRule(run_.rules, text());
     if (found != nullptr)
       return &found->rule->info;
     fail();
@@ -32,20 +43,20 @@ public:
   }
 
 private:
-  const RuleRegistry &rules_;
+  const AnalysedRun &run_;
+  SourceFile source_;
 };
 
 void write(RecordWriter &writer, const Label &label) {
+  writer.optional(label.file, [&](FileId file) { writer.number(file.index()); });
   write(writer, label.span);
   writer.text(label.text);
-  writer.optional(label.file, [&](FileId file) { writer.number(file.index()); });
 }
 
 Label readLabel(FindingReader &reader) {
-  Label label{.span = reader.span(), .text = std::string(reader.text())};
-  if (reader.isPresent())
-    label.file = FileId(reader.number());
-  return label;
+  const std::optional<FileId> file = reader.file();
+  const Span span = reader.spanIn(reader.sourceOf(file));
+  return {.span = span, .text = std::string(reader.text()), .file = file};
 }
 
 void write(RecordWriter &writer, const FixIt &fix) {
@@ -155,8 +166,8 @@ std::string writeFileAnalysis(const FileAnalysis &analysis) {
   return writer.finish();
 }
 
-std::optional<FileAnalysis> readFileAnalysis(std::string_view record, const WorkItem &item, const RuleRegistry &rules) {
-  FindingReader reader(record, rules);
+std::optional<FileAnalysis> readFileAnalysis(std::string_view record, const WorkItem &item, const AnalysedRun &run) {
+  FindingReader reader(record, run, item.source);
   FileAnalysis analysis;
   analysis.findings = readFindings(reader);
   reader.list([&] {
@@ -169,6 +180,7 @@ std::optional<FileAnalysis> readFileAnalysis(std::string_view record, const Work
     if (const std::optional<SourceFile> source = readSource(reader)) {
       file.path = source->path();
       file.source = *source;
+      reader.goTo(*source);
     }
     file.findings = readFindings(reader);
     analysis.sidecars.push_back(std::move(file));

@@ -5,6 +5,7 @@
 #include "findings/session/result.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,15 @@ CheckedFile headOf(const WorkItem &item);
 
 std::string writeFileAnalysis(const FileAnalysis &analysis);
 
-/// Absent: that is no record, it names rules that are unknown, or a file beside the program has changed.
-std::optional<FileAnalysis> readFileAnalysis(std::string_view record, const WorkItem &item, const RuleRegistry &rules);
+/// What findings may name.
+struct AnalysedRun {
+  std::span<const WorkItem> items;
+  const RuleRegistry &rules;
+};
+
+/// Absent: that is no record, it names files, places or rules that are not there, or a file beside the program has
+/// changed.
+std::optional<FileAnalysis> readFileAnalysis(std::string_view record, const WorkItem &item, const AnalysedRun &run);
 
 std::string writeInferred(const std::vector<InferredSetting> &inferred);
 std::optional<std::vector<InferredSetting>> readInferred(std::string_view record, const DialectRegistry &dialects);

@@ -17,19 +17,24 @@ constexpr std::string_view kPartFormat = "feedhold part 1";
 std::string partHead(std::string_view record) { return fmt::format("{}\n{}\n", kPartFormat, sha256(record)); }
 
 std::string missingOf(const std::set<std::uint32_t> &found, std::uint32_t count) {
+  constexpr std::size_t kMostNamed = 10;
   std::vector<std::uint32_t> missing;
-  for (std::uint32_t index = 1; index <= count; ++index)
+  for (std::uint32_t index = 1; index <= count && missing.size() <= kMostNamed; ++index)
     if (!found.contains(index))
       missing.push_back(index);
-  return fmt::format("{}", fmt::join(missing, ", "));
+  if (missing.size() <= kMostNamed)
+    return fmt::format("{}", fmt::join(missing, ", "));
+  missing.pop_back();
+  return fmt::format("{} and more", fmt::join(missing, ", "));
 }
 
 } // namespace
 
 std::string writePart(const RunPart &part) {
-  const auto &[tool, command, shard, costs, answers] = part;
+  const auto &[tool, prover, command, shard, costs, answers] = part;
   RecordWriter writer;
   writer.text(tool);
+  writer.text(prover);
   writer.list(command, [&](const std::string &word) { writer.text(word); });
   writer.number(shard.index);
   writer.number(shard.count);
@@ -54,6 +59,7 @@ Result<RunPart> readPart(std::string_view bytes) {
   RecordReader reader(bytes.substr(head));
   RunPart part;
   part.tool = reader.text();
+  part.prover = reader.text();
   reader.list([&] { part.command.emplace_back(reader.text()); });
   part.shard.index = static_cast<std::uint32_t>(reader.numberUpTo(kMostShards));
   part.shard.count = static_cast<std::uint32_t>(reader.numberUpTo(kMostShards));
@@ -74,10 +80,13 @@ Result<RunPart> joinParts(std::vector<RunPart> parts) {
   if (parts.empty())
     return Error{"there are no parts"};
   std::set<std::uint32_t> found;
-  RunPart joined{parts.front().tool, parts.front().command, {1, parts.front().shard.count}, {}, {}};
+  RunPart joined{
+      parts.front().tool, parts.front().prover, parts.front().command, {1, parts.front().shard.count}, {}, {}};
   for (RunPart &part : parts) {
     if (part.tool != joined.tool)
       return Error{"the parts were made by different builds of feedhold"};
+    if (part.prover != joined.prover)
+      return Error{fmt::format("the parts were proved with different solvers: {}, and {}", joined.prover, part.prover)};
     if (part.command != joined.command)
       return Error{fmt::format("the parts are of different runs: `{}` and `{}`", fmt::join(joined.command, " "),
                                fmt::join(part.command, " "))};

@@ -14,6 +14,7 @@ namespace feedhold {
 
 struct RunPart {
   std::string tool;                 // differs from one build of the program to the next
+  std::string prover;               // the solvers that a report names; empty: it does not matter
   std::vector<std::string> command; // that was run, and its options, but for those of the shard
   Shard shard;
   FileCosts costs; // of the shard's own files

@@ -81,19 +81,19 @@ void write(Writer &writer, const GivenStart &start) {
 
 GivenStart readStart(Reader &reader) {
   GivenStart start;
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const auto group = static_cast<std::uint8_t>(reader.numberUpTo(kModalGroups - 1));
     start.codes.emplace_back(group, static_cast<std::uint8_t>(reader.numberUpTo(63)));
   }
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const char letter = kModalWords[reader.numberUpTo(kModalWords.size() - 1)];
     start.words.emplace_back(letter, reader.real());
   }
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const Axis axis = kAllAxes[reader.numberUpTo(kAxisCount - 1)];
     start.place.emplace_back(axis, reader.real());
   }
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const auto setting = static_cast<SwitchId>(reader.numberUpTo(switchNames().size() - 1));
     start.settings.emplace_back(setting, reader.numberUpTo(1) != 0);
   }
@@ -130,15 +130,15 @@ void write(Writer &writer, const prove::Witness &witness) {
 
 prove::Witness readWitness(Reader &reader) {
   prove::Witness witness{};
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const auto variable = static_cast<std::uint32_t>(reader.number());
     const bool vacant = reader.isPresent();
     witness.variables.set(variable, {vacant, reader.real()});
   }
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const auto variable = static_cast<std::uint32_t>(reader.number());
     std::vector<double> script;
-    for (std::uint64_t readings = reader.count(); readings > 0; --readings)
+    for (std::uint64_t readings = reader.count(); readings > 0 && !reader.hasFailed(); --readings)
       script.push_back(reader.real());
     witness.variables.readings.set(variable, std::move(script));
   }
@@ -152,7 +152,7 @@ prove::Witness readWitness(Reader &reader) {
     gouge.depth = reader.real();
     witness.gouge = gouge;
   }
-  for (std::uint64_t left = reader.count(); left > 0; --left)
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left)
     witness.returning.emplace_back(reader.text());
   return witness;
 }
@@ -170,7 +170,7 @@ void write(Writer &writer, const FixIt &fix) {
 /// `place`: somewhere in the file that it changes.
 FixIt readFix(Reader &reader, Place place) {
   FixIt fix{.safety = reader.upTo(FixSafety::NeedsReview), .title = std::string(reader.text()), .edits = {}};
-  for (std::uint64_t left = reader.count(); left > 0; --left) {
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left) {
     const Span span = reader.span(place);
     fix.edits.push_back({span, std::string(reader.text())});
   }
@@ -189,7 +189,7 @@ void write(Writer &writer, const prove::Guard &guard) {
 
 prove::Guard readGuard(Reader &reader, Place place) {
   prove::Guard guard;
-  for (std::uint64_t left = reader.count(); left > 0; --left)
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left)
     guard.conditions.emplace_back(reader.text());
   guard.clause = reader.text();
   if (reader.isPresent())
@@ -347,7 +347,7 @@ Obligation readObligation(Reader &reader) {
   obligation.effort = reader.number();
   if (reader.isPresent())
     obligation.tolerance = reader.real();
-  for (std::uint64_t left = reader.count(); left > 0; --left)
+  for (std::uint64_t left = reader.count(); left > 0 && !reader.hasFailed(); --left)
     obligation.returning.emplace_back(reader.text());
   obligation.takesFewPasses = reader.numberUpTo(1) == 1;
   return obligation;

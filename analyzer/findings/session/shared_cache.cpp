@@ -16,7 +16,9 @@ constexpr std::string_view kSignature = "feedhold signature 1 ";
 constexpr int kFound = 200;
 constexpr int kMissing = 404;
 constexpr std::size_t kStatusDigits = 3;
-constexpr ProcessLimits kLimits{.processorSeconds = 30, .watchdogSeconds = 60};
+/// A verdict has some kilobytes.
+constexpr std::size_t kMostBytes = std::size_t{1} << 26;
+constexpr ProcessLimits kLimits{.processorSeconds = 30, .watchdogSeconds = 40, .mostBytes = kMostBytes};
 
 bool isDone(int status) { return status >= 200 && status < 300; }
 
@@ -36,6 +38,10 @@ std::optional<SharedCache::Reply> SharedCache::request(const std::string &name, 
     giveUp("it needs the program `curl`: " + output.error().message);
     return std::nullopt;
   }
+  if (output.value().end == ProcessOutput::End::Killed || output.value().exitCode != 0) {
+    giveUp("the server does not answer, or not to the end");
+    return std::nullopt;
+  }
   std::string body = std::move(output.take().output);
   Reply reply;
   if (body.size() >= kStatusDigits) {
@@ -44,10 +50,6 @@ std::optional<SharedCache::Reply> SharedCache::request(const std::string &name, 
     body.resize(body.size() - kStatusDigits);
   }
   reply.body = std::move(body);
-  if (reply.status == 0) {
-    giveUp("the server does not answer");
-    return std::nullopt;
-  }
   return reply;
 }
 

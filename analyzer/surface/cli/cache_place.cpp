@@ -25,6 +25,10 @@ Result<std::shared_ptr<SharedCache>> sharedCache(const std::string &url) {
     return std::shared_ptr<SharedCache>();
   if (!place.starts_with("http://") && !place.starts_with("https://"))
     return Error{fmt::format("the shared cache `{}` is no address that begins with http:// or https://", place)};
+  const std::size_t server = place.find("//") + 2;
+  if (place.substr(server, place.find('/', server) - server).find('@') != std::string::npos)
+    return Error{"the address of the shared cache holds a name or a password, which others would see; put them into "
+                 "~/.netrc"};
   std::string key = variableOf("FEEDHOLD_CACHE_KEY");
   if (key.empty())
     return Error{"a shared cache needs the environment variable FEEDHOLD_CACHE_KEY: a secret of your own that all who "

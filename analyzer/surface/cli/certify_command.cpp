@@ -32,7 +32,6 @@ struct CertifyArguments {
   unsigned jobs = 0;
   bool quiet = false;
   ShardOptions shard;
-  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, CertifyArguments &arguments) {
@@ -61,11 +60,12 @@ int exitCodeOf(ReleaseStatus status) {
 
 /// A shard writes its part, every other run a report.
 std::optional<std::string> complaintAboutOutput(const CertifyArguments &arguments) {
-  if (const auto complaint = complaintAbout(arguments.shard, arguments.output.empty() ? "" : "--output"))
+  const bool isShard = !arguments.shard.shard.empty();
+  if (const auto complaint = complaintAbout(arguments.shard, isShard && !arguments.output.empty() ? "--output" : ""))
     return complaint;
-  if (!arguments.shard.shard.empty() && arguments.shard.part.empty())
-    return "a shard of a report needs --part FILE; `feedhold merge` writes the report";
-  if (arguments.output.empty() && !arguments.shard.isAsked())
+  if (isShard == arguments.shard.part.empty())
+    return "a shard of a report needs both --shard and --part; `feedhold merge` writes the report";
+  if (arguments.output.empty() && !isShard)
     return "--output is required: the folder of the report";
   return std::nullopt;
 }
@@ -76,7 +76,7 @@ Result<ReportPart> partOf(const CertifyArguments &arguments, const ReportOptions
       filesOf(arguments.shard, filesOfReport(options, arguments.jobs), {allDialects(), allRules()});
   if (!files)
     return files.error();
-  ReportPart part{.files = files.take(), .answers = {.given = arguments.given}};
+  ReportPart part{.files = files.take(), .answers = {.given = arguments.shard.given}};
   if (!arguments.shard.part.empty())
     part.answers.kept = &kept;
   return part;
@@ -153,7 +153,7 @@ Result<int> certify(const CertifyArguments &arguments, const CLI::App &command) 
     printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())
     return Error{"no report was written, since it would not cover all of the named files"};
-  if (arguments.shard.isAsked())
+  if (!arguments.shard.shard.empty())
     return finishShard(arguments, command, run, kept);
   if (const auto error = writeBundle(arguments.output, run.report))
     return Error{arguments.output + ": " + error->message};
@@ -177,7 +177,7 @@ Command addCertifyCommand(CLI::App &parent, const Answers *given) {
   CLI::App *app = parent.add_subcommand("certify", "write a release report of all proofs, to be signed");
   const auto arguments = std::make_shared<CertifyArguments>();
   addOptions(*app, *arguments);
-  arguments->given = given;
+  arguments->shard.given = given;
   return {app, [app, arguments] { return certifyOrComplain(*arguments, *app); }};
 }
 

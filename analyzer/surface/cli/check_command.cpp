@@ -51,7 +51,6 @@ struct CheckArguments {
   BaselineOptions baseline;
   ChangeOptions change;
   ShardOptions shard;
-  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, CheckArguments &arguments) {
@@ -96,12 +95,12 @@ void addOptions(CLI::App &app, CheckArguments &arguments) {
 std::string apartFromShards(const CheckArguments &arguments) {
   if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
     return "standard input";
-  return arguments.fix                ? "--fix"
-         : arguments.diff             ? "--diff"
-         : arguments.watch            ? "--watch"
-         : arguments.baseline.update  ? "--update-baseline"
-         : arguments.change.isAsked() ? "--changed-since"
-                                      : "";
+  return arguments.fix                                                   ? "--fix"
+         : arguments.diff                                                ? "--diff"
+         : arguments.watch                                               ? "--watch"
+         : arguments.baseline.update && arguments.shard.given == nullptr ? "--update-baseline"
+         : arguments.change.isAsked()                                    ? "--changed-since"
+                                                                         : "";
 }
 
 const KnownNames &knownNames() {
@@ -277,8 +276,8 @@ int runCheck(const CheckArguments &arguments, const CLI::App &command) {
   if (arguments.fix || arguments.diff)
     return repair(options, arguments, progress);
   Answers kept;
-  CheckResult result =
-      check(options, knownNames(), {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.given});
+  CheckResult result = check(options, knownNames(),
+                             {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.shard.given});
   progress.clear();
   complainIfNothingWasChecked(result, arguments);
   if (const auto error = writePartOf(arguments.shard, command, kept, {})) {
@@ -333,7 +332,7 @@ Command addCheckCommand(CLI::App &parent, const Answers *given) {
               "Example: feedhold check --fix nc/");
   const auto arguments = std::make_shared<CheckArguments>();
   addOptions(*app, *arguments);
-  arguments->given = given;
+  arguments->shard.given = given;
   return {app, [app, arguments] {
             return arguments->watch && !complaintAbout(*arguments) ? watch(*arguments, *app)
                                                                    : runCheck(*arguments, *app);

@@ -10,16 +10,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 namespace feedhold {
 
 namespace {
 
+constexpr std::array<std::string_view, 3> kCommands = {"check", "prove", "certify"};
+
 /// Those of the commands that decide how results are told, not what they are.
 struct MergeArguments {
   std::vector<std::string> parts;
-  std::string format = "that of the shards";
+  std::string format;
   std::string output;
   std::string color = "auto";
   bool showSuppressed = false;
@@ -34,10 +37,12 @@ void addOptions(CLI::App &app, MergeArguments &arguments) {
   app.add_option("parts", arguments.parts, "files that --part has written, and folders with such files")
       ->type_name("PART")
       ->required();
-  addFormat(app, arguments.format, {"text", "concise", "json", "sarif", "junit", "github"});
+  app.add_option("--format", arguments.format, "output format (default: as the shards were told)")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"text", "concise", "json", "sarif", "junit", "github"}));
   app.add_option("--output", arguments.output,
                  "write the findings of check to this file, the report of certify to this folder")
-      ->type_name("PLACE");
+      ->type_name("PATH");
   addColor(app, arguments.color);
   app.add_flag("--show-suppressed", arguments.showSuppressed, "also print findings that @ALLOW suppresses (of check)");
   app.add_flag("-v,--verbose", arguments.verbose, "print how each proof was found and what it cost (of prove)");
@@ -75,15 +80,22 @@ int merge(const MergeArguments &arguments, const CLI::App &app) {
     printError(run.error().message);
     return kExitCouldNotRun;
   }
-  if (run.value().tool != toolOfParts() || run.value().command.empty()) {
+  if (run.value().command.empty() || !std::ranges::count(kCommands, run.value().command.front())) {
+    printError("the parts are of no command whose parts can be joined");
+    return kExitCouldNotRun;
+  }
+  if (run.value().prover != proverOfParts(run.value().command.front())) {
+    printError(fmt::format("the parts were proved with {}; here is {}", run.value().prover,
+                           proverOfParts(run.value().command.front())));
+    return kExitCouldNotRun;
+  }
+  if (run.value().tool != toolOfParts()) {
     printError(fmt::format("the parts were made by another build of feedhold ({}); this is {}", run.value().tool,
                            toolOfParts()));
     return kExitCouldNotRun;
   }
-  std::vector<std::string> instead = wordsOf(app, {});
-  std::erase_if(instead, [](const std::string &word) { return !word.starts_with('-'); }); // the parts
   const std::vector<std::string> own(run.value().command.begin() + 1, run.value().command.end());
-  return runCommand(run.value(), replaced(own, instead));
+  return runCommand(run.value(), replaced(own, wordsOf(app, {})));
 }
 
 } // namespace

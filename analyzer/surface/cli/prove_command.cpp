@@ -48,7 +48,6 @@ struct ProveArguments {
   BaselineOptions baseline;
   ChangeOptions change;
   ShardOptions shard;
-  const Answers *given = nullptr; // of the parts of this run, which are joined
 };
 
 void addOptions(CLI::App &app, ProveArguments &arguments) {
@@ -92,7 +91,7 @@ void addOptions(CLI::App &app, ProveArguments &arguments) {
 
 /// The evidence is not in the cache.
 Result<std::optional<ProofCache>> cacheFor(const ProveArguments &arguments) {
-  if (arguments.cache.off || !arguments.certificate.empty() || arguments.given != nullptr)
+  if (arguments.cache.off || !arguments.certificate.empty() || arguments.shard.given != nullptr)
     return std::optional<ProofCache>();
   return proofCache(arguments.cache.folder.empty() ? std::nullopt : std::optional<fs::path>(arguments.cache.folder),
                     arguments.cache.url);
@@ -166,10 +165,10 @@ void complainIfNothingWasProved(ProofsResult &result, const ProveArguments &argu
 std::string apartFromShards(const ProveArguments &arguments) {
   if (std::find(arguments.paths.begin(), arguments.paths.end(), "-") != arguments.paths.end())
     return "standard input";
-  return !arguments.certificate.empty() ? "--certificate"
-         : arguments.baseline.update    ? "--update-baseline"
-         : arguments.change.isAsked()   ? "--changed-since or --with-callers"
-                                        : "";
+  return !arguments.certificate.empty()                                  ? "--certificate"
+         : arguments.baseline.update && arguments.shard.given == nullptr ? "--update-baseline"
+         : arguments.change.isAsked()                                    ? "--changed-since or --with-callers"
+                                                                         : "";
 }
 
 std::optional<std::string> complaintAbout(const ProveArguments &arguments) {
@@ -251,7 +250,7 @@ int runProve(const ProveArguments &arguments, const CLI::App &command) {
   }
   options.cache = cache.take();
   Answers kept;
-  options.answers = {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.given};
+  options.answers = {.kept = arguments.shard.part.empty() ? nullptr : &kept, .given = arguments.shard.given};
   ProofsResult result = proveAll(options, {allDialects(), allRules()});
   addErrors(result, narrowed.value());
   if (options.cache && options.cache->shared)
@@ -290,7 +289,7 @@ Command addProveCommand(CLI::App &parent, const Answers *given) {
               "Example: feedhold prove O9100.nc");
   const auto arguments = std::make_shared<ProveArguments>();
   addOptions(*app, *arguments);
-  arguments->given = given;
+  arguments->shard.given = given;
   return {app, [app, arguments] { return runProve(*arguments, *app); }};
 }
 

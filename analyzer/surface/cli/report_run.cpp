@@ -91,7 +91,7 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
   keepEvidence(proofOptions);
   ProofsResult proofs = proveAll(proofOptions, known());
   ReportRun run;
-  if (proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
+  if (!part.files && proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
     proofs.errors.push_back({proofs.skipped.front().path, "nothing to prove: " + proofs.skipped.front().reason});
   run.problems = proofs.errors;
   if (!run.problems.empty())

@@ -2,6 +2,7 @@
 
 #include "base/source/source_file.h"
 #include "base/source/write_file.h"
+#include "proof/smt/solver.h"
 #include "surface/cli/command_words.h"
 #include "surface/cli/platform.h"
 
@@ -68,7 +69,8 @@ std::optional<std::string> complaintAbout(const ShardOptions &options, const std
   if (!options.costs.empty() && options.shard.empty())
     return "--costs needs --shard";
   if (options.isAsked() && !other.empty())
-    return fmt::format("{} cannot be combined with --shard or --part", other);
+    return fmt::format("{} cannot be combined with --shard or --part, or with parts", other);
+
   return std::nullopt;
 }
 
@@ -94,11 +96,17 @@ std::optional<Error> writePartOf(const ShardOptions &options, const CLI::App &co
   std::vector<std::string> words = wordsOf(command, kOwnOptions);
   words.insert(words.begin(), command.get_name());
   const Shard shard = options.shard.empty() ? Shard() : *shardNamed(options.shard);
-  auto error =
-      saveFile(options.part, writePart({toolOfParts(), std::move(words), shard, std::move(costs), answers.all()}));
+  auto error = saveFile(options.part, writePart({toolOfParts(), proverOfParts(command.get_name()), std::move(words),
+                                                 shard, std::move(costs), answers.all()}));
   if (error)
     return Error{options.part + ": " + error->message};
   return std::nullopt;
+}
+
+std::string proverOfParts(const std::string &command) {
+  if (command != "certify") // the report of which names them
+    return "";
+  return fmt::format("{} and {}", smt::z3Version().value_or("no Z3"), smt::cvc5Version().value_or("no cvc5"));
 }
 
 std::string toolOfParts() { return fmt::format("feedhold {} {}", FEEDHOLD_VERSION, buildId()); }

@@ -15,8 +15,9 @@ struct ShardOptions {
   std::string shard; // `3/8`; empty: all files
   std::string part;  // file; empty: none is written
   std::vector<std::string> costs;
+  const Answers *given = nullptr; // of the parts of this run, which are joined; null: none are
 
-  bool isAsked() const { return !shard.empty() || !part.empty(); }
+  bool isAsked() const { return !shard.empty() || !part.empty() || given != nullptr; }
 };
 void addShardOptions(CLI::App &app, ShardOptions &options);
 
@@ -30,6 +31,9 @@ Result<std::optional<std::set<std::string>>> filesOf(const ShardOptions &options
 /// Writes what the shard of a command has found, if that is asked for.
 std::optional<Error> writePartOf(const ShardOptions &options, const CLI::App &command, const Answers &answers,
                                  FileCosts costs);
+
+/// The solvers, where the results of a command name them.
+std::string proverOfParts(const std::string &command);
 
 /// This build of the program, as parts name it.
 std::string toolOfParts();

@@ -8,6 +8,7 @@ namespace {
 
 RunPart part(std::uint32_t index, std::uint32_t count) {
   return {.tool = "feedhold 1",
+          .prover = "",
           .command = {"check", "--isolated", "nc"},
           .shard = {index, count},
           .costs = {{"a b.nc", 12}},
