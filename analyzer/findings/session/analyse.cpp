@@ -232,9 +232,13 @@ RunAnalysis givenAnalysis(std::span<const WorkItem> items, const KnownNames &kno
   for (std::size_t i = 0; i < items.size(); ++i)
     if (isKnown[i] == 0)
       analysis.errors.push_back({items[i].shown, kNoAnswer});
-  const std::string *inferred = given.find(keys.ofInferred());
-  if (inferred != nullptr)
-    analysis.inferred = readInferred(*inferred, known.dialects).value_or(std::vector<InferredSetting>());
+  const std::string *record = given.find(keys.ofInferred());
+  std::optional<std::vector<InferredSetting>> inferred =
+      record == nullptr ? std::nullopt : readInferred(*record, known.dialects);
+  if (inferred)
+    analysis.inferred = std::move(*inferred);
+  else if (analysis.errors.empty()) // else that is told already
+    analysis.errors.push_back({"the settings of the machines", kNoAnswer});
   return analysis;
 }
 

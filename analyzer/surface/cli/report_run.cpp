@@ -43,6 +43,7 @@ void addGuards(ProofsResult &proofs, const ProofOptions &made) {
   if (options.files.only->empty())
     return;
   const ProofsResult guarded = proveAll(options, known());
+  proofs.errors.insert(proofs.errors.end(), guarded.errors.begin(), guarded.errors.end());
   std::map<std::pair<std::string, std::string>, const prove::Guard *> guards; // by file and obligation
   for (const ProvedFile &file : guarded.files)
     for (const ProvedProgram &program : file.programs)
@@ -97,7 +98,12 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
   if (!run.problems.empty())
     return run;
   addGuards(proofs, proofOptions);
+  run.problems = proofs.errors;
   const CheckResult findings = check(proofOptions.files, known(), part.answers);
+  if (part.answers.given != nullptr) // of a file without an answer the report would say that nothing was found
+    run.problems.insert(run.problems.end(), findings.errors.begin(), findings.errors.end());
+  if (!run.problems.empty())
+    return run;
   for (const ProvedFile &file : proofs.files)
     for (const ProvedProgram &program : file.programs) {
       run.counts.add(program.proof);
