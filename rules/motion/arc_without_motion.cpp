@@ -1,9 +1,14 @@
 // arc-without-motion: `G02 X0. Y0. R5.` where the tool stands there already.
 #include "rules/motion/motion_view.h"
+#include "rules/motion/tool_sections.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
+#include <string>
+#include <string_view>
 
 namespace feedhold::rules::arc_without_motion {
 namespace {
@@ -21,10 +26,15 @@ public:
     at->second = at->second && (isNew || stands);
   }
 
+  void after(NodeId node, const AbstractState &state) override {
+    if (view_.surely(state, ModalKind::Distance, {CodeAction::Incremental}))
+      incremental_.insert(node);
+  }
+
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[node, stands] : places_) {
       const Word *arc = view_.findAction(node, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
-      if (stands && view_.mayHave(node, 'R'))
+      if ((stands || repeatsPosition(node)) && view_.mayHave(node, 'R'))
         reporter.report({.message = fmt::format("this {} with `R` ends where it starts, so it cuts no arc",
                                                 context.quoted(arc->span())),
                          .span = view_.blockSpan(node),
@@ -33,8 +43,29 @@ public:
   }
 
 private:
+  /// `X[#1-3.] Y#2`, and in the block above the same: whatever the variables hold.
+  bool repeatsPosition(NodeId node) const {
+    const BlockId block = view_.node(node).block;
+    if (incremental_.contains(node) || block.index() == 0 || HiddenWork(view_.program(), view_.context()).isIn(block))
+      return false;
+    const BlockId before(block.index() - 1);
+    return std::ranges::all_of(std::string_view("XY"), [&](char axis) {
+      const std::string here = textOf(block, axis);
+      return !here.empty() && here == textOf(before, axis);
+    });
+  }
+  /// Of a word, without its blanks.
+  std::string textOf(BlockId block, char address) const {
+    const FileContext &context = view_.context();
+    const Word *word = findWord(context.tree, block, address);
+    std::string text(word ? context.text(word->span()) : "");
+    std::erase_if(text, [](char each) { return each == ' '; });
+    return text;
+  }
+
   MotionView view_;
   std::map<NodeId, bool> places_;
+  std::set<NodeId> incremental_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

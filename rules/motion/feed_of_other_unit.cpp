@@ -13,9 +13,10 @@ namespace {
 /// Feeds that only fit one of the units: up to a millimetre in a revolution, or from 20 in a minute.
 constexpr std::int64_t kMostPerRevolution = 1;
 constexpr std::int64_t kLeastPerMinute = 20;
-/// Below the pitches of all taps, in millimetres and in inches.
+/// Below the pitches of all taps, in millimetres and in inches, and above them.
 constexpr double kNoPitch = 0.1;
 constexpr double kNoPitchInInches = 0.004;
+constexpr double kCoarsestPitch = 6.5;
 
 const Word *feedModeIn(BlockId block, const FileContext &context) {
   return findAction(context.tree, block, context.dialect,
@@ -80,6 +81,7 @@ void checkMixed(ProgramId program, const FileContext &context, const Reporter &r
 struct Units {
   bool isMetric = false; // G21 and no G20
   bool hasMode = false;  // some code of the feed mode
+  bool isWhole = false;  // with its M30
   bool isOfMill = false; // it moves in Y, and starts no lathe's constant surface speed
 };
 
@@ -94,6 +96,7 @@ Units unitsOf(ProgramId program, const FileContext &context) {
     hasMetric = hasMetric || does(CodeAction::Metric);
     hasInch = hasInch || does(CodeAction::Inch);
     units.hasMode = units.hasMode || feedModeIn(block, context);
+    units.isWhole = units.isWhole || findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd);
     movesInY = movesInY || findWord(context.tree, block, 'Y');
     units.isOfMill = units.isOfMill && !does(CodeAction::ConstantSurface);
   }
@@ -161,15 +164,23 @@ private:
   void judgeTap(BlockId block, const Reporter &reporter) {
     const Word *feed = findWord(context_.tree, block, 'F');
     const auto words = context_.tree.wordsOf(block);
-    if (told_ || !mode_ || !feed || !feed->isNumber() || feed->number().isZero() ||
+    if (told_ || (!mode_ && !isWholeWithoutMode()) || !feed || !feed->isNumber() || feed->number().isZero() ||
         std::ranges::any_of(words, [](const Word &word) { return word.has(Word::kComma); }))
       return;
     if (isPerRevolution_ && feed->number() >= Decimal(kLeastPerMinute, 0))
       tell(*feed, "per revolution", "no tap has that pitch: by its size this is a feed per minute", reporter);
-    else if (isPerMinute_ && feed->has(Word::kPoint) && speed_ &&
-             feed->number().toDouble() < *speed_ * (units_.isMetric ? kNoPitch : kNoPitchInInches))
+    else if (const double moved = feed->number().toDouble();
+             (mode_ && isPerMinute_ && feed->has(Word::kPoint) && isBelowPitches(moved)) ||
+             (!mode_ && moved > kCoarsestPitch && isBelowPitches(moved)))
       tell(*feed, "per minute", "the tap does not follow its thread: by its size this is a pitch, as with `G95`",
            reporter);
+  }
+  bool isBelowPitches(double feed) const {
+    return speed_ && feed < *speed_ * (units_.isMetric ? kNoPitch : kNoPitchInInches);
+  }
+  /// Then the unit is that of power on: a number that fits neither of them is wrong.
+  bool isWholeWithoutMode() const {
+    return !units_.hasMode && units_.isWhole && context_.dialect.machine == MachineKind::Milling;
   }
   void noteSpeed(BlockId block) {
     const Word *speed = findWord(context_.tree, block, 'S');

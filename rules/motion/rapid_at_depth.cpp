@@ -1,10 +1,12 @@
-// rapid-at-depth: G00 in the plane at the depth of the last cut, then a feed to the depth that the tool already has.
+// rapid-at-depth: G00 in the plane at the depth of the last cut, then a feed to the depth that the tool already has, or
+// by a distance still deeper.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace feedhold::rules::rapid_at_depth {
 namespace {
@@ -34,8 +36,13 @@ public:
       return afterNoMove(node);
     const auto depth = std::ranges::find(words, 'Z', [](const Word *word) { return word->address(); });
     const Word *level = depth == words.end() ? nullptr : *depth;
-    if ((level && !level->isNumber()) || !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute}) ||
-        isInCycle(state) || view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}))
+    const bool isIncremental = view_.surely(state, ModalKind::Distance, {CodeAction::Incremental});
+    if (isIncremental != std::exchange(isIncremental_, isIncremental))
+      forget();
+    const bool isAbove = isIncremental && state.at(Axis::Z).number().interval().lo > 0;
+    if ((level && !level->isNumber()) || isAbove ||
+        (!isIncremental && !view_.surely(state, ModalKind::Distance, {CodeAction::Absolute})) || isInCycle(state) ||
+        view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ}))
       return forget();
     if (view_.surely(state, ModalKind::Motion, {CodeAction::Rapid})) {
       if (!standsAt(words))
@@ -51,11 +58,12 @@ public:
   void report(const FlowFacts &, const FileContext &context, const Reporter &reporter) override {
     for (const auto &[rapid, plunge] : found_) {
       const Word &first = *view_.modalMotionWords(rapid).front();
-      const Word &level = *view_.modalMotionWords(plunge).front();
+      const Word &level = *view_.modalMotionWords(plunge.node).front();
       reporter.report(
           {.message = fmt::format("{} moves at rapid at the depth of the cut", context.quoted(first.span())),
            .span = first.span(),
-           .labels = {{level.span(), "feeds to the depth that the tool already has"}},
+           .labels = {{level.span(),
+                       plunge.deeper ? "feeds deeper from there" : "feeds to the depth that the tool already has"}},
            .notes = {"the tool goes through the part at rapid", "retract in Z before this block"}});
     }
   }
@@ -70,6 +78,8 @@ private:
     rapid_.reset();
   }
   void goTo(const std::vector<const Word *> &words) {
+    if (isIncremental_)
+      return;
     for (const Word *word : words)
       if (word->isNumber())
         place_.insert_or_assign(word->address(), word->number());
@@ -79,6 +89,8 @@ private:
   /// The block moves no axis.
   bool standsAt(const std::vector<const Word *> &words) const {
     return std::ranges::all_of(words, [&](const Word *word) {
+      if (isIncremental_)
+        return word->isNumber() && word->number().isZero();
       const auto known = place_.find(word->address());
       return word->isNumber() && known != place_.end() && known->second == word->number();
     });
@@ -98,8 +110,8 @@ private:
     rapid_ = depth_ ? std::optional(node) : std::nullopt;
   }
   void afterFeed(NodeId node, const Word *level, bool isAlone) {
-    if (rapid_ && level && isAlone && level->number() == *depth_)
-      found_.emplace(*rapid_, node);
+    if (rapid_ && level && isAlone && (isIncremental_ ? level->number().isNegative() : level->number() == *depth_))
+      found_.emplace(*rapid_, Plunge{node, isIncremental_});
     rapid_.reset();
     if (level)
       depth_ = level->number().isNegative() ? std::optional(level->number()) : std::nullopt;
@@ -109,13 +121,20 @@ private:
     return codes && (codes->codes() & ~view_.modes().maskOf(ModalKind::Cycle, {CodeAction::CycleOff})) != 0;
   }
 
+  /// The feed behind the rapid move.
+  struct Plunge {
+    NodeId node;
+    bool deeper; // by a distance; else to the same depth
+  };
+
   MotionView view_;
   bool asked_;
+  bool isIncremental_ = false;
   NodeId next_{0};
-  std::optional<Decimal> depth_;  // to which the tool was fed, and where it is
+  std::optional<Decimal> depth_;  // to which, or by which, the tool was fed, and where it is
   std::optional<NodeId> rapid_;   // the last block, at that depth
   std::map<char, Decimal> place_; // coordinates of the last blocks, by axis
-  std::map<NodeId, NodeId> found_;
+  std::map<NodeId, Plunge> found_;
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
@@ -128,7 +147,7 @@ extern const Rule rapidAtDepth;
 const Rule rapidAtDepth{
     .info = {"rapid-at-depth", Category::Motion, Severity::Warning,
              "Reports a rapid move in the plane at the depth of the last cut, when the next block feeds `Z` to the "
-             "same depth."},
+             "same depth, or deeper by a distance."},
     .hooks = {.watch = watch}};
 
 } // namespace feedhold::rules::rapid_at_depth

@@ -1,5 +1,6 @@
 // spindle-not-started: a cutting move of a main program with the spindle at rest.
 #include "rules/motion/motion_view.h"
+#include "rules/motion/turning_walk.h"
 
 #include "base/support/text.h"
 
@@ -16,6 +17,10 @@ public:
       : view_(program, context), asked_(startedBy(context, program) == StartedBy::Operator),
         isLathe_(context.dialect.machine == MachineKind::Turning) {}
 
+  void before(NodeId node, const AbstractState &state) override {
+    if (asked_ && (view_.mayHave(node, 'X') || view_.mayHave(node, 'Y') || view_.mayHave(node, 'Z')))
+      start_ = state.position;
+  }
   void after(NodeId node, const AbstractState &state) override {
     if (!asked_)
       return;
@@ -23,7 +28,11 @@ public:
     // A lathe pulls bars, and taps, with the spindle stopped.
     if (!state.spindle.mayBeAtEntry() && (isLathe_ || !state.spindle.contains(kStopped)))
       return;
-    if (isHavocked(state) || !movesTool(node) || !cuts(state) || isAbovePart(node, state))
+    if (isHavocked(state))
+      return;
+    if (isLathe_ && threadIn(node))
+      return thread_.note(node);
+    if (!movesTool(node) || !cuts(state) || isAbovePart(node, state) || standsStill(node, state))
       return;
     first_.note(node);
     if (drills(state))
@@ -33,40 +42,83 @@ public:
   }
 
   void report(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) override {
-    if (!first_.node() || mayBeStartedUnseen_)
+    if (mayBeStartedUnseen_ || (isLathe_ ? !isOfLathe(facts) : !isOfMill(facts)))
       return;
-    if (!preparesTool(facts)) {
-      // Grinders, warm-ups and running-in move their axes by G01, and nothing is cut.
-      const bool drillsOnly = hole_.node() && isNumbered() && comesToItsEnd(facts) && !isLathe_;
-      if (!intoPart_.node() || !(isWholeAndStarts(facts) || drillsOnly))
-        return;
-      first_ = isWholeAndStarts(facts) ? intoPart_ : hole_;
-    }
-    if (isLathe_ && !isLateOnLathe(facts) && !neverStartsOnLathe(facts))
-      return;
-    const std::string move = context.quoted(view_.modalMotionWords(*first_.node()).front()->span());
-    Diagnostic diagnostic{.message = {},
-                          .span = view_.modalMotionWords(*first_.node()).front()->span(),
-                          .notes = {"the tool is fed into the part with the spindle stopped"}};
+    const Span place = placeOf(*first_.node());
+    const std::string move = context.quoted(place);
+    Diagnostic diagnostic{
+        .message = {}, .span = place, .notes = {"the tool is fed into the part with the spindle stopped"}};
     if (const auto stop = isLathe_ ? std::nullopt : stopBefore(facts)) {
       diagnostic.message = fmt::format("the spindle is stopped at the cutting move to {}", move);
       diagnostic.labels = {{view_.findAction(stop->node, {CodeAction::SpindleStop})->span(), "stopped here"}};
       diagnostic.flow = describePath(facts, stop->path);
       diagnostic.notes.push_back("start it again with M03 before this cut");
     } else {
-      diagnostic.message = fmt::format("no `M03` or `M04` comes before the cutting move to {}", move);
+      diagnostic.message = fmt::format("no `M03` or `M04` comes before {} {}",
+                                       first_.node() == thread_.node() ? "the thread of" : "the cutting move to", move);
       diagnostic.flow = pathFromEntry(facts, *first_.node(), [&](NodeId node) { return starts(node); });
       diagnostic.notes.push_back("start the spindle with S and M03 before the first cut");
       if (const Word *mistyped = mistypedStart(facts))
         diagnostic.labels = {{mistyped->span(), "this code does not start the spindle"}};
     }
-    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) || isStartedInFile() || isOfTools(facts)
+    reporter.report(std::move(diagnostic), speaksOfSpindle(facts) || isStartedInFile() || isOfTools(facts) || isLathe_
                                                ? Severity::Warning
                                                : Severity::Info);
   }
 
 private:
   static constexpr std::size_t kStopped = 0; // in kSpindleActions
+
+  /// Chooses the move that is reported; false: none is.
+  bool isOfMill(const FlowFacts &facts) {
+    if (!first_.node())
+      return false;
+    if (preparesTool(facts))
+      return true;
+    // Grinders, warm-ups and running-in move their axes by G01, and nothing is cut.
+    const bool drillsOnly = hole_.node() && isNumbered() && comesToItsEnd(facts);
+    if (!intoPart_.node() || !(isWholeAndStarts(facts) || drillsOnly))
+      return false;
+    first_ = isWholeAndStarts(facts) ? intoPart_ : hole_;
+    return true;
+  }
+  bool isOfLathe(const FlowFacts &facts) {
+    if (first_.node() && preparesTool(facts) && !pullsBar() && (isLateOnLathe(facts) || neverStartsOnLathe(facts)))
+      return true;
+    if (!thread_.node() || isStartedInFile() || !comesToItsEnd(facts) || !isNumbered() ||
+        !view_.context().model.callsOf(view_.program()).empty())
+      return false;
+    first_ = thread_; // which no spindle at rest can cut
+    return true;
+  }
+  /// A tool that takes the bar by its end, as a remark says: the spindle has to stand.
+  bool pullsBar() const {
+    const FileContext &context = view_.context();
+    const Program &its = context.model.programs[view_.program()];
+    for (BlockId block = its.first; block <= view_.node(*first_.node()).block; block = block.next())
+      for (const Comment &comment : context.tree.commentsOf(block)) {
+        const std::string text = toUpper(context.text(comment.span));
+        for (const std::string_view part : {"PULL", "STOCK TRANSFER", "BAR STOP", "BAR FEED", "STOP BAR"})
+          if (text.find(part) != std::string::npos)
+            return true;
+      }
+    return false;
+  }
+  /// Its code, with an end point in the block.
+  const Word *threadIn(NodeId node) const {
+    if (!view_.mayHave(node, 'X') && !view_.mayHave(node, 'Z') && !view_.mayHave(node, 'W'))
+      return nullptr;
+    const auto words = view_.wordsOf(node);
+    const auto found = std::ranges::find_if(words, [&](const Word *word) {
+      const Code *code = codeOf(*word, view_.context().dialect);
+      return code && cutsThread(*code, view_.context().dialect);
+    });
+    return found == words.end() ? nullptr : *found;
+  }
+  Span placeOf(NodeId move) const {
+    const auto words = view_.modalMotionWords(move);
+    return words.empty() ? threadIn(move)->span() : words.front()->span();
+  }
 
   bool starts(NodeId node) const {
     return view_.findAction(node, {CodeAction::SpindleClockwise, CodeAction::SpindleCounterclockwise}) != nullptr;
@@ -207,6 +259,14 @@ private:
     const auto words = view_.modalMotionWords(node);
     return words.size() == 1 && words.front()->address() == 'Z' && state.at(Axis::Z).number().interval().lo > 0;
   }
+  /// To where the tool is: a feed that only sets F.
+  bool standsStill(NodeId node, const AbstractState &state) const {
+    return std::ranges::all_of(view_.modalMotionWords(node), [&](const Word *word) {
+      const Axis axis = *axisOf(word->address());
+      const auto &from = start_[indexOf(axis)].number().interval(), &to = state.at(axis).number().interval();
+      return from.lo == from.hi && to.lo == to.hi && from.lo == to.lo;
+    });
+  }
   /// M codes of the machine builder often start a spindle, an air turbine, a laser; not one beside a return to the
   /// reference position or a tool change, for which the spindle stands.  A probe cuts nothing.
   bool hasOtherSpindleCode(NodeId node) const {
@@ -230,6 +290,8 @@ private:
   FirstSeen first_;
   FirstSeen intoPart_; // below the zero of the part, or a hole
   FirstSeen hole_;
+  FirstSeen thread_;                          // of a lathe
+  decltype(AbstractState::position) start_{}; // of the instruction
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {

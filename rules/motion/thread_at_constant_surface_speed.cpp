@@ -1,18 +1,10 @@
 // thread-at-constant-surface-speed: G76 under G96.
-#include "findings/rule/rule.h"
+#include "rules/motion/turning_walk.h"
 
 #include <fmt/format.h>
 
 namespace feedhold::rules::thread_at_constant_surface_speed {
 namespace {
-
-/// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
-bool cutsThread(const Code &code, const Dialect &dialect) {
-  const bool isC = dialect.switches.gCodeSystem == GCodeSystem::C;
-  const bool isThreadNumber =
-      code.tenths == 780 || (isC ? code.tenths == 210 : code.tenths == 760 || code.tenths == 920);
-  return code.action == CodeAction::Thread || (code.action == CodeAction::TurningCycle && isThreadNumber);
-}
 
 void tell(const Word &thread, const Word &speed, const FileContext &context, const Reporter &reporter) {
   reporter.report({.message = fmt::format("{} cuts a thread at constant surface speed", context.quoted(thread.span())),

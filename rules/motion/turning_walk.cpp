@@ -42,6 +42,13 @@ bool namesAxis(const SyntaxTree &tree, BlockId block) {
 
 } // namespace
 
+bool cutsThread(const Code &code, const Dialect &dialect) {
+  const bool isC = dialect.switches.gCodeSystem == GCodeSystem::C;
+  const bool isThreadNumber =
+      code.tenths == 780 || (isC ? code.tenths == 210 : code.tenths == 760 || code.tenths == 920);
+  return code.action == CodeAction::Thread || (code.action == CodeAction::TurningCycle && isThreadNumber);
+}
+
 TurningWalk::TurningWalk(ProgramId program, const FileContext &context)
     : context_(context), hidden_(program, context), contours_(contoursOf(program, context)) {}
 

@@ -23,6 +23,9 @@ enum class TurningMove : std::uint8_t {
   Unknown, // moves, but the code in force is not known
 };
 
+/// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
+bool cutsThread(const Code &code, const Dialect &dialect);
+
 class TurningWalk {
 public:
   TurningWalk(ProgramId program, const FileContext &context);

@@ -51,20 +51,43 @@ bool isWholeProgram(const FileContext &context, const Program &program) {
   return moves && context.dialect.grammar.sequenceJumps;
 }
 
-/// `G65 P9010 ..`, and behind it `O9010`: what calls it is a program, and runs on into it.
-bool callsNext(const FileContext &context, ProgramId id) {
-  return std::ranges::any_of(context.model.callsOf(id), [&](const Call &call) {
-    return call.callee.number && id.next().index() < context.model.programs.size() &&
-           context.model.programs[id.next()].name.number == call.callee.number;
-  });
+/// Blocks before the first O word of a file that has programs with numbers: they belong to none of them.
+bool isHeadOfFile(const FileContext &context, ProgramId id) {
+  const Program &program = context.model.programs[id];
+  if (id.index() != 0 || isNamed(program) || context.dialect.grammar.oWords ||
+      id.next().index() >= context.model.programs.size() || !isNamed(context.model.programs[id.next()]))
+    return false;
+  for (BlockId block = program.first; block < program.last; block = block.next())
+    if (context.tree.blocks[block].has(Block::kBroken))
+      return false;
+  return true;
+}
+
+/// What separates it from the next one is an O or a colon without a number, which is told there.
+bool endsAtBrokenNumber(const FileContext &context, ProgramId id) {
+  return id.next().index() < context.model.programs.size() && !isNamed(context.model.programs[id.next()]);
+}
+
+void tellHead(BlockId last, ProgramId id, const FileContext &context, const Reporter &reporter) {
+  const std::string next = toString(context.model.programs[id.next()].name);
+  reporter.report({.message = fmt::format("the blocks before `{}` have no program number, and run on into it", next),
+                   .span = context.tree.blocks[last].span(),
+                   .notes = {"a control gives them the number of the next program, or refuses the file",
+                             "write an O word before them, and M30 or M99 behind them"}},
+                  Severity::Warning);
 }
 
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
-  if (!isNamed(program) && !isWholeProgram(context, program) && !callsNext(context, id))
+  if (isHeadOfFile(context, id)) {
+    if (const auto last = openEnd(context, id); last && !program.isEncrypted)
+      tellHead(*last, id, context, reporter);
+    return;
+  }
+  if (!isNamed(program) && !isWholeProgram(context, program))
     return;
   const auto last = openEnd(context, id);
-  if (!last || program.isEncrypted ||
+  if (!last || program.isEncrypted || endsAtBrokenNumber(context, id) ||
       (context.dialect.grammar.percentEndsProgram && !program.within && isClosedByPercent(context, *last)) ||
       isStructureBroken(context, id))
     return;

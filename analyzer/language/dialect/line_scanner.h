@@ -125,6 +125,7 @@ private:
   void scanErosionTool(const Number &number);
   std::size_t conditionNumbers() const;
   void scanAt();
+  bool isTurningCycle() const;
   void countLatheMarks();
   void countGCodeSystem();
   bool hasAnyCode(std::size_t first, std::size_t last) const;

@@ -4,8 +4,10 @@
 #include "language/dialect/comment_signals.h"
 #include "language/dialect/line_scanner.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 
 namespace feedhold {
 
@@ -542,9 +544,9 @@ void LineScanner::countCombinations() {
     count(TextSignal::HaasLocalCall);
   if ((hasG50_ || hasG92_) && hasLetter('S') && !hasLetter('X') && !hasLetter('Z'))
     count(TextSignal::SpindleLimit);
-  if (hasG96_ && hasLetter('S'))
+  if (hasG96_)
     count(TextSignal::SurfaceSpeed);
-  if (hasTurningCycle_ && !hasLetter('Y') && ((hasLetter('P') && hasLetter('Q')) || hasLetter('U')))
+  if (isTurningCycle())
     count(TextSignal::TurningCycle);
   // `G71 P10 Q20 U.02 W.005 D.05`, the cycle in one block; `G12 I.5 K1. Q.2`, a pocket in several turns.
   if ((hasTurningCycle_ && hasDecimalD_ && hasLetter('P') && hasLetter('Q')) ||
@@ -559,6 +561,19 @@ void LineScanner::countCombinations() {
     countLatheMarks();
     countGCodeSystem();
   }
+}
+
+/// By the words beside the code, which mills have for holes and patterns of holes.
+bool LineScanner::isTurningCycle() const {
+  const auto has = [&](std::string_view letters) {
+    return std::ranges::all_of(letters, [&](char letter) { return hasLetter(letter); });
+  };
+  if (hasLetter('Y'))
+    return false;
+  if (gCodes_[74] || gCodes_[75])
+    return has("XZPQ") && !hasLetter('R');
+  return hasTurningCycle_ && (has("PQ") || hasLetter('U') ||
+                              ((gCodes_[71] || gCodes_[72]) && hasLetter('P') && !hasLetter('I') && !hasLetter('J')));
 }
 
 /// What a block says about the kind of machine: axes, and the codes with which they move.

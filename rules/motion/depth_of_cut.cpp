@@ -1,0 +1,82 @@
+// depth-of-cut: `G71 U-1.8 R0.8`: the depth of a pass has no sign.
+#include "rules/motion/turning_walk.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+namespace feedhold::rules::depth_of_cut {
+namespace {
+
+/// Words of a block that have to be above zero, and what they are.
+struct Amount {
+  char address;
+  std::string_view meaning;
+};
+
+constexpr std::array kNone = {Amount{}, Amount{}};
+constexpr char kDepth[] = "the depth of cut";
+
+/// The block that says how to cut; the one with P and Q says what is left.
+std::array<Amount, 2> amountsOfHow(ContourCycle cycle) {
+  switch (cycle) {
+  case ContourCycle::AlongZ: return {Amount{'U', kDepth}, Amount{}};
+  case ContourCycle::AlongX: return {Amount{'W', kDepth}, Amount{}};
+  case ContourCycle::Pattern: return {Amount{'R', "the number of passes"}, Amount{}};
+  case ContourCycle::Finishing: break;
+  }
+  return kNone;
+}
+
+/// The block with the end point.
+std::array<Amount, 2> amountsOfCut(const Code &code, const FileContext &context) {
+  if (cutsThread(code, context.dialect))
+    return {Amount{'P', "the height of the thread"}, Amount{'Q', "the depth of the first pass"}};
+  return {Amount{'P', "the step along X"}, Amount{'Q', "the step along Z"}};
+}
+
+std::array<Amount, 2> amountsOf(BlockId block, const Code &code, const FileContext &context) {
+  const auto cycle = contourCycleOf(code, context.dialect);
+  const auto has = [&](char address) { return findWord(context.tree, block, address) != nullptr; };
+  if (!cycle)
+    return has('X') || has('Z') || has('U') || has('W') ? amountsOfCut(code, context) : kNone;
+  return has('P') || has('Q') ? std::array{Amount{'D', kDepth}, Amount{}} : amountsOfHow(*cycle);
+}
+
+/// Zero is the depth of nothing; for a step it means that there is none.
+bool isWrong(const Amount &amount, const Word &word) {
+  const bool isStep = amount.meaning.starts_with("the step");
+  return word.number().isNegative() || (word.number().isZero() && !isStep && amount.address != 'D');
+}
+
+void check(BlockId block, const FileContext &context, const Reporter &reporter) {
+  if (context.dialect.machine != MachineKind::Turning || context.tree.blocks[block].has(Block::kBroken))
+    return;
+  const Word *cycle = findAction(context.tree, block, context.dialect, {CodeAction::TurningCycle});
+  if (!cycle)
+    return;
+  for (const Amount &amount : amountsOf(block, *codeOf(*cycle, context.dialect), context)) {
+    const Word *word = amount.address != '\0' ? findWord(context.tree, block, amount.address) : nullptr;
+    if (!word || !word->isNumber() || word->has(Word::kArgument) || !isWrong(amount, *word))
+      continue;
+    const bool isZero = word->number().isZero();
+    reporter.report({.message = fmt::format("{} of {} is {}", amount.meaning, context.quoted(cycle->span()),
+                                            isZero ? "zero" : "negative"),
+                     .span = word->span(),
+                     .notes = {"the control stops with an alarm",
+                               isZero ? "write the amount of one pass"
+                                      : "write it without a sign: the cycle finds its direction by the contour or the "
+                                        "end point"}});
+  }
+}
+
+} // namespace
+
+extern const Rule depthOfCut;
+const Rule depthOfCut{.info = {"depth-of-cut", Category::Motion, Severity::Error,
+                               "Reports a turning cycle whose depth of cut, step or number of passes is negative or "
+                               "zero."},
+                      .hooks = {.block = check}};
+
+} // namespace feedhold::rules::depth_of_cut
