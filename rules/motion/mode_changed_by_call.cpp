@@ -1,5 +1,5 @@
-// mode-changed-by-call: a called program returns with another F, G94, G95, G20 or G21 than it was called with, or
-// without the length offset, the cutter compensation or the rotation of its caller.
+// mode-changed-by-call: a called program returns with another F, G94, G95, G20 or G21 than it was called with, with G91
+// instead of G90, or without the length offset, the cutter compensation or the rotation of its caller.
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -19,6 +19,7 @@ constexpr std::initializer_list<CodeAction> kFeeding = {CodeAction::Linear, Code
 struct InForce {
   CodeSet feedMode;
   CodeSet units;
+  CodeSet distance;
   CodeSet length;
   CodeSet compensation;
   CodeSet rotation;
@@ -28,9 +29,8 @@ struct InForce {
 InForce inForceIn(const MotionView &view, const AbstractState &state) {
   const auto codes = [&](ModalKind kind) { return view.inForce(state, kind).value_or(CodeSet::atEntry()); };
   const AbstractValue &feed = state.word('F');
-  return {codes(ModalKind::FeedMode), codes(ModalKind::Units),
-          codes(ModalKind::Length),   codes(ModalKind::Compensation),
-          codes(ModalKind::Rotation), feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
+  return {codes(ModalKind::FeedMode),     codes(ModalKind::Units),    codes(ModalKind::Distance), codes(ModalKind::Length),
+          codes(ModalKind::Compensation), codes(ModalKind::Rotation), feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
 }
 
 void joinInto(std::map<NodeId, InForce> &places, NodeId node, const InForce &found) {
@@ -38,9 +38,13 @@ void joinInto(std::map<NodeId, InForce> &places, NodeId node, const InForce &fou
   if (isNew)
     return;
   InForce &old = known->second;
-  old = {join(old.feedMode, found.feedMode), join(old.units, found.units),
-         join(old.length, found.length),     join(old.compensation, found.compensation),
-         join(old.rotation, found.rotation), old.feed == found.feed ? old.feed : std::nullopt};
+  old = {join(old.feedMode, found.feedMode),
+         join(old.units, found.units),
+         join(old.distance, found.distance),
+         join(old.length, found.length),
+         join(old.compensation, found.compensation),
+         join(old.rotation, found.rotation),
+         old.feed == found.feed ? old.feed : std::nullopt};
 }
 
 class ModeChangedByCall final : public FlowRule {
@@ -70,6 +74,7 @@ public:
     std::ranges::sort(numberedFeeds_);
     std::ranges::sort(cuts_);
     std::ranges::sort(inLength_);
+    std::ranges::sort(literals_);
     for (const auto &entry : after_) {
       const NodeId call = entry.first;
       const InForce &later = entry.second;
@@ -88,6 +93,8 @@ public:
         if ((is.codes() & mask) != 0 && (was.codes() & mask) == 0)
           code(kind, was, is, uses);
       };
+      if (isAbsolute(earlier.distance))
+        code(ModalKind::Distance, earlier.distance, later.distance, literals_);
       cancelled(ModalKind::Length, earlier.length, later.length, {CodeAction::LengthOff}, inLength_);
       cancelled(ModalKind::Compensation, earlier.compensation, later.compensation, {CodeAction::CompensationOff},
                 cuts_);
@@ -102,6 +109,10 @@ private:
     const auto &codes = view_.modes().group(*view_.modes().groupOf(kind)).codes;
     const auto index = static_cast<std::size_t>(std::countr_zero(only.codes()));
     return fmt::format("G{}", codes[index]->tenths / 10);
+  }
+  bool isAbsolute(CodeSet distance) const {
+    const bool hasGroup = view_.modes().groupOf(ModalKind::Distance).has_value();
+    return hasGroup && distance.codes() == view_.modes().maskOf(ModalKind::Distance, {CodeAction::Absolute});
   }
   /// A block with an F of its own counts where the number fits the other mode only: 5 mm per revolution is too much for
   /// any tool, and 1 mm per minute too little.
@@ -118,8 +129,16 @@ private:
     std::ranges::sort(nodes);
     return nodes;
   }
+  /// What is computed may be a distance on purpose, and a way up ends above the part in either mode.
+  bool goesToNumber(NodeId node) const {
+    return std::ranges::any_of(view_.modalMotionWords(node), [](const Word *word) {
+      return word->isNumber() && !word->number().isZero() && (word->address() != 'Z' || word->number().isNegative());
+    });
+  }
   void noteMove(NodeId node, const AbstractState &state) {
     moves_.push_back(node);
+    if (goesToNumber(node))
+      literals_.push_back(node);
     if (view_.mayHave(node, 'Z'))
       inLength_.push_back(node);
     if ((view_.mayHave(node, 'X') || view_.mayHave(node, 'Y')) && view_.surely(state, ModalKind::Motion, kFeeding))
@@ -164,6 +183,7 @@ private:
   std::vector<std::pair<NodeId, double>> numberedFeeds_;
   std::vector<NodeId> cuts_;     // by feed in X or Y
   std::vector<NodeId> inLength_; // with a Z
+  std::vector<NodeId> literals_; // to a number
 };
 
 std::unique_ptr<FlowRule> watch(ProgramId program, const FileContext &context) {
