@@ -12,7 +12,7 @@ using smt::TermId;
 
 namespace {
 
-constexpr std::uint32_t kFewRead = 8;    // variables: each of them is a case of what is read
+constexpr std::uint32_t kFewRead = 64;   // variables: each of them is a case of what is read
 constexpr std::uint32_t kFewWritten = 4; // each of them becomes a case of its own
 constexpr int kMostChanges = 6;          // that are looked behind for what a variable holds
 constexpr std::uint32_t kNoEnd = 0xffffffff;
