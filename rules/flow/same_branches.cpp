@@ -1,10 +1,12 @@
-// same-branches: two jump targets with the same statements behind them, up to the same end.
+// same-branches: two jump targets with the same statements behind them, up to the same end; a condition whose two
+// outcomes do the same.
 #include "findings/rule/rule.h"
 
 #include "base/support/text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -54,8 +56,56 @@ std::optional<Branch> branchAt(const FileContext &context, const Program &progra
   return std::nullopt;
 }
 
+bool isTarget(const FileContext &context, BlockId block) {
+  return std::ranges::any_of(context.model.jumps, [&](const Jump &jump) { return jump.target == block; });
+}
+
+/// The statements of blocks that follow one another; absent where one of them leads elsewhere or has a label.
+std::optional<Branch> straight(const FileContext &context, BlockId first, BlockId end) {
+  Branch branch;
+  for (BlockId block = first; block < end; block = block.next()) {
+    const bool isLabel = block != first && isTarget(context, block);
+    if (isLabel || context.tree.blocks[block].has(Block::kBroken) ||
+        flowAfter(context.tree, block, context.dialect) != FlowAfter::Next)
+      return std::nullopt;
+    if (const std::string text = textOf(context, block); !text.empty()) {
+      branch.text += text + '\n';
+      ++branch.blocks;
+    }
+  }
+  return branch;
+}
+
+/// `IF [..] GOTO 200`, statements, `GOTO 220`, `N200`, the same statements, `N220`.
+void checkCondition(const Jump &jump, ProgramId id, const FileContext &context, const Reporter &reporter) {
+  if (jump.kind != JumpKind::Goto || !jump.target || *jump.target <= jump.block ||
+      flowAfter(context.tree, jump.block, context.dialect) != FlowAfter::MayJump)
+    return;
+  const auto jumps = context.model.jumpsOf(id);
+  const auto over = std::ranges::find_if(jumps, [&](const Jump &other) {
+    return other.kind == JumpKind::Goto && other.target && *other.target > *jump.target && other.block > jump.block &&
+           other.block.next() == *jump.target &&
+           flowAfter(context.tree, other.block, context.dialect) == FlowAfter::Jumps;
+  });
+  if (over == jumps.end())
+    return;
+  const auto one = straight(context, jump.block.next(), over->block);
+  const auto other = straight(context, *jump.target, *over->target);
+  if (!one || !other || one->blocks == 0 || one->text != other->text)
+    return;
+  reporter.report({.message = "both outcomes of this condition do the same",
+                   .span = context.tree.blocks[jump.block].span(),
+                   .labels = {{context.tree.blocks[jump.block.next()].span(), "the one"},
+                              {context.tree.blocks[*jump.target].span(), "the other"}},
+                   .notes = {"one of them may be a copy that was not adapted: correct its variables or numbers",
+                             "where both are right, delete the condition"}},
+                  Severity::Warning);
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   const Program &program = context.model.programs[id];
+  for (const Jump &jump : context.model.jumpsOf(id))
+    checkCondition(jump, id, context, reporter);
   std::set<BlockId> targets;
   for (const Jump &jump : context.model.jumpsOf(id))
     if (jump.kind == JumpKind::Goto && jump.target)
@@ -82,7 +132,8 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule sameBranches;
 const Rule sameBranches{.info = {"same-branches", Category::Flow, Severity::Info,
-                                 "Reports two jump targets that are followed by the same statements."},
+                                 "Reports two jump targets that are followed by the same statements, and a "
+                                 "condition whose outcomes do the same."},
                         .hooks = {.program = check}};
 
 } // namespace feedhold::rules::same_branches

@@ -29,8 +29,13 @@ struct InForce {
 InForce inForceIn(const MotionView &view, const AbstractState &state) {
   const auto codes = [&](ModalKind kind) { return view.inForce(state, kind).value_or(CodeSet::atEntry()); };
   const AbstractValue &feed = state.word('F');
-  return {codes(ModalKind::FeedMode),     codes(ModalKind::Units),    codes(ModalKind::Distance), codes(ModalKind::Length),
-          codes(ModalKind::Compensation), codes(ModalKind::Rotation), feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
+  return {codes(ModalKind::FeedMode),
+          codes(ModalKind::Units),
+          codes(ModalKind::Distance),
+          codes(ModalKind::Length),
+          codes(ModalKind::Compensation),
+          codes(ModalKind::Rotation),
+          feed.mayBeVacant() ? std::nullopt : feed.number().constantValue()};
 }
 
 void joinInto(std::map<NodeId, InForce> &places, NodeId node, const InForce &found) {

@@ -37,19 +37,22 @@ bool givesRevolutions(std::string_view comment, const std::string &number) {
   return false;
 }
 
-/// The S of a block whose comment gives it in revolutions; not one that limits the speed.
+/// The S of a block whose comment, or a line of comment above it, gives it in revolutions; not one that limits the
+/// speed.
 const Word *revolutionsIn(BlockId block, const FileContext &context) {
   const Word *speed = findWord(context.tree, block, 'S');
   const auto number = speed && speed->isNumber() ? speed->integer() : std::nullopt;
-  const auto comments = context.tree.commentsOf(block);
   if (!number || std::ranges::any_of(context.tree.wordsOf(block), [](const Word &word) {
         return word.address() == 'G' && (word.integer() == 50 || word.integer() == 92);
       }))
     return nullptr;
-  const bool gives = std::ranges::any_of(comments, [&](const Comment &comment) {
-    return comment.span.size() > 2 && givesRevolutions(context.text(comment.span), std::to_string(*number));
-  });
-  return gives ? speed : nullptr;
+  const auto gives = [&](BlockId each) {
+    return std::ranges::any_of(context.tree.commentsOf(each), [&](const Comment &comment) {
+      return comment.span.size() > 2 && givesRevolutions(context.text(comment.span), std::to_string(*number));
+    });
+  };
+  const BlockId above(block.index() == 0 ? 0 : block.index() - 1);
+  return gives(block) || (isEmpty(context.tree, above) && gives(above)) ? speed : nullptr;
 }
 
 void tell(const Word &speed, const Word &mode, const FileContext &context, const Reporter &reporter) {

@@ -15,6 +15,12 @@ void tell(const Word &thread, const Word &speed, const FileContext &context, con
                              "program `G97` and the speed in revolutions per minute before the thread"}});
 }
 
+/// `G92 S3000` limits the speed, in other G code systems.
+bool namesEnd(const SyntaxTree &tree, BlockId block) {
+  return findWord(tree, block, 'X') || findWord(tree, block, 'Z') || findWord(tree, block, 'U') ||
+         findWord(tree, block, 'W');
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning)
     return;
@@ -32,7 +38,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
         constant = &word;
       else if (code->action == CodeAction::ConstantSpeed)
         constant = nullptr;
-      else if (constant && cutsThread(*code, context.dialect)) {
+      else if (constant && cutsThread(*code, context.dialect) && namesEnd(context.tree, block)) {
         tell(word, *constant, context, reporter);
         constant = nullptr; // once for each G96
       }

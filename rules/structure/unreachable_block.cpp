@@ -247,6 +247,32 @@ void reportEarlyEnd(const DeadBlocks::Run &run, BlockId start, const FileContext
                   Severity::Warning);
 }
 
+/// `M30`, and behind it a tool change, cuts, and another M30: an operation that was to be part of the program.
+bool hidesOperation(const DeadBlocks::Run &run, const FileContext &context) {
+  constexpr int kWork = 3; // blocks with movements
+  if (!findCode(context.tree, run.ender, context.dialect, CodeRole::ProgramEnd) ||
+      context.tree.blocks[run.ender].has(Block::kSkip))
+    return false;
+  int work = 0;
+  bool changesTool = false;
+  for (BlockId block = run.first; block <= run.last; block = block.next()) {
+    if (findCode(context.tree, block, context.dialect, CodeRole::Return))
+      return false; // a subprogram that is kept behind the end
+    changesTool = changesTool || findAction(context.tree, block, context.dialect, {CodeAction::ToolChange});
+    work += changesTool && movesAxes(block, context) ? 1 : 0;
+  }
+  return work >= kWork && hasEnd(run.first, run.last.next(), context);
+}
+
+void reportOperation(const DeadBlocks::Run &run, BlockId start, const FileContext &context, const Reporter &reporter) {
+  reporter.report({.message = "the operation behind this end is never executed",
+                   .span = context.tree.blocks[start].span(),
+                   .labels = {{context.tree.blocks[run.ender].span(), "the program ends here"}},
+                   .notes = {"it has a tool change, cuts and an end of its own: delete the end before it, write M00 or "
+                             "M01 there, or give the operation a program number"}},
+                  Severity::Warning);
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
@@ -259,6 +285,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
       continue;
     if (endsBeforeWork(run, program, context)) {
       reportEarlyEnd(run, *start, context, reporter);
+      continue;
+    }
+    if (hidesOperation(run, context)) {
+      reportOperation(run, *start, context, reporter);
       continue;
     }
     if (alwaysEndsInAlarm(run, program, context)) {

@@ -1,0 +1,99 @@
+// tool-list-differs: the head lists `(T08: BORING BAR)`, and the program calls T10, which the list does not have.
+#include "findings/rule/rule.h"
+
+#include "base/support/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string_view>
+
+namespace feedhold::rules::tool_list_differs {
+namespace {
+
+constexpr std::size_t kLeastOfList = 2;
+
+/// `(T08: BORING BAR)`, `(T4 - DRILL)`: a tool and what it is.
+std::optional<std::int64_t> toolOf(std::string_view comment) {
+  std::string_view text = comment;
+  if (!text.empty() && (text.front() == '(' || text.front() == ';'))
+    text.remove_prefix(1);
+  text = trimmed(text);
+  if (text.size() < 3 || toUpper(text.front()) != 'T')
+    return std::nullopt;
+  std::size_t at = 1;
+  std::int64_t number = 0;
+  for (; at < text.size() && isDigit(text[at]); ++at)
+    number = number * 10 + (text[at] - '0');
+  const std::size_t digits = at - 1;
+  bool isSeparated = false;
+  for (; at < text.size() && (isBlank(text[at]) || text[at] == ':' || text[at] == '-' || text[at] == '='); ++at)
+    isSeparated = isSeparated || !isBlank(text[at]);
+  const bool isNamed =
+      at > digits + 1 && at < text.size() && (isLetter(text[at]) || (isSeparated && isDigit(text[at])));
+  return digits >= 1 && digits <= 2 && number > 0 && isNamed ? std::optional(number) : std::nullopt;
+}
+
+/// The tool of a T word: of a lathe without the number of its offset.
+std::optional<std::int64_t> toolOf(const Word &word, const FileContext &context) {
+  const auto number = word.address() == 'T' ? word.integer() : std::nullopt;
+  if (!number || *number <= 0)
+    return std::nullopt;
+  return context.dialect.machine == MachineKind::Turning && *number >= 100 ? *number / 100 : *number;
+}
+
+/// The comments above the first T word.
+std::map<std::int64_t, const Comment *> listOf(const Program &program, const FileContext &context) {
+  std::map<std::int64_t, const Comment *> list;
+  for (BlockId block = program.first; block < program.last && !findWord(context.tree, block, 'T'); block = block.next())
+    for (const Comment &comment : context.tree.commentsOf(block))
+      if (const auto tool = toolOf(context.text(comment.span)))
+        list.emplace(*tool, &comment);
+  return list;
+}
+
+std::map<std::int64_t, const Word *> callsOf(const Program &program, const FileContext &context) {
+  std::map<std::int64_t, const Word *> calls;
+  for (BlockId block = program.first; block < program.last; block = block.next())
+    for (const Word &word : context.tree.wordsOf(block))
+      if (const auto tool = word.has(Word::kArgument) ? std::nullopt : toolOf(word, context))
+        calls.emplace(*tool, &word);
+  return calls;
+}
+
+template <typename Of, typename In> auto firstMissing(const Of &of, const In &in) {
+  return std::ranges::find_if(of, [&](const auto &entry) { return !in.contains(entry.first); });
+}
+
+void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
+  if (!context.model.callsOf(id).empty()) // which may change tools
+    return;
+  const Program &program = context.model.programs[id];
+  const auto list = listOf(program, context);
+  const auto calls = callsOf(program, context);
+  if (list.size() < kLeastOfList)
+    return;
+  const auto uncalled = firstMissing(list, calls);
+  const auto unlisted = firstMissing(calls, list);
+  const bool haveCommon = std::ranges::any_of(list, [&](const auto &entry) { return calls.contains(entry.first); });
+  if (uncalled == list.end() || unlisted == calls.end() || !haveCommon)
+    return;
+  reporter.report({.message = fmt::format("{} calls a tool that the list at the head does not have",
+                                          context.quoted(unlisted->second->span())),
+                   .span = unlisted->second->span(),
+                   .labels = {{uncalled->second->span, "listed, and never called"}},
+                   .notes = {"who sets up the machine by the list puts another tool, or none, into this place",
+                             "correct the list or the T word"}});
+}
+
+} // namespace
+
+extern const Rule toolListDiffers;
+const Rule toolListDiffers{.info = {"tool-list-differs", Category::Comment, Severity::Warning,
+                                    "Reports a tool that the program calls and its list of tools does not have, while "
+                                    "a listed one is never called."},
+                           .hooks = {.program = check}};
+
+} // namespace feedhold::rules::tool_list_differs
