@@ -50,10 +50,12 @@ bool limitsSpeed(BlockId block, const FileContext &context) {
 
 void check(const Word &speed, BlockId block, const FileContext &context, const Reporter &reporter) {
   if (!speed.isNumber() || speed.number().isZero() || speed.has(Word::kArgument) ||
-      context.tree.commentsOf(block).size() != 1 ||
       findAction(context.tree, block, context.dialect, {CodeAction::ConstantSurface}))
     return;
-  const std::string remark = remarksOf(context, block);
+  const auto comments = commentsOfLine(context, block);
+  if (comments.size() != 1)
+    return;
+  const std::string remark = toUpper(context.text(comments.front()->span));
   const auto number = onlyNumberIn(remark);
   if (!number || number->value <= 0 || !isOfSpindle(remark, *number))
     return;
@@ -65,7 +67,7 @@ void check(const Word &speed, BlockId block, const FileContext &context, const R
     return;
   reporter.report({.message = fmt::format("{} is not the speed that the remark names", context.quoted(speed.span())),
                    .span = speed.span(),
-                   .labels = {{context.tree.commentsOf(block).front().span, "the remark"}},
+                   .labels = {{comments.front()->span, "the remark"}},
                    .notes = {"correct the number or the remark: whoever reads the program at the machine trusts it"}});
 }
 

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace feedhold::rules {
 
@@ -17,6 +18,21 @@ inline std::string remarksOf(const FileContext &context, BlockId block) {
   for (const Comment &comment : context.tree.commentsOf(block))
     text += toUpper(context.text(comment.span)) + " ";
   return text;
+}
+
+/// Those of the block and, behind the `;` that ends it, of its line.
+inline std::vector<const Comment *> commentsOfLine(const FileContext &context, BlockId block) {
+  std::vector<const Comment *> comments;
+  for (const Comment &comment : context.tree.commentsOf(block))
+    comments.push_back(&comment);
+  const BlockId next = block.next();
+  if (next.index() >= context.tree.blockCount() || !isEmpty(context.tree, next))
+    return comments;
+  const std::uint32_t line = context.source.lineOf(context.tree.blocks[block].begin);
+  for (const Comment &comment : context.tree.commentsOf(next))
+    if (context.source.lineOf(comment.span.begin) == line)
+      comments.push_back(&comment);
+  return comments;
 }
 
 inline bool saysAny(std::string_view remark, std::initializer_list<std::string_view> words) {

@@ -46,7 +46,11 @@ private:
   }
   bool cuts(const AbstractState &state) const {
     return view_.surely(state, ModalKind::Motion,
-                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});
+                        {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise}) ||
+           view_.surely(state, ModalKind::Cycle,
+                        {CodeAction::CycleDrill, CodeAction::CycleDwell, CodeAction::CyclePeck,
+                         CodeAction::CycleChipBreak, CodeAction::CycleTap, CodeAction::CycleTapLeft,
+                         CodeAction::CycleBore, CodeAction::CycleBoreStop});
   }
 
   MotionView view_;

@@ -52,7 +52,10 @@ const Word *revolutionsIn(BlockId block, const FileContext &context) {
     });
   };
   const BlockId above(block.index() == 0 ? 0 : block.index() - 1);
-  return gives(block) || (isEmpty(context.tree, above) && gives(above)) ? speed : nullptr;
+  // A comment beside another S, such as the limit of the spindle, is not about that one if the numbers differ.
+  const Word *other = findWord(context.tree, above, 'S');
+  const bool isAboutThis = isEmpty(context.tree, above) || (other && other->isNumber() && other->integer() != number);
+  return gives(block) || (isAboutThis && gives(above)) ? speed : nullptr;
 }
 
 void tell(const Word &speed, const Word &mode, const FileContext &context, const Reporter &reporter) {

@@ -156,6 +156,7 @@ private:
   bool hasG65_ = false;
   bool hasM98_ = false;
   bool hasM97_ = false;
+  bool hasRelay_ = false; // M59, M69
   bool hasTurningCycle_ = false;
   bool hasG50_ = false;
   bool hasG92_ = false;

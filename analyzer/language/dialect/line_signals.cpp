@@ -384,6 +384,8 @@ void LineScanner::scanGCode(const Number &number) {
 void LineScanner::scanMCode(const Number &number) {
   switch (number.whole) {
   case 6: count(TextSignal::ToolChange); return;
+  case 59:
+  case 69: hasRelay_ = true; return;
   case 82: hasM82_ = true; return;
   case 84: hasM84_ = true; return;
   case 97: hasM97_ = true; return;
@@ -542,6 +544,8 @@ void LineScanner::countCombinations() {
     count(TextSignal::ErosionSwitch);
   if (hasM97_ && hasLetter('P'))
     count(TextSignal::HaasLocalCall);
+  if (hasRelay_ && hasLetter('P')) // `M59 P2`: an output is switched
+    count(TextSignal::HaasCode);
   if ((hasG50_ || hasG92_) && hasLetter('S') && !hasLetter('X') && !hasLetter('Z'))
     count(TextSignal::SpindleLimit);
   if (hasG96_)

@@ -63,6 +63,19 @@ TEST(Guess, Lathes) {
             "haas-ngc-lathe");
 }
 
+TEST(Guess, CodesOfOneBlockSayLathe) {
+  EXPECT_EQ(
+      guessed("O1\nT0303\nM03\nS1200\nG96\nG50 S4000\nG00 Z.1 X1.\nG71 P10\nQ20\nN10 G00 X0\nN20 G01 Z-1.\nM30\n"),
+      "fanuc-30i-lathe");
+  EXPECT_EQ(
+      guessed("O2\nG21 G40 G90\nT0303\nG97 S1000 M03\nG00 X50. Z2.\nG74 R1.\nG74 X20. Z-20. P1500 Q5000 F.1\nM30\n"),
+      "fanuc-30i-lathe");
+}
+
+TEST(Guess, SwitchingAnOutputSaysHaas) {
+  EXPECT_EQ(guessed("O1\nT02 M06\nM59 P2\nG04 P1.\nM59 P3\nG01 G90 F650. Z0.\nM30\n"), "haas-ngc");
+}
+
 TEST(Guess, LathesWithoutCycles) {
   EXPECT_EQ(guessed("O1\nG28U0W0\nT0101\nG97S1000M3\nG0X20.Z5.\nG1Z-10.F0.2\nG28U0W0\nM30\n"), "fanuc-30i-lathe");
   EXPECT_EQ(guessed("O1\nG0 X20. Z5.\nG1 X22. Z-1.\nG1 X30. Z-20.\nM30\n"), "fanuc-30i-lathe");
