@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -41,16 +42,33 @@ std::map<std::string, int> namesIn(std::string_view text) {
 struct Unread {
   std::string name;
   Span place;
-  bool namesArgument; // `#<depth> = #3`: the argument is part of an interface
+  bool isCopy; // `#<depth> = #3`, `#<len> = #<_line:len>`: one name of several that were passed or returned
 };
 
-bool namesArgument(const VariableUse &use, const FileContext &context) {
+/// `#<_z>`: a position, which somebody wanted to remember.
+bool isPosition(const VariableUse &use, const FileContext &context) {
+  constexpr std::size_t kLetter = 5; // `#<_x>`
+  const std::string name = canonical(context.text(context.tree.expressions[use.expression].span));
+  return name.starts_with("#<_") && name.size() == kLetter;
+}
+
+/// The block does nothing but give another variable a name; a system variable is a measured value.
+bool isCopy(const VariableUse &use, const FileContext &context) {
   constexpr std::uint32_t kLastArgument = 30;
-  const auto reads = context.model.variablesIn(use.block, use.block.next());
+  const auto uses = context.model.variablesIn(use.block, use.block.next());
   const auto isOther = [&](const VariableUse &other) { return other.expression != use.expression; };
-  return std::ranges::count_if(reads, isOther) == 1 && std::ranges::all_of(reads, [&](const VariableUse &other) {
-           return !isOther(other) || (!other.write && other.number && *other.number <= kLastArgument);
+  return std::ranges::count_if(uses, isOther) == 1 && std::ranges::all_of(uses, [&](const VariableUse &other) {
+           const bool isNamed = as<NamedVariable>(context.tree, other.expression) != nullptr;
+           return !isOther(other) || (!other.write && !isPosition(other, context) &&
+                                      (isNamed || (other.number && *other.number <= kLastArgument)));
          });
+}
+
+/// Magic parameters of QtPlasmaC, which its filter reads out of the text (its manual, "G-Code").
+bool isMagic(std::string_view name) {
+  constexpr std::array kMagic = {"#<HOLES>",       "#<H_DIAMETER>", "#<H_VELOCITY>",    "#<I_DIAMETER>", "#<OCLENGTH>",
+                                 "#<PIERCE-ONLY>", "#<TUBE-CUT>",   "#<KEEP-Z-MOTION>", "#<M190>"};
+  return std::ranges::find(kMagic, name) != kMagic.end();
 }
 
 std::vector<Unread> unreadIn(const FileContext &context) {
@@ -66,8 +84,8 @@ std::vector<Unread> unreadIn(const FileContext &context) {
     const Span place = context.tree.expressions[use.expression].span;
     const std::string name = canonical(context.text(place));
     // With `_` in front it is global: other programs, or the screen of the control, may read it.
-    if (!name.starts_with("#<_") && found[name] == 0 && told.insert(name).second)
-      unread.push_back({name, place, namesArgument(use, context)});
+    if (!name.starts_with("#<_") && !isMagic(name) && found[name] == 0 && told.insert(name).second)
+      unread.push_back({name, place, isCopy(use, context)});
   }
   return unread;
 }
@@ -92,7 +110,7 @@ void check(const FileContext &context, const Reporter &reporter) {
           others += (others.empty() ? "`" : ", `") + toLower(other.name) + "`";
       diagnostic.notes.push_back("neither are " + others);
     }
-    reporter.report(std::move(diagnostic), each.namesArgument ? Severity::Info : Severity::Warning);
+    reporter.report(std::move(diagnostic), each.isCopy ? Severity::Info : Severity::Warning);
     if (unread.size() > kMostTold)
       return;
   }
