@@ -7,11 +7,9 @@ namespace feedhold::rules::thread_at_constant_surface_speed {
 namespace {
 
 /// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
-bool cutsThread(const Code &code, const Dialect &dialect) {
-  const bool isC = dialect.switches.gCodeSystem == GCodeSystem::C;
-  const bool isThreadNumber =
-      code.tenths == 780 || (isC ? code.tenths == 210 : code.tenths == 760 || code.tenths == 920);
-  return code.action == CodeAction::Thread || (code.action == CodeAction::TurningCycle && isThreadNumber);
+bool cutsThread(const Code &code) {
+  return code.action == CodeAction::Thread || code.action == CodeAction::ThreadCycle ||
+         code.action == CodeAction::ThreadPasses;
 }
 
 void tell(const Word &thread, const Word &speed, const FileContext &context, const Reporter &reporter) {
@@ -40,7 +38,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
         constant = &word;
       else if (code->action == CodeAction::ConstantSpeed)
         constant = nullptr;
-      else if (constant && cutsThread(*code, context.dialect)) {
+      else if (constant && cutsThread(*code)) {
         tell(word, *constant, context, reporter);
         constant = nullptr; // once for each G96
       }
