@@ -45,8 +45,8 @@ Found findIn(ProgramId program, const FileContext &context) {
         found.tool = std::move(*tool);
       }
     found.hasTool = found.hasTool || findWord(context.tree, block, 'T');
-    found.cuts = found.cuts || findAction(context.tree, block, context.dialect,
-                                          {CodeAction::Linear, CodeAction::TurningCycle, CodeAction::DiameterCycle});
+    found.cuts = found.cuts || findAction(context.tree, block, context.dialect, {CodeAction::Linear}) ||
+                 findTurningCycle(context.tree, block, context.dialect);
     found.ends = found.ends || findCode(context.tree, block, context.dialect, CodeRole::ProgramEnd);
   }
   return found;

@@ -12,10 +12,10 @@ namespace {
 bool cancelsOffset(const Word &word) { return word.integer() == 0U && !word.has(Word::kArgument); }
 
 const Word *cutIn(BlockId block, const FileContext &context) {
-  const Word *code =
-      findAction(context.tree, block, context.dialect,
-                 {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise, CodeAction::Thread,
-                  CodeAction::TurningCycle, CodeAction::DiameterCycle, CodeAction::FaceCycle, CodeAction::SideCycle});
+  const Word *line = findAction(context.tree, block, context.dialect,
+                                {CodeAction::Linear, CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise,
+                                 CodeAction::Thread, CodeAction::SideCycle});
+  const Word *code = line ? line : findTurningCycle(context.tree, block, context.dialect);
   const bool moves = std::ranges::any_of(context.tree.wordsOf(block),
                                          [](const Word &word) { return axisOf(word.address()).has_value(); });
   return moves ? code : nullptr;

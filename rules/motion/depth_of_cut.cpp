@@ -1,5 +1,5 @@
 // depth-of-cut: `G71 U-1.8 R0.8`: the depth of a pass has no sign.
-#include "rules/motion/turning_walk.h"
+#include "findings/rule/rule.h"
 
 #include <fmt/format.h>
 
@@ -18,30 +18,32 @@ struct Amount {
 constexpr std::array kNone = {Amount{}, Amount{}};
 constexpr char kDepth[] = "the depth of cut";
 
-/// The block that says how to cut; the one with P and Q says what is left.
-std::array<Amount, 2> amountsOfHow(ContourCycle cycle) {
-  switch (cycle) {
-  case ContourCycle::AlongZ: return {Amount{'U', kDepth}, Amount{}};
-  case ContourCycle::AlongX: return {Amount{'W', kDepth}, Amount{}};
-  case ContourCycle::Pattern: return {Amount{'R', "the number of passes"}, Amount{}};
-  case ContourCycle::Finishing: break;
-  }
-  return kNone;
-}
-
-/// The block with the end point.
-std::array<Amount, 2> amountsOfCut(const Code &code, const FileContext &context) {
-  if (cutsThread(code, context.dialect))
-    return {Amount{'P', "the height of the thread"}, Amount{'Q', "the depth of the first pass"}};
-  return {Amount{'P', "the step along X"}, Amount{'Q', "the step along Z"}};
+/// Of a contour cycle: the block with P and Q says what is left, the one without how to cut.
+std::array<Amount, 2> amountsOf(CodeAction action, bool namesContour) {
+  if (namesContour)
+    return {Amount{'D', kDepth}, Amount{}};
+  if (action == CodeAction::TurnContour)
+    return {Amount{'U', kDepth}, Amount{}};
+  if (action == CodeAction::FaceContour)
+    return {Amount{'W', kDepth}, Amount{}};
+  return {Amount{'R', "the number of passes"}, Amount{}};
 }
 
 std::array<Amount, 2> amountsOf(BlockId block, const Code &code, const FileContext &context) {
-  const auto cycle = contourCycleOf(code, context.dialect);
   const auto has = [&](char address) { return findWord(context.tree, block, address) != nullptr; };
-  if (!cycle)
-    return has('X') || has('Z') || has('U') || has('W') ? amountsOfCut(code, context) : kNone;
-  return has('P') || has('Q') ? std::array{Amount{'D', kDepth}, Amount{}} : amountsOfHow(*cycle);
+  switch (code.action) {
+  case CodeAction::TurnContour:
+  case CodeAction::FaceContour:
+  case CodeAction::RepeatContour: return amountsOf(code.action, has('P') || has('Q'));
+  default: break;
+  }
+  if (!has('X') && !has('Z') && !has('U') && !has('W')) // the block that says how to cut
+    return kNone;
+  if (code.action == CodeAction::ThreadPasses)
+    return {Amount{'P', "the height of the thread"}, Amount{'Q', "the depth of the first pass"}};
+  if (code.action == CodeAction::FaceGroove || code.action == CodeAction::DiameterGroove)
+    return {Amount{'P', "the step along X"}, Amount{'Q', "the step along Z"}};
+  return kNone;
 }
 
 /// Zero is the depth of nothing; for a step it means that there is none.
@@ -53,7 +55,7 @@ bool isWrong(const Amount &amount, const Word &word) {
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning || context.tree.blocks[block].has(Block::kBroken))
     return;
-  const Word *cycle = findAction(context.tree, block, context.dialect, {CodeAction::TurningCycle});
+  const Word *cycle = findTurningCycle(context.tree, block, context.dialect);
   if (!cycle)
     return;
   for (const Amount &amount : amountsOf(block, *codeOf(*cycle, context.dialect), context)) {

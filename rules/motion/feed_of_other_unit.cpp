@@ -143,8 +143,8 @@ private:
   }
   bool isThread(BlockId block) const {
     return findAction(context_.tree, block, context_.dialect,
-                      {CodeAction::Thread, CodeAction::CycleTap, CodeAction::CycleTapLeft, CodeAction::TurningCycle,
-                       CodeAction::OtherCycle}) ||
+                      {CodeAction::Thread, CodeAction::CycleTap, CodeAction::CycleTapLeft, CodeAction::OtherCycle}) ||
+           findTurningCycle(context_.tree, block, context_.dialect) ||
            (!units_.isOfMill && findCode(context_.tree, block, context_.dialect, CodeRole::CannedCycle));
   }
   /// So slow that it would take a minute for a millimetre, or for some hundredths of an inch.

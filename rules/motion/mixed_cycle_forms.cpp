@@ -1,9 +1,7 @@
 // mixed-cycle-forms: `G71 P100 Q110 D.035`, and below `G71 U.035 R0.`
-#include "rules/motion/turning_walk.h"
+#include "findings/rule/rule.h"
 
 #include <fmt/format.h>
-
-#include <array>
 
 namespace feedhold::rules::mixed_cycle_forms {
 namespace {
@@ -28,9 +26,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   Forms forms;
   const Program &its = context.model.programs[program];
   for (BlockId block = its.first; block < its.last; block = block.next()) {
-    const Word *code = findAction(context.tree, block, context.dialect, {CodeAction::TurningCycle});
-    const auto cycle = code ? contourCycleOf(*codeOf(*code, context.dialect), context.dialect) : std::nullopt;
-    if (cycle == ContourCycle::AlongZ || cycle == ContourCycle::AlongX)
+    if (const Word *code = findAction(context.tree, block, context.dialect,
+                                      {CodeAction::TurnContour, CodeAction::FaceContour}))
       note(*code, block, context, forms);
   }
   if (!forms.one || !forms.two)

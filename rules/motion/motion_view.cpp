@@ -37,11 +37,10 @@ bool takesAxisWords(const Code &code) {
   case CodeRole::ProgramStop:
   case CodeRole::JumpOnInput: break;
   }
-  constexpr std::array kTaking = {CodeAction::RotationOn,    CodeAction::ScalingOn,  CodeAction::MirrorOn,
-                                  CodeAction::MirrorOff,     CodeAction::Unmodelled, CodeAction::Anything,
-                                  CodeAction::OtherCycle,    CodeAction::SideCycle,  CodeAction::TurningCycle,
-                                  CodeAction::DiameterCycle, CodeAction::FaceCycle,  CodeAction::LengthGiven};
-  return std::ranges::find(kTaking, code.action) != kTaking.end();
+  constexpr std::array kTaking = {CodeAction::RotationOn, CodeAction::ScalingOn,  CodeAction::MirrorOn,
+                                  CodeAction::MirrorOff,  CodeAction::Unmodelled, CodeAction::Anything,
+                                  CodeAction::OtherCycle, CodeAction::SideCycle,  CodeAction::LengthGiven};
+  return isTurningCycle(code.action) || std::ranges::find(kTaking, code.action) != kTaking.end();
 }
 
 bool movesByItself(const Code &code) {

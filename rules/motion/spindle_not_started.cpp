@@ -111,7 +111,7 @@ private:
     const auto words = view_.wordsOf(node);
     const auto found = std::ranges::find_if(words, [&](const Word *word) {
       const Code *code = codeOf(*word, view_.context().dialect);
-      return code && cutsThread(*code, view_.context().dialect);
+      return code && cutsThread(*code);
     });
     return found == words.end() ? nullptr : *found;
   }

@@ -99,8 +99,8 @@ private:
   bool meansOther(BlockId block) const {
     return findAction(context_.tree, block, context_.dialect,
                       {CodeAction::CoordinateSet, CodeAction::ReferenceReturn, CodeAction::SecondReference,
-                       CodeAction::MachineMove, CodeAction::Dwell, CodeAction::Thread, CodeAction::TurningCycle,
-                       CodeAction::DiameterCycle, CodeAction::FaceCycle}) ||
+                       CodeAction::MachineMove, CodeAction::Dwell, CodeAction::Thread}) ||
+           findTurningCycle(context_.tree, block, context_.dialect) ||
            meansOwnWords(context_.tree, block, context_.dialect);
   }
 

@@ -38,7 +38,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
         constant = &word;
       else if (code->action == CodeAction::ConstantSpeed)
         constant = nullptr;
-      else if (constant && cutsThread(*code, context.dialect) && namesEnd(context.tree, block)) {
+      else if (constant && cutsThread(*code) && namesEnd(context.tree, block)) {
         tell(word, *constant, context, reporter);
         constant = nullptr; // once for each G96
       }

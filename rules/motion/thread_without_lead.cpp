@@ -34,7 +34,7 @@ private:
   }
   const Word *threadIn(BlockId block) const {
     for (const Word &word : context_.tree.wordsOf(block))
-      if (const Code *code = codeOf(word, context_.dialect); code && cutsThread(*code, context_.dialect))
+      if (const Code *code = codeOf(word, context_.dialect); code && cutsThread(*code))
         return &word;
     return nullptr;
   }

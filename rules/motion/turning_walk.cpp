@@ -20,14 +20,13 @@ bool takesAway(const Code &code) {
 
 /// The movement that a code puts in force; absent: none.
 std::optional<TurningMove> moveOf(CodeAction action) {
+  if (isTurningCycle(action))
+    return TurningMove::Cycle;
   constexpr std::array kMoves = {std::pair{CodeAction::Rapid, TurningMove::Rapid},
                                  std::pair{CodeAction::Linear, TurningMove::Feed},
                                  std::pair{CodeAction::ArcClockwise, TurningMove::Feed},
                                  std::pair{CodeAction::ArcCounterclockwise, TurningMove::Feed},
                                  std::pair{CodeAction::Thread, TurningMove::Feed},
-                                 std::pair{CodeAction::TurningCycle, TurningMove::Cycle},
-                                 std::pair{CodeAction::DiameterCycle, TurningMove::Cycle},
-                                 std::pair{CodeAction::FaceCycle, TurningMove::Cycle},
                                  std::pair{CodeAction::SideCycle, TurningMove::Unknown},
                                  std::pair{CodeAction::CycleOff, TurningMove::Unknown}};
   const auto found = std::ranges::find(kMoves, action, &std::pair<CodeAction, TurningMove>::first);
@@ -42,11 +41,9 @@ bool namesAxis(const SyntaxTree &tree, BlockId block) {
 
 } // namespace
 
-bool cutsThread(const Code &code, const Dialect &dialect) {
-  const bool isC = dialect.switches.gCodeSystem == GCodeSystem::C;
-  const bool isThreadNumber =
-      code.tenths == 780 || (isC ? code.tenths == 210 : code.tenths == 760 || code.tenths == 920);
-  return code.action == CodeAction::Thread || (code.action == CodeAction::TurningCycle && isThreadNumber);
+bool cutsThread(const Code &code) {
+  return code.action == CodeAction::Thread || code.action == CodeAction::ThreadCycle ||
+         code.action == CodeAction::ThreadPasses;
 }
 
 TurningWalk::TurningWalk(ProgramId program, const FileContext &context)
@@ -105,8 +102,7 @@ TurningMove TurningWalk::read(BlockId block) {
     lose();
     return TurningMove::None;
   }
-  const Word *cycle = findAction(context_.tree, block, context_.dialect,
-                                 {CodeAction::TurningCycle, CodeAction::DiameterCycle, CodeAction::FaceCycle});
+  const Word *cycle = findTurningCycle(context_.tree, block, context_.dialect);
   const bool isOfGroup = !cycle || codeOf(*cycle, context_.dialect)->group != 0;
   if (!isOfGroup || motion_ == TurningMove::Cycle) {
     if (!isOfGroup)

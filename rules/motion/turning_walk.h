@@ -24,7 +24,7 @@ enum class TurningMove : std::uint8_t {
 };
 
 /// G32 and its kin, and the cycles: G76 and G92 of G code system A, G76 and G78 of B, G78 and G21 of C.
-bool cutsThread(const Code &code, const Dialect &dialect);
+bool cutsThread(const Code &code);
 
 class TurningWalk {
 public:

@@ -26,12 +26,11 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   for (const Contour &contour : contoursOf(program, context)) {
     const Word *word = findCode(context.tree, contour.cycle->block, context.dialect, CodeRole::Contour);
     const Code *code = word ? codeOf(*word, context.dialect) : nullptr;
-    const auto cycle = code ? contourCycleOf(*code, context.dialect) : std::nullopt;
+    const bool isAlongZ = code && code->action == CodeAction::TurnContour;
     const Block &first = context.tree.blocks[contour.first];
-    if ((cycle != ContourCycle::AlongZ && cycle != ContourCycle::AlongX) || first.has(Block::kBroken) ||
+    if (!(isAlongZ || (code && code->action == CodeAction::FaceContour)) || first.has(Block::kBroken) ||
         first.has(Block::kSkip) || contour.first == contour.last)
       continue;
-    const bool isAlongZ = cycle == ContourCycle::AlongZ;
     const bool hasOwn = hasAny(contour.first, isAlongZ ? "XU" : "ZW", context);
     const bool hasOther = hasAny(contour.first, isAlongZ ? "ZW" : "XU", context);
     const bool isBare = context.dialect.hasFanucParameters && holdsNothing(contour.first, context);

@@ -157,17 +157,6 @@ std::vector<const Loop *> LoopNest::around(BlockId block) const {
   return found;
 }
 
-std::optional<ContourCycle> contourCycleOf(const Code &code, const Dialect &dialect) {
-  if (code.role != CodeRole::Contour || code.action != CodeAction::TurningCycle)
-    return std::nullopt;
-  std::uint8_t before = 0;
-  for (const Code &other : dialect.gCodes)
-    if (other.role == code.role && other.action == code.action && other.tenths < code.tenths)
-      ++before;
-  return before <= static_cast<std::uint8_t>(ContourCycle::Pattern) ? std::optional(static_cast<ContourCycle>(before))
-                                                                    : std::nullopt;
-}
-
 std::vector<Contour> contoursOf(ProgramId program, const FileContext &context) {
   std::vector<Contour> contours;
   const auto jumps = context.model.jumpsOf(program);

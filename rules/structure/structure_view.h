@@ -67,11 +67,6 @@ struct IfStructures {
 };
 IfStructures ifStructures(const FileContext &context, ProgramId program);
 
-/// The cycles of a lathe that name a contour, in the order of their codes in every table.
-enum class ContourCycle : std::uint8_t { Finishing, AlongZ, AlongX, Pattern };
-/// Absent for another code that names blocks by P and Q.
-std::optional<ContourCycle> contourCycleOf(const Code &code, const Dialect &dialect);
-
 /// The blocks that P and Q of a contour cycle name, Q not before P.
 struct Contour {
   const Jump *cycle; // its P

@@ -1,6 +1,7 @@
 // Code: what a G or M code is for, and what it does.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -74,10 +75,17 @@ enum class CodeAction : std::uint8_t {
   CycleBoreDwell,
   CycleFineBore,
   SideCycle,     // drilling cycle of a lathe
-  DiameterCycle, // of a lathe, as the two below: a cut along Z that returns to where it started
+  DiameterCycle, // of a lathe, as those below: a cut along Z that returns to where it started
   FaceCycle,     // along X
-  TurningCycle,  // not followed on its way
-  OtherCycle,    // words and motion of its own: nothing is known of the position behind it
+  ThreadCycle,   // a thread along Z, one pass
+  ThreadPasses,
+  FaceGroove,     // pecks along Z, side by side along X
+  DiameterGroove, // along X, side by side along Z
+  FinishContour,
+  TurnContour, // cuts along Z up to a contour
+  FaceContour, // along X
+  RepeatContour,
+  OtherCycle, // words and motion of its own: nothing is known of the position behind it
   PlaneXY,
   PlaneZX,
   PlaneYZ,
@@ -137,7 +145,13 @@ enum class CodeAction : std::uint8_t {
 inline constexpr std::size_t kCodeActions = static_cast<std::size_t>(CodeAction::ModesSaveForReturn) + 1;
 /// It returns to where it started.
 constexpr bool isTurningCycle(CodeAction action) {
-  return action == CodeAction::DiameterCycle || action == CodeAction::FaceCycle || action == CodeAction::TurningCycle;
+  return CodeAction::DiameterCycle <= action && action <= CodeAction::RepeatContour;
+}
+/// Its words stay in force from one block to the next.
+inline constexpr std::array kSingleTurningCycles = {CodeAction::DiameterCycle, CodeAction::FaceCycle,
+                                                    CodeAction::ThreadCycle};
+constexpr bool isSingleTurningCycle(CodeAction action) {
+  return CodeAction::DiameterCycle <= action && action <= CodeAction::ThreadCycle;
 }
 /// No program notices the code in its variables or its path.
 constexpr bool changesNothing(CodeAction action) {

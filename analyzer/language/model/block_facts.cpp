@@ -32,6 +32,13 @@ const Word *findAction(const SyntaxTree &tree, BlockId block, const Dialect &dia
   return nullptr;
 }
 
+const Word *findTurningCycle(const SyntaxTree &tree, BlockId block, const Dialect &dialect) {
+  for (const Word &word : tree.wordsOf(block))
+    if (const Code *code = codeOf(word, dialect); code && isTurningCycle(code->action))
+      return &word;
+  return nullptr;
+}
+
 const Word *findWord(const SyntaxTree &tree, BlockId block, char address) {
   for (const Word &word : tree.wordsOf(block))
     if (word.address() == address && !word.has(Word::kComma))

@@ -14,6 +14,8 @@ const Word *findCode(const SyntaxTree &tree, BlockId block, const Dialect &diale
 /// Likewise, by what it does: one of `actions`.
 const Word *findAction(const SyntaxTree &tree, BlockId block, const Dialect &dialect,
                        std::initializer_list<CodeAction> actions);
+/// A cycle of a lathe that returns to where it started.
+const Word *findTurningCycle(const SyntaxTree &tree, BlockId block, const Dialect &dialect);
 /// The first word of an address; comma words do not count.
 const Word *findWord(const SyntaxTree &tree, BlockId block, char address);
 /// The dialect's row for a G or M word with a literal number; none for an argument of a call.

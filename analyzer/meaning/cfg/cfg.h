@@ -77,6 +77,7 @@ struct Assign {
 struct Test {
   std::optional<ExpressionId> condition;
   NodeId taken;
+  bool passesContour = false; // a control takes this way; only analyses of the text look at the contour as well
 };
 
 /// GOTO to a computed number: searches the program.  Targets: labelsOf(.., block of the node).

@@ -3,6 +3,7 @@
 
 #include "base/support/text.h"
 #include "language/model/block_facts.h"
+#include "language/model/contours.h"
 
 #include <algorithm>
 
@@ -203,25 +204,21 @@ void Lowering::mayGoTo(const Jump &jump) {
   setNext(test, end());
 }
 
-/// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.  They
-/// are computed all the same, so that both ways are taken: over them, and through them as if they were read.
+/// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.
+/// Analyses of the text take both ways, over them and through them as if they were read; so do all others where a
+/// contour has more than a path.
 void Lowering::contour() {
-  std::optional<BlockId> first;
-  std::optional<BlockId> last;
-  for (const Jump &jump : model_.jumpsIn(block_, block_.next())) {
-    if (jump.kind == JumpKind::ContourFrom)
-      first = jump.target;
-    if (jump.kind == JumpKind::ContourTo)
-      last = jump.target;
-  }
-  if (!first || !last || *last < *first)
+  const auto contour = contourAt(model_, block_);
+  if (!contour)
     return;
-  const bool computes = tree_.blocks[*first].firstStatement != tree_.blocks[last->next()].firstStatement;
+  const BlockId behind = contour->last.next();
+  const bool computes = tree_.blocks[contour->first].firstStatement != tree_.blocks[behind].firstStatement;
   if (computes)
     emit(Havoc{"a contour with macro statements"});
-  if (*first > block_) {
+  if (contour->first > block_) {
     const NodeId test = emitTest(std::nullopt);
-    openJumps_.push_back({test, Edge::Taken, last->next()});
+    std::get<Test>(cfg_.nodes[test].instruction).passesContour = isPlainContour(tree_, model_, dialect_, *contour);
+    openJumps_.push_back({test, Edge::Taken, behind});
   }
 }
 

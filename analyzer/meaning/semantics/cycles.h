@@ -27,6 +27,16 @@ template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
   context.state.cycle = {vacant, vacant, vacant, vacant, vacant};
 }
 
+/// A G code of a lathe.  X, Z and R of a single cycle last while such blocks follow one another; what the first block
+/// of a multiple cycle says, which its second looks for, up to another code.
+template <ValueAlgebra R> void enterTurningCode(StepContext<R> &context, CodeAction action) {
+  auto &cycle = context.state.cycle;
+  if (!isTurningCycle(action))
+    endCycle(context);
+  else if (!isSingleTurningCycle(action))
+    cycle.bottom = cycle.retract = cycle.peck = context.interpretation.vacant();
+}
+
 // ---- implementation -----------------------------------------------------------------------------------------------
 
 namespace detail {

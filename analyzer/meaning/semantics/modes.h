@@ -63,8 +63,8 @@ private:
     const CodeAction action = word.code->action;
     if (word.address == 'G') {
       beginCycle(word);
-      if (hasTurret(context_) && action != CodeAction::DiameterCycle && action != CodeAction::FaceCycle)
-        endCycle(context_);
+      if (hasTurret(context_))
+        enterTurningCode(context_, action);
       if (const auto index = context_.modes.indexOf(*word.code))
         state_.codes[word.code->group] = interpretation_.code(*index);
       if (word.code->group != 0 && word.code->group == context_.modes.groupOf(ModalKind::Cycle) &&

@@ -119,11 +119,8 @@ private:
                                     CodeAction::Unmodelled,
                                     CodeAction::Anything,
                                     CodeAction::OtherCycle,
-                                    CodeAction::DiameterCycle,
-                                    CodeAction::FaceCycle,
-                                    CodeAction::TurningCycle,
                                     CodeAction::SideCycle};
-    return Offsets<R>::isOne(code) || code.role == CodeRole::CoordinateShift ||
+    return isTurningCycle(code.action) || Offsets<R>::isOne(code) || code.role == CodeRole::CoordinateShift ||
            std::find(kTaking.begin(), kTaking.end(), code.action) != kTaking.end();
   }
   void consume(const CodeWord &word) {
@@ -158,8 +155,10 @@ private:
   }
   /// A cycle of a lathe ends where it starts.
   void turningCycle(CodeAction action, std::string_view what, Span place) {
-    if (runTurningCycle(context_, words_, action))
-      return;
+    if (!runTurningCycle(context_, words_, action))
+      unmodelledCycle(what, place);
+  }
+  void unmodelledCycle(std::string_view what, Span place) {
     tell(context_, MoveKind::Unmodelled, state_.position);
     interpretation_.unmodelled(what, place);
   }
@@ -203,7 +202,7 @@ private:
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
     Truth turning = interpretation_.truth(false);
-    for (const CodeAction action : {CodeAction::DiameterCycle, CodeAction::FaceCycle, CodeAction::TurningCycle}) {
+    for (const CodeAction action : kSingleTurningCycles) {
       const Truth isIt = context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false));
       if (context_.certain(isIt))
         return turningCycle(action, "a repeated turning cycle", context_.place());
@@ -211,7 +210,7 @@ private:
     }
     if (context_.certain(turning)) {
       forgetCycle(context_);
-      return turningCycle(CodeAction::TurningCycle, "a repeated turning cycle", context_.place());
+      return unmodelledCycle("a repeated turning cycle", context_.place());
     }
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);

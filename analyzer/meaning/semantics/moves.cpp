@@ -8,6 +8,7 @@ std::string_view nameOf(MoveKind kind) {
   case MoveKind::Feed: return "feed";
   case MoveKind::ArcClockwise: return "arc-clockwise";
   case MoveKind::ArcCounterclockwise: return "arc-counterclockwise";
+  case MoveKind::CutInBox: return "cut-in-box";
   case MoveKind::Dwell: return "dwell";
   case MoveKind::Probe: return "probe";
   case MoveKind::Unmodelled: return "unmodelled";

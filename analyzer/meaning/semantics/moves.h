@@ -14,6 +14,7 @@ enum class MoveKind : std::uint8_t {
   Feed,
   ArcClockwise, // seen from the positive end of the plane's normal
   ArcCounterclockwise,
+  CutInBox, // strokes at feed and at rapid, in any order, anywhere in the box between its ends; a run has the strokes
   Dwell,
   Probe,      // towards a signal: may end anywhere on the way
   Unmodelled, // its path is not known; nor need it lead from `start` to `end`

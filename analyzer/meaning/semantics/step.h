@@ -198,6 +198,9 @@ template <ValueAlgebra R> typename R::Truth movesAxis(StepContext<R> &context, c
 }
 
 template <ValueAlgebra R> typename R::Truth conditionOf(StepContext<R> &context, const Test &test) {
+  if constexpr (!requires { R::kGoesOnBehindMistakes; })
+    if (test.passesContour)
+      return context.interpretation.truth(true);
   return test.condition ? evaluateCondition(context, *test.condition) : context.interpretation.unknownTruth();
 }
 

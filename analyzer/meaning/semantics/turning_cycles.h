@@ -1,19 +1,24 @@
-// Turning cycles: the single cutting cycles of lathes, stroke by stroke: G90 and G94 of G code system A, G77 and G79 of
-// B.
+// Turning cycles: the single cutting cycles of lathes, stroke by stroke: G90, G92 and G94 of G code system A, G77 to
+// G79 of B; and the multiple ones, each in a file of its own.
 //
 // G90 goes along X at rapid, cuts along Z, comes back along X at feed and along Z at rapid; G94 the same with both axes
 // exchanged.  With R the cut is a cone: it begins R away from the end in radius, for G94 in Z.  X, Z and R stay in
 // force as long as such blocks follow one another.  Source: FANUC lathe operator's manual, "canned cycle" (parity.md).
+//
+// G92 cuts a thread as G90 cuts a cylinder, and comes back along X at rapid.  Where a parameter says so (5130, 5131;
+// Settings 95 and 96), the thread runs out before its end, at an angle, towards the X of the start.  How far before,
+// and at which angle, only the machine knows: a run draws none, and all else takes the box of the cycle.
 #pragma once
 
-#include "meaning/semantics/cycles.h"
-#include "meaning/semantics/turret.h"
+#include "meaning/semantics/contour_cycles.h"
+#include "meaning/semantics/groove_cycles.h"
+#include "meaning/semantics/thread_passes.h"
 
 #include <string_view>
 
 namespace feedhold {
 
-/// A block with axis words in such a cycle; false: its way is not known.  It ends where it starts.
+/// A block of such a cycle; false: its way is not known.  It ends where it starts.
 template <ValueAlgebra R>
 bool runTurningCycle(StepContext<R> &context, const ExecutedWords<R> &words, CodeAction action);
 
@@ -26,7 +31,8 @@ public:
   using Value = typename R::Value;
 
   TurningCycle(StepContext<R> &context, const ExecutedWords<R> &words)
-      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words) {}
+      : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words),
+        strokes_(context, words) {}
 
   bool run(CodeAction action) {
     // Levels of machining centres hold the words in force: the depth is Z, the R level is X, the peck is R.
@@ -37,14 +43,18 @@ public:
     if (const auto *taper = words_.find('R'))
       kept.peck = interpretation_.select(taper->present, taper->value, kept.peck);
     const auto isOpen = context_.either(interpretation_.isVacant(kept.bottom), interpretation_.isVacant(kept.retract));
-    if (interpretation_.mayBe(isOpen) || hasOtherWords())
+    if (interpretation_.mayBe(isOpen) || hasOtherWords(action))
       return false;
     const Value x = interpretation_.asNumber(kept.retract), z = interpretation_.asNumber(kept.bottom);
     const Value taper = interpretation_.asNumber(kept.peck);
-    if (action == CodeAction::DiameterCycle)
-      cut(Axis::X, x, interpretation_.multiply(taper, interpretation_.number(2)), Axis::Z, z);
+    if (action == CodeAction::FaceCycle)
+      cut(Axis::Z, z, taper, Axis::X, x, MoveKind::Feed);
+    else if (action == CodeAction::DiameterCycle)
+      cut(Axis::X, x, strokes_.twice(taper), Axis::Z, z, MoveKind::Feed);
+    else if (drawsStrokes(context_))
+      cut(Axis::X, x, strokes_.twice(taper), Axis::Z, z, MoveKind::Rapid);
     else
-      cut(Axis::Z, z, taper, Axis::X, x);
+      threadInBox(x, strokes_.twice(taper), z);
     return true;
   }
 
@@ -54,40 +64,48 @@ private:
       if (const auto *entry = letter == letterOf(axis) || incrementsByLetter(context_) ? words_.find(letter) : nullptr)
         kept = interpretation_.select(entry->present, target[indexOf(axis)], kept);
   }
-  bool hasOtherWords() const {
-    constexpr std::string_view kKnown = "NGXZUWRFSTMP";
+  /// Q of a thread is the angle of the spindle at which it starts, E its lead.
+  bool hasOtherWords(CodeAction action) const {
+    const std::string_view known = action == CodeAction::ThreadCycle ? "NGXZUWRFSTMPQE" : "NGXZUWRFSTMP";
     const auto words = context_.tree().wordsOf(context_.block);
     return isOpenTarget(context_, words_) || std::ranges::any_of(words, [&](const Word &word) {
-             return word.has(Word::kComma) || kKnown.find(word.address()) == std::string_view::npos;
+             return word.has(Word::kComma) || known.find(word.address()) == std::string_view::npos;
            });
   }
-  void cut(Axis across, const Value &level, const Value &taper, Axis along, const Value &end) {
+  void cut(Axis across, const Value &level, const Value &taper, Axis along, const Value &end, MoveKind back) {
     const Value fromLevel = state_.at(across), from = state_.at(along);
-    go(MoveKind::Rapid, across, interpretation_.add(level, taper));
+    strokes_.go(MoveKind::Rapid, across, interpretation_.add(level, taper));
     const auto start = state_.position;
     state_.at(across) = level;
     state_.at(along) = end;
     tell(context_, MoveKind::Feed, start);
-    go(MoveKind::Feed, across, fromLevel);
-    go(MoveKind::Rapid, along, from);
+    strokes_.go(back, across, fromLevel);
+    strokes_.go(MoveKind::Rapid, along, from);
   }
-  void go(MoveKind kind, Axis axis, const Value &to) {
-    const auto start = state_.position;
-    state_.at(axis) = to;
-    tell(context_, kind, start);
+  void threadInBox(const Value &x, const Value &taper, const Value &z) {
+    strokes_.cutInBox(state_.position, strokes_.at(x, z));
+    if (!strokes_.isZero(taper))
+      strokes_.cutInBox(state_.position, strokes_.at(interpretation_.add(x, taper), z));
   }
 
   StepContext<R> &context_;
   R &interpretation_;
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
+  TurningStrokes<R> strokes_;
 };
 
 } // namespace detail
 
 template <ValueAlgebra R>
 bool runTurningCycle(StepContext<R> &context, const ExecutedWords<R> &words, CodeAction action) {
-  return action != CodeAction::TurningCycle && detail::TurningCycle<R>(context, words).run(action);
+  if (action == CodeAction::FaceGroove || action == CodeAction::DiameterGroove)
+    return detail::GrooveCycle<R>(context, words, action).run();
+  if (action == CodeAction::ThreadPasses)
+    return detail::ThreadPasses<R>(context, words).run();
+  if (isSingleTurningCycle(action))
+    return detail::TurningCycle<R>(context, words).run(action);
+  return detail::ContourCycle<R>(context, words, action).run();
 }
 
 } // namespace feedhold

@@ -31,7 +31,7 @@ TermId ToolPath::between(PointOnPath &onPath, TermId start, TermId end) {
 PointOnPath ToolPath::anyPoint() {
   if (isArc())
     return pointOfArc();
-  return move_.kind == MoveKind::Rapid ? pointOfBox() : pointOfLine();
+  return isBox() ? pointOfBox() : pointOfLine();
 }
 
 PointOnPath ToolPath::pointOfLine() {
@@ -202,7 +202,7 @@ PointOnPath ToolPath::pointOfArc() {
 ToolPath::Hull ToolPath::hull() {
   if (isArc())
     return arcHull();
-  if (move_.kind == MoveKind::Rapid)
+  if (isBox())
     return boxHull();
   return {{move_.start, move_.end}, {}};
 }

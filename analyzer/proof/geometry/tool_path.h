@@ -45,7 +45,7 @@ public:
   };
   Hull hull();
   /// Rapid moves: anywhere in the box between the ends, as axes that are positioned each by itself go, at whatever
-  /// rates.  What lies between the ends of a helix along its axis is taken at any turn.
+  /// rates; strokes in a box likewise.  What lies between the ends of a helix along its axis is taken at any turn.
   PointOnPath anyPoint();
   /// The hull is the path itself: a convex set has the one if it has the other.
   bool isHull() const { return !isArc(); }
@@ -56,6 +56,7 @@ public:
 
 private:
   bool isArc() const { return feedhold::isArc(move_.kind); }
+  bool isBox() const { return move_.kind == MoveKind::Rapid || move_.kind == MoveKind::CutInBox; }
   Hull boxHull() const;
   Hull arcHull();
   PointOnPath pointOfLine();

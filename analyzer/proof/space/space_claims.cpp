@@ -93,9 +93,7 @@ bool hasSpaceClause(const Contract &contract) {
          contract.machine;
 }
 
-bool isCutting(MoveKind kind) {
-  return kind == MoveKind::Feed || kind == MoveKind::ArcClockwise || kind == MoveKind::ArcCounterclockwise;
-}
+bool isCutting(MoveKind kind) { return kind == MoveKind::Feed || kind == MoveKind::CutInBox || isArc(kind); }
 
 SpaceClaims::SpaceClaims(smt::TermStore &store, ContractTerms &terms, const Contract &contract,
                          const SymbolicState &entry, const Dialect &dialect, TermId tolerance)

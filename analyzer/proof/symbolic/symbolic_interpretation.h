@@ -172,6 +172,7 @@ public:
   bool moved() const { return moved_; }
   /// The movements of the step, in order.
   const std::vector<Move<Value>> &moves() const { return moves_; }
+  std::vector<Move<Value>> takeMoves() { return std::exchange(moves_, {}); }
   /// A variable is written of which the state keeps nothing: it may hold anything at the next read.
   void writesUnkept(std::uint32_t variable) { unkeptWrites_.push_back(variable); }
   const std::vector<std::uint32_t> &unkeptWrites() const { return unkeptWrites_; }

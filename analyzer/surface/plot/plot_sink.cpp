@@ -97,6 +97,7 @@ std::string_view classOf(const RecordedMove &recorded) {
   switch (recorded.move.kind) {
   case MoveKind::Rapid: return "path rapid";
   case MoveKind::Feed:
+  case MoveKind::CutInBox:
   case MoveKind::ArcClockwise:
   case MoveKind::ArcCounterclockwise: return recorded.isOfTool ? "path" : "path other";
   case MoveKind::Dwell: return "";

@@ -93,7 +93,8 @@ private:
   static std::string_view kindOf(MoveKind kind) {
     switch (kind) {
     case MoveKind::Rapid: return "rapid";
-    case MoveKind::Feed: return "feed";
+    case MoveKind::Feed:
+    case MoveKind::CutInBox: return "feed";
     case MoveKind::ArcClockwise: return "arc cw";
     case MoveKind::ArcCounterclockwise: return "arc ccw";
     case MoveKind::Dwell: return "dwell";

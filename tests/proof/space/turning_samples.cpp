@@ -15,7 +15,8 @@ namespace {
 
 class ProgramWriter {
 public:
-  ProgramWriter(Random &random, bool hasDistanceModes) : random_(random), hasDistanceModes_(hasDistanceModes) {}
+  ProgramWriter(Random &random, bool hasDistanceModes, bool isHaas)
+      : random_(random), hasDistanceModes_(hasDistanceModes), isHaas_(isHaas) {}
 
   ProgramLines run() {
     add("O1");
@@ -64,7 +65,7 @@ private:
   }
 
   void part() {
-    switch (random_.below(9)) {
+    switch (random_.below(13)) {
     case 0:
     case 1:
     case 2: return moves();
@@ -73,6 +74,10 @@ private:
     case 5: return passes();
     case 6: return branch();
     case 7: return cycle();
+    case 8: return groove();
+    case 9: return threadPasses();
+    case 10:
+    case 11: return contour();
     default: return add(odd());
     }
   }
@@ -132,6 +137,47 @@ private:
     if (!random_.oneIn(4))
       add("G0");
   }
+  std::string increments() { return pick({"250", "500", "1000", "2500", "[#1*1000]", "[#2*500]"}); }
+  void groove() {
+    add(absolute() + "G0X" + diameter() + "Z" + along());
+    const std::string code = pick({"G74", "G75"}), end = (random_.oneIn(5) ? "" : "X" + diameter()) + "Z" + along();
+    if (isHaas_)
+      return add(code + end + "I" + pick({"1.", "#1", "2."}) + "K" + pick({"1.", "#2", "3."}) + "F.1");
+    if (!random_.oneIn(4))
+      add(code + "R" + pick({".5", "1.", "#1", "0"}));
+    add(code + end + "P" + increments() + "Q" + increments() + pick({"", "", "", "R.5"}) + "F.1");
+  }
+  void threadPasses() {
+    add(absolute() + "G0X" + diameter() + "Z" + along());
+    if (isHaas_)
+      return add("G76X" + diameter() + "Z" + along() + pick({"", "I1.", "I#1"}) + "K" + pick({"1.", "#1", "2."}) +
+                 "D.25F1.");
+    if (!random_.oneIn(4))
+      add("G76P010060Q50R.02");
+    add("G76X" + diameter() + "Z" + along() + pick({"", "", "R-1.", "R#1"}) + "P" + increments() + "Q250F1.");
+  }
+  void contour() {
+    const bool isTurning = random_.oneIn(2);
+    const int first = label_ + 10, last = label_ + 20;
+    label_ = last;
+    add(absolute() + "G0X" + diameter() + "Z" + along());
+    if (random_.oneIn(2))
+      add(pick({"G0X50.Z2.", "G0X[40+#1]Z#2"}));
+    const std::string code = isTurning ? "G71" : "G72";
+    if (!isHaas_ && !random_.oneIn(4))
+      add(code + (isTurning ? "U" : "W") + pick({"1.", "#1", "2."}) + "R" + pick({".5", "1.", "#2"}));
+    if (!hasDistanceModes_ || random_.oneIn(3))
+      add(fmt::format("{}P{}Q{}{}{}{}F.3", code, first, last, pick({"", "U.4", "U1.", "U-.5"}),
+                      pick({"", "W.1", "W.5", "W-.25"}), isHaas_ ? "D1." : ""));
+    add(fmt::format("N{}G0{}", first, isTurning ? "X" + diameter() : "Z" + along()));
+    for (std::uint32_t i = 1 + random_.below(4); i > 0; --i)
+      add("G1" + (random_.oneIn(2) ? "X" + diameter() : "Z" + along()) + pick({"", "", "F.1"}));
+    if (random_.oneIn(3))
+      add(pick({"G2X[20+2*#1]Z-5.R#1", "G3X30.W-2.I0K-2.", "G2U4.W-2.I2.K0"}));
+    add(fmt::format("N{}G1{}", last, isTurning ? "X44." : "Z2."));
+    if (!random_.oneIn(3))
+      add(fmt::format("G70P{}Q{}", first, last));
+  }
   std::string odd() {
     return pick({"T0101",      "T0100",  "T0202M8",   "G28U0", "G28U0W0",   "G50X20.", "G50S2000", "G54",
                  "G55",        "G4P100", "C90.",      "H90.",  "V1.",       "Y1.",     "#2001=.5", "G10P1X1.",
@@ -141,6 +187,7 @@ private:
 
   Random &random_;
   bool hasDistanceModes_;
+  bool isHaas_;
   ProgramLines lines_;
   int label_ = 0;
 };
@@ -222,7 +269,8 @@ Sample turningProgram(Random &random) {
   const char *dialect = hasDistanceModes
                             ? "fanuc-30i-lathe/B"
                             : random.of<const char *>({"fanuc-30i-lathe", "fanuc-30i-lathe", "haas-ngc-lathe"});
-  return {dialect, ProgramWriter(random, hasDistanceModes).run()};
+  const bool isHaas = std::string_view(dialect) == "haas-ngc-lathe";
+  return {dialect, ProgramWriter(random, hasDistanceModes, isHaas).run()};
 }
 
 OpenClause openTurningClause(Random &random, std::string_view name, const geometry::Point<double> &way) {

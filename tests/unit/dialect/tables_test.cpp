@@ -259,7 +259,7 @@ TEST(Dialect, TheGCodesAreThoseOfTheGCodeSystem) {
   EXPECT_EQ(actionOf(90), CodeAction::Absolute);
   EXPECT_EQ(actionOf(20), CodeAction::DiameterCycle);
   EXPECT_EQ(actionOf(70), CodeAction::Inch);
-  EXPECT_EQ(actionOf(78), CodeAction::TurningCycle);
+  EXPECT_EQ(actionOf(78), CodeAction::ThreadPasses);
   EXPECT_EQ(actionOf(79), CodeAction::Unclassified);
   EXPECT_FALSE(gCodeSystemNamed("D"));
 
