@@ -57,8 +57,10 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
       continue;
     const BlockId block = facts.node(node).block;
     const auto statements = context.tree.statementsOf(block);
-    const bool isWhile =
-        std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+    const bool isWhile = std::ranges::any_of(statements, [&](const Statement &s) {
+      const auto *loop = std::get_if<While>(&s.node); // not an IF that stands behind DO
+      return loop && loop->condition == *test->condition;
+    });
     if (!isWhile || facts.truthOf(node) != Truth::False)
       continue;
     const Span span = context.tree.expressions[*test->condition].span;

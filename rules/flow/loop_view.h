@@ -1,8 +1,11 @@
 // How rules look at loops, whichever way they are written: WHILE, DO, or a GOTO backwards.
 #pragma once
 
+#include "findings/rule/flow_path.h"
 #include "rules/flow/flow_view.h"
 
+#include <algorithm>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +38,18 @@ std::string_view endlessnessOf(const LoopFlow &loop);
 
 /// The loops of a program, outer ones before those inside.
 const std::vector<LoopFlow> &loopsOf(const FlowFacts &facts);
+
+/// There is a way from one node to another past those where `isOver`, also if each loop with a node where `sets`, and
+/// without the other one, runs at least once: to do nothing is not what a loop is for.
+template <typename Sets, typename IsOver>
+bool reachesPastLoops(const FlowFacts &facts, NodeId from, NodeId to, Sets &&sets, IsOver &&isOver) {
+  std::set<NodeId> heads;
+  for (const LoopFlow &loop : isTooLarge(facts) ? std::vector<LoopFlow>{} : loopsOf(facts))
+    if (std::ranges::any_of(loop.nodes, sets) && std::ranges::find(loop.nodes, to) == loop.nodes.end())
+      heads.insert(loop.head);
+  return heads.empty() ||
+         findPath(facts, from, to, [&](NodeId node) { return isOver(node) || heads.contains(node); }).has_value();
+}
 
 /// An assignment in the loop that may give the variable another value.
 struct LoopWrite {

@@ -117,23 +117,11 @@ private:
     return view_.findAction(node, kOffsets) != nullptr || view_.findAction(node, {CodeAction::ToolChange}) != nullptr ||
            std::holds_alternative<CallProgram>(view_.node(node).instruction);
   }
-  /// Also where each loop with a G43 in it is taken to run at least once: to set no length is not what a loop is for.
-  bool isReachedPastLoops(const FlowFacts &facts, NodeId change, NodeId approach) const {
-    std::set<NodeId> heads;
-    for (const LoopFlow &loop : isTooLarge(facts) ? std::vector<LoopFlow>{} : loopsOf(facts)) {
-      const bool sets =
-          std::ranges::any_of(loop.nodes, [&](NodeId node) { return view_.findAction(node, kOffsets) != nullptr; });
-      if (sets && std::ranges::find(loop.nodes, approach) == loop.nodes.end())
-        heads.insert(loop.head);
-    }
-    return heads.empty() || findPath(facts, change, approach, [&](NodeId node) {
-                              return isBehind(node) || heads.contains(node);
-                            }).has_value();
-  }
   void tell(NodeId change, const FlowFacts &facts, const FileContext &context, const Reporter &reporter) const {
     const auto isOver = [&](NodeId other) { return isBehind(other); };
+    const auto sets = [&](NodeId other) { return view_.findAction(other, kOffsets) != nullptr; };
     const auto node = firstReached(facts, change, approaches_, isOver);
-    if (!node || !isReachedPastLoops(facts, change, *node))
+    if (!node || !reachesPastLoops(facts, change, *node, sets, isOver))
       return;
     reporter.report(
         {.message = fmt::format("{} moves the new tool before its `G43`", context.quoted(zWord(*node)->span())),

@@ -31,12 +31,9 @@ std::array<Amount, 2> amountsOf(CodeAction action, bool namesContour) {
 
 std::array<Amount, 2> amountsOf(BlockId block, const Code &code, const FileContext &context) {
   const auto has = [&](char address) { return findWord(context.tree, block, address) != nullptr; };
-  switch (code.action) {
-  case CodeAction::TurnContour:
-  case CodeAction::FaceContour:
-  case CodeAction::RepeatContour: return amountsOf(code.action, has('P') || has('Q'));
-  default: break;
-  }
+  if (code.action == CodeAction::TurnContour || code.action == CodeAction::FaceContour ||
+      code.action == CodeAction::RepeatContour)
+    return amountsOf(code.action, has('P') || has('Q'));
   if (!has('X') && !has('Z') && !has('U') && !has('W')) // the block that says how to cut
     return kNone;
   if (code.action == CodeAction::ThreadPasses)

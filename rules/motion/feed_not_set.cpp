@@ -1,4 +1,5 @@
 // feed-not-set: a cutting move of a main program before any F.
+#include "rules/flow/loop_view.h"
 #include "rules/motion/motion_view.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ public:
     const auto path = hasFeed(*first_.node()) ? std::nullopt : findPath(facts, facts.entry(), *first_.node(), feeds);
     // A retentive variable that may be vacant is a feed all the same.
     const std::optional<NodeId> place = path ? first_.node() : never_.node();
-    if (!place)
+    if (!place || (path && !reachesPastLoops(facts, facts.entry(), *place, feeds, feeds)))
       return;
     const Word &word = *view_.modalMotionWords(*place).front();
     reporter.report({.message = fmt::format("the cutting move to {} comes before any `F`{}",

@@ -3,12 +3,12 @@
 
 #include "findings/rule/rule.h"
 
-#include <vector>
+#include <span>
 
 namespace feedhold::rules {
 
 /// The files in the folder of the file, itself included; so many as show a habit.
-std::vector<FileId> filesOfFolder(const FileContext &context);
+std::span<const FileId> filesOfFolder(const FileContext &context);
 
 /// The same run, seen from another file.
 FileContext contextOf(const ProgramFile &file, const FileContext &context);

@@ -26,8 +26,8 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
   Forms forms;
   const Program &its = context.model.programs[program];
   for (BlockId block = its.first; block < its.last; block = block.next()) {
-    if (const Word *code = findAction(context.tree, block, context.dialect,
-                                      {CodeAction::TurnContour, CodeAction::FaceContour}))
+    if (const Word *code =
+            findAction(context.tree, block, context.dialect, {CodeAction::TurnContour, CodeAction::FaceContour}))
       note(*code, block, context, forms);
   }
   if (!forms.one || !forms.two)

@@ -36,7 +36,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
   const Word *cycle = nullptr;
   for (const Word &word : context.tree.wordsOf(block)) {
     const Code *code = word.address() == 'G' ? codeOf(word, context.dialect) : nullptr;
-    if (code && code->tenths == 760 && isTurningCycle(code->action))
+    if (code && code->action == CodeAction::ThreadPasses)
       cycle = &word;
   }
   if (!cycle)

@@ -61,10 +61,24 @@ bool mayBeTaken(const Takers &takers, BlockId block, const FileContext &context)
   });
 }
 
+/// Many codes take P; none does in a block of its own, where `G4 P2` was meant.
+void checkAlone(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
+  const bool isAlone = std::ranges::all_of(
+      context.tree.wordsOf(block), [&](const Word &other) { return &other == &word || other.address() == 'N'; });
+  if (!isAlone || !context.tree.statementsOf(block).empty() || !context.model.callsIn(block, block.next()).empty())
+    return;
+  reporter.report({.message = fmt::format("no code stands beside {}", context.quoted(word.span())),
+                   .span = word.span(),
+                   .notes = {"the control stops with an error: P needs a code such as G4 in its block",
+                             "write the code, as in `G4 P2` for a wait of 2 seconds"}});
+}
+
 void check(const Word &word, BlockId block, const FileContext &context, const Reporter &reporter) {
   const Block &its = context.tree.blocks[block];
   if (!context.dialect.grammar.oWords || its.has(Block::kBroken) || word.has(Word::kArgument))
     return;
+  if (word.address() == 'P')
+    return checkAlone(word, block, context, reporter);
   const Takers &takers = *std::ranges::find(kTakers, word.address(), &Takers::letter);
   if (!context.model.callsIn(block, block.next()).empty() || mayBeTaken(takers, block, context))
     return;
@@ -80,8 +94,8 @@ void check(const Word &word, BlockId block, const FileContext &context, const Re
 extern const Rule wordWithoutCode;
 const Rule wordWithoutCode{
     .info = {"word-without-code", Category::Word, Severity::Error,
-             "Reports a `D`, `H`, `I`, `J`, `K` or `L` word in a block without a code that takes it, where "
+             "Reports a `D`, `H`, `I`, `J`, `K`, `L` or `P` word in a block without a code that takes it, where "
              "the control stops for that."},
-    .hooks = {.word = check, .wordAddresses = "DHIJKL"}};
+    .hooks = {.word = check, .wordAddresses = "DHIJKLP"}};
 
 } // namespace feedhold::rules::word_without_code

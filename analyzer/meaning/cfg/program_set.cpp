@@ -5,6 +5,7 @@
 #include "base/support/parallel.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 namespace feedhold {
@@ -34,6 +35,13 @@ std::optional<std::uint32_t> systemVariableOf(const Dialect &dialect, std::strin
   return std::nullopt;
 }
 
+/// A part of the path, which may be written with `\\` on Windows.
+std::string_view folderOf(std::string_view path) {
+  constexpr std::string_view kSeparators = std::filesystem::path::preferred_separator == '/' ? "/" : "/\\";
+  const std::size_t end = path.find_last_of(kSeparators);
+  return end == std::string_view::npos ? std::string_view() : path.substr(0, end);
+}
+
 /// The block behind which a search for a sequence number begins at the head of the program.
 BlockId lastBlockOf(const Program &program) {
   return BlockId(std::max(program.last.index(), program.first.index() + 1) - 1);
@@ -47,6 +55,7 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
   for (const ProgramFile &each : files_) {
     FEEDHOLD_CHECK(each.file.index() == static_cast<std::size_t>(&each - files_.data()), "files are numbered in order");
     models.push_back(each.model);
+    byFolder_[folderOf(each.source->path())].push_back(each.file);
   }
   returns_ = returnTargets(models);
   parallelFor(files_.size(), jobs, [&](std::size_t i) {
@@ -101,6 +110,10 @@ void ProgramSet::findNames(const ProgramFile &file) {
   for (const Expression &expression : file.tree->expressions)
     if (const auto *named = std::get_if<NamedVariable>(&expression.node))
       names_.push_back(comparedName(file.source->text(named->name)));
+}
+
+std::span<const FileId> ProgramSet::inFolderOf(FileId id) const {
+  return byFolder_.at(folderOf(file(id).source->path()));
 }
 
 std::optional<Callee> ProgramSet::callee(FileId id, CallId callId) const {

@@ -4,7 +4,10 @@
 #include "language/model/call_graph.h"
 #include "meaning/cfg/cfg.h"
 
+#include <span>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -52,6 +55,8 @@ public:
 
   const ProgramFile &file(FileId file) const { return files_[file.index()]; }
   std::size_t size() const { return files_.size(); }
+  /// The files in the folder of the file, itself included, in order.
+  std::span<const FileId> inFolderOf(FileId file) const;
   const CallGraph &callGraph() const { return callGraph_; }
   const Node &node(Place place) const { return file(place.file).cfg.nodes[place.node]; }
 
@@ -103,6 +108,7 @@ private:
   std::optional<Callee> localCallee(FileId file, const Call &call) const;
 
   std::vector<ProgramFile> files_;
+  std::unordered_map<std::string_view, std::vector<FileId>> byFolder_; // in the paths of the sources
   CallGraph callGraph_;
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_;
