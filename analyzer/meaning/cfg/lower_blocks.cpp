@@ -204,6 +204,16 @@ void Lowering::mayGoTo(const Jump &jump) {
   setNext(test, end());
 }
 
+/// Behind the cycle the program goes on after the contour: manuals say so of roughing cycles with a contour directly
+/// behind them.
+bool Lowering::passes(const ContourBlocks &contour) const {
+  BlockId next = block_.next();
+  while (next < contour.first && isEmpty(tree_, next))
+    next = next.next();
+  return next == contour.first && !findAction(tree_, block_, dialect_, {CodeAction::FinishContour}) &&
+         isPlainContour(tree_, model_, dialect_, contour);
+}
+
 /// A cycle over the blocks P to Q: they are its data, and where they lie ahead the program goes on behind them.
 /// Analyses of the text take both ways, over them and through them as if they were read; so do all others where a
 /// contour has more than a path.
@@ -217,7 +227,7 @@ void Lowering::contour() {
     emit(Havoc{"a contour with macro statements"});
   if (contour->first > block_) {
     const NodeId test = emitTest(std::nullopt);
-    std::get<Test>(cfg_.nodes[test].instruction).passesContour = isPlainContour(tree_, model_, dialect_, *contour);
+    std::get<Test>(cfg_.nodes[test].instruction).passesContour = passes(*contour);
     openJumps_.push_back({test, Edge::Taken, behind});
   }
 }

@@ -3,6 +3,7 @@
 // lower_blocks.cpp (words, calls, returns), lower_statements.cpp, lower_loops.cpp, lower_o_words.cpp.
 #pragma once
 
+#include "language/model/contours.h"
 #include "meaning/cfg/block_words.h"
 #include "meaning/cfg/cfg.h"
 #include "meaning/cfg/loop_gates.h"
@@ -42,6 +43,7 @@ private:
   Jump jumpTo(const Word &target) const;
   void mayGoTo(const Jump &jump);
   void contour();
+  bool passes(const ContourBlocks &contour) const;
   void ending(const BlockWords &words);
   void leave(const BlockWords &words);
   void wordsUnderCondition(std::optional<ExpressionId> condition);

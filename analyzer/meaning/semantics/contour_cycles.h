@@ -15,9 +15,10 @@
 // A run draws this where the contour rises from A' to B along both axes.  All else takes boxes: one corner is A or C,
 // whichever is further away from the contour along each axis, and e beyond it; each piece of the contour + (u, w) spans
 // a box with this corner.  A cut that begins between A or C and the contour lies in the box of the piece at which it
-// ends, whatever d is, and so does the way back from there by e.  Where no word says e (parameter 5133, Setting 73), it
-// is taken to be no more than d.  Not followed: type II, G73, and contours with anything but straight lines, arcs and
-// F.
+// ends, whatever d is, and so does the way back from there by e.  A control keeps e from the last first block of any
+// program, so that without one above it the cycle is not followed.  Of one block a setting says e (Setting 73 of Haas):
+// it is taken to be no more than d.  Not followed: type II, G73, and contours with anything but straight lines, arcs
+// and F.
 #pragma once
 
 #include "language/model/block_facts.h"
@@ -45,8 +46,11 @@ public:
       return learnDepth();
     const auto contour = contourAt(*context_.file.model, context_.block);
     const auto group = context_.modes.groupOf(ModalKind::Motion);
-    if (!contour || !group || !isReadable(*contour))
+    if (!contour || !group || !isReadable(*contour)) {
+      if (!contour || action_ == CodeAction::FinishContour)
+        forgetAll();
       return false;
+    }
     if (action_ == CodeAction::FinishContour)
       return finish(*contour, *group);
     const bool isFollowed = action_ != CodeAction::RepeatContour && rough(*contour);
@@ -56,12 +60,19 @@ public:
 
 private:
   bool learnDepth() {
+    endCycle(context_);
     const bool isTurning = action_ == CodeAction::TurnContour;
-    if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly(isTurning ? "NGUR" : "NGWR"))
+    const auto *back = words_.find('R');
+    if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly(isTurning ? "NGUR" : "NGWR") ||
+        (back && strokes_.isNegative(back->value)))
       return false;
-    state_.cycle.initial = strokes_.length(isTurning ? 'U' : 'W').value_or(interpretation_.vacant());
-    state_.cycle.dwell = strokes_.length('R').value_or(interpretation_.vacant());
+    strokes_.learn(action_, strokes_.length(isTurning ? 'U' : 'W'), strokes_.length('R'));
     return true;
+  }
+  /// The control executes a contour that is not read here, or one that is not known: codes, offsets, calls.
+  void forgetAll() {
+    if constexpr (!requires { R::kGoesOnBehindMistakes; })
+      interpretation_.havoc(state_, "a contour with more than a path", context_.place());
   }
 
   // ---- the contour ----
@@ -153,12 +164,10 @@ private:
   bool readRoughing(const ContourBlocks &contour) {
     if (!strokes_.hasOnly("NGPQUWDFSTM") || mayBeSecondType(contour.first))
       return false;
-    const auto given = [&](const Value &value) {
-      const bool isGiven = context_.certain(interpretation_.negation(interpretation_.isVacant(value)));
-      return isGiven ? std::optional(interpretation_.asNumber(value)) : std::nullopt;
-    };
-    depth_ = words_.find('D') ? strokes_.lengthInIncrements('D') : given(state_.cycle.initial);
-    retract_ = given(state_.cycle.dwell);
+    isOneBlock_ = words_.find('D') != nullptr;
+    depth_ = isOneBlock_ ? strokes_.lengthInIncrements('D') : strokes_.learned(state_.cycle.initial);
+    if (!isOneBlock_)
+      retract_ = strokes_.learned(state_.cycle.dwell);
     x_ = strokes_.length('U').value_or(context_.zero());
     z_ = strokes_.length('W').value_or(context_.zero());
     return true;
@@ -181,25 +190,38 @@ private:
   }
 
   bool cutInBoxes(const Moves &moves) {
-    const std::optional<Value> back = retract_ ? retract_ : depth_;
-    if (!back)
-      return false;
+    const std::optional<Value> &back = isOneBlock_ ? depth_ : retract_;
+    if (!back || (isOneBlock_ && context_.dialect().hasFanucParameters))
+      return false; // FANUC keeps what an earlier block or program has said
     const auto x = [](const Point &point) { return point[indexOf(Axis::X)]; };
     const auto z = [](const Point &point) { return point[indexOf(Axis::Z)]; };
     const Point start = state_.position, bottom = moves.front().end, last = moves.back().end;
     const bool isTurning = action_ == CodeAction::TurnContour;
-    const auto beyond = [&](const Value &target, const Value &from, const Value &allowance, const Value &distance) {
-      const Value outwards = interpretation_.select(interpretation_.compare(Relation::Less, from, target),
+    const auto beyond = [&](const Value &target, const Value &from, const Value &allowance, const Value &distance,
+                            Relation below) {
+      const Value outwards = interpretation_.select(interpretation_.compare(below, from, target),
                                                     interpretation_.negate(allowance), allowance);
-      return strokes_.awayFrom(target, from,
-                               interpretation_.add(strokes_.notNegative(outwards), strokes_.notNegative(distance)));
+      return strokes_.awayFrom(
+          target, from, interpretation_.add(strokes_.notNegative(outwards), strokes_.notNegative(distance)), below);
     };
-    const Point from = strokes_.at(beyond(x(isTurning ? bottom : last), x(start), x_, strokes_.twice(*back)),
-                                   beyond(z(isTurning ? last : bottom), z(start), z_, *back));
     for (std::size_t i = 1; i < moves.size(); ++i)
       if (isArc(moves[i].kind) && !isQuarter(moves[i]))
         return false;
     strokes_.cutInBox(start, allowed(start));
+    // Along the cuts the contour may end where the start is: then the tool may come off to either side.  Across them,
+    // there is no cut in that case.
+    for (const Relation along : {Relation::Less, Relation::LessOrEqual})
+      cutInBoxes(moves, strokes_.at(beyond(x(isTurning ? bottom : last), x(start), x_, strokes_.twice(*back),
+                                           isTurning ? Relation::Less : along),
+                                    beyond(z(isTurning ? last : bottom), z(start), z_, *back,
+                                           isTurning ? along : Relation::Less)));
+    strokes_.cutInBox(start, allowed(last)); // and back
+    return true;
+  }
+  /// With this corner.
+  void cutInBoxes(const Moves &moves, const Point &from) {
+    const auto x = [](const Point &point) { return point[indexOf(Axis::X)]; };
+    const auto z = [](const Point &point) { return point[indexOf(Axis::Z)]; };
     for (std::size_t i = 1; i < moves.size(); ++i) {
       const Point a = allowed(moves[i].start), b = allowed(moves[i].end);
       strokes_.cutInBox(from, a);
@@ -208,9 +230,7 @@ private:
       strokes_.cutInBox(from, strokes_.at(x(a), z(b)));
       strokes_.cutInBox(from, strokes_.at(x(b), z(a)));
     }
-    strokes_.cutInBox(from, allowed(last));
-    strokes_.cutInBox(start, allowed(last)); // and back
-    return true;
+    strokes_.cutInBox(from, allowed(moves.back().end));
   }
   /// From axis to axis about its centre, the short way: it lies in the box of its ends.
   bool isQuarter(const Move<Value> &move) const {
@@ -316,6 +336,7 @@ private:
   CodeAction action_;
   std::optional<Value> depth_{};
   std::optional<Value> retract_{};
+  bool isOneBlock_ = false;
   Value x_{}; // allowances: in diameter, and along Z
   Value z_{};
 };

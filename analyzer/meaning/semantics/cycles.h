@@ -27,14 +27,29 @@ template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
   context.state.cycle = {vacant, vacant, vacant, vacant, vacant};
 }
 
+/// What the first block of a multiple cycle of a lathe says is kept in the levels of the cycle, with the cycle itself
+/// in `retract`: a number that no level has.
+template <ValueAlgebra R> typename R::Value firstBlockOf(StepContext<R> &context, CodeAction action) {
+  constexpr double kNoLevel = -1e12;
+  return context.interpretation.number(kNoLevel - static_cast<double>(action));
+}
+
 /// A G code of a lathe.  X, Z and R of a single cycle last while such blocks follow one another; what the first block
 /// of a multiple cycle says, which its second looks for, up to another code.
 template <ValueAlgebra R> void enterTurningCode(StepContext<R> &context, CodeAction action) {
   auto &cycle = context.state.cycle;
+  R &interpretation = context.interpretation;
   if (!isTurningCycle(action))
+    return endCycle(context);
+  if (isSingleTurningCycle(action)) {
+    cycle.initial = cycle.dwell = interpretation.vacant();
+    return;
+  }
+  const auto isGiven = interpretation.negation(interpretation.isVacant(cycle.retract));
+  const auto isOwn =
+      interpretation.compare(Relation::Equal, interpretation.asNumber(cycle.retract), firstBlockOf(context, action));
+  if (!context.certain(interpretation.both(isGiven, isOwn)))
     endCycle(context);
-  else if (!isSingleTurningCycle(action))
-    cycle.bottom = cycle.retract = cycle.peck = context.interpretation.vacant();
 }
 
 // ---- implementation -----------------------------------------------------------------------------------------------

@@ -9,9 +9,10 @@
 // Haas lathe operator's manual, G74 and G75.
 //
 // All strokes lie in the box between the start and X Z, but for the way back e: where it is longer than the first peck,
-// it leads past the start by the difference.  How long it is, parameter 5139 or Setting 22 may decide: a run then
-// leaves it out, and no other interpretation takes it to be longer than a peck.  Not followed: the relief d at the
-// bottom, which moves the tool aside within the part.
+// it leads past the start by the difference.  A control keeps it from the last first block of any program: without one
+// above it the cycle is not followed but by a run, which leaves it out.  Of one block a setting says it (Setting 22 of
+// Haas): a run leaves it out, and no other interpretation takes it to be longer than a peck.  Not followed: the relief
+// d at the bottom, which moves the tool aside within the part.
 #pragma once
 
 #include "meaning/semantics/turning_strokes.h"
@@ -26,7 +27,7 @@ public:
 
   GrooveCycle(StepContext<R> &context, const ExecutedWords<R> &words, CodeAction action)
       : context_(context), interpretation_(context.interpretation), state_(context.state), words_(words),
-        strokes_(context, words), along_(action == CodeAction::FaceGroove ? Axis::Z : Axis::X),
+        strokes_(context, words), action_(action), along_(action == CodeAction::FaceGroove ? Axis::Z : Axis::X),
         across_(action == CodeAction::FaceGroove ? Axis::X : Axis::Z) {}
 
   /// False: not followed.
@@ -43,18 +44,22 @@ public:
 
 private:
   bool learnRetract() {
-    if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly("NGR") || !words_.find('R'))
+    endCycle(context_);
+    const auto *back = words_.find('R');
+    if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly("NGR") || !back || strokes_.isNegative(back->value))
       return false;
-    state_.cycle.initial = words_.find('R')->value;
+    strokes_.learn(action_, back->value, std::nullopt);
     return true;
   }
   bool readWords() {
     const bool isOneBlock = words_.find('I') || words_.find('K');
-    if (!strokes_.hasOnly(isOneBlock ? "NGXZIKDFSTM" : "NGXZPQRFSTM"))
+    if (!strokes_.hasOnly(isOneBlock ? "NGXZIKDFSTM" : "NGXZPQRFSTM") ||
+        (!isOneBlock && !context_.dialect().hasFanucParameters))
       return false;
-    if (const auto relief = isOneBlock ? strokes_.lengthInIncrements('D') : strokes_.length('R');
-        relief && !strokes_.isZero(*relief))
+    const auto relief = isOneBlock ? strokes_.lengthInIncrements('D') : strokes_.length('R');
+    if (words_.find(isOneBlock ? 'D' : 'R') && (!relief || !strokes_.isZero(*relief)))
       return false;
+    isOneBlock_ = isOneBlock;
     auto alongX = isOneBlock ? strokes_.length('I') : strokes_.lengthInIncrements('P');
     if (alongX)
       alongX = strokes_.twice(*alongX);
@@ -63,18 +68,19 @@ private:
     step_ = along_ == Axis::X ? alongZ : alongX;
     return true;
   }
-  bool isRetractGiven() const {
-    return context_.certain(interpretation_.negation(interpretation_.isVacant(state_.cycle.initial)));
-  }
-  Value retract() const {
-    const Value given = interpretation_.asNumber(state_.cycle.initial);
-    return along_ == Axis::X ? strokes_.twice(given) : given;
+  /// In X as a diameter.
+  std::optional<Value> retract() const {
+    const auto given = strokes_.learned(state_.cycle.initial);
+    return given && along_ == Axis::X ? std::optional(strokes_.twice(*given)) : given;
   }
 
   bool cutInBox(const std::array<Value, kAxisCount> &target) {
     auto from = state_.position;
-    if (peck_) {
-      const Value past = strokes_.notNegative(interpretation_.subtract(retract(), *peck_));
+    const auto back = retract();
+    if (peck_ && !back && (!isOneBlock_ || context_.dialect().hasFanucParameters))
+      return false; // what an earlier block or program has said
+    if (peck_ && back) {
+      const Value past = strokes_.notNegative(interpretation_.subtract(*back, *peck_));
       from[indexOf(along_)] = strokes_.awayFrom(target[indexOf(along_)], from[indexOf(along_)], past);
     }
     strokes_.cutInBox(from, target);
@@ -94,7 +100,7 @@ private:
     const double pecks = depth > 0 ? std::fabs(*end - *top) / depth : 1, grooves = width > 0 ? width / step : 1;
     if (!((pecks + 1) * (grooves + 1) < kMostStrokes))
       return false;
-    const double back = isRetractGiven() ? strokes_.constant(retract()).value_or(0) : 0;
+    const double back = strokes_.constant(retract()).value_or(0);
     plunge(*top, *end, depth, back);
     for (double at = *first; std::fabs(*side - at) > kSame;) {
       at = towards(at, *side, step);
@@ -127,10 +133,12 @@ private:
   MachineState<R> &state_;
   const ExecutedWords<R> &words_;
   TurningStrokes<R> strokes_;
+  CodeAction action_;
   Axis along_;  // pecks
   Axis across_; // from groove to groove
   std::optional<Value> peck_{};
   std::optional<Value> step_{};
+  bool isOneBlock_ = false;
 };
 
 } // namespace feedhold::detail

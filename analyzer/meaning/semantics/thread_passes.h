@@ -45,15 +45,16 @@ public:
 
 private:
   bool learnDepths() {
+    endCycle(context_);
     if (!context_.dialect().hasFanucParameters || !strokes_.hasOnly("NGPQR"))
       return false;
-    state_.cycle.initial = strokes_.lengthInIncrements('Q').value_or(context_.zero());
-    state_.cycle.dwell = strokes_.length('R').value_or(context_.zero());
+    strokes_.learn(CodeAction::ThreadPasses, strokes_.lengthInIncrements('Q'), strokes_.length('R'));
     return true;
   }
   bool readWords() {
     const bool isOneBlock = words_.find('K') != nullptr;
-    if (!strokes_.hasOnly(isOneBlock ? "NGXZIKDAPQFESTM" : "NGXZRPQFESTM"))
+    if (!strokes_.hasOnly(isOneBlock ? "NGXZIKDAPQFESTM" : "NGXZRPQFESTM") ||
+        (!isOneBlock && !context_.dialect().hasFanucParameters))
       return false;
     height_ = isOneBlock ? strokes_.length('K') : strokes_.lengthInIncrements('P');
     first_ = strokes_.lengthInIncrements(isOneBlock ? 'D' : 'Q');
@@ -77,10 +78,12 @@ private:
     Value far = further(state_.at(Axis::X), crestOf(x));
     if (isTapered)
       far = further(far, crestOf(rootAtStart));
-    const auto from = strokes_.at(far, strokes_.awayFrom(z, state_.at(Axis::Z), twiceHeight));
-    strokes_.cutInBox(from, strokes_.at(x, z));
-    if (isTapered)
-      strokes_.cutInBox(from, strokes_.at(rootAtStart, z));
+    for (const Relation below : {Relation::Less, Relation::LessOrEqual}) {
+      const auto from = strokes_.at(far, strokes_.awayFrom(z, state_.at(Axis::Z), twiceHeight, below));
+      strokes_.cutInBox(from, strokes_.at(x, z));
+      if (isTapered)
+        strokes_.cutInBox(from, strokes_.at(rootAtStart, z));
+    }
     return true;
   }
 
@@ -90,8 +93,8 @@ private:
     const auto height = strokes_.constant(height_), first = strokes_.constant(first_);
     if (!end || !start || !height || !first || !(*height > 0) || !(*first > 0))
       return false;
-    const double least = std::max(0.0, strokes_.constant(state_.cycle.initial).value_or(0));
-    const double left = std::clamp(strokes_.constant(state_.cycle.dwell).value_or(0), 0.0, *height);
+    const double least = std::max(0.0, strokes_.constant(strokes_.learned(state_.cycle.initial)).value_or(0));
+    const double left = std::clamp(strokes_.constant(strokes_.learned(state_.cycle.dwell)).value_or(0), 0.0, *height);
     const double outwards = *start < *end ? -2 : 2;
     std::vector<double> depths;
     for (double depth = 0, n = 1; depth < *height - left && n < kMostPasses; ++n) {

@@ -72,7 +72,8 @@ public:
     return entry ? std::optional(entry->value) : std::nullopt;
   }
   /// A word that takes no decimal point (P, Q, D): least increments, whatever parameter DPI says; with a point all the
-  /// same, the length itself.
+  /// same, the length itself.  Absent, too, where it depends on the control or a setting: D that is computed, and a
+  /// whole D on controls whose D takes a point (Setting 162 of Haas).
   std::optional<Value> lengthInIncrements(char letter) const {
     const auto *entry = words_.find(letter);
     if (!entry)
@@ -83,6 +84,8 @@ public:
         literal = &word;
     if (literal && literal->has(Word::kPoint))
       return interpretation_.literal(literal->number());
+    if (letter == 'D' && (!literal || !context_.dialect().hasFanucParameters))
+      return std::nullopt;
     return byIncrement(context_, AddressKind::Length, [&](Decimal step) {
       if (!literal)
         return interpretation_.multiply(entry->value, interpretation_.literal(step));
@@ -90,6 +93,25 @@ public:
       return interpretation_.literal(
           Decimal(number.mantissa(), static_cast<std::uint8_t>(number.scale() + step.scale())));
     });
+  }
+
+  // ---- first blocks ----
+
+  /// A block of two that says how the cycle `action` cuts; absent words are vacant.
+  void learn(CodeAction action, const std::optional<Value> &first, const std::optional<Value> &second) {
+    state_.cycle.retract = firstBlockOf(context_, action);
+    state_.cycle.initial = first.value_or(interpretation_.vacant());
+    state_.cycle.dwell = second.value_or(interpretation_.vacant());
+  }
+  /// What it has said; absent: no first block of this cycle is in force that says it (enterTurningCode).
+  std::optional<Value> learned(const Value &kept) const {
+    const bool isGiven = context_.certain(interpretation_.negation(interpretation_.isVacant(kept)));
+    return isGiven ? std::optional(interpretation_.asNumber(kept)) : std::nullopt;
+  }
+  /// A way back with a sign is an alarm, or what no manual says.
+  bool isNegative(const Value &value) const {
+    return !context_.certain(
+        interpretation_.compare(Relation::GreaterOrEqual, interpretation_.asNumber(value), context_.zero()));
   }
 
   // ---- values ----
@@ -103,9 +125,11 @@ public:
   bool isZero(const Value &value) const { return isSame(value, context_.zero()); }
   /// Radii as X has them.
   Value twice(const Value &radius) const { return interpretation_.multiply(radius, interpretation_.number(2)); }
-  /// `distance` further from `target` than `start` is.
-  Value awayFrom(const Value &target, const Value &start, const Value &distance) const {
-    return interpretation_.select(interpretation_.compare(Relation::Less, start, target),
+  /// `distance` further from `target` than `start` is; where both may be equal, once for Less and once for LessOrEqual
+  /// the two sides.
+  Value awayFrom(const Value &target, const Value &start, const Value &distance,
+                 Relation below = Relation::Less) const {
+    return interpretation_.select(interpretation_.compare(below, start, target),
                                   interpretation_.subtract(start, distance), interpretation_.add(start, distance));
   }
   /// At least 0.
