@@ -4,7 +4,6 @@
 #include "language/dialect/comment_signals.h"
 #include "language/dialect/line_scanner.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
