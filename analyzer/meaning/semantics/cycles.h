@@ -42,8 +42,10 @@ template <ValueAlgebra R> void enterTurningCode(StepContext<R> &context, CodeAct
   if (!isTurningCycle(action))
     return endCycle(context);
   if (isSingleTurningCycle(action)) {
-    cycle.initial = cycle.dwell = interpretation.vacant();
-    return;
+    // A first block, or a drilling cycle, has left other things in the levels.
+    const auto isSingle =
+        interpretation.both(interpretation.isVacant(cycle.initial), interpretation.isVacant(cycle.dwell));
+    return context.certain(isSingle) ? void() : endCycle(context);
   }
   const auto isGiven = interpretation.negation(interpretation.isVacant(cycle.retract));
   const auto isOwn =

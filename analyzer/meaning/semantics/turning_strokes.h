@@ -97,8 +97,10 @@ public:
 
   // ---- first blocks ----
 
-  /// A block of two that says how the cycle `action` cuts; absent words are vacant.
+  /// A block of two that says how the cycle `action` cuts; absent words are vacant, and without any nothing is kept.
   void learn(CodeAction action, const std::optional<Value> &first, const std::optional<Value> &second) {
+    if (!first && !second)
+      return;
     state_.cycle.retract = firstBlockOf(context_, action);
     state_.cycle.initial = first.value_or(interpretation_.vacant());
     state_.cycle.dwell = second.value_or(interpretation_.vacant());
