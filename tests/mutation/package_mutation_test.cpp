@@ -112,8 +112,7 @@ private:
   std::map<std::size_t, std::optional<std::vector<Break>>> around_; // by call; absent: exact numbers agree
 };
 
-Judged judged(const ProgramLines &lines, const std::vector<Start> &starts) {
-  const ReplayedProgram program(lines);
+Judged judged(const ReplayedProgram &program, const std::vector<Start> &starts) {
   Judged result;
   const std::vector<Break> breaks = program.breaks(starts);
   result.isBroken = !breaks.empty();
@@ -153,7 +152,7 @@ std::vector<Original> originals() {
     all.push_back({std::move(package)});
   parallelFor(all.size(), 0, [&](std::size_t i) {
     Random random(i + 1);
-    all[i].starts = ReplayedProgram(all[i].text.lines).starts(random, kRuns);
+    all[i].starts = ReplayedProgram(all[i].text.dialect, all[i].text.lines).starts(random, kRuns);
     all[i].mutants = movingMutantsOf(all[i].text.lines);
   });
   return all;
@@ -162,7 +161,7 @@ std::vector<Original> originals() {
 /// Without the calls on which doubles alone already lead the program itself elsewhere.
 void dropRounded(std::vector<Original> &programs) {
   parallelFor(programs.size(), 0, [&](std::size_t i) {
-    const ReplayedProgram program(programs[i].text.lines);
+    const ReplayedProgram program(programs[i].text.dialect, programs[i].text.lines);
     std::erase_if(programs[i].starts, [&](const Start &start) { return !program.breaks({start}).empty(); });
   });
 }
@@ -244,7 +243,7 @@ TEST(PackageMutation, ProvedPackagesKeepTheirContractsInRuns) {
   ASSERT_FALSE(programs.empty());
   std::vector<std::string> said(programs.size());
   parallelFor(programs.size(), 0, [&](std::size_t i) {
-    const ReplayedProgram program(programs[i].text.lines);
+    const ReplayedProgram program(programs[i].text.dialect, programs[i].text.lines);
     Rounding rounding(program, programs[i].starts);
     for (const Break &each : program.breaks(programs[i].starts))
       if (!rounding.alone(each))
@@ -266,7 +265,8 @@ TEST(PackageMutation, WhatRunsBreakIsNotProved) {
   std::vector<Choice> choices =
       chosen(programs, numberFrom("MUTATION_PACKAGES", kUsual), numberFrom("MUTATION_SEED", 1));
   parallelFor(choices.size(), 0, [&](std::size_t i) {
-    choices[i].judged = judged(choices[i].mutant->lines, choices[i].original->starts);
+    const Original &original = *choices[i].original;
+    choices[i].judged = judged(ReplayedProgram(original.text.dialect, choices[i].mutant->lines), original.starts);
   });
   report(choices);
 }

@@ -19,6 +19,7 @@ constexpr std::string_view kPackages = "packages/";
 
 struct ManifestEntry {
   std::string path;
+  std::string dialect = {};
   bool isProved = false;
   bool isOpen = false;    // some claim is refuted, or unknown
   bool hasAlarms = false; // it can raise some
@@ -26,17 +27,23 @@ struct ManifestEntry {
 
 std::vector<ManifestEntry> manifest(const fs::path &corpus) {
   constexpr std::string_view kPath = "path = \"";
+  constexpr std::string_view kDialect = "dialect = \"";
+  const auto quoted = [](const std::string &line, std::string_view key) {
+    return line.substr(key.size(), line.size() - key.size() - 1);
+  };
   std::vector<ManifestEntry> entries;
   std::ifstream file(corpus / "manifest.toml");
   bool isOpenList = false;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with(kPath))
-      entries.push_back({line.substr(kPath.size(), line.size() - kPath.size() - 1)});
+      entries.push_back({quoted(line, kPath)});
     if (entries.empty())
       continue;
     if (line.find(" = ") != std::string::npos)
       isOpenList = line.starts_with("refuted") || line.starts_with("unknown");
     ManifestEntry &entry = entries.back();
+    if (line.starts_with(kDialect))
+      entry.dialect = quoted(line, kDialect);
     entry.isProved = entry.isProved || line.starts_with("proved");
     const bool isAlarm = line.find(".alarm-unreachable.") != std::string::npos;
     entry.hasAlarms = entry.hasAlarms || (isOpenList && isAlarm);
@@ -90,7 +97,7 @@ std::vector<PackageText> provedPackages() {
       continue;
     const fs::path path = corpus / entry.path;
     const std::string name = (fs::path(entry.path).parent_path() / path.stem()).string().substr(kPackages.size());
-    PackageText package{name.substr(0, name.find('/')), name, {}};
+    PackageText package{name.substr(0, name.find('/')), name, entry.dialect, {}};
     std::set<fs::path> known;
     appendWithCalled(package.lines, known, path);
     const bool promisesAlarms =

@@ -11,6 +11,7 @@ namespace feedhold::mutation {
 struct PackageText {
   std::string package;           // `pocket`
   std::string name;              // `pocket/O9311`
+  std::string dialect;           // its id
   soundness::ProgramLines lines; // with what it calls behind it
 };
 

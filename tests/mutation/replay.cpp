@@ -86,8 +86,8 @@ struct ReplayedProgram::Run {
   RunResult result;
 };
 
-ReplayedProgram::ReplayedProgram(const ProgramLines &lines)
-    : loaded_(lines, soundness::controlOf({"fanuc-30i", lines})),
+ReplayedProgram::ReplayedProgram(std::string_view dialect, const ProgramLines &lines)
+    : loaded_(lines, soundness::controlOf({dialect, lines})),
       contracts_(readContracts(loaded_.source(), loaded_.tree(), loaded_.model(), loaded_.dialect())),
       promises_(loaded_, contracts_, contract()) {}
 

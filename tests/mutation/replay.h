@@ -34,7 +34,7 @@ struct Break {
 /// The first program of the lines, with what it calls.
 class ReplayedProgram {
 public:
-  explicit ReplayedProgram(const soundness::ProgramLines &lines);
+  ReplayedProgram(std::string_view dialect, const soundness::ProgramLines &lines);
 
   const soundness::LoadedSample &loaded() const { return loaded_; }
   const FileContracts &contracts() const { return contracts_; }

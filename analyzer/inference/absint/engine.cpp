@@ -189,14 +189,12 @@ void Engine::walk(Callee entry, const AbstractState &state, AnalysisVisitor &vis
 }
 
 void Engine::walkWithNothingKnown(AnalysisVisitor &visitor) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> walked;
+  std::set<Callee> walked;
   depthKnown_ = false;
-  while (walked.size() < unmodelledEntries_.size() && !gaveUp_) {
-    const auto next = std::find_if(unmodelledEntries_.begin(), unmodelledEntries_.end(),
-                                   [&](const auto &program) { return !walked.contains(program.first); });
-    walked.insert(next->first);
-    const Callee entry = next->second;
-    if (!visitor.wantsUnmodelledEntry(entry))
+  while (!unmodelledEntries_.empty() && !gaveUp_) {
+    const Callee entry = *unmodelledEntries_.begin();
+    unmodelledEntries_.erase(unmodelledEntries_.begin());
+    if (!walked.insert(entry).second || !visitor.wantsUnmodelledEntry(entry))
       continue;
     interpretation_.useDialect(*programs_.file(entry.file).dialect);
     interpretation_.observe(nullptr);

@@ -83,7 +83,7 @@ private:
   CallDepth depth_;          // of the walk
   int walkedAgain_ = 0;      // programs, for calls that find the same
   bool depthKnown_ = true;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Callee> unmodelledEntries_; // entered somehow
+  std::set<Callee> unmodelledEntries_; // entered somehow
   std::uint64_t spent_ = 0;
   std::optional<std::string_view> gaveUp_;
 };

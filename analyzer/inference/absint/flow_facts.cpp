@@ -61,14 +61,7 @@ public:
   bool wantsUnmodelledEntry(const Callee &callee) override {
     ReachedPrograms reached;
     collectReached(facts_.programs, {callee.file, callee.program}, reached);
-    for (const Callee &modal : facts_.programs.modalCallees())
-      collectReached(facts_.programs, {modal.file, modal.program}, reached);
-    return reached.orAny || reached.programs.contains({facts_.file.file, facts_.program}) ||
-           std::ranges::any_of(facts_.vacantReads_, [&](const VacantReadInCall &vacant) {
-             const ProgramFile &file = facts_.programs.file(vacant.read.file);
-             const ProgramId reader = file.model->programOf(file.cfg.nodes[vacant.read.node].block);
-             return reached.programs.contains({vacant.read.file, reader});
-           });
+    return comesBack(reached) || comesBack(reachedModally());
   }
   void left(Place place, const AbstractState &state) override {
     if (!outer_)
@@ -161,6 +154,22 @@ public:
   }
 
 private:
+  const ReachedPrograms &reachedModally() {
+    if (!reachedModally_) {
+      reachedModally_.emplace();
+      for (const Callee &modal : facts_.programs.modalCallees())
+        collectReached(facts_.programs, {modal.file, modal.program}, *reachedModally_);
+    }
+    return *reachedModally_;
+  }
+  bool comesBack(const ReachedPrograms &reached) const {
+    return reached.orAny || reached.programs.contains({facts_.file.file, facts_.program}) ||
+           std::ranges::any_of(facts_.vacantReads_, [&](const VacantReadInCall &vacant) {
+             const ProgramFile &file = facts_.programs.file(vacant.read.file);
+             const ProgramId reader = file.model->programOf(file.cfg.nodes[vacant.read.node].block);
+             return reached.programs.contains({vacant.read.file, reader});
+           });
+  }
   /// By M97 a program calls parts of itself.
   bool isOwn(Place place) const {
     return place.file == facts_.file.file && place.node.index() >= facts_.first_ &&
@@ -188,7 +197,8 @@ private:
   AbstractInterpretation &interpretation_;
   std::span<FlowWatch *const> watches_;
   Place place_{FileId(0), NodeId(0)};
-  std::optional<NodeId> outer_; // the call of this program through which the present place is reached
+  std::optional<NodeId> outer_;                   // the call of this program through which the present place is reached
+  std::optional<ReachedPrograms> reachedModally_; // from what the modal calls of all programs call
   // Which of the facts is about a place: a program of a million blocks may have one for each.
   std::map<std::tuple<std::uint32_t, std::uint32_t, AlarmKind>, std::size_t> alarmAt_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> userAlarmAt_;

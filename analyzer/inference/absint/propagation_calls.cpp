@@ -47,8 +47,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
                             {request.freshLocals ? AlarmKind::MacroNesting : AlarmKind::SubprogramNesting, place});
     if (request.isLocal && request.possible.size() > kMostParts && !engine_.gaveUp_)
       engine_.gaveUp_ = "a computed local call may enter too many parts of its program";
-    for (const Callee &callee : request.possible)
-      engine_.unmodelledEntries_.emplace(std::pair{callee.file.index(), callee.entry.index()}, callee);
+    engine_.unmodelledEntries_.insert(request.possible.begin(), request.possible.end());
     if (!request.possible.empty())
       return enterUnmodelled(node, request, std::move(state));
     unknownCall(node, request, state, "a program that was not supplied");
@@ -61,8 +60,7 @@ std::optional<AbstractState> Propagation::enter(NodeId node, const CallRequest<A
   const bool tooDeep = engine_.open_.size() > facts_.file->dialect->limits.totalCallDepth;
   if (!tooDeep && !engine_.isOpen(*request.callee))
     return repeated(node, request, state);
-  engine_.unmodelledEntries_.emplace(std::pair{request.callee->file.index(), request.callee->entry.index()},
-                                     *request.callee);
+  engine_.unmodelledEntries_.insert(*request.callee);
   return enterUnmodelled(node, request, std::move(state));
 }
 

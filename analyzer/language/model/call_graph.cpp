@@ -104,6 +104,7 @@ struct CallGraph::Impl {
   std::unordered_map<ProgramRef, std::vector<Caller>, ProgramRefHash> callers;
   std::unordered_map<ProgramRef, std::optional<Depth>, ProgramRefHash> depths;
   std::size_t programCount = 0;
+  std::vector<std::uint32_t> numbers; // sorted
 
   const ModelledFile &file(FileId id) const { return files[slotOf.at(id.index())]; }
 
@@ -135,9 +136,13 @@ void CallGraph::Impl::indexPrograms() {
         indexProgram(each, ref, {number, ""});
     }
   }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 void CallGraph::Impl::indexProgram(const ModelledFile &where, ProgramRef ref, const ProgramName &name) {
+  if (name.number)
+    numbers.push_back(*name.number);
   byName[keyOf(name)].push_back(ref);
   byPlace[placeOf(where.folder, name)].push_back(ref);
 }
@@ -338,5 +343,10 @@ const ProgramModel &CallGraph::model(FileId file) const {
 }
 
 std::size_t CallGraph::programCount() const { return impl_ ? impl_->programCount : 0; }
+
+const std::vector<std::uint32_t> &CallGraph::numbers() const {
+  static const std::vector<std::uint32_t> none;
+  return impl_ ? impl_->numbers : none;
+}
 
 } // namespace feedhold

@@ -59,6 +59,8 @@ public:
   std::vector<ProgramRef> cycleThrough(ProgramRef program) const;
   const ProgramModel &model(FileId file) const;
   std::size_t programCount() const;
+  /// The numbers under which programs are found, in order.
+  const std::vector<std::uint32_t> &numbers() const;
 
 private:
   struct Impl;

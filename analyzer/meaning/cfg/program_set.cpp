@@ -35,6 +35,11 @@ std::optional<std::uint32_t> systemVariableOf(const Dialect &dialect, std::strin
   return std::nullopt;
 }
 
+template <typename T> void sortUnique(std::vector<T> &all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
 /// A part of the path, which may be written with `\\` on Windows.
 std::string_view folderOf(std::string_view path) {
   constexpr std::string_view kSeparators = std::filesystem::path::preferred_separator == '/' ? "/" : "/\\";
@@ -67,12 +72,11 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
     findModalCallees(each);
     findWritten(each);
   }
-  std::sort(written_.begin(), written_.end());
-  written_.erase(std::unique(written_.begin(), written_.end()), written_.end());
+  sortUnique(modalCallees_);
+  sortUnique(written_);
   const auto less = [](const auto &a, const auto &b) { return a.first < b.first; };
   std::stable_sort(namedNumbers_.begin(), namedNumbers_.end(), less);
-  std::sort(names_.begin(), names_.end());
-  names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+  sortUnique(names_);
 }
 
 bool ProgramSet::isWrittenInCalled(std::uint32_t variable) const {
@@ -180,14 +184,15 @@ std::vector<Callee> ProgramSet::candidates(FileId file, const Call &call, std::u
   return candidates(file, named);
 }
 
-std::vector<Callee> ProgramSet::numbered(FileId file, const Call &call) const {
+std::vector<Callee> ProgramSet::numbered(FileId file, const Call &call,
+                                         const std::function<bool(std::uint32_t)> &isPossible) const {
   std::vector<Callee> all;
-  for (const ProgramFile &each : files_)
-    for (const Program &program : each.model->programs)
-      if (program.name.number)
-        for (const Callee &callee : candidates(file, call, *program.name.number))
-          if (std::find(all.begin(), all.end(), callee) == all.end())
-            all.push_back(callee);
+  std::set<Callee> known; // a number packed with repeats names the program of another
+  for (const std::uint32_t number : callGraph_.numbers())
+    if (isPossible(number))
+      for (const Callee &callee : candidates(file, call, number))
+        if (known.insert(callee).second)
+          all.push_back(callee);
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include "language/model/call_graph.h"
 #include "meaning/cfg/cfg.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,7 +36,7 @@ struct Callee {
   FileId file;
   NodeId entry;
   ProgramId program; // in which a search for a sequence number takes place
-  friend bool operator==(const Callee &, const Callee &) = default;
+  friend auto operator<=>(const Callee &, const Callee &) = default;
 };
 
 /// What a local call (M97) with a computed number may enter.
@@ -67,8 +68,9 @@ public:
   std::vector<Callee> candidates(FileId file, const Call &call) const;
   /// The same of a call whose number is computed, and is this one.
   std::vector<Callee> candidates(FileId file, const Call &call, std::uint32_t number) const;
-  /// All programs that a call with a computed number may enter.
-  std::vector<Callee> numbered(FileId file, const Call &call) const;
+  /// The programs that a call with a computed number may enter, where that may be one of the numbers given.
+  std::vector<Callee> numbered(FileId file, const Call &call,
+                               const std::function<bool(std::uint32_t)> &isPossible) const;
   /// The parts of the calling program that M97 may call: one for each sequence number, as the search from the call
   /// finds it.
   std::vector<LabelledPart> localParts(FileId file, const Call &call) const;
@@ -111,7 +113,7 @@ private:
   std::unordered_map<std::string_view, std::vector<FileId>> byFolder_; // in the paths of the sources
   CallGraph callGraph_;
   ReturnTargets returns_;
-  std::vector<Callee> modalCallees_;
+  std::vector<Callee> modalCallees_; // sorted
   bool hasModalCalls_ = false;
   std::vector<std::uint32_t> written_;                              // sorted
   std::vector<std::string> names_;                                  // sorted; canonical spelling

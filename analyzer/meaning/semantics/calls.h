@@ -172,7 +172,7 @@ private:
       return std::nullopt;
     const auto found = context_.programs.calleeOf(context_.file.file, static_cast<std::uint32_t>(*number));
     if (!found)
-      addCandidates(static_cast<std::uint32_t>(*number), possible);
+      possible = context_.programs.candidates(context_.file.file, call_, static_cast<std::uint32_t>(*number));
     return found;
   }
   std::optional<Callee> localCallee(const Value &value, std::vector<Callee> &possible) {
@@ -190,18 +190,9 @@ private:
     return parts;
   }
   std::vector<Callee> calleesOf(const Value &value) {
-    std::vector<Callee> callees;
-    for (std::size_t i = 0; i < context_.programs.size(); ++i)
-      for (const Program &program : context_.programs.file(FileId(i)).model->programs)
-        if (program.name.number && interpretation_.mayBe(interpretation_.compare(
-                                       Relation::Equal, value, interpretation_.number(*program.name.number))))
-          addCandidates(*program.name.number, callees);
-    return callees;
-  }
-  void addCandidates(std::uint32_t number, std::vector<Callee> &callees) const {
-    for (const Callee &found : context_.programs.candidates(context_.file.file, call_, number))
-      if (std::find(callees.begin(), callees.end(), found) == callees.end())
-        callees.push_back(found);
+    return context_.programs.numbered(context_.file.file, call_, [&](std::uint32_t number) {
+      return interpretation_.mayBe(interpretation_.compare(Relation::Equal, value, interpretation_.number(number)));
+    });
   }
   void readRepeats(CallRequest<R> &request) {
     if (call_.repeats) {
@@ -248,7 +239,7 @@ CallRequest<R> prepareModalCall(StepContext<R> &context, const ModalCallState<ty
     request.possible = context.programs.candidates(file.file, call);
   // Which number G66 computed is not kept: it may be that of each program.
   if (call.programWord && call.callee.empty() && file.tree->words[*call.programWord].form() == WordForm::Expression)
-    request.possible = context.programs.numbered(file.file, call);
+    request.possible = context.programs.numbered(file.file, call, [](std::uint32_t) { return true; });
   return request;
 }
 
