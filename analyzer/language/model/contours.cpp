@@ -36,6 +36,15 @@ std::optional<ContourBlocks> contourAt(const ProgramModel &model, BlockId cycle)
   return first && last && *first <= *last ? std::optional(ContourBlocks{*first, *last}) : std::nullopt;
 }
 
+bool isContourUnambiguous(const ProgramModel &model, BlockId cycle) {
+  const auto labels = model.sequenceNumbersOf(model.programOf(cycle));
+  return std::ranges::all_of(model.jumpsIn(cycle, cycle.next()), [&](const Jump &jump) {
+    const std::optional<std::uint32_t> wanted = targetNumber(jump);
+    return (jump.kind != JumpKind::ContourFrom && jump.kind != JumpKind::ContourTo) ||
+           std::ranges::count_if(labels, [&](const SequenceNumber &label) { return label.number == wanted; }) == 1;
+  });
+}
+
 bool isPlainContour(const SyntaxTree &tree, const ProgramModel &model, const Dialect &dialect,
                     const ContourBlocks &contour) {
   constexpr std::uint16_t kOther = Block::kBroken | Block::kCommentTail | Block::kSkip | Block::kSkipInside;

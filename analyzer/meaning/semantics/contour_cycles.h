@@ -44,7 +44,7 @@ public:
   bool run() {
     if (action_ != CodeAction::FinishContour && !words_.find('P') && !words_.find('Q'))
       return learnDepth();
-    const auto contour = contourAt(*context_.file.model, context_.block);
+    const auto contour = contourOfBlock();
     const auto group = context_.modes.groupOf(ModalKind::Motion);
     if (!contour || !group || !isReadable(*contour)) {
       if (!contour || action_ == CodeAction::FinishContour)
@@ -76,6 +76,13 @@ private:
   }
 
   // ---- the contour ----
+
+  /// A number that stands in several blocks leads a control to the first or to the next of them.
+  std::optional<ContourBlocks> contourOfBlock() const {
+    const ProgramModel &model = *context_.file.model;
+    const bool isKnown = drawsStrokes(context_) || isContourUnambiguous(model, context_.block);
+    return isKnown ? contourAt(model, context_.block) : std::nullopt;
+  }
 
   bool isReadable(const ContourBlocks &contour) const {
     const SyntaxTree &tree = context_.tree();
@@ -114,8 +121,10 @@ private:
   // ---- finishing ----
 
   bool finish(const ContourBlocks &contour, std::uint8_t group) {
-    if (!strokes_.hasOnly("NGPQFSTM") || strokes_.namesAxes())
+    if (!strokes_.hasOnly("NGPQFSTM") || strokes_.namesAxes()) {
+      forgetAll();
       return false;
+    }
     if constexpr (!kHasMoves) { // it also executes the contour where it stands
       mayTakeModes(contour, group);
       strokes_.cutInBox(state_.position, state_.position);

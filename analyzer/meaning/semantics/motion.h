@@ -73,13 +73,24 @@ private:
     const Truth cycle = cycleActive();
     const Truth moves =
         context_.either(axisWords(), interpretation_.both(isFullCircle(), interpretation_.negation(cycle)));
-    if (!interpretation_.mayBe(moves))
-      return;
     if (context_.certain(moves))
       return move(cycle, moves);
+    if (mayChangeTaper()) {
+      forgetCycle(context_);
+      unmodelledCycle("a taper in a block without X and Z", context_.place());
+    }
+    if (!interpretation_.mayBe(moves))
+      return;
     const auto before = state_;
     move(cycle, moves);
     interpretation_.join(state_, interpretation_.negation(moves), before);
+  }
+  /// R, I or K of a single cycle of a lathe that is in force.
+  bool mayChangeTaper() {
+    return (words_.find('R') || words_.find('I') || words_.find('K')) &&
+           std::ranges::any_of(kSingleTurningCycles, [&](CodeAction action) {
+             return interpretation_.mayBe(context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false)));
+           });
   }
   void move(Truth cycle, Truth moves) {
     if (context_.certain(cycle))
@@ -155,8 +166,12 @@ private:
   }
   /// A cycle of a lathe ends where it starts.
   void turningCycle(CodeAction action, std::string_view what, Span place) {
-    if (!runTurningCycle(context_, words_, action))
-      unmodelledCycle(what, place);
+    if (runTurningCycle(context_, words_, action))
+      return;
+    for (const Axis axis : kAllAxes)
+      if (namesOther(axis))
+        state_.at(axis) = interpretation_.anyNumber();
+    unmodelledCycle(what, place);
   }
   void unmodelledCycle(std::string_view what, Span place) {
     tell(context_, MoveKind::Unmodelled, state_.position);

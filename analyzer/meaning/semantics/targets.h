@@ -27,7 +27,7 @@ template <ValueAlgebra R>
 std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, const ExecutedWords<R> &words);
 
 /// Where the words lead is not followed: polar coordinates of which one is not written, or incremental ones; distances
-/// from a place where the control does not take the tool to be.
+/// from a place where the control does not take the tool to be; an absolute and an incremental word of one axis.
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words);
 
 /// Behind a movement: an axis that an absolute word has named is where the control takes it to be.
@@ -124,6 +124,29 @@ template <ValueAlgebra R> typename R::Truth isOpenIncrement(StepContext<R> &cont
   const auto unmapped = context.behaviour().absoluteBehindMappings ? interpretation.truth(true)
                                                                    : interpretation.negation(context.state.transformed);
   return interpretation.both(interpretation.both(pending, unmapped), interpretation.negation(isAbsolute(context)));
+}
+/// X and U in one block: on some controls the later one counts, others stop.
+template <ValueAlgebra R>
+typename R::Truth isNamedTwice(StepContext<R> &context, const ExecutedWords<R> &words,
+                               const typename ExecutedWords<R>::Entry &increment, Axis axis) {
+  return context.interpretation.both(increment.present, isWritten(context, words, axis));
+}
+template <ValueAlgebra R>
+typename R::Value openedTwice(StepContext<R> &context, const ExecutedWords<R> &words,
+                              const typename ExecutedWords<R>::Entry &increment, Axis axis,
+                              const typename R::Value &coordinate) {
+  R &interpretation = context.interpretation;
+  const auto twice = isNamedTwice(context, words, increment, axis);
+  if (!interpretation.mayBe(twice))
+    return coordinate;
+  interpretation.unmodelled("an axis with both of its words", context.place());
+  return interpretation.select(twice, interpretation.anyNumber(), coordinate);
+}
+template <ValueAlgebra R> bool mayNameTwice(StepContext<R> &context, const ExecutedWords<R> &words) {
+  return incrementsByLetter(context) && std::ranges::any_of(kTurningIncrements, [&](const auto &each) {
+           const auto *entry = words.find(each.first);
+           return entry && context.interpretation.mayBe(isNamedTwice(context, words, *entry, each.second));
+         });
 }
 template <ValueAlgebra R>
 typename R::Value openedUp(StepContext<R> &context, Axis axis, const typename R::Value &coordinate) {
@@ -231,6 +254,7 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
       if (const auto *entry = words.find(letter)) {
         auto &coordinate = target[indexOf(axis)];
         coordinate = interpretation.select(entry->present, interpretation.add(coordinate, entry->value), coordinate);
+        coordinate = detail::openedTwice(context, words, *entry, axis, coordinate);
       }
   detail::fromPolar(context, words, target);
   if (isMapped)
@@ -241,7 +265,8 @@ std::array<typename R::Value, kAxisCount> targetOf(StepContext<R> &context, cons
 }
 
 template <ValueAlgebra R> bool isOpenTarget(StepContext<R> &context, const ExecutedWords<R> &words) {
-  return detail::isOpenPolar(context, words) || std::any_of(kAllAxes.begin(), kAllAxes.end(), [&](Axis axis) {
+  return detail::isOpenPolar(context, words) || detail::mayNameTwice(context, words) ||
+         std::any_of(kAllAxes.begin(), kAllAxes.end(), [&](Axis axis) {
            const auto open = detail::isOpenIncrement(context, axis);
            return context.interpretation.mayBe(open) && context.interpretation.mayBe(context.interpretation.both(
                                                             open, detail::isWritten(context, words, axis)));

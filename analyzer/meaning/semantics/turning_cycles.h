@@ -43,7 +43,7 @@ public:
     if (const auto *taper = words_.find('R'))
       kept.peck = interpretation_.select(taper->present, taper->value, kept.peck);
     const auto isOpen = context_.either(interpretation_.isVacant(kept.bottom), interpretation_.isVacant(kept.retract));
-    if (interpretation_.mayBe(isOpen) || hasOtherWords(action))
+    if (interpretation_.mayBe(isOpen) || isNotFollowed(action))
       return false;
     const Value x = interpretation_.asNumber(kept.retract), z = interpretation_.asNumber(kept.bottom);
     const Value taper = interpretation_.asNumber(kept.peck);
@@ -64,13 +64,18 @@ private:
       if (const auto *entry = letter == letterOf(axis) || incrementsByLetter(context_) ? words_.find(letter) : nullptr)
         kept = interpretation_.select(entry->present, target[indexOf(axis)], kept);
   }
-  /// Q of a thread is the angle of the spindle at which it starts, E its lead.
-  bool hasOtherWords(CodeAction action) const {
+  /// Q of a thread is the angle of the spindle at which it starts, E its lead.  Haas has I or K for the taper.
+  bool isOther(const Word &word, CodeAction action) const {
+    const char letter = word.address();
+    if (word.has(Word::kComma) || (letter == 'R' && !context_.dialect().hasFanucParameters))
+      return true;
     const std::string_view known = action == CodeAction::ThreadCycle ? "NGXZUWRFSTMPQE" : "NGXZUWRFSTMP";
-    const auto words = context_.tree().wordsOf(context_.block);
-    return isOpenTarget(context_, words_) || std::ranges::any_of(words, [&](const Word &word) {
-             return word.has(Word::kComma) || known.find(word.address()) == std::string_view::npos;
-           });
+    return known.find(letter) == std::string_view::npos;
+  }
+  bool isNotFollowed(CodeAction action) const {
+    return interpretation_.mayBe(state_.transformed) || isOpenTarget(context_, words_) ||
+           std::ranges::any_of(context_.tree().wordsOf(context_.block),
+                               [&](const Word &word) { return isOther(word, action); });
   }
   void cut(Axis across, const Value &level, const Value &taper, Axis along, const Value &end, MoveKind back) {
     const Value fromLevel = state_.at(across), from = state_.at(along);

@@ -55,8 +55,11 @@ public:
     return words_.find('X') || words_.find('Z') ||
            (incrementsByLetter(context_) && (words_.find('U') || words_.find('W')));
   }
-  /// Only these letters are written, each for certain; U and W where they are increments.
+  /// Only these letters are written, each for certain; U and W where they are increments.  Nothing turns or mirrors the
+  /// strokes, of which no manual says whether their lengths turn with them.
   bool hasOnly(std::string_view letters) const {
+    if (interpretation_.mayBe(state_.transformed))
+      return false;
     for (const Word &word : context_.tree().wordsOf(context_.block)) {
       const char letter = word.address();
       const bool isIncrement = incrementsByLetter(context_) && (letter == 'U' || letter == 'W');

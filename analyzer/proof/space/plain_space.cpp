@@ -5,19 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace feedhold::prove {
 
 namespace {
 
-std::vector<geometry::PlainRegion> named(const RegionShapes<double, bool> &shapes, const std::vector<Region> &regions) {
+using PlainShapes = RegionShapes<double, bool>;
+
+/// `partsOf`: the shapes of one region.
+template <typename Parts>
+std::vector<geometry::PlainRegion> named(const std::vector<Region> &regions, const Parts &partsOf) {
   std::vector<geometry::PlainRegion> result;
   for (const std::string &name : namesOf(regions)) {
     geometry::PlainRegion region{name, {}};
     for (const Region &part : regions)
       if (part.name == name)
-        region.parts.push_back(shapes.shape(part));
+        std::ranges::move(partsOf(part), std::back_inserter(region.parts));
     result.push_back(std::move(region));
   }
   return result;
@@ -58,18 +63,19 @@ geometry::PlainSpace plainSpace(const ProgramSet &programs, Callee program, cons
   if (contract == nullptr)
     return space;
   const auto numbers = std::make_shared<ContractNumbers>(programs, program, contracts, run);
-  RegionShapes<double, bool> shapes{[numbers](ExpressionId expression) { return numbers->number(expression); },
-                                    [numbers](ExpressionId condition, const geometry::Point<double> &point) {
-                                      return numbers->holds(condition, point);
-                                    }};
+  PlainShapes shapes{[numbers](ExpressionId expression) { return numbers->number(expression); },
+                     [numbers](ExpressionId condition, const geometry::Point<double> &point) {
+                       return numbers->holds(condition, point);
+                     }};
   if (programs.file(program.file).dialect->machine == MachineKind::Turning) {
-    shapes.lathe = {[](double number) { return number / 2; }, [](double number) { return number * 2; }, 0};
+    shapes.lathe = {[](double number) { return number / 2; }, [](double number) { return number * 2; },
+                    [](double number) { return -number; }, [](double number) { return std::abs(number); }, 0};
     space.tip = geometry::tipDirection(contract->tool ? contract->tool->direction : 0);
   }
   if (contract->tool)
     space.tool = shapes.tool(*contract->tool, 0);
-  space.keepIn = named(shapes, contract->keepIn);
-  space.keepOut = named(shapes, contract->keepOut);
+  space.keepIn = named(contract->keepIn, [&](const Region &region) { return std::vector{shapes.keptIn(region)}; });
+  space.keepOut = named(contract->keepOut, [&](const Region &region) { return shapes.keptOut(region); });
   if (contract->clearance)
     space.clearance = numbers->number(contract->clearance->height.value);
   if (contract->travel)

@@ -6,13 +6,18 @@
 #include "proof/geometry/shapes.h"
 
 #include <functional>
+#include <optional>
+#include <variant>
+#include <vector>
 
 namespace feedhold::prove {
 
-/// Halves and doubles numbers: between the diameters of a lathe and the radii of its space (half_plane.h).
+/// Between the diameters of a lathe and the radii of its space (half_plane.h), which are below 0 across the axis.
 template <typename Number> struct Diameters {
   std::function<Number(Number)> half;
   std::function<Number(Number)> twice;
+  std::function<Number(Number)> minus;
+  std::function<Number(Number)> magnitude;
   Number zero;
 };
 
@@ -23,6 +28,21 @@ template <typename Number, typename Truth> struct RegionShapes {
   std::function<Truth(ExpressionId, const geometry::Point<Number> &)> holds;
   std::optional<Diameters<Number>> lathe = {}; // absent: a machining centre
 
+  Shape keptIn(const Region &region) const {
+    Shape shape = this->shape(region);
+    auto *box = lathe ? std::get_if<geometry::Box<Number>>(&shape) : nullptr;
+    if (box && box->sides[1].high && !box->sides[1].low)
+      box->sides[1].low = lathe->minus(*box->sides[1].high);
+    return shape;
+  }
+  /// A region of a lathe lies all round its axis: also where X is below 0.  One without a lower end of X reaches there.
+  std::vector<Shape> keptOut(const Region &region) const {
+    std::vector<Shape> parts{shape(region)};
+    if (lathe)
+      if (std::optional<Shape> other = acrossAxis(parts.front()))
+        parts.push_back(std::move(*other));
+    return parts;
+  }
   Shape shape(const Region &region) const {
     return match(
         region.shape, [&](const Box &box) -> Shape { return sides(box); },
@@ -50,8 +70,9 @@ template <typename Number, typename Truth> struct RegionShapes {
         [&](const Where &where) -> Shape {
           return geometry::Condition<Number, Truth>{
               [holds = holds, lathe = lathe, condition = where.condition](const geometry::Point<Number> &point) {
-                return holds(condition,
-                             lathe ? geometry::Point<Number>{lathe->twice(point[1]), lathe->zero, point[0]} : point);
+                return holds(condition, lathe ? geometry::Point<Number>{lathe->twice(lathe->magnitude(point[1])),
+                                                                        lathe->zero, point[0]}
+                                              : point);
               }};
         });
   }
@@ -78,6 +99,24 @@ template <typename Number, typename Truth> struct RegionShapes {
   }
 
 private:
+  /// Absent: the shape is there already.
+  std::optional<Shape> acrossAxis(Shape shape) const {
+    if (auto *box = std::get_if<geometry::Box<Number>>(&shape)) {
+      geometry::Interval<Number> &radii = box->sides[1];
+      if (!radii.low)
+        return std::nullopt;
+      const std::optional<Number> high = radii.high;
+      radii.high = lathe->minus(*radii.low);
+      radii.low = high ? std::optional(lathe->minus(*high)) : std::nullopt;
+      return shape;
+    }
+    auto *prism = std::get_if<geometry::Prism<Number>>(&shape);
+    if (!prism)
+      return std::nullopt; // conditions look at the diameter
+    for (auto &corner : prism->corners)
+      corner[1] = lathe->minus(corner[1]);
+    return shape;
+  }
   geometry::Interval<Number> interval(const Range &range) const {
     geometry::Interval<Number> result;
     if (range.low)

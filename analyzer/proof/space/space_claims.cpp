@@ -140,6 +140,11 @@ std::optional<Diameters<TermId>> SpaceClaims::diameters() const {
   const TermId two = store_.number(smt::Number(2));
   return Diameters<TermId>{[this, two](TermId number) { return store_.divide(number, two); },
                            [this, two](TermId number) { return store_.multiply(number, two); },
+                           [this](TermId number) { return store_.negate(number); },
+                           [this](TermId number) {
+                             const TermId zero = store_.number(smt::Number(0));
+                             return store_.ite(store_.lessOrEqual(zero, number), number, store_.negate(number));
+                           },
                            store_.number(smt::Number(0))};
 }
 
@@ -158,7 +163,10 @@ void SpaceClaims::addRegions(const std::vector<Region> &regions, ObligationKind 
       if (region.name == names[i]) {
         if (parts.empty())
           rule.clause = region.clause;
-        parts.push_back(shapes.shape(region));
+        if (kind == ObligationKind::KeepIn)
+          parts.push_back(shapes.keptIn(region));
+        else
+          std::ranges::move(shapes.keptOut(region), std::back_inserter(parts));
       }
     if (!contract_.tool) {
       rule.missing =
