@@ -2,8 +2,8 @@
 #include "findings/session/analyse.h"
 
 #include "base/support/parallel.h"
-#include "base/support/turns.h"
 #include "base/support/text.h"
+#include "base/support/turns.h"
 #include "findings/project/project.h"
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"

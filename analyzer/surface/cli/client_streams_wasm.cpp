@@ -1,5 +1,5 @@
-// The client in WebAssembly: what has started the program receives from it and sends to it, and can say whether anything
-// has come (editors/vscode/src/server.ts).
+// The client in WebAssembly: what has started the program receives from it and sends to it, and can say whether
+// anything has come (editors/vscode/src/server.ts).
 #include "surface/cli/client_streams.h"
 
 #include <emscripten.h>
@@ -12,9 +12,8 @@ namespace feedhold {
 namespace {
 
 // How many bytes came; 0: none until then; -1: the client is gone.  A negative time has no end.
-EM_JS(int, receiveBytes, (char *to, int most, double milliseconds), {
-  return Module.receive ? Module.receive(HEAPU8.subarray(to, to + most), milliseconds) : -1;
-});
+EM_JS(int, receiveBytes, (char *to, int most, double milliseconds),
+      { return Module.receive ? Module.receive(HEAPU8.subarray(to, to + most), milliseconds) : -1; });
 
 EM_JS(void, sendBytes, (const char *from, int count), {
   if (Module.send)

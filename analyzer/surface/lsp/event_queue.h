@@ -1,5 +1,5 @@
-// EventQueue: what the server has to do next, from the thread that reads and from those that work in the background; or,
-// where there are no threads, from who is asked for it and from work in between.
+// EventQueue: what the server has to do next, from the thread that reads and from those that work in the background;
+// or, where there are no threads, from who is asked for it and from work in between.
 #pragma once
 
 #include "surface/lsp/transport.h"

@@ -48,8 +48,7 @@ bool ClientSession::attend(std::optional<Clock::time_point> until) {
     receive(*event);
   const std::optional<Clock::time_point> due = nextDue();
   const Clock::time_point now = Clock::now();
-  const bool isDue =
-      !exitCode_ && due && *due <= now && (queue_.isEmpty() || *due + kLongestWait < now);
+  const bool isDue = !exitCode_ && due && *due <= now && (queue_.isEmpty() || *due + kLongestWait < now);
   if (isDue)
     workOnDue();
   return event || isDue;

@@ -1,6 +1,6 @@
 // ClientSession: one client from `initialize` to `exit`.  Internal to the server: what it receives, in which order it
-// works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.  Where there
-// are no threads, it works in the lanes itself, and attends to what comes whenever such work gives it a turn.
+// works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.  Where
+// there are no threads, it works in the lanes itself, and attends to what comes whenever such work gives it a turn.
 #pragma once
 
 #include "findings/draft/draft.h"

@@ -36,7 +36,9 @@ TEST(Lane, AnOwnerWorksWhenItWants) {
   std::vector<std::string> said;
   Lane lane(Worker::Owner);
   const auto job = [&](std::string name) {
-    return [&said, name](const std::stop_token &stop) { said.push_back(name + (stop.stop_requested() ? " stopped" : "")); };
+    return [&said, name](const std::stop_token &stop) {
+      said.push_back(name + (stop.stop_requested() ? " stopped" : ""));
+    };
   };
   EXPECT_FALSE(lane.workNext());
   lane.submit("a", job("a1"));

@@ -81,8 +81,8 @@ TEST_F(LspWithoutThreads, FindingsWithAndWithoutFlow) {
 }
 
 TEST_F(LspWithoutThreads, AllThatHasComeIsReadBeforeAnyOfItIsWorkedOn) {
-  const auto messages = said({kBeginning + framed(opening("O1\n#1-1\nM30\n")) + framed(change(2, "O1\n#1=1\nM30\n")),
-                              kEnd});
+  const auto messages =
+      said({kBeginning + framed(opening("O1\n#1-1\nM30\n")) + framed(change(2, "O1\n#1=1\nM30\n")), kEnd});
   for (const Json &message : messages)
     if (message.value("method", "") == "textDocument/publishDiagnostics") {
       EXPECT_EQ(message["params"]["version"], 2);
@@ -92,10 +92,9 @@ TEST_F(LspWithoutThreads, AllThatHasComeIsReadBeforeAnyOfItIsWorkedOn) {
 
 TEST_F(LspWithoutThreads, ARequestThatIsTakenBack) {
   const Json place = {{"textDocument", {{"uri", "untitled:O1"}}}, {"position", {{"line", 1}, {"character", 1}}}};
-  const auto messages = said({kBeginning + framed(opening("O1\n#1=1\nM30\n")),
-                              framed(request(2, "textDocument/hover", place)) +
-                                  framed(notification("$/cancelRequest", {{"id", 2}})),
-                              kEnd});
+  const auto messages = said(
+      {kBeginning + framed(opening("O1\n#1=1\nM30\n")),
+       framed(request(2, "textDocument/hover", place)) + framed(notification("$/cancelRequest", {{"id", 2}})), kEnd});
   constexpr int kCancelled = -32800;
   for (const Json &message : messages)
     if (message.value("id", Json()) == 2) {
