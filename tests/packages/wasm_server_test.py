@@ -1,5 +1,5 @@
-"""The language server in WebAssembly, as the extension for all platforms has it: it passes the tests of the server, finds
-what the program for Linux finds, and answers while it proves."""
+"""The language server in WebAssembly, as the extension for all platforms has it: it passes the tests of the server,
+finds what the program for Linux finds, and answers while it proves."""
 import os
 import shutil
 import subprocess
@@ -20,6 +20,15 @@ PACKAGES = ROOT / "corpus/packages"
 TESTS_OF_THE_SERVER = ["protocol", "diagnostics", "folder", "actions", "proofs", "hints", "golden"]
 LONG_PROOF = "pocket/O9313.nc"
 ANSWERED_WITHIN = 2  # seconds, in the middle of a proof that takes many
+# As the library of the extension starts a script: by `fork`, whose channel stays open.
+FORK = """
+const words = [...process.argv.slice(2), "--stdio"];
+const child = require("node:child_process").fork(process.argv[1], words, { silent: true });
+process.stdin.pipe(child.stdin);
+child.stdout.pipe(process.stdout);
+child.stderr.pipe(process.stderr);
+child.on("exit", (code) => process.exit(code));
+"""
 
 
 class Server(Packaged):
@@ -28,14 +37,15 @@ class Server(Packaged):
         self.folder = self.folder.resolve()
         extension = self.folder / "extension of all platforms"
         self.run_clean("unzip", "-q", EXTENSION, "-d", extension)
+        self.script = extension / "extension/bin/feedhold.js"
         self.program = self.folder / "feedhold"
-        self.program.write_text(f'#!/bin/sh\nexec "{NODE}" "{extension}/extension/bin/feedhold.js" "$@"\n')
+        self.program.write_text(f'#!/bin/sh\nexec "{NODE}" "{self.script}" "$@"\n')
         self.program.chmod(0o755)
         self.work = self.folder / "work"
         self.work.mkdir()
 
-    def client(self, program, **options):
-        client = Client(self.work, program=(program,), **options)
+    def client(self, *program, **options):
+        client = Client(self.work, program=program, **options)
         self.addCleanup(client.end)
         return client
 
@@ -68,6 +78,22 @@ class Server(Packaged):
         ours, theirs = self.findings(self.program, names), self.findings(FEEDHOLD, names)
         self.assertEqual(ours, theirs)
         self.assertGreater(sum(len(found) for found in ours.values()), 10)
+
+    def test_started_as_the_editor_does(self):
+        client = self.client(NODE, "-e", FORK, self.script)
+        found = client.all_findings(client.open("O1001.nc", packaged.BAD), 1)
+        self.assertIn("missing-equals", [each["code"] for each in found])
+        links = {each["codeDescription"]["href"] for each in found if "codeDescription" in each}
+        self.assertFalse(links, "there is no cache")
+        self.assertEqual(client.close(), 0)
+
+    def test_rules_lead_to_their_pages(self):
+        given = {"HOME": str(self.folder), "PATH": packaged.SYSTEM_PATH}
+        client = self.client(self.program, arguments=(), environment=given)
+        found = client.all_findings(client.open("O1001.nc", packaged.BAD), 1)
+        for each in found:
+            self.assertTrue(Path(each["codeDescription"]["href"].removeprefix("file://")).is_file())
+        self.assertEqual(client.close(), 0)
 
     def test_other_commands_on_real_files(self):
         """As the terminal of the extension runs them."""
