@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from release import LINUX, PAGE, ROOT, WINDOWS
+from release import LINUX, ROOT, WASM, WINDOWS
 
 # By the source package in Debian: the licence (SPDX) of the parts that end up in the program.
 LICENCES = {
@@ -20,11 +20,11 @@ LICENCES = {
     "nlohmann-json3": "MIT",
     "tomlplusplus": "MIT",
 }
-COMPILERS = {LINUX: "g++", WINDOWS: "x86_64-w64-mingw32-g++-posix", PAGE: "em++"}
+COMPILERS = {LINUX: "g++", WINDOWS: "x86_64-w64-mingw32-g++-posix", WASM: "em++"}
 ARCHIVES = {
     LINUX: ["libgmp.a", "libgmpxx.a", "libstdc++.a", "libgcc.a", "libgcc_eh.a", "libc.a", "libm.a"],
     WINDOWS: ["libstdc++.a", "libgcc.a", "libgcc_eh.a", "libmingw32.a", "libmingwex.a", "libmsvcrt.a", "libwinpthread.a"],
-    PAGE: [],  # emscripten builds the libraries of its package when they are needed
+    WASM: [],  # emscripten builds the libraries of its package when they are needed
 }
 SYSTEM = "linux-libc-dev"  # headers of the kernel's interface: no code
 
@@ -76,7 +76,7 @@ def inside(built):
     owners = subprocess.run(["dpkg", "-S", *sorted(files)], capture_output=True, text=True).stdout
     names = {line.split(": ")[0].split(", ")[0] for line in owners.splitlines()} - {SYSTEM}
     found = [installed(name) for name in names]
-    if built.platform in (WINDOWS, PAGE):
+    if built.platform in (WINDOWS, WASM):
         found.append(cross_built(built.build))
     unknown = {each.source for each in found if each.source not in LICENCES}
     if unknown:

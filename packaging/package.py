@@ -13,9 +13,9 @@ import npm
 import sbom
 import vscode
 import wheel
-from release import PLATFORMS, Release, epoch, install
+from release import PLATFORMS, Release, epoch, install, install_wasm
 
-OF_RELEASE = [archive.make_tar, archive.make_zip, debian.make, npm.make_starter, sbom.make]
+OF_RELEASE = [archive.make_tar, archive.make_zip, debian.make, npm.make_starter, sbom.make, vscode.make_universal]
 OF_PLATFORM = [wheel.make, npm.make_program, vscode.make]
 
 
@@ -35,7 +35,7 @@ def main():
     out.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as trees:
         built = {platform: install(platform, builds, Path(trees)) for platform in PLATFORMS}
-        made = make_all(Release(built, out, epoch()))
+        made = make_all(Release(built, install_wasm(builds, Path(trees)), out, epoch()))
     (out / "SHA256SUMS").write_text(checksums(made))
     for path in made:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")

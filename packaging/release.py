@@ -35,7 +35,9 @@ class Platform:
 LINUX = Platform("package", "linux-x86_64", "linux-x64", "POSIX :: Linux", "feedhold")
 WINDOWS = Platform("windows", "windows-x86_64", "win32-x64", "Microsoft :: Windows", "feedhold.exe")
 PLATFORMS = [LINUX, WINDOWS]
-PAGE = Platform("wasm", "wasm", "", "", "feedhold.wasm")  # in no package, but in the page
+# In the page, and in the extension for VS Code where there is no other.
+WASM = Platform("wasm", "wasm", "", "", "feedhold-node.wasm")
+WASM_FILES = ["feedhold-node.js", WASM.program]  # for Node.js
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,7 @@ class Built:
 @dataclass(frozen=True)
 class Release:
     built: dict  # by platform
+    wasm: Built
     out: Path    # where packages go
     epoch: int   # the only time in any package
 
@@ -75,6 +78,15 @@ def install(platform, builds, trees):
     strip = ["--strip"] if platform == LINUX else []
     subprocess.run(["cmake", "--install", built.build, "--prefix", built.tree, *strip], check=True,
                    stdout=subprocess.DEVNULL)
+    return built
+
+
+def install_wasm(builds, trees):
+    """Where install() would put it: the build has no rules for it, since no system runs it."""
+    built = Built(WASM, builds / WASM.preset, trees / WASM.preset)
+    (built.tree / "bin").mkdir(parents=True)
+    for name in WASM_FILES:
+        shutil.copy(built.build / name, built.tree / "bin")
     return built
 
 

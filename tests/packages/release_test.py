@@ -38,8 +38,11 @@ class Release(Packaged):
         with zipfile.ZipFile(self.artifact("*.zip")) as archive:
             archive.extractall(self.folder)
         programs = {each["name"]: each for each in bill["metadata"]["component"]["components"]}
-        self.assertEqual(set(programs), {"feedhold", "feedhold.exe"})
-        for path in (*self.folder.glob("*/bin/feedhold"), *self.folder.glob("*/feedhold.exe")):
+        self.assertEqual(set(programs), {"feedhold", "feedhold.exe", "feedhold-node.wasm"})
+        self.run_clean("unzip", "-q", self.artifact(f"feedhold-{VERSION}.vsix"), "extension/bin/feedhold.wasm")
+        (self.folder / "extension/bin/feedhold.wasm").rename(self.folder / "feedhold-node.wasm")
+        for path in (*self.folder.glob("*/bin/feedhold"), *self.folder.glob("*/feedhold.exe"),
+                     self.folder / "feedhold-node.wasm"):
             self.assertEqual(programs.pop(path.name)["hashes"][0]["content"], hashlib.sha256(path.read_bytes()).hexdigest())
         self.assertFalse(programs)
         headers = {"libfmt-dev", "libcli11-dev", "libtomlplusplus-dev", "nlohmann-json3-dev"}
@@ -47,6 +50,7 @@ class Release(Packaged):
         windows = self.inside(bill, "feedhold.exe")
         self.assertLessEqual(headers | {"gmp", "g++-mingw-w64-x86-64-posix", "mingw-w64-x86-64-dev"}, windows)
         self.assertFalse({"libgmp-dev", "libc6-dev"} & windows, "what is for Linux alone")
+        self.assertLessEqual(headers | {"gmp", "emscripten"}, self.inside(bill, "feedhold-node.wasm"))
         self.assertFalse([name for name in windows if "z3" in name], "no solver is inside")
         references = [each["bom-ref"] for each in bill["components"]]
         self.assertEqual(len(references), len(set(references)))

@@ -1,5 +1,6 @@
-"""The extension for VS Code with the program inside, for each platform."""
+"""The extension for VS Code with the program inside, for each platform and for all others."""
 import json
+import re
 import zipfile
 from xml.etree import ElementTree
 
@@ -9,11 +10,12 @@ PROGRAMS = {"linux-x64": ("feedhold", "*-linux-x86_64.tar.gz", "bin/feedhold"),
             "win32-x64": ("feedhold.exe", "*-windows-x86_64.zip", "feedhold.exe")}
 MANIFEST = "{http://schemas.microsoft.com/developer/vsx-schema/2011}"
 TRY = """
-const { chosen, pathBefore, programInside } = require("./program.js");
+const { chosen, pathBefore, programInside, scriptInside } = require("./program.js");
 const [folder, platform] = process.argv.slice(2);
 const inside = programInside(folder, platform);
 console.log(JSON.stringify([inside, chosen("feedhold", inside), chosen("/opt/feedhold", inside), chosen("feedhold", undefined),
-                            pathBefore("/x/bin/feedhold", { Path: "/usr/bin" }), pathBefore("/x/bin/feedhold", {})]));
+                            pathBefore("/x/bin/feedhold", { Path: "/usr/bin" }), pathBefore("/x/bin/feedhold", {}),
+                            scriptInside(folder) ?? null]));
 """
 
 
@@ -32,6 +34,23 @@ class Extension(Packaged):
                 self.assertEqual((identity.get("TargetPlatform"), identity.get("Version")), (target, VERSION))
                 self.assertEqual((extension / "extension/bin" / name).read_bytes(), self.packed(archive, place))
                 self.assertTrue((extension / "extension/bin/THIRD-PARTY-NOTICES.txt").is_file())
+
+    def universal(self):
+        """That of all other platforms."""
+        place = self.folder / "universal"
+        self.run_clean("unzip", "-q", self.artifact(f"feedhold-{VERSION}.vsix"), "-d", place)
+        return place / "extension"
+
+    def test_all_other_platforms(self):
+        extension = self.universal()
+        identity = ElementTree.parse(extension.parent / "extension.vsixmanifest").find(f"{MANIFEST}Metadata/{MANIFEST}Identity")
+        self.assertEqual((identity.get("TargetPlatform"), identity.get("Version")), (None, VERSION))
+        self.assertEqual({path.name for path in (extension / "bin").iterdir()},
+                         {"feedhold.js", "feedhold.wasm", "THIRD-PARTY-NOTICES.txt"})
+        self.assertIn("emscripten", (extension / "bin/THIRD-PARTY-NOTICES.txt").read_text())
+        needed = set(re.findall(r'require\("([^")]+)"\)', (extension / "bin/feedhold.js").read_text()))
+        self.assertLessEqual({name.removeprefix("node:") for name in needed},
+                             {"child_process", "crypto", "fs", "path", "worker_threads"})
 
     def packed(self, archive, place):
         path = self.artifact(archive)
@@ -58,7 +77,11 @@ class Extension(Packaged):
                 told = self.run_clean("node", "try.js", folder, target.split("-")[0]).stdout
                 inside = str(folder / "bin" / name)
                 self.assertEqual(json.loads(told), [
-                    inside, inside, "/opt/feedhold", "feedhold", {"Path": "/x/bin:/usr/bin"}, {"PATH": "/x/bin"}])
+                    inside, inside, "/opt/feedhold", "feedhold", {"Path": "/x/bin:/usr/bin"}, {"PATH": "/x/bin"}, None])
+        with self.subTest("all others"):
+            folder = self.universal()
+            told = json.loads(self.run_clean("node", "try.js", folder, "darwin").stdout)
+            self.assertEqual((told[0], told[1], told[-1]), (None, "feedhold", str(folder / "bin/feedhold.js")))
 
 
 if __name__ == "__main__":

@@ -3,17 +3,28 @@
 
 namespace feedhold {
 
+namespace {
+
+std::uint64_t failures = 0;
+
+Error failed(std::string why) {
+  ++failures;
+  return {std::move(why)};
+}
+
+} // namespace
+
 Result<ProcessOutput> runProgram(const std::vector<std::string> &command, const std::string &, const ProcessLimits &) {
-  return Error{"the program `" + command.front() + "` is not installed"};
+  return failed("the program `" + command.front() + "` is not installed");
 }
 
 Result<ProcessOutput> runInChild(const std::function<std::string()> &, const ProcessLimits &, std::shared_mutex &) {
-  return Error{"this system makes no copies of a process"};
+  return failed("this system makes no copies of a process");
 }
 
 ChildrenStop::ChildrenStop(const std::stop_token &stop) : outer_(&stop) {}
 ChildrenStop::~ChildrenStop() = default;
 
-std::uint64_t failedChildren() { return 0; }
+std::uint64_t failedChildren() { return failures; }
 
 } // namespace feedhold

@@ -3,6 +3,7 @@
 
 #include "base/support/parallel.h"
 #include "base/support/text.h"
+#include "base/support/turns.h"
 #include "findings/project/project.h"
 #include "findings/rule/run_rules.h"
 #include "findings/rule/suppression.h"
@@ -199,6 +200,7 @@ RunAnalysis analyseAll(std::span<const WorkItem> items, const KnownNames &known,
                        contracts};
   };
   parallelFor(items.size(), options.jobs, [&](std::size_t i) {
+    giveTurn();
     FileAnalysis &result = analysis.files[i];
     const bool isOwn = !isOnlyCalled(items[i], options);
     if (isOwn && items[i].foreign != nullptr)

@@ -1,5 +1,9 @@
 #include "proof/decide/cancel.h"
 
+#include "base/support/turns.h"
+
+#include <utility>
+
 namespace feedhold::prove {
 
 namespace {
@@ -12,6 +16,10 @@ StopScope::StopScope(const std::stop_token &stop) : outer_(current), children_(s
 StopScope::~StopScope() { current = outer_; }
 
 void throwIfCancelled() {
+  // Without threads, only others can ask for the stop; it does not concern what they do themselves.
+  const std::stop_token *const own = std::exchange(current, nullptr);
+  giveTurn();
+  current = own;
   if (current != nullptr && current->stop_requested())
     throw Cancelled{};
 }

@@ -2,12 +2,11 @@
 #include "dialects/registry.h"
 #include "rules/registry.h"
 #include "surface/cli/cache_place.h"
+#include "surface/cli/client_streams.h"
 #include "surface/cli/commands.h"
 #include "surface/cli/shared_options.h"
 #include "surface/cli/terminal.h"
-#include "surface/lsp/server.h"
 
-#include <iostream>
 #include <memory>
 
 namespace feedhold {
@@ -35,9 +34,7 @@ int runLsp(const LspArguments &arguments) {
   }
   if (options.cache)
     options.pages = std::filesystem::absolute(options.cache->folder) / "pages" / FEEDHOLD_VERSION;
-  std::ios::sync_with_stdio(false); // a stream with a buffer reads bodies in one piece
-  std::cin.tie(nullptr);            // reading would write what waits in cout, from a thread that does not hold its lock
-  return lsp::serve(std::cin, std::cout, options);
+  return serveClient(options);
 }
 
 } // namespace

@@ -19,12 +19,22 @@ void EventQueue::cancel(const Json &id) {
   }
 }
 
-bool EventQueue::isEmpty() const {
+bool EventQueue::isEmpty() {
+  if (fetch_)
+    fetch_(Clock::now());
+  return holdsNothing();
+}
+
+bool EventQueue::holdsNothing() const {
   const std::lock_guard lock(mutex_);
   return events_.empty();
 }
 
 std::optional<Event> EventQueue::popUntil(std::optional<Clock::time_point> until) {
+  if (fetch_) {
+    fetch_(holdsNothing() ? until : Clock::now());
+    until = Clock::now();
+  }
   std::unique_lock lock(mutex_);
   const auto isThere = [this] { return !events_.empty(); };
   if (!until)

@@ -1,17 +1,11 @@
 #include "surface/lsp/lane.h"
 
-#include <algorithm>
-
 namespace feedhold::lsp {
 
-Lane::Lane() : thread_([this](const std::stop_token &end) { run(end); }) {}
+Lane::Lane(Worker worker)
+    : worker_(worker), thread_(worker == Worker::Thread ? std::jthread([this] { run(); }) : std::jthread()) {}
 
-Lane::~Lane() {
-  thread_.request_stop();
-  const std::lock_guard lock(mutex_);
-  waiting_.clear();
-  stop_.request_stop();
-}
+Lane::~Lane() { end(); }
 
 void Lane::submit(const std::string &document, Job job) {
   drop(document);
@@ -31,23 +25,56 @@ void Lane::drop(const std::string &document) {
     stop_.request_stop();
 }
 
-void Lane::run(const std::stop_token &end) {
+void Lane::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    isOver_ = true;
+    waiting_.clear();
+    stop_.request_stop();
+  }
+  changed_.notify_one();
+}
+
+bool Lane::isReady() const {
+  const std::lock_guard lock(mutex_);
+  return worker_ == Worker::Owner && !isWorking_ && !waiting_.empty();
+}
+
+bool Lane::isWorking() const {
+  const std::lock_guard lock(mutex_);
+  return isWorking_;
+}
+
+bool Lane::workNext() {
+  Waiting next;
+  std::stop_token stop;
+  {
+    const std::lock_guard lock(mutex_);
+    if (isOver_ || isWorking_ || waiting_.empty())
+      return false;
+    next = std::move(waiting_.front());
+    waiting_.pop_front();
+    isWorking_ = true;
+    running_ = next.document;
+    stop_ = next.stop;
+    stop = stop_.get_token();
+  }
+  next.job(stop);
+  const std::lock_guard lock(mutex_);
+  isWorking_ = false;
+  running_.clear();
+  return true;
+}
+
+void Lane::run() {
   for (;;) {
-    Waiting next;
-    std::stop_token stop;
     {
       std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, end, [this] { return !waiting_.empty(); }) || end.stop_requested())
+      changed_.wait(lock, [this] { return isOver_ || !waiting_.empty(); });
+      if (isOver_)
         return;
-      next = std::move(waiting_.front());
-      waiting_.pop_front();
-      running_ = next.document;
-      stop_ = next.stop;
-      stop = stop_.get_token();
     }
-    next.job(stop);
-    const std::lock_guard lock(mutex_);
-    running_.clear();
+    workNext();
   }
 }
 

@@ -4,6 +4,8 @@
 #include "findings/project/config.h"
 #include "findings/session/proof_cache.h"
 
+#include <chrono>
+#include <functional>
 #include <istream>
 #include <optional>
 #include <ostream>
@@ -21,5 +23,11 @@ struct ServerOptions {
 /// Until the client says `exit`, or is gone.  The exit code that the protocol asks for: 0 after `shutdown`, else 1.
 /// Nothing else may be written to `out`.
 int serve(std::istream &in, std::ostream &out, const ServerOptions &options);
+
+/// Whether something of the client, or its end, has come; if not, waits for it until then, or without an end.
+using HasCome = std::function<bool(std::optional<std::chrono::steady_clock::time_point> until)>;
+
+/// As serve(), where there are no threads: whatever takes long gives turns to what comes meanwhile.
+int serveWithoutThreads(std::istream &in, std::ostream &out, const ServerOptions &options, const HasCome &hasCome);
 
 } // namespace feedhold::lsp

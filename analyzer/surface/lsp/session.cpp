@@ -1,6 +1,8 @@
 // The messages of a session: what is allowed when, who answers, and what an error becomes.
 #include "surface/lsp/session.h"
 
+#include "base/support/turns.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,21 +26,48 @@ std::string complaintAboutForm(const std::string &method, const Json::exception 
 
 } // namespace
 
-ClientSession::ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options)
-    : queue_(queue), writer_(writer), options_(options), workspace_(options.known) {}
+ClientSession::ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options, Worker worker)
+    : queue_(queue), writer_(writer), options_(options), workspace_(options.known), flowLane_(worker),
+      proofLane_(worker) {}
 
 int ClientSession::run() {
   while (!exitCode_) {
-    std::optional<Event> event = queue_.popUntil(nextDue());
-    if (event && event->task)
-      event->task();
-    else if (event)
-      receive(*event);
-    const std::optional<Clock::time_point> due = nextDue();
-    if (!exitCode_ && due && (queue_.isEmpty() || *due + kLongestWait < Clock::now()))
-      workOnDue();
+    const bool canWork = flowLane_.isReady() || proofLane_.isReady();
+    if (!attend(canWork ? Clock::now() : nextDue()) && canWork)
+      workInLanes();
   }
   return *exitCode_;
+}
+
+/// To the next event, if one comes until then, and to what is due by now; false: there was nothing.
+bool ClientSession::attend(std::optional<Clock::time_point> until) {
+  const std::optional<Event> event = queue_.popUntil(until);
+  if (event && event->task)
+    event->task();
+  else if (event)
+    receive(*event);
+  const std::optional<Clock::time_point> due = nextDue();
+  const Clock::time_point now = Clock::now();
+  const bool isDue = !exitCode_ && due && *due <= now && (queue_.isEmpty() || *due + kLongestWait < now);
+  if (isDue)
+    workOnDue();
+  return event || isDue;
+}
+
+/// Findings do not wait for a proof, which may take a minute; a proof waits for findings.
+bool ClientSession::workInLanes() {
+  const Turns turns([this] { attendMeanwhile(); });
+  return flowLane_.workNext() || (!flowLane_.isWorking() && proofLane_.workNext());
+}
+
+/// In a turn of work in a lane.
+void ClientSession::attendMeanwhile() {
+  while (!exitCode_ && (attend(Clock::now()) || workInLanes())) {
+  }
+  if (!exitCode_)
+    return;
+  flowLane_.end();
+  proofLane_.end();
 }
 
 void ClientSession::receive(const Event &event) {

@@ -1,5 +1,6 @@
 // ClientSession: one client from `initialize` to `exit`.  Internal to the server: what it receives, in which order it
-// works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.
+// works, and what it sends.  All members are used by one thread; the lanes hand their results to it as tasks.  Where
+// there are no threads, it works in the lanes itself, and attends to what comes whenever such work gives it a turn.
 #pragma once
 
 #include "findings/draft/draft.h"
@@ -13,7 +14,7 @@ namespace feedhold::lsp {
 
 class ClientSession {
 public:
-  ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options);
+  ClientSession(EventQueue &queue, MessageWriter &writer, const ServerOptions &options, Worker worker);
   /// Works until the end; returns the exit code.
   int run();
 
@@ -23,6 +24,9 @@ private:
   enum class Phase : std::uint8_t { Fresh, Initialized, ShutDown };
 
   // ---- messages (session.cpp) ----
+  bool attend(std::optional<Clock::time_point> until);
+  bool workInLanes();
+  void attendMeanwhile();
   void receive(const Event &event);
   void receiveRequest(const Json &id, const std::string &method, const Json &params);
   Json answer(const std::string &method, const Json &params);

@@ -4,18 +4,21 @@ import { dirname } from "node:path";
 import { promisify } from "node:util";
 
 import * as vscode from "vscode";
-import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
+import { LanguageClient, type LanguageClientOptions, type ServerOptions, TransportKind } from "vscode-languageclient/node";
 
-import { NAME, chosen, pathBefore, programInside } from "./program";
+import { NAME, chosen, pathBefore, programInside, scriptInside } from "./program";
 
 const LANGUAGES = ["macrob", "macrob-contract"];
 const SETUP_PAGE = "feedhold.path";
 
 let client: LanguageClient | undefined;
 let inside: string | undefined;
+let script: string | undefined; // the program in WebAssembly
+let runsScript = false; // the server that was started last
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   inside = programInside(context.extensionPath, process.platform);
+  script = scriptInside(context.extensionPath);
   context.subscriptions.push(
     vscode.commands.registerCommand("feedhold.restart", restart),
     vscode.workspace.onDidChangeConfiguration(async (change) => {
@@ -45,14 +48,21 @@ async function stop(): Promise<void> {
 async function start(): Promise<void> {
   const command = program();
   const problem = await whyNot(command);
-  if (problem) {
-    void complain(problem); // the editor need not wait for an answer
+  runsScript = problem?.isAbsent === true && command === NAME && script !== undefined;
+  if (problem && !runsScript) {
+    void complain(problem.text); // the editor need not wait for an answer
     return;
   }
-  const server: ServerOptions = { command, args: ["lsp"] };
-  client = new LanguageClient("feedhold", "Feedhold", server, clientOptions());
+  client = new LanguageClient("feedhold", "Feedhold", server(command), clientOptions());
+  if (runsScript) client.info("No program `feedhold` is installed: the server runs in WebAssembly.");
   await client.start();
   await vscode.commands.executeCommand("setContext", "feedhold.running", true);
+}
+
+/** The script runs on the Node.js of the editor. */
+function server(command: string): ServerOptions {
+  if (runsScript && script) return { module: script, args: ["lsp"], transport: TransportKind.stdio };
+  return { command, args: ["lsp"] };
 }
 
 function program(): string {
@@ -86,11 +96,15 @@ function runInTerminal(answer: unknown, args: unknown[]): void {
   const terminal = vscode.window.createTerminal({
     name: "Feedhold",
     cwd: dirname(vscode.Uri.parse(uri).fsPath),
-    env: isInside ? pathBefore(path, process.env) : {},
+    env: runsScript ? { ELECTRON_RUN_AS_NODE: "1" } : isInside ? pathBefore(path, process.env) : {},
   });
   terminal.show();
-  const word = path.includes(" ") ? `"${path}"` : path;
-  terminal.sendText(isInside ? run : run.replace(/^feedhold(?= )/, word));
+  const words = (runsScript && script ? [process.execPath, script] : [path]).map(quoted).join(" ");
+  terminal.sendText(isInside ? run : run.replace(/^feedhold(?= )/, () => words));
+}
+
+function quoted(path: string): string {
+  return path.includes(" ") ? `"${path}"` : path;
 }
 
 function activeDocument(): string[] {
@@ -98,16 +112,21 @@ function activeDocument(): string[] {
   return document ? [document.uri.toString()] : [];
 }
 
+interface Problem {
+  text: string;
+  isAbsent?: boolean; // there is no such program
+}
+
 /** Why `command` cannot be the server; nothing when it can. */
-async function whyNot(command: string): Promise<string | undefined> {
+async function whyNot(command: string): Promise<Problem | undefined> {
   try {
     await promisify(execFile)(command, ["lsp", "--help"]);
     return undefined;
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
-    if (code === "ENOENT") return `The program \`${command}\` was not found.`;
-    if (code === "EACCES") return `\`${command}\` cannot be executed: permission denied.`;
-    return `\`${command} lsp\` does not start. The program is older than this extension, or it is not Feedhold.`;
+    if (code === "ENOENT") return { text: `The program \`${command}\` was not found.`, isAbsent: true };
+    if (code === "EACCES") return { text: `\`${command}\` cannot be executed: permission denied.` };
+    return { text: `\`${command} lsp\` does not start. The program is older than this extension, or it is not Feedhold.` };
   }
 }
 

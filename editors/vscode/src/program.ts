@@ -1,4 +1,5 @@
-// Which program is the server: the one that the settings name, or the one inside the extension.
+// Which program is the server: the one that the settings name, the one inside the extension, the one on the PATH; and where
+// there is none, the one in WebAssembly, if the extension has that.
 import { existsSync } from "node:fs";
 import { delimiter, dirname, join } from "node:path";
 
@@ -8,6 +9,12 @@ export const NAME = "feedhold";
 /** Packages for one platform contain the program. */
 export function programInside(extension: string, platform: string): string | undefined {
   const path = join(extension, "bin", platform === "win32" ? `${NAME}.exe` : NAME);
+  return existsSync(path) ? path : undefined;
+}
+
+/** Packages for all other platforms contain the program in WebAssembly, as a script for Node.js. */
+export function scriptInside(extension: string): string | undefined {
+  const path = join(extension, "bin", `${NAME}.js`);
   return existsSync(path) ? path : undefined;
 }
 
