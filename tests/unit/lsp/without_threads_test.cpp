@@ -77,12 +77,12 @@ protected:
 
 TEST_F(LspWithoutThreads, FindingsWithAndWithoutFlow) {
   const auto codes = codesOfLast(said({kBeginning + framed(opening("O1\n#1-1\nGOTO99\nM30\n")), kEnd}));
-  EXPECT_EQ(codes, (std::vector<std::string>{"missing-equals", "goto-missing-label"}));
+  EXPECT_EQ(codes, (std::vector<std::string>{"missing-equals", "goto-missing-label", "unreachable-block"}));
 }
 
 TEST_F(LspWithoutThreads, AllThatHasComeIsReadBeforeAnyOfItIsWorkedOn) {
   const auto messages =
-      said({kBeginning + framed(opening("O1\n#1-1\nM30\n")) + framed(change(2, "O1\n#1=1\nM30\n")), kEnd});
+      said({kBeginning + framed(opening("O1\n#1-1\nM30\n")) + framed(change(2, "O1\nG04P10\nM30\n")), kEnd});
   for (const Json &message : messages)
     if (message.value("method", "") == "textDocument/publishDiagnostics") {
       EXPECT_EQ(message["params"]["version"], 2);
