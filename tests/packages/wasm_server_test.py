@@ -41,7 +41,7 @@ class Server(Packaged):
         self.program = self.folder / "feedhold"
         self.program.write_text(f'#!/bin/sh\nexec "{NODE}" "{self.script}" "$@"\n')
         self.program.chmod(0o755)
-        self.work = self.folder / "work"
+        self.work = self.folder / "programs"
         self.work.mkdir()
 
     def client(self, *program, **options):
