@@ -16,6 +16,7 @@ LICENCES = {
     "gcc-mingw-w64": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later",
     "gmp": "LGPL-3.0-or-later OR GPL-2.0-or-later",
+    "llvm-toolchain-14": "Apache-2.0 WITH LLVM-exception",
     "mingw-w64": "ZPL-2.1 AND MIT AND BSD-3-Clause AND LicenseRef-public-domain",
     "nlohmann-json3": "MIT",
     "tomlplusplus": "MIT",

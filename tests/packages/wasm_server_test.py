@@ -41,7 +41,7 @@ class Server(Packaged):
         self.program = self.folder / "feedhold"
         self.program.write_text(f'#!/bin/sh\nexec "{NODE}" "{self.script}" "$@"\n')
         self.program.chmod(0o755)
-        self.work = self.folder / "work"
+        self.work = self.folder / "programs"
         self.work.mkdir()
 
     def client(self, *program, **options):
@@ -106,13 +106,14 @@ class Server(Packaged):
         name = Path(LONG_PROOF).name
         uri = client.open(name, (self.work / name).read_text())
         client.all_findings(uri, 1)
-        client.wait(lambda m: m.get("method") == "$/progress" and m["params"]["value"]["kind"] == "begin")
+        self.progress(client, "begin")
         time.sleep(0.5)
         return client, uri
 
-    def end_of_proof(self, client):
-        ended = lambda m: m.get("method") == "$/progress" and m["params"]["value"]["kind"] == "end"  # noqa: E731
-        return next((m for m in client.kept if ended(m)), None) or client.wait(ended, 240)
+    def progress(self, client, kind):
+        def is_wanted(message):
+            return message.get("method") == "$/progress" and message["params"]["value"]["kind"] == kind
+        return next((message for message in client.kept if is_wanted(message)), None) or client.wait(is_wanted)
 
     def test_answers_while_it_proves(self):
         client, uri = self.proving()
@@ -122,7 +123,7 @@ class Server(Packaged):
         self.assertLess(time.monotonic() - began, ANSWERED_WITHIN)
         client.change(uri, 2, {"range": {"start": {"line": 1, "character": 0}, "end": {"line": 1, "character": 0}},
                                "text": " "})
-        self.assertEqual(self.end_of_proof(client)["params"]["value"]["message"], "stopped")
+        self.assertEqual(self.progress(client, "end")["params"]["value"]["message"], "stopped")
         self.assertLess(time.monotonic() - began, 2 * ANSWERED_WITHIN)
         self.assertEqual(client.close(), 0)
 
