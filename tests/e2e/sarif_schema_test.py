@@ -34,7 +34,7 @@ class SarifSchema(Scratch):
     def test_report_of_every_rule_page(self):
         for page in ROOT.glob("rules/*/*.md"):
             for number, part in enumerate(page.read_text().split("\n```nc ")[1:]):
-                self.write(f"pages/{page.stem}_{number}.nc", part.split("\n", 1)[1].split("\n```")[0] + "\n")
+                self.write(f"pages/{page.stem}/{number}.nc", part.split("\n", 1)[1].split("\n```")[0] + "\n")
         report = self.sarif("--dialect", "fanuc-30i", "pages")
         self.assertGreater(len(report["runs"][0]["results"]), 20)
         self.assertTrue(any("codeFlows" in result for result in report["runs"][0]["results"]))
