@@ -83,10 +83,13 @@ TEST_F(LspWithoutThreads, FindingsWithAndWithoutFlow) {
 TEST_F(LspWithoutThreads, AllThatHasComeIsReadBeforeAnyOfItIsWorkedOn) {
   const auto messages =
       said({kBeginning + framed(opening("O1\n#1-1\nM30\n")) + framed(change(2, "O1\nG04P10\nM30\n")), kEnd});
+  int published = 0;
   for (const Json &message : messages)
     if (message.value("method", "") == "textDocument/publishDiagnostics") {
       EXPECT_EQ(message["params"]["version"], 2);
+      ++published;
     }
+  EXPECT_GT(published, 0);
   EXPECT_TRUE(codesOfLast(messages).empty());
 }
 
@@ -96,10 +99,13 @@ TEST_F(LspWithoutThreads, ARequestThatIsTakenBack) {
       {kBeginning + framed(opening("O1\n#1=1\nM30\n")),
        framed(request(2, "textDocument/hover", place)) + framed(notification("$/cancelRequest", {{"id", 2}})), kEnd});
   constexpr int kCancelled = -32800;
+  int answered = 0;
   for (const Json &message : messages)
     if (message.value("id", Json()) == 2) {
       EXPECT_EQ(message["error"]["code"], kCancelled);
+      ++answered;
     }
+  EXPECT_EQ(answered, 1);
 }
 
 TEST_F(LspWithoutThreads, AClientThatIsGone) { said({kBeginning}, 1); }
