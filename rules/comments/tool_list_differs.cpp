@@ -9,18 +9,19 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace feedhold::rules::tool_list_differs {
 namespace {
 
 constexpr std::size_t kLeastOfList = 2;
 
-/// `(T08: BORING BAR)`, `(T4 - DRILL)`: a tool and what it is.
-std::optional<std::int64_t> toolOf(std::string_view comment) {
-  std::string_view text = comment;
-  if (!text.empty() && (text.front() == '(' || text.front() == ';'))
-    text.remove_prefix(1);
-  text = trimmed(text);
+/// `3/4 EM`
+bool hasLetter(std::string_view text) { return std::ranges::any_of(text, isLetter); }
+
+/// `T08: BORING BAR`, `T4 - DRILL`: a tool and what it is.
+std::optional<std::int64_t> toolOf(std::string_view entry) {
+  const std::string_view text = trimmed(entry);
   if (text.size() < 3 || toUpper(text.front()) != 'T')
     return std::nullopt;
   std::size_t at = 1;
@@ -31,9 +32,24 @@ std::optional<std::int64_t> toolOf(std::string_view comment) {
   bool isSeparated = false;
   for (; at < text.size() && (isBlank(text[at]) || text[at] == ':' || text[at] == '-' || text[at] == '='); ++at)
     isSeparated = isSeparated || !isBlank(text[at]);
-  const bool isNamed =
-      at > digits + 1 && at < text.size() && (isLetter(text[at]) || (isSeparated && isDigit(text[at])));
+  const std::string_view name = text.substr(at);
+  const bool isNamed = at > digits + 1 && !name.empty() &&
+                       (isLetter(name.front()) || (isDigit(name.front()) && (isSeparated || hasLetter(name))));
   return digits >= 1 && digits <= 2 && number > 0 && isNamed ? std::optional(number) : std::nullopt;
+}
+
+/// `(T01 FACE MILL, T02 SPOT DRILL)`: the parts of a comment.
+std::vector<std::string_view> entriesOf(std::string_view comment) {
+  std::vector<std::string_view> entries;
+  while (!comment.empty() && (comment.front() == '(' || comment.front() == ';'))
+    comment.remove_prefix(1);
+  for (;;) {
+    const std::size_t comma = comment.find(',');
+    entries.push_back(comment.substr(0, comma));
+    if (comma == std::string_view::npos)
+      return entries;
+    comment.remove_prefix(comma + 1);
+  }
 }
 
 /// The tool of a T word: of a lathe without the number of its offset.
@@ -49,8 +65,9 @@ std::map<std::int64_t, const Comment *> listOf(const Program &program, const Fil
   std::map<std::int64_t, const Comment *> list;
   for (BlockId block = program.first; block < program.last && !findWord(context.tree, block, 'T'); block = block.next())
     for (const Comment &comment : context.tree.commentsOf(block))
-      if (const auto tool = toolOf(context.text(comment.span)))
-        list.emplace(*tool, &comment);
+      for (const std::string_view entry : entriesOf(context.text(comment.span)))
+        if (const auto tool = toolOf(entry))
+          list.emplace(*tool, &comment);
   return list;
 }
 
@@ -67,6 +84,17 @@ template <typename Of, typename In> auto firstMissing(const Of &of, const In &in
   return std::ranges::find_if(of, [&](const auto &entry) { return !in.contains(entry.first); });
 }
 
+/// Every tool that the program calls is in the list, and there are several: the list is that of this program.
+void tellUncalled(const Comment &listed, std::size_t common, std::size_t called, const FileContext &context,
+                  const Reporter &reporter) {
+  if (common < kLeastOfList || called != common)
+    return;
+  reporter.report({.message = fmt::format("{} is listed, and the program never calls it", context.quoted(listed.span)),
+                   .span = listed.span,
+                   .notes = {"an operation is missing, or the machine is set up with a tool that nobody needs",
+                             "call the tool, or take it off the list"}});
+}
+
 void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
   if (!context.model.callsOf(id).empty()) // which may change tools
     return;
@@ -77,9 +105,11 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
     return;
   const auto uncalled = firstMissing(list, calls);
   const auto unlisted = firstMissing(calls, list);
-  const bool haveCommon = std::ranges::any_of(list, [&](const auto &entry) { return calls.contains(entry.first); });
-  if (uncalled == list.end() || unlisted == calls.end() || !haveCommon)
+  const auto common = std::ranges::count_if(list, [&](const auto &entry) { return calls.contains(entry.first); });
+  if (uncalled == list.end() || common == 0)
     return;
+  if (unlisted == calls.end())
+    return tellUncalled(*uncalled->second, static_cast<std::size_t>(common), calls.size(), context, reporter);
   reporter.report({.message = fmt::format("{} calls a tool that the list at the head does not have",
                                           context.quoted(unlisted->second->span())),
                    .span = unlisted->second->span(),
@@ -92,8 +122,8 @@ void check(ProgramId id, const FileContext &context, const Reporter &reporter) {
 
 extern const Rule toolListDiffers;
 const Rule toolListDiffers{.info = {"tool-list-differs", Category::Comment, Severity::Warning,
-                                    "Reports a tool that the program calls and its list of tools does not have, while "
-                                    "a listed one is never called."},
+                                    "Reports a tool that the program calls and its list of tools does not have, and "
+                                    "a listed one that is never called."},
                            .hooks = {.program = check}};
 
 } // namespace feedhold::rules::tool_list_differs

@@ -121,8 +121,7 @@ void checkSettings(const FlowFacts &facts, const FileContext &context, const Rep
         {.message = fmt::format("this value of {} is overwritten by the next block", context.quoted(first->target)),
          .span = first->target,
          .labels = {{context.tree.blocks[next].span(), "overwritten here"}},
-         .notes = {"nothing reads the first value; one of the two may have the wrong variable number"}},
-        Severity::Warning);
+         .notes = {"nothing reads the first value; one of the two may have the wrong variable number"}});
   }
 }
 
@@ -165,7 +164,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 } // namespace
 
 extern const Rule deadAssignment;
-const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::Info,
+const Rule deadAssignment{.info = {"dead-assignment", Category::Flow, Severity::Warning,
                                    "Reports a value of a variable that is overwritten before it is read."},
                           .hooks = {.flow = check}};
 

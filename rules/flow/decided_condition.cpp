@@ -2,6 +2,7 @@
 #include "findings/rule/dead_blocks.h"
 #include "rules/flow/definitions.h"
 #include "rules/flow/loop_view.h"
+#include "rules/flow/relation_outcomes.h"
 #include "rules/flow/void_check.h"
 
 #include <algorithm>
@@ -44,13 +45,19 @@ void report(const FlowFacts &facts, const FileContext &context, const Reporter &
   reporter.report(std::move(diagnostic), reason ? Severity::Warning : Severity::Info);
 }
 
-bool areOpposite(OperatorKind left, OperatorKind right) {
-  using enum OperatorKind;
-  constexpr std::array kOpposites = {std::pair{Equal, NotEqual}, std::pair{LessThan, GreaterOrEqual},
-                                     std::pair{GreaterThan, LessOrEqual}};
-  return std::ranges::any_of(kOpposites, [&](const auto &pair) {
-    return (pair.first == left && pair.second == right) || (pair.second == left && pair.first == right);
-  });
+constexpr unsigned kAllOutcomes = 7;
+
+/// What a comparison comes to where another one has the outcome; absent where that leaves both.
+std::optional<bool> outcomeGiven(const FileContext &context, ExpressionId known, bool isTrue, ExpressionId asked) {
+  const BinaryOperation *first = relationIn(context.tree, known);
+  const BinaryOperation *second = relationIn(context.tree, asked);
+  const auto both = first && second ? outcomesOfBoth(context, *first, *second) : std::nullopt;
+  if (!both)
+    return std::nullopt;
+  const unsigned left = isTrue ? both->first : kAllOutcomes & ~both->first;
+  if ((left & both->second) == 0)
+    return false;
+  return (left & ~both->second) == 0 ? std::optional(true) : std::nullopt;
 }
 
 /// `IF[#7EQ1]GOTO20` directly above `IF[#7NE1]GOTO30`.
@@ -64,13 +71,7 @@ std::optional<ExpressionId> oppositeAbove(const FlowFacts &facts, const FileCont
   const auto above = onlyPredecessor(facts, node);
   const auto first = above && facts.node(*above).next == node ? conditionAt(*above) : std::nullopt;
   const auto second = conditionAt(node);
-  const auto *left = first ? asInside<BinaryOperation>(context.tree, *first) : nullptr;
-  const auto *right = second ? asInside<BinaryOperation>(context.tree, *second) : nullptr;
-  if (!left || !right || !areOpposite(left->op, right->op) || readsLiveValue(context, *first))
-    return std::nullopt;
-  const auto spanOf = [&](ExpressionId id) { return context.tree.expressions[unwrapped(context.tree, id)].span; };
-  return sameText(context, spanOf(left->left), spanOf(right->left)) &&
-                 sameText(context, spanOf(left->right), spanOf(right->right))
+  return first && second && !readsLiveValue(context, *first) && outcomeGiven(context, *first, false, *second) == true
              ? first
              : std::nullopt;
 }
@@ -93,26 +94,89 @@ void checkOpposites(const FlowFacts &facts, const FileContext &context, NodeId n
                   raisesAlarmAt(facts.file, dead) ? Severity::Info : Severity::Warning);
 }
 
+bool isWhile(const FlowFacts &facts, NodeId node) {
+  return std::ranges::any_of(facts.file.tree->statementsOf(facts.node(node).block),
+                             [](const Statement &s) { return std::holds_alternative<While>(s.node); });
+}
+
+/// The node may change what an expression of plain variables comes to.
+bool mayChange(const FlowFacts &facts, NodeId node, const std::vector<Read> &reads) {
+  const Instruction &instruction = facts.node(node).instruction;
+  if (std::holds_alternative<Havoc>(instruction) || std::holds_alternative<CallProgram>(instruction))
+    return true;
+  return std::ranges::any_of(assignmentsOf(facts, node), [&](const Assignment &assignment) {
+    const auto target = variableOf(facts, assignment.target);
+    return !target || std::ranges::any_of(reads, [&](const Read &read) { return read.number == target; });
+  });
+}
+
+struct Decided {
+  ExpressionId by;
+  bool isTrue;
+};
+
+/// `WHILE[#1LE#2]DO1`, and in its first blocks `IF[#1GT#2]`: the test above, between which and here nothing changes.
+std::optional<Decided> decidedAbove(const FlowFacts &facts, const FileContext &context, NodeId node,
+                                    ExpressionId condition) {
+  const std::vector<Read> reads = readsIn(facts.file, condition, facts.node(node).block);
+  if (readsLiveValue(context, condition) ||
+      !std::ranges::all_of(reads, [&](const Read &read) { return read.number && isPlain(facts.file, *read.number); }))
+    return std::nullopt;
+  NodeId at = node;
+  for (auto above = onlyPredecessor(facts, at); above && !mayChange(facts, *above, reads);
+       at = *above, above = onlyPredecessor(facts, at)) {
+    const auto *test = std::get_if<Test>(&facts.node(*above).instruction);
+    if (!test || !test->condition || test->taken == facts.node(*above).next || facts.truthOf(*above) != Truth::Maybe)
+      continue; // settings at the head of a program decide some tests, on purpose
+    if (const auto isTrue = outcomeGiven(context, *test->condition, test->taken == at, condition))
+      return Decided{*test->condition, *isTrue};
+  }
+  return std::nullopt;
+}
+
+/// False: nothing to tell.
+bool checkDecided(const FlowFacts &facts, const FileContext &context, NodeId node, const Reporter &reporter) {
+  const auto *test = std::get_if<Test>(&facts.node(node).instruction);
+  if (!test || !test->condition || isWhile(facts, node) || oppositeAbove(facts, context, node))
+    return false;
+  const auto decided = decidedAbove(facts, context, node, *test->condition);
+  if (!decided)
+    return false;
+  const Span span = context.tree.expressions[*test->condition].span;
+  reporter.report(
+      {.message = fmt::format("{} is {} true here", context.quoted(span), decided->isTrue ? "always" : "never"),
+       .span = span,
+       .labels = {{context.tree.expressions[decided->by].span, "decides it"}},
+       .notes = {"nothing between the two changes a variable of the condition",
+                 "test it where the variable has its new value, or correct the condition"}},
+      Severity::Warning);
+  return true;
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
     if (facts.isReached(node) && std::holds_alternative<Test>(facts.node(node).instruction) &&
         facts.truthOf(node) == Truth::Maybe)
       checkOpposites(facts, context, node, reporter);
+  std::vector<NodeId> told;
+  for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
+    if (facts.isReached(node) && checkDecided(facts, context, node, reporter))
+      told.push_back(node);
   if (isMainProgram(facts))
     return; // settings at its head are asked on purpose
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next()) {
+    if (std::ranges::binary_search(told, node))
+      continue;
     const auto *test = std::get_if<Test>(&facts.node(node).instruction);
     const auto truth = test && test->condition ? facts.truthOf(node) : std::nullopt;
     if (!truth || *truth == Truth::Maybe || isConstant(context.tree, *test->condition))
       continue;
     const BlockId block = facts.node(node).block;
-    const auto statements = context.tree.statementsOf(block);
-    const bool isWhile =
-        std::ranges::any_of(statements, [](const Statement &s) { return std::holds_alternative<While>(s.node); });
-    auto reason = isWhile ? std::nullopt : voidReason(facts, context, node, *test->condition, *truth);
+    const bool isLoop = isWhile(facts, node);
+    auto reason = isLoop ? std::nullopt : voidReason(facts, context, node, *test->condition, *truth);
     const bool toBeSure =
         isAskedToBeSure(facts, *test->condition, block) && !(reason && asksVacancy(context, *test->condition));
-    if (isWhile || toBeSure)
+    if (isLoop || toBeSure)
       continue;
     if (reason) // an alarm
       report(facts, context, reporter, node, *test->condition, *truth, reason, ": this check cannot raise its alarm");

@@ -1,28 +1,10 @@
 // redundant-comparison: `[#1GE#2]OR[#1EQ#2]`: one of the two says nothing.
-#include "rules/flow/flow_view.h"
+#include "rules/flow/relation_outcomes.h"
 
 #include <fmt/format.h>
 
 namespace feedhold::rules::redundant_comparison {
 namespace {
-
-/// The outcomes of a comparison as bits: left is less, equal, greater.
-unsigned outcomes(OperatorKind relation) {
-  if (relation == OperatorKind::LessThan)
-    return 1;
-  if (relation == OperatorKind::Equal)
-    return 2;
-  if (relation == OperatorKind::LessOrEqual)
-    return 3;
-  if (relation == OperatorKind::GreaterThan)
-    return 4;
-  return relation == OperatorKind::NotEqual ? 5 : 6;
-}
-
-const BinaryOperation *relationIn(const SyntaxTree &tree, ExpressionId id) {
-  const auto *relation = asInside<BinaryOperation>(tree, id);
-  return relation && isRelation(relation->op) ? relation : nullptr;
-}
 
 void check(ExpressionId id, BlockId, const FileContext &context, const Reporter &reporter) {
   const SyntaxTree &tree = context.tree;
@@ -31,13 +13,10 @@ void check(ExpressionId id, BlockId, const FileContext &context, const Reporter 
     return;
   const BinaryOperation *left = relationIn(tree, both->left);
   const BinaryOperation *right = relationIn(tree, both->right);
-  const auto spanOf = [&](ExpressionId each) { return tree.expressions[unwrapped(tree, each)].span; };
-  if (!left || !right || !sameText(context, spanOf(left->left), spanOf(right->left)) ||
-      !sameText(context, spanOf(left->right), spanOf(right->right)) || readsLiveValue(context, left->left) ||
-      readsLiveValue(context, left->right))
+  const auto outcomes = left && right ? outcomesOfBoth(context, *left, *right) : std::nullopt;
+  if (!outcomes || readsLiveValue(context, left->left) || readsLiveValue(context, left->right))
     return;
-  const unsigned first = outcomes(left->op);
-  const unsigned second = outcomes(right->op);
+  const auto [first, second] = *outcomes;
   const bool isOr = both->op == OperatorKind::Or;
   // In an OR the narrower one adds nothing, in an AND the wider one.
   const bool secondIsImplied = isOr ? (second & ~first) == 0 : (first & ~second) == 0;

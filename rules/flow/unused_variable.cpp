@@ -160,7 +160,7 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
 extern const Rule unusedVariable;
 const Rule unusedVariable{.info = {"unused-variable",
                                    Category::Flow,
-                                   Severity::Info,
+                                   Severity::Warning,
                                    "Reports a variable that a main program sets but nothing uses.",
                                    {},
                                    CauseScope::OneFolder},

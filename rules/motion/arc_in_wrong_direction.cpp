@@ -1,10 +1,9 @@
 // arc-in-wrong-direction: a `G02` round a corner where `G03` is meant: three quarters of a circle instead of one.
-#include "rules/motion/motion_view.h"
+#include "rules/motion/plane_points.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -17,10 +16,8 @@
 namespace feedhold::rules::arc_in_wrong_direction {
 namespace {
 
-using Vector = std::array<double, 2>;
+using Vector = PlaneVector;
 
-Vector between(const Vector &from, const Vector &to) { return {to[0] - from[0], to[1] - from[1]}; }
-double lengthOf(const Vector &vector) { return std::hypot(vector[0], vector[1]); }
 /// 1: the same direction, -1: straight back.
 double cosine(const Vector &a, const Vector &b) { return (a[0] * b[0] + a[1] * b[1]) / (lengthOf(a) * lengthOf(b)); }
 constexpr double kBack = -0.998; // within some 3.5 degrees
@@ -53,7 +50,7 @@ public:
       : view_(program, context), isAsked_(context.dialect.machine == MachineKind::Milling && hasArcs()) {}
 
   void before(NodeId node, const AbstractState &state) override {
-    start_ = isAsked_ && movesInPlane(node) && isPlain(state) ? pointOf(state) : std::nullopt;
+    start_ = isAsked_ && movesInPlane(node) && isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
   }
   void after(NodeId node, const AbstractState &state) override {
     if (!isAsked_ || !std::holds_alternative<ExecuteWords>(view_.node(node).instruction))
@@ -65,7 +62,7 @@ public:
       }
       return;
     }
-    const auto end = isPlain(state) ? pointOf(state) : std::nullopt;
+    const auto end = isPlainXY(view_, state) ? pointOf(state) : std::nullopt;
     const auto arc = start_ && end ? arcFrom(node, state, *end) : std::nullopt;
     const auto move = arc ? std::optional(arc->move) : start_ && end ? lineTo(node, state, *end) : std::nullopt;
     judge(move);
@@ -123,46 +120,20 @@ private:
     if (pending_ && std::ranges::any_of(beginning_, [&](const Move &move) { return turnsBack(pending_->move, move); }))
       found_.emplace(pending_->move.node, pending_->sweep);
   }
-  bool isPlain(const AbstractState &state) const {
-    return !isHavocked(state) && !mayBeTrue(state.transformed) && state.modalCalls.empty() &&
-           !mayBeTrue(state.modalCallsUnknown) &&
-           !view_.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ});
-  }
-  static std::optional<Vector> pointOf(const AbstractState &state) {
-    const auto numberAt = [&](Axis axis) {
-      const AbstractValue &coordinate = state.at(axis);
-      return coordinate.isNumber() ? coordinate.number().constantValue() : std::nullopt;
-    };
-    const auto x = numberAt(Axis::X);
-    const auto y = numberAt(Axis::Y);
-    return x && y ? std::optional(Vector{*x, *y}) : std::nullopt;
-  }
   std::optional<Move> lineTo(NodeId node, const AbstractState &state, const Vector &end) const {
     const Vector way = between(*start_, end);
     if (!view_.surely(state, ModalKind::Motion, {CodeAction::Linear}) || lengthOf(way) < kShort)
       return std::nullopt;
     return Move{node, *start_, end, way, way};
   }
-  /// The distance that a word of the node gives; none is 0.
-  std::optional<double> distance(NodeId node, char letter) const {
-    const bool isPlainNumber = view_.context().dialect.switches.dpi == Switch::On;
-    for (const Word *word : view_.wordsOf(node)) {
-      if (word->address() != letter)
-        continue;
-      const bool isLength = word->isNumber() && (word->has(Word::kPoint) || isPlainNumber || word->number().isZero());
-      return isLength ? std::optional(word->number().toDouble()) : std::nullopt;
-    }
-    return 0;
-  }
   std::optional<Arc> arcFrom(NodeId node, const AbstractState &state, const Vector &end) const {
     const bool clockwise = view_.surely(state, ModalKind::Motion, {CodeAction::ArcClockwise});
     const bool isArc = clockwise || view_.surely(state, ModalKind::Motion, {CodeAction::ArcCounterclockwise});
-    const bool isFromStart = !view_.context().dialect.behaviour.arcDistanceModes ||
-                             !view_.wasSet(state, ModalKind::ArcDistance, {CodeAction::ArcAbsolute});
-    if (!isArc || !isFromStart || view_.mayHave(node, 'R') || view_.mayHave(node, 'P') || view_.mayHave(node, 'K'))
+    if (!isArc || !countsFromStart(view_, state) || view_.mayHave(node, 'R') || view_.mayHave(node, 'P') ||
+        view_.mayHave(node, 'K'))
       return std::nullopt;
-    const auto i = distance(node, 'I');
-    const auto j = distance(node, 'J');
+    const auto i = distanceIn(view_, node, 'I');
+    const auto j = distanceIn(view_, node, 'J');
     if (!i || !j)
       return std::nullopt;
     const Vector centre{(*start_)[0] + *i, (*start_)[1] + *j};

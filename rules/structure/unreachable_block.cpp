@@ -273,6 +273,20 @@ void reportOperation(const DeadBlocks::Run &run, BlockId start, const FileContex
                   Severity::Warning);
 }
 
+/// Movements without a label to start from: the program was to come there.  A jump with words beside it is an error of
+/// its own.
+bool isLostWork(const DeadBlocks::Run &run, BlockId start, const FileContext &context) {
+  if (!context.tree.statementsOf(run.ender).empty() && movesAxes(run.ender, context))
+    return false;
+  bool moves = false;
+  for (BlockId block = start; block <= run.last; block = block.next()) {
+    if (findWord(context.tree, block, 'N') || findCode(context.tree, block, context.dialect, CodeRole::Return))
+      return false;
+    moves = moves || (isRead(context.tree.blocks[block]) && movesAxes(block, context));
+  }
+  return moves;
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   const DeadBlocks dead(context, program);
   for (const DeadBlocks::Run &run : dead.runs()) {
@@ -310,7 +324,7 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
                      .span = context.tree.blocks[*start].span(),
                      .labels = {{context.tree.blocks[run.ender].span(), "the program never continues past this block"}},
                      .notes = {"no jump leads here: delete the blocks, or correct the jump that should lead here"}},
-                    Severity::Info);
+                    isLostWork(run, *start, context) ? Severity::Warning : Severity::Info);
   }
 }
 

@@ -94,13 +94,22 @@ bool comesToEnd(const FlowFacts &facts) {
   });
 }
 
+/// `#<depth> = #3`: parameters come by their numbers, from an `o.. call`; a remapped code gives them names.
+bool takesNumbers(const FlowFacts &facts, const FileContext &context) {
+  constexpr std::uint32_t kLastArgument = 30;
+  const auto uses = context.model.variablesOf(facts.program);
+  const auto isArgument = [&](const VariableUse &use) { return use.number && *use.number <= kLastArgument; };
+  return std::ranges::any_of(uses, isArgument) &&
+         std::ranges::none_of(uses, [&](const VariableUse &use) { return isArgument(use) && use.write; });
+}
+
 /// Names that no program sets may be given by the control or a remap (the prologue of a remapped code sets parameters
-/// of the subroutine), unless the text shows who starts the program: an `o.. call` in the checked files, or, where no
-/// subroutine is begun, the operator.
+/// of the subroutine), unless the text shows who starts the program: an `o.. call`, or, where no subroutine is begun,
+/// the operator.
 bool isStartKnown(const FlowFacts &facts, const FileContext &context) {
   const Program &program = context.model.programs[facts.program];
   if (program.name.isSubroutine)
-    return context.callGraph.isCalled({context.file, facts.program});
+    return context.callGraph.isCalled({context.file, facts.program}) || takesNumbers(facts, context);
   const auto isOuter = [](const Program &each) { return !each.name.isSubroutine; };
   return !program.returns && comesToEnd(facts) && std::ranges::count_if(context.model.programs, isOuter) == 1;
 }
@@ -124,6 +133,36 @@ private:
   std::map<std::uint32_t, UnsetPaths> paths_;
 };
 
+/// `(DEBUG, X is #<x>)`: the remark is printed with values in it.
+bool isPrinted(const FileContext &context, const Comment &comment) {
+  std::string head = canonical(context.text(comment.span).substr(0, 12));
+  std::erase_if(head, [](char c) { return c == '(' || c == ';'; });
+  return head.starts_with("DEBUG,") || head.starts_with("PRINT,") || head.starts_with("LOG,");
+}
+
+/// A local name in a message that nothing in the program sets.
+void checkMessages(const FlowFacts &facts, const FileContext &context, const std::set<std::string> &known,
+                   const Reporter &reporter) {
+  std::set<std::string> done;
+  for (const BlockId block : blocksOf(facts.file, facts.program))
+    for (const Comment &comment : context.tree.commentsOf(block)) {
+      const std::string_view text = context.text(comment.span);
+      if (context.model.programOf(block) != facts.program || !isPrinted(context, comment))
+        continue;
+      for (std::size_t at = text.find("#<"); at != std::string_view::npos; at = text.find("#<", at + 1)) {
+        const std::size_t end = text.find('>', at);
+        const std::string name = end == std::string_view::npos ? "_" : canonical(text.substr(at, end - at));
+        if (name.starts_with('_') || known.contains(name) || !done.insert(name).second)
+          continue;
+        const auto begin = comment.span.begin + static_cast<std::uint32_t>(at);
+        const Span span{begin, begin + static_cast<std::uint32_t>(end + 1 - at)};
+        reporter.report({.message = fmt::format("{} is printed, but nothing sets it", context.quoted(span)),
+                         .span = span,
+                         .notes = {"the message shows no number; correct the name, or set it before"}});
+      }
+    }
+}
+
 void check(const FlowFacts &facts, const FileContext &context, const Reporter &reporter) {
   if (!context.dialect.grammar.namedParameters)
     return;
@@ -133,6 +172,8 @@ void check(const FlowFacts &facts, const FileContext &context, const Reporter &r
   const bool isAlone =
       context.model.callsOf(facts.program).empty() && !context.model.programs[facts.program].name.isSubroutine;
   const std::set<std::string> asked = namesAskedFor(facts, context);
+  if (isStarted)
+    checkMessages(facts, context, known, reporter);
   EarlyReads early(facts);
   std::set<std::string> done;
   for (const VariableUse &use : context.model.variablesOf(facts.program)) {

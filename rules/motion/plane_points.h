@@ -1,0 +1,55 @@
+// Points of the XY plane that are numbers in all runs, and how arcs go between them.
+#pragma once
+
+#include "rules/motion/motion_view.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace feedhold::rules {
+
+using PlaneVector = std::array<double, 2>;
+
+inline PlaneVector between(const PlaneVector &from, const PlaneVector &to) {
+  return {to[0] - from[0], to[1] - from[1]};
+}
+inline double lengthOf(const PlaneVector &vector) { return std::hypot(vector[0], vector[1]); }
+
+/// Programmed coordinates are those of the XY plane: no other plane was chosen, nothing turns or scales them, and no
+/// macro is called at each move.
+inline bool isPlainXY(const MotionView &view, const AbstractState &state) {
+  return !isHavocked(state) && !mayBeTrue(state.transformed) && state.modalCalls.empty() &&
+         !mayBeTrue(state.modalCallsUnknown) &&
+         !view.wasSet(state, ModalKind::Plane, {CodeAction::PlaneZX, CodeAction::PlaneYZ});
+}
+
+inline std::optional<PlaneVector> pointOf(const AbstractState &state) {
+  const auto numberAt = [&](Axis axis) {
+    const AbstractValue &coordinate = state.at(axis);
+    return coordinate.isNumber() ? coordinate.number().constantValue() : std::nullopt;
+  };
+  const auto x = numberAt(Axis::X);
+  const auto y = numberAt(Axis::Y);
+  return x && y ? std::optional(PlaneVector{*x, *y}) : std::nullopt;
+}
+
+/// The distance that a word of the node gives; none is 0.
+inline std::optional<double> distanceIn(const MotionView &view, NodeId node, char letter) {
+  const bool isPlainNumber = view.context().dialect.switches.dpi == Switch::On;
+  for (const Word *word : view.wordsOf(node)) {
+    if (word->address() != letter)
+      continue;
+    const bool isLength = word->isNumber() && (word->has(Word::kPoint) || isPlainNumber || word->number().isZero());
+    return isLength ? std::optional(word->number().toDouble()) : std::nullopt;
+  }
+  return 0;
+}
+
+/// I and J count from the start point.
+inline bool countsFromStart(const MotionView &view, const AbstractState &state) {
+  return !view.context().dialect.behaviour.arcDistanceModes ||
+         !view.wasSet(state, ModalKind::ArcDistance, {CodeAction::ArcAbsolute});
+}
+
+} // namespace feedhold::rules
