@@ -81,7 +81,15 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.grammar.sequenceZero = true;
   dialect.behaviour.returnTargetIsLocal = true;
   dialect.behaviour.machineMoveByMode = true;
+  dialect.behaviour.repeatsByK = false; // K is the smallest peck
+  dialect.behaviour.cyclesNeedXY = true;
+  dialect.behaviour.cyclesAreScaled = false;
+  dialect.behaviour.feedByIncrements = true;
+  dialect.behaviour.localShiftIsExternal = true;
+  dialect.behaviour.referenceCancelsLength = true;
+  dialect.behaviour.logicOfIntegerParts = true;
   if (machine == MachineKind::Milling) {
+    dialect.behaviour.toolChangeReturnsZ = true;
     dialect.behaviour.cutterOffsets = {{2401, 0}, {2601, 0}, 200};
     dialect.behaviour.lengthOffsets = {{2001, 0}, {2201, 0}, 200};
   }

@@ -136,7 +136,11 @@ Behaviour behaviour() {
   behaviour.cutterCorners = CutterCorners::Arcs;
   behaviour.cutterEntry = CutterEntry::ByItself;
   behaviour.cutterDiameterCodes = {411, 421};
+  behaviour.stopsAtStrayWords = true;
   behaviour.equalTolerance = 1e-4;
+  behaviour.arcTolerance = 0.0282843; // interp_internal.hh, as the interpreter measures it
+  behaviour.arcToleranceInch = 0.00282843;
+  behaviour.arcShare = 0.001;
   return behaviour;
 }
 

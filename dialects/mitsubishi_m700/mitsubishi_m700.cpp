@@ -76,7 +76,10 @@ Dialect make(MachineKind machine) {
   dialect.grammar.blockIf = true;
   dialect.grammar.thenMayBeWords = true;
   dialect.grammar.wordMayBeUnbracketed = true;
+  dialect.grammar.callStartsAtSequence = true;
   dialect.behaviour.machineMoveByMode = true;
+  dialect.behaviour.distanceModeByWord = true;
+  dialect.behaviour.scalingIsFollowed = false; // of named axes only, about a centre that counts from G90 or G91
   dialect.behaviour.cutterBlocks = 5;
   if (machine == MachineKind::Milling) {
     dialect.behaviour.cutterOffsets = {{2401, 12001}, {2601, 13001}, 200};

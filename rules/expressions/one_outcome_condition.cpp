@@ -46,7 +46,9 @@ std::optional<Comparison> comparisonIn(const FileContext &context, const BinaryO
   const auto limitOf = [&](ExpressionId side) -> std::optional<Sample> {
     if (const auto value = literalValue(context.tree, side))
       return Sample(value->toDouble());
-    return isVacant(context, side) ? std::optional(Sample()) : std::nullopt;
+    if (isVacant(context, side))
+      return std::optional<Sample>(std::in_place); // not the same as no limit
+    return std::nullopt;
   };
   const auto isVariable = [&](ExpressionId side) {
     return !isConstant(context.tree, side) && !isVacant(context, side) && !mayChange(context, side);

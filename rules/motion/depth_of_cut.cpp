@@ -49,12 +49,31 @@ bool isWrong(const Amount &amount, const Word &word) {
   return word.number().isNegative() || (word.number().isZero() && !isStep && amount.address != 'D');
 }
 
+/// `G72 U0.5 R0.2` in front of `G72 P10 Q20`: each of the two has its depth of cut along its own axis.
+void checkLetter(BlockId block, const Word &cycle, const Code &code, const FileContext &context,
+                 const Reporter &reporter) {
+  const bool isFacing = code.action == CodeAction::FaceContour;
+  if (!isFacing && code.action != CodeAction::TurnContour)
+    return;
+  const char own = isFacing ? 'W' : 'U';
+  const Word *other = findWord(context.tree, block, isFacing ? 'U' : 'W');
+  const auto has = [&](char address) { return findWord(context.tree, block, address) != nullptr; };
+  if (!other || has(own) || has('P') || has('Q') || has('X') || has('Z') || !has('R') || other->has(Word::kArgument))
+    return;
+  reporter.report(
+      {.message = fmt::format("the depth of cut of {} is {}, not {}", context.quoted(cycle.span()), own,
+                              context.quoted(other->span())),
+       .span = other->span(),
+       .notes = {fmt::format("the control cuts with the depth of an earlier cycle, or stops: write `{}`", own)}});
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning || context.tree.blocks[block].has(Block::kBroken))
     return;
   const Word *cycle = findTurningCycle(context.tree, block, context.dialect);
   if (!cycle)
     return;
+  checkLetter(block, *cycle, *codeOf(*cycle, context.dialect), context, reporter);
   for (const Amount &amount : amountsOf(block, *codeOf(*cycle, context.dialect), context)) {
     const Word *word = amount.address != '\0' ? findWord(context.tree, block, amount.address) : nullptr;
     if (!word || !word->isNumber() || word->has(Word::kArgument) || !isWrong(amount, *word))
@@ -75,7 +94,7 @@ void check(BlockId block, const FileContext &context, const Reporter &reporter) 
 extern const Rule depthOfCut;
 const Rule depthOfCut{.info = {"depth-of-cut", Category::Motion, Severity::Error,
                                "Reports a turning cycle whose depth of cut, step or number of passes is negative or "
-                               "zero."},
+                               "zero, or whose depth of cut stands at the letter of the other axis."},
                       .hooks = {.block = check}};
 
 } // namespace feedhold::rules::depth_of_cut

@@ -20,7 +20,7 @@ public:
         hasLetters_(context.dialect.machine == MachineKind::Turning && !view_.modes().groupOf(ModalKind::Distance)) {}
 
   void after(NodeId node, const AbstractState &state) override {
-    if (zeroWords(node).empty())
+    if (zeroWords(node).empty() || statesIncrements(node))
       return;
     const bool isKnown = !isHavocked(state);
     const Modes modes{hasLetters_ || (isKnown && view_.surely(state, ModalKind::Distance, {CodeAction::Absolute})),
@@ -87,6 +87,12 @@ private:
     if (const Word *absolute = view_.findAction(node, {CodeAction::Absolute}))
       return {.title = "write `G91`", .edits = {{absolute->span(), "G91"}}};
     return {.title = "insert `G91`", .edits = {{{word.span().begin, word.span().begin}, "G91"}}};
+  }
+  /// `G91` of a lathe whose codes the text does not settle: in system B and C it says what is meant.
+  bool statesIncrements(NodeId node) const {
+    const auto words = view_.context().tree.wordsOf(view_.node(node).block);
+    return hasLetters_ &&
+           std::ranges::any_of(words, [](const Word &word) { return word.address() == 'G' && word.integer() == 91U; });
   }
   std::vector<const Word *> zeroWords(NodeId node) const {
     std::vector<const Word *> words;

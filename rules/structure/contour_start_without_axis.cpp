@@ -20,6 +20,22 @@ bool holdsNothing(BlockId block, const FileContext &context) {
          std::ranges::all_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'N'; });
 }
 
+/// A FANUC control looks for G00 or G01 in the block itself (PS0065).
+bool isMissingMotion(BlockId block, const FileContext &context) {
+  return context.dialect.hasFanucParameters && context.tree.statementsOf(block).empty() &&
+         std::ranges::none_of(context.tree.wordsOf(block), [](const Word &word) { return word.address() == 'G'; });
+}
+
+void tellMotion(const Contour &contour, const Word &cycle, const FileContext &context, const Reporter &reporter) {
+  reporter.report(
+      {.message = fmt::format("the contour of {} begins without `G00` or `G01`", context.quoted(cycle.span())),
+       .span = context.tree.blocks[contour.first].span(),
+       .labels = {{context.tree.blocks[contour.cycle->block].span(), "its P names this block"}},
+       .notes = {"the control stops: one of the two has to stand in the first block of a contour, whatever "
+                 "is in force",
+                 "write `G00` in this block"}});
+}
+
 void check(ProgramId program, const FileContext &context, const Reporter &reporter) {
   if (context.dialect.machine != MachineKind::Turning)
     return;
@@ -34,6 +50,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
     const bool hasOwn = hasAny(contour.first, isAlongZ ? "XU" : "ZW", context);
     const bool hasOther = hasAny(contour.first, isAlongZ ? "ZW" : "XU", context);
     const bool isBare = context.dialect.hasFanucParameters && holdsNothing(contour.first, context);
+    if (hasOwn && isMissingMotion(contour.first, context)) {
+      tellMotion(contour, *word, context, reporter);
+      continue;
+    }
     if (hasOwn || (!hasOther && !isBare))
       continue;
     const char axis = isAlongZ ? 'X' : 'Z';
@@ -54,9 +74,10 @@ void check(ProgramId program, const FileContext &context, const Reporter &report
 
 extern const Rule contourStartWithoutAxis;
 const Rule contourStartWithoutAxis{
-    .info = {"contour-start-without-axis", Category::Structure, Severity::Warning,
-             "Reports a contour whose first block is empty, or has no `X` for a roughing cycle along Z, no `Z` for one "
-             "along X."},
+    .info =
+        {"contour-start-without-axis", Category::Structure, Severity::Warning,
+         "Reports a contour whose first block is empty, or has no `G00` or `G01`, no `X` for a roughing cycle along "
+         "Z, no `Z` for one along X."},
     .hooks = {.program = check}};
 
 } // namespace feedhold::rules::contour_start_without_axis

@@ -20,8 +20,13 @@ const Word *centreAtStart(BlockId block, const FileContext &context) {
   return first;
 }
 
+/// Under G90.1 they are the centre itself.
+bool mayBeCentre(const FileContext &context) {
+  return context.dialect.behaviour.arcDistanceModes && context.source.text().find("90.1") != std::string_view::npos;
+}
+
 void check(BlockId block, const FileContext &context, const Reporter &reporter) {
-  if (context.dialect.grammar.oWords) // under G90.1 they are the centre itself
+  if (mayBeCentre(context))
     return;
   const Word *arc =
       findAction(context.tree, block, context.dialect, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise});

@@ -185,7 +185,7 @@ private:
   const EntryValues &entry_;
   const ModalTable &modes_;
   const Dialect &dialect_;
-  const ConcreteInterpretation interpretation_;
+  mutable ConcreteInterpretation interpretation_; // notes what it cannot know
   std::map<std::uint32_t, Known> fresh_;
   std::optional<std::string> why_;
 };

@@ -22,9 +22,10 @@ const Dialect &controlOf(const Sample &sample) {
 Dialect machineOf(const Sample &sample, Random &random) {
   Dialect dialect = controlOf(sample);
   Switches &switches = dialect.switches;
-  for (Switch *unknown : {&switches.dpi, &switches.nat, &switches.g67, &switches.f16, &switches.fxy, &switches.ax1,
-                          &switches.shortArcStops, &switches.pointArcStops, &switches.bareCycleStops,
-                          &switches.motionEndsCycle, &switches.setEndsLocal, &switches.centreStays})
+  for (Switch *unknown :
+       {&switches.dpi, &switches.nat, &switches.g67, &switches.f16, &switches.fxy, &switches.ax1,
+        &switches.shortArcStops, &switches.radiiDifferStops, &switches.pointArcStops, &switches.bareCycleStops,
+        &switches.motionEndsCycle, &switches.setEndsLocal, &switches.centreStays})
     if (*unknown == Switch::Unknown)
       *unknown = random.oneIn(2) ? Switch::On : Switch::Off;
   return dialect;

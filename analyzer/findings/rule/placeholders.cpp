@@ -54,7 +54,7 @@ std::optional<Span> placeholderOf(std::string_view text, Span line) {
 bool isProgramWithSlip(const FileContext &context) {
   constexpr std::size_t kFewestBlocks = 12;
   const SyntaxTree &tree = context.tree;
-  if (tree.issues.size() != 1 || context.model.programs.size() != 1)
+  if (context.model.programs.size() != 1)
     return false;
   const Program &program = *context.model.programs.begin();
   std::size_t full = 0;
@@ -63,7 +63,7 @@ bool isProgramWithSlip(const FileContext &context) {
     full += isEmpty(tree, block) ? 0U : 1U;
     ends = ends || flowAfter(tree, block, context.dialect) == FlowAfter::Ends;
   }
-  return ends && full >= kFewestBlocks && !program.name.empty();
+  return ends && full >= kFewestBlocks && tree.issues.size() <= 1 + full / 4 && !program.name.empty();
 }
 
 } // namespace

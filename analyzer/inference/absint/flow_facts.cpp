@@ -83,7 +83,7 @@ public:
   void alarm(Truth truth, const AlarmReport &report) override {
     if (outer_)
       return;
-    const bool always = truth == Truth::True;
+    const bool always = truth == Truth::True || report.isUsual;
     const auto key = std::tuple(report.place.begin, report.place.end, report.kind);
     const auto [known, isNew] = alarmAt_.emplace(key, facts_.alarms_.size());
     if (isNew)

@@ -19,7 +19,7 @@ struct AlarmFact {
   AlarmKind kind;
   Span place;
   NodeId node;
-  bool always;
+  bool always; // where the settings of the machine are as usual
 };
 
 /// `#3000=`

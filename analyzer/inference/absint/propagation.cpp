@@ -320,6 +320,10 @@ void Propagation::addExit(std::optional<AbstractValue> target, AbstractState sta
 bool Propagation::end(NodeId node, const EndProgram &ending, AbstractState &state) {
   if (ending.end == ProgramEnd::EndOfFile && alarmNumber(*facts_.file->dialect, AlarmKind::EndOfRecord))
     interpretation_.alarm(Truth::True, {AlarmKind::EndOfRecord, contextAt(node, state).place()});
+  if (ending.end != ProgramEnd::EndOfFile) {
+    auto context = contextAt(node, state);
+    restoreModesAtEnd(context);
+  }
   if (phase_ == Phase::Walk)
     engine_.visitor_->ended(placeOf(node), PathEnd::Ends, state);
   return false;

@@ -225,7 +225,8 @@ struct Switches {
   Switch odi = Switch::Unknown; // 5004#2: the offset of D is a diameter
   // What controls do differently, or what no manual says (parity.md of each dialect).
   Switch shortArcStops = Switch::Unknown; // R a little below half the distance of the ends: an alarm, or a half circle
-  Switch pointArcStops = Switch::Unknown; // an arc by R that ends where it starts: an alarm, or no movement
+  Switch radiiDifferStops = Switch::Unknown;  // an arc whose radii differ by more than the tolerance is an alarm
+  Switch pointArcStops = Switch::Unknown;     // an arc by R that ends where it starts: an alarm, or no movement
   Switch besideCentreStops = Switch::Unknown; // a centre word on the axis beside the plane of its arc is an alarm
   Switch bareCycleStops = Switch::Unknown;    // a canned cycle that was never given its depth or R level is an alarm
   Switch motionEndsCycle = Switch::Unknown;   // G00 to G03 behind the code of a canned cycle in its block end the cycle
@@ -252,6 +253,7 @@ struct Grammar {
   bool wordMayBeUnbracketed = false;   // `X#1+10`
   bool conditionalReturn = false;      // `[#1 LT 10] M99 P10`
   bool sequenceZero = false;           // N0 is a label
+  bool callStartsAtSequence = false;   // `M98 P1000 H20`: at N20 of O1000
   bool sequenceJumps = true;           // N is what jumps look for
   bool percentEndsProgram = false;     // `%` ends a main program as M02 does
   bool macroWithWords = false;         // NC words and macro statements in one block
@@ -314,21 +316,31 @@ struct Behaviour {
   ModuloMeaning modulo = ModuloMeaning::OfIntegers;
   IntegerPart integerPart = IntegerPart::TowardZero;
   LogicMeaning logic = LogicMeaning::Bitwise;
-  bool variablesMayBeVacant = true; // else one that was never written reads as 0
-  bool roundsWords = true;          // a word computed from variables is rounded to the least increment
-  bool assignsAfterReading = false; // all assignments of a line take place after the whole line is read
-  bool arcDistanceModes = false;    // G90.1 and G91.1 exist
-  bool cycleClearsFirst = false;    // a cycle that starts below its R level goes up to it before it goes to X, Y
-  bool cycleKeepsDepth = false;     // under G91 a new R level takes the bottom of the hole along
-  bool boringReturnsAtFeed = false; // G89 feeds out up to the level to which it returns, not to the R level
-  bool oneSetOffset = false;        // G52 and G92 set one and the same offset
-  bool bareReferenceReturn = false; // G28 without axis words moves all axes
-  bool dataIsAbsolute = false;      // G10 L2 sets the offset under G91 too
-  bool positionByData = false;      // G10 L20: the axes stand at the given coordinates
-  bool returnTargetIsLocal = false; // `M99 P` jumps within its own program, also in a subprogram
-  bool endRestoresModes = false;    // M02 and M30 put G17, G40, G80, G90 and G94 back
-  bool repeatsByK = true;           // K of a canned cycle repeats it; L does so everywhere
-  bool machineMoveByMode = false;   // G53 feeds where G01 is in force; else it is always rapid
+  bool variablesMayBeVacant = true;    // else one that was never written reads as 0
+  bool roundsWords = true;             // a word computed from variables is rounded to the least increment
+  bool assignsAfterReading = false;    // all assignments of a line take place after the whole line is read
+  bool arcDistanceModes = false;       // G90.1 and G91.1 exist
+  bool cycleClearsFirst = false;       // a cycle that starts below its R level goes up to it before it goes to X, Y
+  bool cycleKeepsDepth = false;        // under G91 a new R level takes the bottom of the hole along
+  bool boringReturnsAtFeed = false;    // G89 feeds out up to the level to which it returns, not to the R level
+  bool oneSetOffset = false;           // G52 and G92 set one and the same offset
+  bool bareReferenceReturn = false;    // G28 without axis words moves all axes
+  bool dataIsAbsolute = false;         // G10 L2 sets the offset under G91 too
+  bool positionByData = false;         // G10 L20: the axes stand at the given coordinates
+  bool returnTargetIsLocal = false;    // `M99 P` jumps within its own program, also in a subprogram
+  bool endRestoresModes = false;       // M02 and M30 bring G01, G17, G40, G54, G90 and G94 into force
+  bool stopsAtStrayWords = false;      // words that the codes of a block do not take, or lack, are errors (LinuxCNC)
+  bool repeatsByK = true;              // K of a canned cycle repeats it; L does so everywhere
+  bool machineMoveByMode = false;      // G53 feeds where G01 is in force; else it is always rapid
+  bool cyclesNeedXY = false;           // a canned cycle is executed in blocks with X or Y only, and in G17
+  bool scalingIsFollowed = true;       // G51; else nothing is known of positions behind it
+  bool cyclesAreScaled = true;         // G51 scales the levels of canned cycles
+  bool feedByIncrements = false;       // F without a point counts thousandths, as a setting says
+  bool distanceModeByWord = false;     // G90 and G91 in one block hold for the words behind them
+  bool localShiftIsExternal = false;   // G52 writes the offset that is added to all systems, #5201
+  bool toolChangeReturnsZ = false;     // M06 moves Z to the reference position
+  bool referenceCancelsLength = false; // G28 of any axis may cancel the tool length, not of Z alone
+  bool logicOfIntegerParts = false;    // AND, OR, XOR drop fractions; else they round
   MachineIncrement machineIncrement = MachineIncrement::NotFollowed;
   bool absoluteBehindMappings = false; // also behind G68, not only behind G69, the first movement has to be absolute
   bool scalesByIncrements = false;     // factors of G51 count thousandths, or hundred-thousandths, as a parameter says
@@ -338,8 +350,12 @@ struct Behaviour {
   std::array<std::uint16_t, 2> cutterDiameterCodes{}; // G41, G42 whose D is the diameter of the cutter itself
   /// Blocks that are read ahead under cutter compensation, the present one included; 0: as many as are needed.
   std::uint8_t cutterBlocks = 0;
-  double equalTolerance = 0;    // EQ and NE take values this near as equal
-  double arcTolerance = 0.05;   // mm: largest difference of the radii at start and end
+  double equalTolerance = 0;  // EQ and NE take values this near as equal
+  double arcTolerance = 0.05; // mm: largest difference of the radii at start and end
+  /// Where it is above 0, an arc stops the control if its radii differ by more than the tolerance and by more than this
+  /// share of the larger one, or by a hundred times the tolerance; no setting changes that.
+  double arcShare = 0;
+  double arcToleranceInch = 0.05 / 25.4;
   double peckClearance = 0.254; // mm: how far above the last depth a peck begins (a parameter of most controls)
 };
 

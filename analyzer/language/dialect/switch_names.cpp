@@ -26,6 +26,7 @@ constexpr std::array kSwitchNames = {
     SwitchName{"sup", &Switches::sup},
     SwitchName{"odi", &Switches::odi},
     SwitchName{"short_arc_stops", &Switches::shortArcStops},
+    SwitchName{"radii_differ_stops", &Switches::radiiDifferStops, true},
     SwitchName{"point_arc_stops", &Switches::pointArcStops},
     SwitchName{"beside_centre_stops", &Switches::besideCentreStops},
     SwitchName{"bare_cycle_stops", &Switches::bareCycleStops},

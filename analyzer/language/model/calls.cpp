@@ -99,7 +99,11 @@ Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId 
     call.kind = CallKind::MacroA;
   if (call.kind == CallKind::MacroA)
     return call;
-  if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
+  const bool startsElsewhere = context.dialect.grammar.callStartsAtSequence && kind == CallKind::Subprogram &&
+                               findWord(tree, block, 'H'); // not followed, as a program whose number is computed
+  if (program && startsElsewhere)
+    call.programWord = tree.idOf(*program);
+  else if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
     readCallee(context, *program, call);
   if (kind == CallKind::Local && program)
     call.programWord = tree.idOf(*program);

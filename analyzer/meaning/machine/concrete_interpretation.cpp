@@ -141,8 +141,10 @@ bool ConcreteInterpretation::compare(Relation relation, const Value &a, const Va
   return false;
 }
 
-ConcreteValue ConcreteInterpretation::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const {
+ConcreteValue ConcreteInterpretation::numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) {
   const auto &codes = modes.group(group).codes;
+  if (code >= codes.size() && !codes.empty()) // one of them is always in force
+    notes_.push_back("the G code in force of a modal group of which none was programmed");
   return Value::of(code < codes.size() ? codes[code]->tenths / 10.0 : 0);
 }
 
@@ -198,6 +200,9 @@ void ConcreteInterpretation::holdInMantissa32(Value &result, Span place) {
 }
 
 void ConcreteInterpretation::alarm(bool truth, AlarmReport report) {
+  if (truth && (report.kind == AlarmKind::ArcRadius || report.kind == AlarmKind::ArcTooShort ||
+                report.kind == AlarmKind::ArcWithoutLength))
+    readPosition();
   if (truth && stopped_.kind == Stop::None)
     stopped_ = {Stop::ControlAlarm, report.kind, 0, report.place};
 }

@@ -142,7 +142,7 @@ public:
   }
   ModalCode selectCode(bool truth, ModalCode first, ModalCode second) const { return truth ? first : second; }
   bool isSameCode(ModalCode a, ModalCode b) const { return a == b; }
-  Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group) const;
+  Value numberOfCode(ModalCode code, const ModalTable &modes, std::uint8_t group);
   std::optional<std::pair<std::uint8_t, ModalCode>> codeFrom(const Value &, const ModalTable &) const {
     return std::nullopt; // a number is one number here
   }
@@ -168,6 +168,18 @@ public:
   bool wantsMoves() const { return true; }
   void move(const Move<Value> &move);
   void unmodelled(std::string_view reason, Span) { notes_.push_back(reason); }
+  /// The axes may be anywhere: what the state says of them is one of many places.
+  void losePosition() { lostAxes_ = stopped_.kind == Stop::None ? kAllAxesLost : lostAxes_; }
+  /// A coordinate brings the axis to a place that is known.
+  void placeAxis(Axis axis) { lostAxes_ &= static_cast<std::uint16_t>(~(1U << indexOf(axis))); }
+  bool isLost() const { return (lostAxes_ & 7U) != 0; } // X, Y or Z
+  /// A position is taken for a number: what follows from it is one of many things.
+  void readPosition() {
+    if (lostAxes_ == 0)
+      return;
+    notes_.push_back("a position that is not known");
+    passedUnmodelled_ = passedUnmodelled_ || stopped_.kind == Stop::None;
+  }
   void havoc(State &, std::string_view reason, Span) {
     notes_.push_back(reason);
     passedUnmodelled_ = passedUnmodelled_ || !stopped_;
@@ -202,6 +214,8 @@ private:
   std::vector<std::string_view> notes_;
   bool sawVolatile_ = false;
   bool passedUnmodelled_ = false;
+  static constexpr std::uint16_t kAllAxesLost = (1U << kAxisCount) - 1;
+  std::uint16_t lostAxes_ = 0;
   bool takesCodesToReturn_ = false;
   std::vector<std::string> skipped_;
 };

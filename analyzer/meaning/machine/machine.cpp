@@ -47,6 +47,7 @@ public:
     takeCutterAlarm();
     result_.place = at_;
     result_.passedUnmodelled = interpretation_.passedUnmodelled();
+    result_.isLost = interpretation_.isLost();
     for (std::size_t i = 1; i < frames_.size(); ++i)
       result_.calls.push_back({frames_[i].call, frames_[i].callee});
     result_.state = std::move(state_);
@@ -187,7 +188,8 @@ private:
   void record(std::vector<Move<ConcreteValue>> moves, Place here) {
     auto ctx = context();
     const ToolPoint<ConcreteInterpretation> point = toolPointOf(ctx, entry_);
-    const bool isFollowed = point.withoutCompensation || options_.cutter == CutterCompensation::Followed;
+    const bool isPlaced = !wasLost_ && !interpretation_.isLost();
+    const bool isFollowed = isPlaced && (point.withoutCompensation || options_.cutter == CutterCompensation::Followed);
     const bool isButForLength = isFollowed && point.sameUnits && point.sameSide;
     const LengthInForce length = !point.withLength        ? LengthInForce::None
                                  : point.lengthSubtracted ? LengthInForce::Subtracted
@@ -226,6 +228,7 @@ private:
 
   std::optional<NodeId> straight(const Node &here) {
     auto ctx = context();
+    wasLost_ = interpretation_.isLost();
     step(ctx, here.instruction, words_);
     if (interpretation_.stopped().kind == ConcreteInterpretation::Stop::None &&
         std::holds_alternative<ExecuteWords>(here.instruction) && movesAxis(ctx, words_) && enterModal())
@@ -248,6 +251,10 @@ private:
     return search(jumpTarget(ctx, jump).number, here.block);
   }
   std::optional<NodeId> follow(const EndProgram &ending) {
+    if (ending.end != ProgramEnd::EndOfFile) {
+      auto ctx = context();
+      restoreModesAtEnd(ctx);
+    }
     switch (ending.end) {
     case ProgramEnd::M02: end(RunEnd::M02); break;
     case ProgramEnd::M30: end(RunEnd::M30); break;
@@ -404,6 +411,7 @@ private:
   CutterPath<RunCutter> cutter_;
   std::map<double, std::optional<CutterOffset<double>>> otherOffsets_; // by D
   bool ended_ = false;
+  bool wasLost_ = false; // before the block: where the axes are was not known
 };
 
 } // namespace

@@ -81,6 +81,7 @@ struct RunResult {
   MachineState<ConcreteInterpretation> state;
   std::vector<RecordedMove> moves;
   std::vector<RunNote> notes;    // what was not followed, each once for a place
+  bool isLost = false;           // where X, Y or Z is at the end is not known: the state says one of many places
   bool passedUnmodelled = false; // what is noted may have changed anything: another run may go on otherwise
   /// Names of missing programs that were called, and of codes that call them, and that were taken to return.
   std::set<std::string> skipped;

@@ -7,11 +7,22 @@
 
 namespace feedhold::detail {
 
-/// Whether the lengths of two vectors differ by more than the tolerance.  They differ by no more than the sizes along
-/// the axes do together (triangle inequality), which is said, too, because proofs need no roots for it.
+/// How far apart the lengths of two vectors are.  They differ by no more than the sizes along the axes do together
+/// (triangle inequality), which is said, too, because proofs need no roots for it.
+template <typename R> struct RadiiApart {
+  typename R::Value alongAxes;
+  typename R::Value difference;
+  typename R::Value larger;
+
+  typename R::Truth exceed(R &interpretation, const typename R::Value &tolerance) const {
+    return interpretation.both(interpretation.compare(Relation::Greater, alongAxes, tolerance),
+                               interpretation.compare(Relation::Greater, difference, tolerance));
+  }
+};
+
 template <ValueAlgebra R>
-typename R::Truth lengthsDiffer(R &interpretation, const std::array<typename R::Value, 2> &from,
-                                const std::array<typename R::Value, 2> &to, const typename R::Value &tolerance) {
+RadiiApart<R> radiiApart(R &interpretation, const std::array<typename R::Value, 2> &from,
+                         const std::array<typename R::Value, 2> &to) {
   using Value = typename R::Value;
   const auto sizeOf = [&](const Value &value) { return interpretation.function(FunctionKind::Abs, value); };
   const auto apart = [&](const Value &a, const Value &b) {
@@ -22,10 +33,10 @@ typename R::Truth lengthsDiffer(R &interpretation, const std::array<typename R::
     return interpretation.function(FunctionKind::Sqrt,
                                    interpretation.add(interpretation.multiply(a, a), interpretation.multiply(b, b)));
   };
-  const Value alongAxes = interpretation.add(apart(from[0], to[0]), apart(from[1], to[1]));
-  const Value difference = sizeOf(interpretation.subtract(lengthOf(from), lengthOf(to)));
-  return interpretation.both(interpretation.compare(Relation::Greater, alongAxes, tolerance),
-                             interpretation.compare(Relation::Greater, difference, tolerance));
+  const Value start = lengthOf(from);
+  const Value end = lengthOf(to);
+  return {interpretation.add(apart(from[0], to[0]), apart(from[1], to[1])), sizeOf(interpretation.subtract(start, end)),
+          interpretation.select(interpretation.compare(Relation::Less, start, end), end, start)};
 }
 
 } // namespace feedhold::detail

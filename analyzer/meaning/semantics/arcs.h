@@ -61,6 +61,7 @@ private:
   /// What stops the control.
   struct Alarms {
     Truth withoutCentre, tooShort, withoutLength, radius;
+    bool radiusIsUsual = false; // AlarmReport::isUsual
   };
 
   Circle circleIn(const Plane &plane, const Point &start) {
@@ -98,23 +99,26 @@ private:
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);
     alarms.withoutCentre = withoutCentre(circle);
-    const Truth differs = radiiDiffer(circle.plane, start, circle.first, circle.second);
+    const RadiiDiffer differ = radiiDiffer(circle.plane, start, circle.first, circle.second);
     const Truth isCircle = interpretation_.both(interpretation_.both(circle.mapping.staysCircle, circle.byCentre),
                                                 interpretation_.truth(turnsOf().has_value()));
     const Truth mayDiffer =
-        context_.either(interpretation_.both(isCircle, differs),
+        context_.either(interpretation_.both(isCircle, differ.stop),
                         interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
-    alarms.radius = interpretation_.both(interpretation_.negation(circle.byRadius), mayDiffer);
+    const Truth byCentre = interpretation_.negation(circle.byRadius);
+    alarms.radius = interpretation_.both(byCentre, mayDiffer);
+    alarms.radiusIsUsual =
+        context_.certain(interpretation_.both(byCentre, interpretation_.both(isCircle, differ.usually)));
     return alarms;
   }
   void raise(const Alarms &alarms, Truth follows) {
-    const auto stop = [&](Truth when, AlarmKind kind) {
-      interpretation_.alarm(interpretation_.both(follows, when), {kind, context_.place()});
+    const auto stop = [&](Truth when, AlarmKind kind, bool isUsual = false) {
+      interpretation_.alarm(interpretation_.both(follows, when), {kind, context_.place(), isUsual});
     };
     stop(alarms.withoutCentre, AlarmKind::ArcWithoutCentre);
     stop(alarms.tooShort, AlarmKind::ArcTooShort);
     stop(alarms.withoutLength, AlarmKind::ArcWithoutLength);
-    stop(alarms.radius, AlarmKind::ArcRadius);
+    stop(alarms.radius, AlarmKind::ArcRadius, alarms.radiusIsUsual && context_.certain(follows));
   }
 
   /// Whether the centre is missing is told exactly.  What follows from lengths may happen or not: proofs in several
@@ -266,17 +270,43 @@ private:
                ? interpretation_.divide(length, interpretation_.number(2))
                : length;
   }
-  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
+  struct RadiiDiffer {
+    Truth stop;
+    Truth usually; // with the usual settings
+  };
+  RadiiDiffer radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
     const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
       return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
               asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
     };
-    return lengthsDiffer(interpretation_, spoke(start), spoke(state_.position), tolerance());
+    const RadiiApart<R> apart = radiiApart(interpretation_, spoke(start), spoke(state_.position));
+    const Truth differ = apart.exceed(interpretation_, tolerance());
+    if (const double share = context_.behaviour().arcShare; share > 0) {
+      const Value most = interpretation_.multiply(tolerance(), interpretation_.number(kMostTolerances));
+      const Value shareOfRadius = interpretation_.multiply(apart.larger, interpretation_.number(share));
+      const Truth isLarge = interpretation_.compare(Relation::Greater, apart.difference, shareOfRadius);
+      const Truth stops = interpretation_.both(differ, context_.either(apart.exceed(interpretation_, most), isLarge));
+      return {stops, stops};
+    }
+    const Truth isNoticed = apart.exceed(interpretation_, noticedDifference());
+    if (!interpretation_.mayBe(isNoticed))
+      return {isNoticed, isNoticed};
+    const Truth byParameter =
+        context_.either(interpretation_.both(differ, context_.isOn(&Switches::radiiDifferStops)), context_.maybeNot());
+    return {interpretation_.both(isNoticed, byParameter), differ};
+  }
+  /// Of LinuxCNC (interp_arc.cc): beyond, an arc stops the interpreter however large it is.
+  static constexpr double kMostTolerances = 100;
+  /// A parameter may ask for circles as good as that (FANUC 3410, Mitsubishi #1084); words that are rounded are better.
+  Value noticedDifference() {
+    constexpr double kNoticed = 0.005; // mm
+    return interpretation_.select(isMetric(context_), interpretation_.number(kNoticed),
+                                  interpretation_.number(kNoticed / 25.4));
   }
   Value tolerance() {
     const Value metric = interpretation_.number(context_.behaviour().arcTolerance);
     return interpretation_.select(isMetric(context_), metric,
-                                  interpretation_.number(context_.behaviour().arcTolerance / 25.4));
+                                  interpretation_.number(context_.behaviour().arcToleranceInch));
   }
 
   void tellArc(const Point &start, const Circle &arc) {

@@ -280,6 +280,8 @@ template <ValueAlgebra R> void havocOrigins(StepContext<R> &context) {
 }
 
 template <ValueAlgebra R> void havocPosition(StepContext<R> &context) {
+  if constexpr (requires { context.interpretation.losePosition(); })
+    context.interpretation.losePosition();
   for (auto &coordinate : context.state.position)
     coordinate = context.interpretation.either(coordinate, context.interpretation.anyNumber());
   for (const Axis axis : kAllAxes)

@@ -20,7 +20,8 @@ template <typename N> struct CutterBlock {
   Plane plane = kPlaneXY;
   bool switches = false; // G41 or G42 stands in the block
   bool stopsReading = false;
-  bool namesPlane = false; // has words for the axes of the plane
+  bool namesPlane = false;      // has words for the axes of the plane
+  bool cancelsByVector = false; // `G40 I10. J-10.`: the block before it ends where the two directions cross
   /// Why the block is not followed where the compensation is in force; empty: it is.
   std::string_view foreign = {};
 };
@@ -65,6 +66,10 @@ inline bool setsSide(const Code &code) {
   return code.action == CodeAction::CompensationLeft || code.action == CodeAction::CompensationRight;
 }
 
+template <typename R> bool hasVector(const ExecutedWords<R> &words) {
+  return words.find('I') || words.find('J') || words.find('K');
+}
+
 template <ValueAlgebra R> std::string_view whyForeign(StepContext<R> &context, const ExecutedWords<R> &words) {
   if (words.unmodelled || !words.unlisted.empty() || words.mayTakeAxes || !words.computed.empty())
     return "cutter compensation through a block that is not modelled";
@@ -74,7 +79,7 @@ template <ValueAlgebra R> std::string_view whyForeign(StepContext<R> &context, c
   for (const CodeWord &word : words.codes) {
     if (!isHarmlessForCutter(word.code->action))
       return "cutter compensation through a code that changes coordinates, offsets or the path";
-    if (setsSide(*word.code) && !mayBeArc && (words.find('I') || words.find('J') || words.find('K')))
+    if (setsSide(*word.code) && !mayBeArc && hasVector(words))
       return "cutter compensation that is given its vector by I, J, K";
   }
   const auto group = context.modes.groupOf(ModalKind::Cycle);
@@ -139,6 +144,8 @@ CutterBlock<typename Host::Length> cutterBlockOf(Host &host, StepContext<typenam
   block.foreign = detail::whyForeign(context, words);
   for (const CodeWord &word : words.codes) {
     block.switches = block.switches || detail::setsSide(*word.code);
+    block.cancelsByVector =
+        block.cancelsByVector || (word.code->action == CodeAction::CompensationOff && detail::hasVector(words));
     block.stopsReading = block.stopsReading || word.code->role == CodeRole::ProgramStop;
   }
   const auto plane = planeOf(context);

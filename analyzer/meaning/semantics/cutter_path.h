@@ -207,6 +207,8 @@ template <typename Host> void CutterPath<Host>::change(Host &host, const Block &
 }
 
 template <typename Host> void CutterPath<Host>::changeInside(Host &host, const Block &block, const At &at) {
+  if (block.cancelsByVector)
+    return lose(host, "cutter compensation that is cancelled with a vector by I, J, K", at.place);
   if (!block.side) {
     phase_ = Phase::Ending;
     return;

@@ -21,6 +21,9 @@ inline bool isDrillingCycle(CodeAction action) {
 /// A block with axis words while a cycle is active.
 template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words);
 
+/// Takes over the levels of a block while a cycle may be active.
+template <ValueAlgebra R> void learnCycleLevels(StepContext<R> &context, const ExecutedWords<R> &words);
+
 /// No cycle is active any more.
 template <ValueAlgebra R> void endCycle(StepContext<R> &context) {
   const auto vacant = context.interpretation.vacant();
@@ -79,6 +82,8 @@ public:
         words_(words), plane_(plane) {}
 
   void run() {
+    if (interpretation_.mayBe(isNotExecuted()))
+      return drillSomehow();
     learnLevels();
     alarmOfBareCycle(
         context_, words_,
@@ -93,11 +98,6 @@ public:
     for (double done = 0; done + 0.5 < *repeats; ++done)
       drill();
   }
-
-private:
-  enum class Kind { Straight, FeedBack, OutSomehow, Peck, ChipBreak, NotFollowed };
-  static constexpr double kMostRepeats = 9999;
-  static constexpr double kMostFollowed = 64; // of an interpretation that only needs the end point
 
   void learnLevels() {
     Value &level = state_.at(plane_.normal);
@@ -117,6 +117,32 @@ private:
     for (const auto &[letter, kept] : {std::pair{'Q', &cycle_.peck}, std::pair{'P', &cycle_.dwell}})
       if (const auto *entry = words_.find(letter))
         *kept = interpretation_.select(entry->present, entry->value, *kept);
+  }
+
+private:
+  enum class Kind { Straight, FeedBack, OutSomehow, Peck, ChipBreak, NotFollowed };
+  static constexpr double kMostRepeats = 9999;
+  static constexpr double kMostFollowed = 64; // of an interpretation that only needs the end point
+
+  /// Haas drills in G17 only, and its manual does not say which levels of a cycle G51 scales.
+  Truth isNotExecuted() {
+    const Behaviour &behaviour = context_.behaviour();
+    Truth open = interpretation_.truth(behaviour.cyclesNeedXY && plane_.normal != Axis::Z);
+    if (!behaviour.cyclesAreScaled)
+      open = context_.either(open, isScaled());
+    return open;
+  }
+  Truth isScaled() {
+    const Value &factor = state_.transform.scale[indexOf(plane_.normal)];
+    return interpretation_.negation(interpretation_.compare(Relation::Equal, factor, interpretation_.number(1)));
+  }
+  void drillSomehow() {
+    const Point start = state_.position;
+    havocPosition(context_);
+    tell(context_, MoveKind::Unmodelled, start);
+    for (Value *level : {&cycle_.bottom, &cycle_.retract, &cycle_.initial, &cycle_.peck, &cycle_.dwell})
+      *level = interpretation_.anything();
+    interpretation_.unmodelled("a canned cycle under scaling, or in another plane", context_.place());
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
   void settleLevels() {
@@ -177,8 +203,10 @@ private:
   const Value &retractLevel() const { return retract_; }
   const Value &bottomLevel() const { return bottom_; }
   Value returnLevel() {
-    const Truth toInitial =
-        context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, interpretation_.truth(true));
+    // Back boring comes back to the initial level, whichever level is asked for.
+    const Truth toInitial = context_.either(
+        context_.inForce(ModalKind::ReturnLevel, {CodeAction::ReturnToInitial}, interpretation_.truth(true)),
+        context_.inForce(ModalKind::Cycle, {CodeAction::CycleBackBore}, interpretation_.truth(false)));
     const Value initial =
         context_.behaviour().cycleClearsFirst ? higher(cycle_.initial, retractLevel()) : cycle_.initial;
     return interpretation_.select(toInitial, initial, retractLevel());
@@ -372,6 +400,13 @@ template <ValueAlgebra R> void drillAlongAny(StepContext<R> &context, const Exec
 }
 
 } // namespace detail
+
+template <ValueAlgebra R> void learnCycleLevels(StepContext<R> &context, const ExecutedWords<R> &words) {
+  const std::optional<Plane> plane = planeOf(context);
+  if (plane && (plane->normal == Axis::Z || context.certain(context.isOn(&Switches::fxy))))
+    return detail::DrillingCycle<R>(context, words, *plane).learnLevels();
+  detail::drillAlongAny(context, words);
+}
 
 template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words) {
   const std::optional<Plane> plane = planeOf(context);

@@ -147,9 +147,12 @@ private:
                                   interpretation_.add(rest, size), rest);
   }
   Value logic(OperatorKind op, const Value &left, const Value &right) {
+    const auto integerOf = [&](const Value &value) {
+      return context_.behaviour().logicOfIntegerParts ? interpretation_.function(FunctionKind::Fix, value)
+                                                      : interpretation_.roundTo(value, Decimal(1, 0));
+    };
     if (context_.behaviour().logic == LogicMeaning::Bitwise)
-      return interpretation_.bitwise(op, interpretation_.roundTo(left, Decimal(1, 0)),
-                                     interpretation_.roundTo(right, Decimal(1, 0)));
+      return interpretation_.bitwise(op, integerOf(left), integerOf(right));
     const auto isTrue = [&](const Value &value) {
       return interpretation_.negation(interpretation_.compare(Relation::Equal, value, context_.zero()));
     };

@@ -86,6 +86,16 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
 
 namespace detail {
 
+/// The digits of a literal that a step of 0.1, 0.01 .. keeps; `half`: rounded, else cut off.
+inline Decimal keptDigits(Decimal literal, Decimal step, bool half) {
+  std::int64_t divisor = 1;
+  for (int scale = step.scale(); scale < literal.scale(); ++scale)
+    divisor *= 10;
+  const std::int64_t rounding = half ? divisor / 2 : 0;
+  return Decimal((literal.mantissa() + (literal.isNegative() ? -rounding : rounding)) / divisor,
+                 std::min(literal.scale(), step.scale()));
+}
+
 inline bool takesIncrement(const AddressFormat &format, char address) {
   return format.kind == AddressKind::Length || format.kind == AddressKind::Angle ||
          (format.kind == AddressKind::Flexible && address != 'P');
@@ -262,9 +272,32 @@ typename R::Value roundedToIncrement(StepContext<R> &context, const AddressForma
   return value;
 }
 
+/// More digits than the control counts: FANUC cuts them off; of others it is not known whether they round, or keep
+/// them.
+template <ValueAlgebra R>
+typename R::Value countedLiteral(StepContext<R> &context, const AddressFormat &format, Decimal literal) {
+  R &interpretation = context.interpretation;
+  return byIncrement(context, format.kind, [&](Decimal step) {
+    const Decimal cut = detail::keptDigits(literal, step, false);
+    const Decimal rounded = detail::keptDigits(literal, step, true);
+    if (cut == literal)
+      return interpretation.literal(literal);
+    const auto other = interpretation.either(interpretation.literal(rounded), interpretation.literal(literal));
+    return interpretation.either(interpretation.literal(cut), other);
+  });
+}
+
 template <ValueAlgebra R>
 typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal literal, bool point) {
   const AddressFormat &format = formatOf(context.dialect(), address);
+  const bool isCounted = format.kind == AddressKind::Length || format.kind == AddressKind::Angle;
+  if (isCounted && context.behaviour().roundsWords && !literal.isInteger())
+    return countedLiteral(context, format, literal);
+  if (format.kind == AddressKind::Rate && context.behaviour().feedByIncrements && !point && !literal.isZero() &&
+      context.dialect().switches.dpi != Switch::On)
+    return context.interpretation.either(
+        context.interpretation.literal(literal),
+        context.interpretation.literal(Decimal(literal.mantissa(), static_cast<std::uint8_t>(literal.scale() + 3))));
   if (point || literal.isZero() || !detail::takesIncrement(format, address) ||
       context.dialect().switches.dpi == Switch::On)
     return context.interpretation.literal(literal);

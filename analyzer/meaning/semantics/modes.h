@@ -527,6 +527,8 @@ private:
   }
   /// G51 X Y Z P, or I J K for each axis; the centre is where the tool stands when it is not written.
   void scaling() {
+    if (!context_.behaviour().scalingIsFollowed)
+      notFollowed(interpretation_.truth(true), "scaling by this control");
     const std::array<char, 3> own = {'I', 'J', 'K'};
     for (std::size_t i = 0; i < own.size(); ++i)
       state_.transform.scaleCentre[i] = wordOr(letterOf(kAllAxes[i]), mirrored(context_, i, state_.position[i]));

@@ -41,6 +41,9 @@ public:
       state_.axisTurned = context_.either(state_.axisTurned, interpretation_.unknownTruth());
     if (others)
       noteOtherAxes(before);
+    if (const CodeWord *change = words_.findCode(CodeAction::ToolChange);
+        change && context_.behaviour().toolChangeReturnsZ)
+      returnZ(*change);
   }
 
 private:
@@ -79,11 +82,45 @@ private:
       forgetCycle(context_);
       unmodelledCycle("a taper in a block without X and Z", context_.place());
     }
+    changeLevelAlone(interpretation_.both(cycle, interpretation_.negation(moves)));
     if (!interpretation_.mayBe(moves))
       return;
     const auto before = state_;
     move(cycle, moves);
     interpretation_.join(state_, interpretation_.negation(moves), before);
+  }
+  /// `R-2.` under a canned cycle: FANUC drills in such a block, and the level stays; of others no manual says it.
+  void changeLevelAlone(Truth isAlone) {
+    const Truth changes = interpretation_.both(isAlone, present('R'));
+    if (!interpretation_.mayBe(changes))
+      return;
+    const auto before = state_;
+    drillOnLevel();
+    interpretation_.join(state_, interpretation_.negation(changes), before);
+  }
+  /// `Z-20.` under a cycle that is executed in blocks with X or Y only (Haas), behind the block that begins it.
+  bool passesOverDepth() const {
+    const bool begins =
+        std::ranges::any_of(words_.codes, [](const CodeWord &word) { return isDrillingCycle(word.code->action); });
+    return context_.behaviour().cyclesNeedXY && !begins && words_.find('Z') && !words_.find('X') && !words_.find('Y');
+  }
+  void drillOnLevel() {
+    const Point start = state_.position;
+    if constexpr (requires { interpretation_.losePosition(); })
+      interpretation_.losePosition();
+    learnCycleLevels(context_, words_);
+    const std::optional<Plane> plane = planeOf(context_);
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) // along whichever the cycle drills
+      if (!plane || plane->normal == axis || axis == Axis::Z)
+        state_.at(axis) = interpretation_.either(state_.at(axis), interpretation_.anyNumber());
+    tell(context_, MoveKind::Unmodelled, start);
+    interpretation_.unmodelled("a level of a canned cycle in a block without a position", context_.place());
+  }
+  void drill() {
+    if (passesOverDepth())
+      drillOnLevel();
+    else
+      runCycle(context_, words_);
   }
   /// R, I or K of a single cycle of a lathe that is in force.
   bool mayChangeTaper() {
@@ -94,13 +131,13 @@ private:
   }
   void move(Truth cycle, Truth moves) {
     if (context_.certain(cycle))
-      return runCycle(context_, words_);
+      return drill();
     if (!interpretation_.mayBe(cycle))
       return plain(moves);
     auto drilled = state_; // either: both are followed, and what they leave is joined
     plain(interpretation_.both(moves, interpretation_.negation(cycle)));
     std::swap(state_, drilled);
-    runCycle(context_, words_);
+    drill();
     interpretation_.join(state_, interpretation_.negation(cycle), drilled);
   }
 
@@ -216,6 +253,9 @@ private:
 
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
+    if (context_.behaviour().distanceModeByWord && words_.has(CodeAction::Absolute) &&
+        words_.has(CodeAction::Incremental))
+      return distanceModes();
     Truth turning = interpretation_.truth(false);
     for (const CodeAction action : kSingleTurningCycles) {
       const Truth isIt = context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false));
@@ -229,6 +269,7 @@ private:
     }
     const Point start = state_.position;
     state_.position = targetOf(context_, words_);
+    placeAxes();
     if (hasCommaWord("A")) {
       interpretation_.unmodelled("a coordinate given by an angle", context_.place());
       havocPosition(context_);
@@ -245,6 +286,25 @@ private:
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       state_.position[axis] = interpretation_.select(turning, start[axis], state_.position[axis]);
     forgetCycle(context_);
+  }
+  /// A run whose position was lost knows it again on the axes that a coordinate names.
+  void placeAxes() {
+    if constexpr (requires { interpretation_.placeAxis(Axis::X); }) {
+      if (!context_.certain(isAbsolute(context_)) || interpretation_.mayBe(state_.transformed) ||
+          isOpenTarget(context_, words_) || namesIncrements(context_, words_) ||
+          interpretation_.mayBe(isPolar(context_)) || interpretation_.mayBe(otherGeometry(context_)))
+        return;
+      for (const Axis axis : kAllAxes)
+        if (const auto *entry = words_.find(letterOf(axis)); entry && context_.certain(entry->present))
+          interpretation_.placeAxis(axis);
+    }
+  }
+  /// `G90 X30. G91 Y10.`: each code holds for the words behind it, whose order is not kept.
+  void distanceModes() {
+    const Point start = state_.position;
+    havocPosition(context_);
+    tell(context_, MoveKind::Unmodelled, start);
+    interpretation_.unmodelled("G90 and G91 in one block", context_.place());
   }
   Truth isArc() {
     return context_.inForce(ModalKind::Motion, {CodeAction::ArcClockwise, CodeAction::ArcCounterclockwise},
@@ -346,7 +406,18 @@ private:
     const bool isKnown =
         word.code->action == CodeAction::ReferenceReturn || referenceRange(VariableRole::SecondReference);
     tell(context_, isKnown ? MoveKind::Rapid : MoveKind::Unmodelled, between);
-    mayCancelLength(context_, context_.either(present('Z'), all));
+    mayCancelLength(context_,
+                    context_.either(context_.behaviour().referenceCancelsLength ? axisWords() : present('Z'), all));
+  }
+  /// M06 of controls that move Z to its reference position.
+  void returnZ(const CodeWord &word) {
+    const Point start = state_.position;
+    home(Axis::Z, interpretation_.truth(true), word);
+    if (interpretation_.mayBe(axisWords())) { // before the movement of its block or behind it
+      state_.at(Axis::Z) = interpretation_.either(state_.at(Axis::Z), start[indexOf(Axis::Z)]);
+      return tell(context_, MoveKind::Unmodelled, start);
+    }
+    tell(context_, MoveKind::Rapid, start);
   }
   /// G27: rapid to where the reference position should be.
   void referenceCheck() {
@@ -361,7 +432,7 @@ private:
   }
   /// Machine coordinate; that of G28 is the machine's zero where no variable says otherwise.
   Value referencePosition(Axis axis, const CodeWord &word) {
-    const bool isFirst = word.code->action == CodeAction::ReferenceReturn;
+    const bool isFirst = word.code->action != CodeAction::SecondReference;
     if (const VariableRange *range = referenceRange(isFirst ? VariableRole::Reference : VariableRole::SecondReference))
       return offsetVariable(context_, range->first + static_cast<std::uint32_t>(indexOf(axis)));
     if (isFirst)
@@ -380,6 +451,8 @@ private:
   /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
   void skip() {
     const Point start = state_.position;
+    if constexpr (requires { interpretation_.readPosition(); })
+      interpretation_.readPosition();
     const Point target = targetOf(context_, words_);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       if (words_.find(kAxisLetters[axis]) || interpretation_.mayBe(state_.transformed))

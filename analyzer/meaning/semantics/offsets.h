@@ -52,11 +52,21 @@ private:
 
   /// G52: the named axes.
   void localShift() {
+    if (context_.behaviour().localShiftIsExternal)
+      return externalShift();
     auto &shifts = context_.behaviour().oneSetOffset ? state_.shift : state_.local;
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis)))
         moveTo(shifts, axis, interpretation_.select(entry->present, entry->value, shifts[indexOf(axis)]));
     keep();
+  }
+  void externalShift() {
+    for (const Axis axis : kAllAxes)
+      if (const auto *entry = words_.find(letterOf(axis))) {
+        const std::uint32_t variable = kFirstWorkOffset + static_cast<std::uint32_t>(indexOf(axis));
+        const Value old = detail::offsetVariable(context_, variable);
+        detail::writeWorkOffset(context_, variable, interpretation_.select(entry->present, entry->value, old));
+      }
   }
   /// G92: the tool stands, from now on, at the named coordinates.
   void set() {

@@ -13,6 +13,9 @@ template <ValueAlgebra R> void savedModes(StepContext<R> &context, const Execute
 /// The program of the level returns.
 template <ValueAlgebra R> void restoreModesAtReturn(StepContext<R> &context);
 
+/// M02 and M30 of LinuxCNC: G01, G17, G40, G54, G90 and G94 are in force behind them, and the spindle stands.
+template <ValueAlgebra R> void restoreModesAtEnd(StepContext<R> &context);
+
 // ---- implementation -----------------------------------------------------------------------------------------------
 
 namespace detail {
@@ -97,6 +100,29 @@ template <ValueAlgebra R> void restoreModesAtReturn(StepContext<R> &context) {
       interpretation.join(context.state, interpretation.negation(restores), asTheyAre);
   }
   detail::dropModes(context);
+}
+
+template <ValueAlgebra R> void restoreModesAtEnd(StepContext<R> &context) {
+  if (!context.behaviour().endRestoresModes)
+    return;
+  constexpr std::array kModes = {std::pair{ModalKind::Motion, CodeAction::Linear},
+                                 std::pair{ModalKind::Plane, CodeAction::PlaneXY},
+                                 std::pair{ModalKind::Distance, CodeAction::Absolute},
+                                 std::pair{ModalKind::FeedMode, CodeAction::FeedPerMinute},
+                                 std::pair{ModalKind::Compensation, CodeAction::CompensationOff},
+                                 std::pair{ModalKind::WorkOffset, CodeAction::WorkOffset}};
+  ExecutedWords<R> restored;
+  restored.clear();
+  for (const auto &[kind, action] : kModes) {
+    const auto group = context.modes.groupOf(kind);
+    const CodeMask mask = context.modes.maskOf(kind, {action});
+    if (group && mask != 0)
+      restored.codes.push_back(
+          {context.modes.group(*group).codes[static_cast<std::size_t>(std::countr_zero(mask))], 'G', context.place()});
+  }
+  applyModes(context, restored);
+  context.state.spindle = context.interpretation.code(static_cast<std::uint8_t>(
+      std::find(kSpindleActions.begin(), kSpindleActions.end(), CodeAction::SpindleStop) - kSpindleActions.begin()));
 }
 
 } // namespace feedhold

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "meaning/semantics/calls.h"
+#include "meaning/semantics/interpreter_errors.h"
 #include "meaning/semantics/motion.h"
 #include "meaning/semantics/saved_modes.h"
 
@@ -119,6 +120,8 @@ void executeWords(StepContext<R> &context, const ExecuteWords &execute, Executed
   if (!words.unlisted.empty())
     return;
   applyModes(context, words);
+  if (const std::string_view why = whyInterpreterStops(context, words); !why.empty())
+    context.interpretation.havoc(context.state, why, context.place());
   applyMotion(context, words);
   if (words.mayTakeAxes) {
     havocPosition(context);

@@ -54,6 +54,8 @@ typename R::Value readPosition(StepContext<R> &context, const VariableRange &ran
   const std::uint32_t axis = number - range.first;
   if (axis >= kAxisCount)
     return context.interpretation.anyNumber();
+  if constexpr (requires { context.interpretation.readPosition(); })
+    context.interpretation.readPosition();
   if (range.role != VariableRole::MachinePosition)
     return context.state.position[axis];
   return context.interpretation.add(context.state.position[axis], machineOriginOf(context, kAllAxes[axis]));

@@ -475,6 +475,10 @@ std::vector<Path> Explorer::follow(Path path, const EndProgram &end) {
     takeStops(path);
     return {};
   }
+  if (end.end != ProgramEnd::EndOfFile) {
+    auto context = contextOf(path);
+    restoreModesAtEnd(context);
+  }
   exit(path, ExitKind::Ends);
   return {};
 }

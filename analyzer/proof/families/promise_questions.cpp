@@ -1,4 +1,5 @@
 // What the contract of a program promises for its return, and for the calls that raise alarms.
+#include "language/contract/reserved.h"
 #include "proof/families/families.h"
 #include "proof/families/modal_state.h"
 
@@ -35,6 +36,15 @@ std::optional<std::string> brokenAtEnd(const RunResult &run, const GivenVariable
   if (!end || run.end == RunEnd::UserAlarm || run.end == RunEnd::Alarm)
     return std::nullopt;
   return *end + ", and the promise does not hold";
+}
+
+/// `POS[X]` in the promise: a run that does not know where it is shows nothing of it.
+bool namesPosition(const SyntaxTree &tree, ExpressionId expression) {
+  const auto number = reservedNumber(tree, expression);
+  const auto reserved = number ? reservedVariable(*number) : std::nullopt;
+  return (reserved && std::holds_alternative<PositionOf>(*reserved)) ||
+         std::ranges::any_of(childrenOf(tree, expression),
+                             [&](ExpressionId child) { return namesPosition(tree, child); });
 }
 
 /// Broken as soon as the write happens, however the run ends.
@@ -122,6 +132,11 @@ Questions ensureQuestions(const ExploredProgram &program) {
       continue;
     Question question = promise(subject, kind, ensure.clause);
     question.promise = &ensure;
+    if (const auto *expression = std::get_if<ExpressionId>(&ensure.promise);
+        expression && namesPosition(subject.contracts->tree, *expression))
+      question.broken = [](const RunResult &run, const GivenVariables &given) {
+        return run.isLost ? std::nullopt : brokenAtEnd(run, given);
+      };
     for (const PathExit &exit : found.exits)
       question.goals.push_back({&exit.conditions, promisedAt(program, ensure, exit.state)});
     if (const auto *kept = std::get_if<ModalPreserved>(&ensure.promise)) {

@@ -31,14 +31,20 @@ public:
                    [=, this](const TermPoint &p) { return within(box.sides[2], p[2]); }});
   }
   FreeSpace inside(const Cylinder<TermId> &cylinder) const {
-    if (cylinder.axis == Axis::Z)
-      return convex({[=, this](const TermPoint &p) {
-                       const TermId room = store_.subtract(cylinder.radius, radius_);
-                       return store_.logicalAnd(notBelow(room, zero_),
-                                                notBelow(squared(room), sumOfSquares(from(p[0], cylinder.centre[0]),
-                                                                                     from(p[1], cylinder.centre[1]))));
-                     },
-                     [=, this](const TermPoint &p) { return within(cylinder.along, p[2]); }});
+    if (cylinder.axis == Axis::Z) {
+      FreeSpace space =
+          convex({[=, this](const TermPoint &p) {
+                    const TermId room = store_.subtract(cylinder.radius, radius_);
+                    return store_.logicalAnd(notBelow(room, zero_),
+                                             notBelow(squared(room), sumOfSquares(from(p[0], cylinder.centre[0]),
+                                                                                  from(p[1], cylinder.centre[1]))));
+                  },
+                  [=, this](const TermPoint &p) { return within(cylinder.along, p[2]); }});
+      space.around = [=, this](const TermPoint &centre, const std::vector<TermPoint> &ends) {
+        return circlesInside(cylinder, store_.subtract(cylinder.radius, radius_), centre, ends);
+      };
+      return space;
+    }
     const auto [along, across] = lying(cylinder);
     const Formula lengthwise = [=, this, i = along](const TermPoint &p) {
       return within(shrunk(cylinder.along), p[i]);
@@ -125,6 +131,9 @@ public:
         };
         return beyondPlane(spoke(anchor), spoke(p), reach);
       });
+      space.around = [=, this](const TermPoint &centre, const std::vector<TermPoint> &ends) {
+        return circlesOutside(cylinder, reach, centre, ends);
+      };
       return space;
     }
     const auto [along, across] = lying(cylinder);
@@ -247,6 +256,52 @@ private:
     return interval;
   }
 
+  // ---- circles about an upright axis ----
+
+  /// Each sum of the terms with either sign is at most the bound: so is the sum of their sizes.
+  TermId sizesAtMost(TermId bound, const std::vector<TermId> &terms) const {
+    std::vector<TermId> sums{zero_};
+    for (const TermId term : terms) {
+      if (term == zero_)
+        continue;
+      std::vector<TermId> longer;
+      for (const TermId sum : sums) {
+        longer.push_back(store_.add(sum, term));
+        longer.push_back(store_.subtract(sum, term));
+      }
+      sums = std::move(longer);
+    }
+    std::vector<TermId> cases;
+    for (const TermId sum : sums)
+      cases.push_back(notBelow(bound, sum));
+    return store_.logicalAnd(cases);
+  }
+  /// A circle about a centre that is off the axis: no point is further from the axis than the distance of the centre
+  /// and the radius together, and neither is longer than the sum of its coordinates.
+  TermId circlesInside(const Cylinder<TermId> &cylinder, TermId room, const TermPoint &centre,
+                       const std::vector<TermPoint> &ends) const {
+    std::vector<TermId> cases;
+    for (const TermPoint &end : ends)
+      cases.push_back(sizesAtMost(room, {from(centre[0], cylinder.centre[0]), from(centre[1], cylinder.centre[1]),
+                                         from(end[0], centre[0]), from(end[1], centre[1])}));
+    return store_.logicalAnd(cases);
+  }
+  /// No point is nearer to the axis than the radius without the distance of the centre, and no coordinate is longer
+  /// than the radius.
+  TermId circlesOutside(const Cylinder<TermId> &cylinder, TermId reach, const TermPoint &centre,
+                        const std::vector<TermPoint> &ends) const {
+    const std::vector<TermId> off{from(centre[0], cylinder.centre[0]), from(centre[1], cylinder.centre[1])};
+    std::vector<TermId> all;
+    for (const TermPoint &end : ends) {
+      std::vector<TermId> cases;
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        for (const TermId radius : {from(end[axis], centre[axis]), from(centre[axis], end[axis])})
+          cases.push_back(sizesAtMost(store_.subtract(radius, reach), off));
+      all.push_back(store_.logicalOr(cases));
+    }
+    return store_.logicalAnd(all);
+  }
+
   // ---- regions to keep out of ----
 
   /// With both as seen from the centre: the point is no nearer than the anchor in the direction of the anchor, which is
@@ -366,6 +421,9 @@ template <typename Make> FreeSpace owning(TermStore &store, const Tool<TermId> &
     beyond = [maker, inner = std::move(beyond)](const TermPoint &anchor, const TermPoint &p) {
       return inner(anchor, p);
     };
+  if (space.around)
+    space.around = [maker, inner = *std::move(space.around)](
+                       const TermPoint &centre, const std::vector<TermPoint> &ends) { return inner(centre, ends); };
   for (std::vector<Formula> *formulas : {&space.convexParts, &space.bounds})
     for (Formula &formula : *formulas)
       keep(formula);

@@ -23,12 +23,16 @@ using Formula = std::function<TermId(const TermPoint &)>;
 struct FreeSpace {
   /// A convex set within it that an anchor tells: what lies beyond the plane through the anchor that faces the region.
   using Beyond = std::function<TermId(const TermPoint &anchor, const TermPoint &point)>;
+  /// All points about an upright axis that are as far from it as one of the ends, or between: their levels are not
+  /// looked at.
+  using Around = std::function<TermId(const TermPoint &centre, const std::vector<TermPoint> &ends)>;
 
-  std::vector<Formula> convexParts; // convex sets within it: who has corners in one of them has all that lies between
-  Formula all;                      // all of it that is known
-  std::vector<Formula> bounds = {}; // of a convex one: convex sets that it is what they have in common
-  std::vector<Beyond> beyond = {};  // of a round one to keep out of
-  bool isOpenUpwards = false;       // who is in it is so, too, higher up
+  std::vector<Formula> convexParts;  // convex sets within it: who has corners in one of them has all that lies between
+  Formula all;                       // all of it that is known
+  std::vector<Formula> bounds = {};  // of a convex one: convex sets that it is what they have in common
+  std::vector<Beyond> beyond = {};   // of a round one to keep out of
+  std::optional<Around> around = {}; // of an upright cylinder: its first bound, or all of what is free beside it
+  bool isOpenUpwards = false;        // who is in it is so, too, higher up
 
   bool isConvex() const { return !bounds.empty(); }
 };

@@ -321,10 +321,15 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     return std::all_of(hull.corners.begin(), hull.corners.end(),
                        [&](const TermPoint &corner) { return bound(corner) == bound(path.atCentre(corner)); });
   };
+  const auto around = [&](const FreeSpace &space) {
+    return (*space.around)(path.atCentre(move.start), {move.start, move.end});
+  };
   for (const FreeSpace &space : rule.spaces) {
     for (const geometry::Formula &bound : space.bounds) {
       const std::set<TermId> corners = atCorners(bound);
       SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
+      if (space.around && &bound == &space.bounds.front() && path.isUprightArc())
+        question.alternatives.push_back({{}, around(space)});
       if (!path.isHull() && !isOfLevel(bound))
         question.alternatives.push_back(anyPoint(bound));
     }
@@ -338,6 +343,8 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     const std::vector<TermId> simple = simpleAlternatives(space, hull.corners);
     for (const TermId alternative : simple)
       question.alternatives.push_back({hull.conditions, alternative});
+    if (space.around && path.isUprightArc())
+      question.alternatives.push_back({{}, around(space)});
     if (simple.size() > 1) // one or the other, as the case may be
       question.alternatives.push_back({hull.conditions, store_.logicalOr(simple)});
     if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
