@@ -137,11 +137,12 @@ private:
     return interpretation_.negation(interpretation_.compare(Relation::Equal, factor, interpretation_.number(1)));
   }
   void drillSomehow() {
+    learnLevels();
     const Point start = state_.position;
     havocPosition(context_);
     tell(context_, MoveKind::Unmodelled, start);
     for (Value *level : {&cycle_.bottom, &cycle_.retract, &cycle_.initial, &cycle_.peck, &cycle_.dwell})
-      *level = interpretation_.anything();
+      *level = interpretation_.either(*level, interpretation_.anything());
     interpretation_.unmodelled("a canned cycle under scaling, or in another plane", context_.place());
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.
