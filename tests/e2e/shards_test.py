@@ -392,6 +392,23 @@ class Merging(Tree):
         self.assertTrue(one)
         self.assertEqual(one, two)
 
+    def test_report_of_what_cannot_be_read(self):
+        """Every shard writes its part, and the merge complains as one run does; no report is written."""
+        self.write("cell 2/O9012.contract", MISTAKEN)
+        self.write("settings/feedhold.toml", BROKEN)
+        for paths in (["cell 1", "cell 2"], ["cell 1", "settings"], ["cell 1", "missing.nc"]):
+            with self.subTest(paths=paths):
+                report = self.cache / "report"
+                one = self.feedhold("certify", *paths, "-o", report)
+                self.assertRefused(one, "no report was written")
+                for old in self.parts.iterdir():
+                    old.unlink()
+                codes = [self.feedhold("certify", *paths, "--shard", f"{index}/3", "--part", self.part(index, 3)).returncode
+                         for index in range(1, 4)]
+                self.assertIn(2, codes)
+                self.assertSame(self.merge("--output", report), one)
+                self.assertFalse(report.exists())
+
     def test_missing_parts(self):
         self.shards("check", 5)
         self.part(3, 5).unlink()
