@@ -23,6 +23,7 @@ MEASURED = {
     "engine": [*CHECK, "tests/bench/engine_bench.cpp", "tests/bench/generate.cpp"],
     "whole-process": [*CHECK, "tests/bench/whole_process.py", "tests/bench/generate.cpp"],
     "folder": [*CHECK, "tests/bench/folder_bench.py"],
+    "files": [*CHECK, "tests/bench/files_bench.py"],
     "prove": [*PROOF, "corpus/packages", "tests/bench/prove_bench.py"],
     "shards": [*PROOF, "tests/bench/shards_bench.py"],
     "simulation": [*PROOF, "corpus/packages", "tests/bench/simulation_bench.cpp"],

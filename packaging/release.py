@@ -18,9 +18,19 @@ Mitsubishi, Haas, LinuxCNC) as the control does. It reports mistakes before
 the machine makes them, runs programs without a machine, and proves for all
 inputs that loops end, that the control does not stop and that contracts are
 kept."""
-HOMEPAGE = "https://example.com/feedhold"
-MAINTAINER = "Feedhold maintainers <maintainers@users.noreply.h-seed-c282d966.example>"
 LICENCE = "Apache-2.0"
+# What only the people who publish a release know: packages to try have what is said here instead.
+TO_TRY = {"FEEDHOLD_HOMEPAGE": "https://feedhold.example/", "FEEDHOLD_MAINTAINER": "Nobody <nobody@feedhold.example>"}
+SHAPES = {"FEEDHOLD_HOMEPAGE": (r"https://[^\s/]+\.[^\s/]+(/\S*)?", "an address as https://shop.org/feedhold"),
+          "FEEDHOLD_MAINTAINER": (r"[^<>@\n]*[^<>@\s] <[^<>@\s]+@[^<>@\s]+\.[^<>@\s]+>",
+                                  "a name and an address for mail as Jo Doe <jo@shop.org>")}
+HOMEPAGE, MAINTAINER = (os.environ.get(name) or value for name, value in TO_TRY.items())
+
+
+def missing_for_release():
+    """What has to be set before packages are published."""
+    return [f"{name}: {shape}" for name, (pattern, shape) in SHAPES.items()
+            if not re.fullmatch(pattern, os.environ.get(name, "")) or re.search(r"\bexample\b", os.environ[name])]
 
 
 @dataclass(frozen=True)

@@ -48,11 +48,7 @@ bool isCommon(const FileContext &context, std::uint32_t variable) {
 
 /// No other program and no other block of this one sets the variable.
 bool isSetOnce(const FlowFacts &facts, std::uint32_t variable) {
-  std::size_t writes = 0;
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    for (const VariableUse &use : facts.programs.file(FileId(i)).model->variables)
-      writes += use.write && (!use.number || *use.number == variable) ? 1U : 0U;
-  return writes == 1;
+  return facts.programs.unnumberedUses().writes + facts.programs.usesOf(variable).writes == 1;
 }
 
 bool isBehind(const FlowFacts &facts, BlockId block, const Read &read) {

@@ -26,12 +26,7 @@ struct Deviation {
 };
 
 bool isReadInRun(const FlowFacts &facts, std::uint32_t variable) {
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    if (std::ranges::any_of(facts.programs.file(FileId(i)).model->variables, [&](const VariableUse &use) {
-          return !use.write && (!use.number || *use.number == variable);
-        }))
-      return true;
-  return false;
+  return facts.programs.unnumberedUses().reads + facts.programs.usesOf(variable).reads != 0;
 }
 
 bool isCommon(const FileContext &context, std::uint32_t variable) {

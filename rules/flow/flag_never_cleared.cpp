@@ -23,21 +23,21 @@ bool isKept(const FileContext &context, std::uint32_t variable) {
 
 /// Something that sets a common variable by a computed number, or a program that is not there.
 bool mayBeSetUnseen(const FlowFacts &facts, const FileContext &context) {
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    if (std::ranges::any_of(facts.programs.file(FileId(i)).model->variables,
-                            [](const VariableUse &use) { return use.write && !use.number; }))
-      return true;
-  return std::ranges::any_of(context.model.calls, [&](const Call &call) {
-    return call.kind != CallKind::ModalCancel && !context.callGraph.callee(context.file, call);
-  });
+  return facts.programs.unnumberedUses().writes != 0 || std::ranges::any_of(context.model.calls, [&](const Call &call) {
+           return call.kind != CallKind::ModalCancel && !context.callGraph.callee(context.file, call);
+         });
+}
+
+std::size_t writesIn(const FileContext &context, std::uint32_t variable) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      context.model.variables, [&](const VariableUse &use) { return use.write && use.number == variable; }));
 }
 
 std::map<std::uint32_t, Flag> flagsOf(const FlowFacts &facts, const FileContext &context) {
   std::map<std::uint32_t, Flag> flags;
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    for (const VariableUse &use : facts.programs.file(FileId(i)).model->variables)
-      if (use.write && use.number && isKept(context, *use.number))
-        flags[*use.number].isFlag = flags[*use.number].isFlag && FileId(i) == context.file;
+  for (const VariableUse &use : context.model.variables)
+    if (use.write && use.number && isKept(context, *use.number) && !flags.contains(*use.number))
+      flags[*use.number].isFlag = facts.programs.usesOf(*use.number).writes == writesIn(context, *use.number);
   for (NodeId node = facts.entry(); node < facts.end(); node = node.next())
     for (const Assignment &assignment : assignmentsOf(facts, node)) {
       const auto number = variableNumber(context.tree, unwrapped(context.tree, assignment.target));
@@ -55,11 +55,6 @@ std::map<std::uint32_t, Flag> flagsOf(const FlowFacts &facts, const FileContext 
       flag.sets.push_back(context.tree.blocks[block].span());
     }
   return flags;
-}
-
-std::size_t writesIn(const FileContext &context, std::uint32_t variable) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      context.model.variables, [&](const VariableUse &use) { return use.write && use.number == variable; }));
 }
 
 /// `#100EQ1` in a condition.

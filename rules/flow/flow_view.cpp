@@ -271,23 +271,7 @@ bool maySet(const FlowFacts &facts, std::uint32_t variable) {
 }
 
 bool isWrittenInAny(const FlowFacts &facts, std::uint32_t variable) {
-  const Decimal firstBeyondCommon(1000, 0);
-  const auto mayNameCommon = [&](const SyntaxTree &tree, ExpressionId target) {
-    const auto *indirect = as<IndirectVariable>(tree, target);
-    return indirect && std::ranges::none_of(subexpressions(tree, indirect->index), [&](ExpressionId part) {
-             const auto value = literalValue(tree, part);
-             return value && *value >= firstBeyondCommon;
-           });
-  };
-  for (std::size_t i = 0; i < facts.programs.size(); ++i) {
-    const ProgramFile &file = facts.programs.file(FileId(i));
-    for (std::size_t k = 0; k < file.model->programs.size(); ++k)
-      if (std::ranges::any_of(file.model->variablesOf(ProgramId(k)), [&](const VariableUse &use) {
-            return use.write && (use.number ? *use.number == variable : mayNameCommon(*file.tree, use.expression));
-          }))
-        return true;
-  }
-  return false;
+  return facts.programs.unnumberedUses().mayWriteCommon || facts.programs.usesOf(variable).writes != 0;
 }
 
 bool mayReadLocal(const ProgramFile &file, const VariableUse &use) {

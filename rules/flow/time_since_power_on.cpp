@@ -13,12 +13,7 @@ constexpr std::uint32_t kMilliseconds = 3001;
 constexpr std::int64_t kHour = 3'600'000;
 
 bool isSetInRun(const FlowFacts &facts) {
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    if (std::ranges::any_of(facts.programs.file(FileId(i)).model->variables, [](const VariableUse &use) {
-          return use.write && (!use.number || *use.number == kMilliseconds);
-        }))
-      return true;
-  return false;
+  return facts.programs.unnumberedUses().writes + facts.programs.usesOf(kMilliseconds).writes != 0;
 }
 
 /// `#3001GT1800`: the time that it is compared with.

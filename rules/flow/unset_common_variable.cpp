@@ -91,12 +91,7 @@ std::string effectOn(const Read &read, const FileContext &context) {
 
 /// Some file of the run sets the variable, or one whose number is computed.
 bool isSetInRun(const FlowFacts &facts, std::uint32_t variable) {
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    if (std::ranges::any_of(facts.programs.file(FileId(i)).model->variables, [&](const VariableUse &use) {
-          return use.write && (!use.number || use.number == variable);
-        }))
-      return true;
-  return false;
+  return facts.programs.unnumberedUses().writes + facts.programs.usesOf(variable).writes != 0;
 }
 
 /// A program that the operator starts, or one that a program of the run calls.

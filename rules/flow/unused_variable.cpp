@@ -97,15 +97,7 @@ bool isUnreadCommon(const FlowFacts &facts, const FileContext &context, std::uin
   const VariableRange *range = variable < kFirstNamedVariable ? findVariable(context.dialect, variable) : nullptr;
   if (!range || range->kind != VariableKind::Common || facts.programs.size() < 2 || callsUnseen(facts, context))
     return false;
-  for (std::size_t i = 0; i < facts.programs.size(); ++i) {
-    const ProgramFile &file = facts.programs.file(FileId(i));
-    if (std::ranges::any_of(file.model->variables, [&](const VariableUse &use) {
-          return use.number ? use.number == variable && !use.write
-                            : as<IndirectVariable>(*file.tree, use.expression) != nullptr;
-        }))
-      return false;
-  }
-  return true;
+  return !facts.programs.unnumberedUses().hasIndirect && facts.programs.usesOf(variable).reads == 0;
 }
 
 void reportSetting(const Setting &setting, const FileContext &context, const Reporter &reporter) {

@@ -58,12 +58,7 @@ bool givesCommonDefault(const FlowFacts &facts, const FileContext &context, Bloc
   if (!range || (range->kind != VariableKind::Common && range->kind != VariableKind::Retentive) ||
       isPromised(facts, context, variable) || isRefusedElsewhere(facts, variable, OtherComparison::WithLiteral))
     return false;
-  std::ptrdiff_t writes = 0;
-  for (std::size_t i = 0; i < facts.programs.size(); ++i)
-    writes += std::ranges::count_if(facts.programs.file(FileId(i)).model->variables, [&](const VariableUse &use) {
-      return use.write && (!use.number || use.number == variable);
-    });
-  return writes == 1 &&
+  return facts.programs.unnumberedUses().writes + facts.programs.usesOf(variable).writes == 1 &&
          std::ranges::any_of(facts.file.model->variablesIn(block, block.next()),
                              [&](const VariableUse &use) { return use.write && use.number == variable; });
 }

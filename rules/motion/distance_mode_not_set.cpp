@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace feedhold::rules::distance_mode_not_set {
 namespace {
@@ -63,19 +62,7 @@ private:
   }
   /// Some program of the folder has G91: it may be in force when this one starts.
   static bool mayBeLeftIncremental(const FileContext &context) {
-    const auto folder = std::filesystem::path(context.source.path()).parent_path();
-    for (std::size_t i = 0; i < context.programs->size(); ++i) {
-      const ProgramFile &file = context.programs->file(FileId(i));
-      if (std::filesystem::path(file.source->path()).parent_path() == folder && hasIncremental(file))
-        return true;
-    }
-    return false;
-  }
-  static bool hasIncremental(const ProgramFile &file) {
-    return std::ranges::any_of(file.cfg.nodes, [](const Node &node) {
-      const auto *execute = std::get_if<ExecuteWords>(&node.instruction);
-      return execute && execute->traits.mayDo(CodeAction::Incremental);
-    });
+    return context.programs->mayBeIncrementalInFolderOf(context.file);
   }
 
   MotionView view_;

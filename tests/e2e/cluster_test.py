@@ -109,8 +109,9 @@ class Engine(Scratch):
         self.assertEqual((merged, told, code), (expected.stdout, expected.stderr, expected.returncode))
 
 
-@unittest.skipUnless(SLURM, "needs slurm-wlm and munge")
-class Slurm(Engine):
+class Cluster(Engine):
+    """A controller and two nodes on this machine."""
+
     def setUp(self):
         super().setUp()
         self.cluster = self.cache / "cluster"
@@ -159,6 +160,9 @@ class Slurm(Engine):
     def log(self):
         return "\n".join(path.read_text()[-2000:] for path in sorted(self.cluster.glob("*.log")))
 
+
+@unittest.skipUnless(SLURM, "needs slurm-wlm and munge")
+class Slurm(Cluster):
     def submit(self, text, *options):
         script = self.cache / "job.sh"
         script.write_text(text)

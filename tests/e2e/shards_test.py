@@ -128,6 +128,12 @@ class Tree(Scratch):
         self.assertMultiLineEqual(result.stderr, expected.stderr)
         self.assertEqual(result.returncode, expected.returncode)
 
+    def assertRefused(self, result, *words):
+        self.assertExit(result, 2)
+        self.assertEqual(result.stdout, "")
+        for word in words:
+            self.assertIn(word, result.stderr)
+
     def forge(self, path, old, new):
         """Changes a part so that it does not look damaged."""
         head, _, record = path.read_bytes().split(b"\n", 2)
@@ -343,12 +349,6 @@ class Distribution(Tree):
 
 
 class Merging(Tree):
-    def assertRefused(self, result, *words):
-        self.assertExit(result, 2)
-        self.assertEqual(result.stdout, "")
-        for word in words:
-            self.assertIn(word, result.stderr)
-
     def test_twice_changes_nothing(self):
         for command in ("check", "prove"):
             expected = self.feedhold(command)
@@ -378,19 +378,6 @@ class Merging(Tree):
                       self.part(1, 1), "--", "-y.nc", "alone")
         self.assertSame(self.merge(), expected)
         self.assertEqual((self.folder / "-y.nc").read_bytes(), before)
-
-    def test_report(self):
-        """`certify` by shards, more of them than there are programs: the report is that of one run."""
-        paths = ["cell 1", "notes.txt"]
-        self.feedhold("certify", *paths, "-o", self.cache / "one" / "report")
-        for index in range(1, 6):
-            self.feedhold("certify", *paths, "--shard", f"{index}/5", "--part", self.part(index, 5))
-        self.assertRefused(self.feedhold("certify", *paths, "--shard", "1/5"), "--part")
-        self.merge("--output", self.cache / "two" / "report")
-        one, two = (({path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()})
-                    for folder in (self.cache / "one", self.cache / "two"))
-        self.assertTrue(one)
-        self.assertEqual(one, two)
 
     def test_missing_parts(self):
         self.shards("check", 5)

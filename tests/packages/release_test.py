@@ -1,10 +1,17 @@
 """What is said of all packages together: checksums, the bill of materials, one version, and the same bytes twice."""
 import hashlib
 import json
+import os
+import re
 import subprocess
 import zipfile
 
 from packaged import DIST, ROOT, VERSION, Packaged, main
+
+
+def members(path):
+    with zipfile.ZipFile(path) as archive:
+        return [(name, archive.read(name).decode(errors="replace")) for name in archive.namelist()]
 
 
 class Release(Packaged):
@@ -23,6 +30,37 @@ class Release(Packaged):
         subprocess.run(["python3", ROOT / "packaging/package.py", ROOT / "build", again], check=True,
                        stdout=subprocess.DEVNULL, timeout=500)
         self.assertEqual((again / "SHA256SUMS").read_text(), (DIST / "SHA256SUMS").read_text())
+
+    def test_a_release_says_whose_it_is(self):
+        """Packages to try name nobody; those that are published name a place and a person, or are not made."""
+        def make(**variables):
+            named = {name: value for name, value in os.environ.items() if not name.startswith("FEEDHOLD_")}
+            return subprocess.run(["python3", ROOT / "packaging/package.py", "--release", ROOT / "build", self.folder / "out"],
+                                  env=named | variables, capture_output=True, text=True, timeout=500)
+        place, person = "https://shop.test/feedhold", "Jo Doe <jo@shop.test>"
+        for given, missing in (({}, ["FEEDHOLD_HOMEPAGE", "FEEDHOLD_MAINTAINER"]),
+                               ({"FEEDHOLD_HOMEPAGE": place}, ["FEEDHOLD_MAINTAINER"]),
+                               ({"FEEDHOLD_HOMEPAGE": "https://example.com/x", "FEEDHOLD_MAINTAINER": person},
+                                ["FEEDHOLD_HOMEPAGE"]),
+                               ({"FEEDHOLD_HOMEPAGE": place, "FEEDHOLD_MAINTAINER": "Jo Doe"}, ["FEEDHOLD_MAINTAINER"])):
+            result = make(**given)
+            self.assertEqual((result.returncode, re.findall(r"(?m)^  (\w+): ", result.stderr)), (2, missing))
+            self.assertFalse((self.folder / "out").exists())
+        result = make(FEEDHOLD_HOMEPAGE=place, FEEDHOLD_MAINTAINER=person)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        out = self.folder / "out"
+        told = self.run_clean("dpkg-deb", "--field", next(out.glob("*.deb")), "Homepage", "Maintainer").stdout
+        self.assertEqual(told, f"Homepage: {place}\nMaintainer: {person}\n")
+        for path in out.iterdir():
+            if path.suffix == ".whl":
+                texts = [data for name, data in members(path) if name.endswith("METADATA")]
+            elif path.suffix == ".tgz":
+                texts = [self.run_clean("tar", "-xzOf", path, "package/package.json").stdout]
+            elif path.suffix == ".json":
+                texts = [path.read_text()]
+            else:
+                continue
+            self.assertIn(place, texts[0], path.name)
 
     def inside(self, bill, program):
         """The names of the libraries in it, each of which is described."""

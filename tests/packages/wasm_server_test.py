@@ -1,5 +1,6 @@
 """The language server in WebAssembly, as the extension for all platforms has it: it passes the tests of the server,
 finds what the program for Linux finds, and answers while it proves."""
+import json
 import os
 import shutil
 import subprocess
@@ -98,6 +99,22 @@ class Server(Packaged):
     def test_other_commands_on_real_files(self):
         """As the terminal of the extension runs them."""
         self.use(self.program)
+
+    def test_nothing_is_lost_where_others_are_slow(self):
+        """More than a pipe holds waits until it is read, and a program that comes late is waited for."""
+        words = ["check", "--severity", "info", "--format", "json"]
+        expected = subprocess.run([FEEDHOLD, *words, PACKAGES], capture_output=True, timeout=300).stdout
+        self.assertGreater(len(expected), 1 << 16)
+        process = subprocess.Popen([self.program, *words, PACKAGES], stdout=subprocess.PIPE)
+        time.sleep(20)
+        told = process.stdout.read()
+        process.stdout.close()
+        process.wait(60)
+        self.assertEqual(json.loads(told)["findings"], json.loads(expected)["findings"])
+        process = subprocess.Popen([self.program, *words, "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        time.sleep(2)
+        told = process.communicate(packaged.BAD.encode(), timeout=60)[0]
+        self.assertIn(b"missing-equals", told)
 
     def proving(self):
         """In the middle of a long proof: the client, and the URI."""

@@ -16,6 +16,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 
 namespace feedhold {
 
@@ -81,25 +82,41 @@ std::filesystem::path folderOf(const std::filesystem::path &file) {
   return std::filesystem::absolute(file).lexically_normal().parent_path();
 }
 
-/// The folder of a file and those above it, up to the one that was named.
-std::vector<std::filesystem::path> foldersAbove(const std::filesystem::path &file, const CheckOptions &options) {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> folders = {folderOf(file)};
-  for (const std::string &path : options.paths) {
-    const fs::path root = fs::absolute(path).lexically_normal() / "";
-    const fs::path below = folders.front().lexically_relative(root.parent_path());
-    if (below.empty() || below.generic_string().starts_with(".."))
-      continue;
-    while (folders.back() != root.parent_path() && folders.back().has_relative_path())
-      folders.push_back(folders.back().parent_path());
-    break;
+/// The folders that were named.  A person names one, a hook thousands of files.
+class NamedFolders {
+public:
+  explicit NamedFolders(const CheckOptions &options) {
+    for (const std::string &path : options.paths)
+      places_.try_emplace((std::filesystem::absolute(path).lexically_normal() / "").parent_path().native(),
+                          places_.size());
   }
-  return folders;
-}
+
+  /// The folder of a file and those above it, up to the one that was named: of several the first.
+  std::vector<std::filesystem::path> above(const std::filesystem::path &file) const {
+    std::vector<std::filesystem::path> folders = {folderOf(file)};
+    std::size_t count = 1; // of those up to the named one
+    std::size_t first = places_.size();
+    while (true) {
+      const auto named = places_.find(folders.back().native());
+      if (named != places_.end() && named->second < first) {
+        first = named->second;
+        count = folders.size();
+      }
+      if (!folders.back().has_relative_path())
+        break;
+      folders.push_back(folders.back().parent_path());
+    }
+    folders.resize(count);
+    return folders;
+  }
+
+private:
+  std::unordered_map<std::filesystem::path::string_type, std::size_t> places_;
+};
 
 class Settler {
 public:
-  Settler(const CheckOptions &options, const KnownNames &known) : options_(options), known_(known) {}
+  Settler(const CheckOptions &options, const KnownNames &known) : options_(options), known_(known), named_(options) {}
 
   Settings settle(const Candidate &candidate) {
     Settings settings;
@@ -119,9 +136,8 @@ public:
     if (options_.control.dialect)
       choose(*options_.control.dialect, DialectChoice::Option);
     if (settings.dialect->grammar.oWords && options_.config.source != ConfigSource::None)
-      settings.remapped = remaps_.inFolders(foldersAbove(
-          candidate.found.path.empty() ? std::filesystem::path(candidate.found.shown) : candidate.found.path,
-          options_));
+      settings.remapped = remaps_.inFolders(named_.above(
+          candidate.found.path.empty() ? std::filesystem::path(candidate.found.shown) : candidate.found.path));
     if (!settings.dialect->gCodesOfSystem.front().empty())
       settings.gCodeSystem = candidate.guess.gCodeSystem;
     return settings;
@@ -192,6 +208,7 @@ private:
 
   const CheckOptions &options_;
   const KnownNames &known_;
+  NamedFolders named_;
   RemapFinder remaps_;
   std::map<Key, std::shared_ptr<const Profile>> profiles_;
 };
@@ -296,9 +313,10 @@ std::vector<Candidate> silentVoters(const std::vector<Candidate> &candidates, co
 void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const KnownNames &known) {
   if (options.control.dialect)
     return;
+  const NamedFolders named(options);
   std::map<std::filesystem::path, FolderVote> votes;
   const auto add = [&](const Candidate &candidate) {
-    for (const std::filesystem::path &folder : foldersAbove(candidate.found.path, options))
+    for (const std::filesystem::path &folder : named.above(candidate.found.path))
       votes.try_emplace(folder, known.dialects).first->second.add(candidate.guess);
   };
   for (const Candidate &candidate : candidates)
@@ -306,7 +324,7 @@ void vote(std::vector<Candidate> &candidates, const CheckOptions &options, const
   for (const Candidate &candidate : silentVoters(candidates, options, known))
     add(candidate);
   for (Candidate &candidate : candidates) {
-    const std::vector<std::filesystem::path> folders = foldersAbove(candidate.found.path, options);
+    const std::vector<std::filesystem::path> folders = named.above(candidate.found.path);
     const auto clear = std::find_if(folders.begin(), folders.end(),
                                     [&](const std::filesystem::path &folder) { return votes.at(folder).isClear(); });
     candidate.guess = votes.at(clear == folders.end() ? folders.front() : *clear).decide(candidate.guess);

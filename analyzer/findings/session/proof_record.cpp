@@ -357,7 +357,6 @@ Obligation readObligation(Reader &reader) {
 
 std::string writeProofRecord(const ProgramProof &proof, const ProofSteps *steps) {
   const auto &[obligations, unmodelled, incomplete, contradictions] = proof;
-  static_cast<void>(contradictions); // a proof that has any is not kept
   Writer writer(steps != nullptr);
   writer.list(obligations, [&](const Obligation &obligation) { write(writer, obligation); });
   writer.list(unmodelled, [&](const prove::Unmodelled &each) {
@@ -366,6 +365,11 @@ std::string writeProofRecord(const ProgramProof &proof, const ProofSteps *steps)
     writer.span(each.span);
   });
   writer.optional(incomplete, [&](const std::string &reason) { writer.text(reason); });
+  writer.list(contradictions, [&](const prove::Contradiction &each) {
+    writer.text(each.id);
+    writer.text(each.verdict);
+    write(writer, each.run);
+  });
   writer.list(steps == nullptr ? ProofSteps() : *steps, [&](const auto &step) {
     writer.text(step.first);
     writer.text(step.second);
@@ -384,6 +388,11 @@ std::optional<RecordedProof> readProofRecord(std::string_view record, const Prog
   });
   if (reader.isPresent())
     read.proof.incomplete = reader.text();
+  reader.list([&] {
+    const std::string_view id = reader.text();
+    const std::string_view verdict = reader.text();
+    read.proof.contradictions.push_back({std::string(id), std::string(verdict), readWitness(reader)});
+  });
   reader.list([&] {
     const std::string_view claim = reader.text();
     read.steps.emplace(claim, reader.text());

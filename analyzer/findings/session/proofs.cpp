@@ -110,7 +110,7 @@ void answer(Job &job, const ProofOptions &options) {
     return;
   }
   proveOrRecall(job, options);
-  if (options.answers.kept != nullptr && job.result->proof.contradictions.empty())
+  if (options.answers.kept != nullptr)
     options.answers.kept->add(
         answerKey(job, options),
         writeProofRecord(job.result->proof, options.steps == KeepSteps::Yes ? &job.result->steps : nullptr));

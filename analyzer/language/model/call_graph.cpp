@@ -99,7 +99,8 @@ struct CallGraph::Impl {
   std::vector<ModelledFile> files;
   std::unordered_map<std::uint32_t, std::size_t> slotOf; // FileId -> index in files
   std::unordered_map<std::string, std::vector<ProgramRef>> byName;
-  std::unordered_map<std::string, std::vector<ProgramRef>> byPlace; // folder and name
+  std::unordered_map<std::string, std::vector<ProgramRef>> byPlace;   // folder and name
+  std::unordered_map<std::string, std::vector<ProgramRef>> elsewhere; // by the caller's place, where that has none
   std::unordered_map<ProgramRef, std::vector<Edge>, ProgramRefHash> callees;
   std::unordered_map<ProgramRef, std::vector<Caller>, ProgramRefHash> callers;
   std::unordered_map<ProgramRef, std::optional<Depth>, ProgramRefHash> depths;
@@ -111,6 +112,7 @@ struct CallGraph::Impl {
   void indexPrograms();
   void indexCalls();
   void indexProgram(const ModelledFile &where, ProgramRef ref, const ProgramName &name);
+  void lookElsewhere(ProgramRef from, const ProgramName &name);
   std::vector<ProgramRef> find(ProgramRef from, const ProgramName &name) const;
   std::vector<ProgramRef> nearest(const std::vector<ProgramRef> &among, ProgramRef from, const ProgramName &name,
                                   int farthest) const;
@@ -162,13 +164,17 @@ int CallGraph::Impl::distance(ProgramRef from, ProgramRef to) const {
 
 /// The programs of the nearest place.  A subroutine of o-words is found in the caller's own file or in the one named
 /// after it (`name.ngc`), wherever that lies.
-/// A plant has a program of the same number in each of its folders: first those of the caller's folder are asked.
+/// A plant has a program of the same number in each of its folders: first those of the caller's folder are asked, and
+/// all others once for each folder and name that is called.
 std::vector<ProgramRef> CallGraph::Impl::find(ProgramRef from, const ProgramName &name) const {
   if (name.empty())
     return {};
-  if (const auto here = byPlace.find(placeOf(file(from.file).folder, name)); here != byPlace.end())
+  const std::string place = placeOf(file(from.file).folder, name);
+  if (const auto here = byPlace.find(place); here != byPlace.end())
     if (std::vector<ProgramRef> programs = nearest(here->second, from, name, kSameFolder); !programs.empty())
       return programs;
+  if (const auto known = elsewhere.find(place); known != elsewhere.end())
+    return known->second;
   const auto found = byName.find(keyOf(name));
   return found == byName.end() ? std::vector<ProgramRef>() : nearest(found->second, from, name, kFolderNear);
 }
@@ -201,12 +207,22 @@ std::vector<ProgramRef> CallGraph::Impl::candidates(FileId file, const Call &cal
   return find({file, call.caller}, name);
 }
 
+/// What callers in one folder find is the same when nothing in that folder has the name.
+void CallGraph::Impl::lookElsewhere(ProgramRef from, const ProgramName &name) {
+  std::string place = placeOf(file(from.file).folder, name);
+  const auto found = byName.find(keyOf(name));
+  if (name.empty() || found == byName.end() || byPlace.contains(place) || elsewhere.contains(place))
+    return;
+  elsewhere.emplace(std::move(place), nearest(found->second, from, name, kFolderNear));
+}
+
 void CallGraph::Impl::indexCalls() {
   for (const ModelledFile &each : files)
     for (std::size_t i = 0; i < each.model->calls.size(); ++i) {
       const Call &call = each.model->calls[CallId(i)];
       if (!transfersControl(call.kind))
         continue;
+      lookElsewhere({each.file, call.caller}, call.callee);
       for (const ProgramRef &target : candidates(each.file, call)) {
         callees[{each.file, call.caller}].push_back({target, call.kind});
         callers[target].push_back({each.file, CallId(i)});
@@ -288,12 +304,12 @@ std::vector<ProgramRef> CallGraph::namesakes(ProgramRef program) const {
   std::vector<ProgramRef> others;
   if (!impl_)
     return others;
-  const auto found = impl_->byName.find(keyOf(model(program.file).programs[program.program].name));
-  if (found == impl_->byName.end())
+  const ModelledFile &file = impl_->file(program.file);
+  const auto found = impl_->byPlace.find(placeOf(file.folder, file.model->programs[program.program].name));
+  if (found == impl_->byPlace.end())
     return others;
   for (const ProgramRef &ref : found->second)
-    if (ref != program && impl_->file(ref.file).folder == impl_->file(program.file).folder &&
-        impl_->program(ref).folder == impl_->program(program).folder)
+    if (ref != program && impl_->program(ref).folder == impl_->program(program).folder)
       others.push_back(ref);
   return others;
 }

@@ -47,6 +47,23 @@ std::string_view folderOf(std::string_view path) {
   return end == std::string_view::npos ? std::string_view() : path.substr(0, end);
 }
 
+/// The index of a written `#[..]` may be that of a common variable: nothing in it is a number of system variables.
+bool mayNameCommon(const SyntaxTree &tree, const IndirectVariable &target) {
+  const Decimal firstBeyondCommon(1000, 0);
+  const std::vector<ExpressionId> parts = subexpressions(tree, target.index);
+  return std::none_of(parts.begin(), parts.end(), [&](ExpressionId part) {
+    const std::optional<Decimal> value = literalValue(tree, part);
+    return value && *value >= firstBeyondCommon;
+  });
+}
+
+bool mayBeIncremental(const ProgramFile &file) {
+  return std::any_of(file.cfg.nodes.begin(), file.cfg.nodes.end(), [](const Node &node) {
+    const auto *execute = std::get_if<ExecuteWords>(&node.instruction);
+    return execute != nullptr && execute->traits.mayDo(CodeAction::Incremental);
+  });
+}
+
 /// The block behind which a search for a sequence number begins at the head of the program.
 BlockId lastBlockOf(const Program &program) {
   return BlockId(std::max(program.last.index(), program.first.index() + 1) - 1);
@@ -60,7 +77,7 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
   for (const ProgramFile &each : files_) {
     FEEDHOLD_CHECK(each.file.index() == static_cast<std::size_t>(&each - files_.data()), "files are numbered in order");
     models.push_back(each.model);
-    byFolder_[folderOf(each.source->path())].push_back(each.file);
+    byFolder_[folderOf(each.source->path())].files.push_back(each.file);
   }
   returns_ = returnTargets(models);
   parallelFor(files_.size(), jobs, [&](std::size_t i) {
@@ -71,6 +88,9 @@ ProgramSet::ProgramSet(std::vector<ProgramFile> files, CallGraph callGraph, unsi
     findNames(each);
     findModalCallees(each);
     findWritten(each);
+    findUses(each);
+    if (FilesOfFolder &folder = byFolder_[folderOf(each.source->path())]; !folder.mayBeIncremental)
+      folder.mayBeIncremental = mayBeIncremental(each);
   }
   sortUnique(modalCallees_);
   sortUnique(written_);
@@ -92,6 +112,28 @@ void ProgramSet::findWritten(const ProgramFile &file) {
       if (use.write && use.number)
         written_.push_back(*use.number);
   }
+}
+
+void ProgramSet::findUses(const ProgramFile &file) {
+  for (const VariableUse &use : file.model->variables) {
+    UseCounts &counts = use.number ? uses_[*use.number] : unnumbered_;
+    ++(use.write ? counts.writes : counts.reads);
+    if (use.number)
+      continue;
+    const auto *indirect = std::get_if<IndirectVariable>(&file.tree->expressions[use.expression].node);
+    unnumbered_.hasIndirect = unnumbered_.hasIndirect || indirect != nullptr;
+    if (use.write && indirect != nullptr && !unnumbered_.mayWriteCommon)
+      unnumbered_.mayWriteCommon = mayNameCommon(*file.tree, *indirect);
+  }
+}
+
+UseCounts ProgramSet::usesOf(std::uint32_t variable) const {
+  const auto found = uses_.find(variable);
+  return found == uses_.end() ? UseCounts() : found->second;
+}
+
+bool ProgramSet::mayBeIncrementalInFolderOf(FileId id) const {
+  return byFolder_.at(folderOf(file(id).source->path())).mayBeIncremental;
 }
 
 void ProgramSet::findModalCallees(const ProgramFile &from) {
@@ -117,7 +159,7 @@ void ProgramSet::findNames(const ProgramFile &file) {
 }
 
 std::span<const FileId> ProgramSet::inFolderOf(FileId id) const {
-  return byFolder_.at(folderOf(file(id).source->path()));
+  return byFolder_.at(folderOf(file(id).source->path())).files;
 }
 
 std::optional<Callee> ProgramSet::callee(FileId id, CallId callId) const {

@@ -45,6 +45,18 @@ struct LabelledPart {
   Callee callee;
 };
 
+/// How often the programs of all files use something.
+struct UseCounts {
+  std::uint32_t reads = 0;
+  std::uint32_t writes = 0;
+};
+
+/// Of variables without a number of their own in the text: `#[#1+100]`, `#<name>`.
+struct UnnumberedUses : UseCounts {
+  bool hasIndirect = false;    // `#[..]`
+  bool mayWriteCommon = false; // the index of one that is written has no part of 1000 or more
+};
+
 /// Names of variables that are no numbers (`#<depth>`): from here on in the numbering of variables, so that every
 /// variable is one 32-bit number.
 inline constexpr std::uint32_t kFirstNamedVariable = 0x80000000;
@@ -80,6 +92,11 @@ public:
   std::optional<Callee> calleeOf(FileId caller, std::uint32_t programNumber) const;
   /// Some program that others call, or that returns to a caller, assigns to the variable by its number.
   bool isWrittenInCalled(std::uint32_t variable) const;
+  /// By the number that stands in the text.
+  UseCounts usesOf(std::uint32_t variable) const;
+  const UnnumberedUses &unnumberedUses() const { return unnumbered_; }
+  /// Some program in the folder of the file may have G91.
+  bool mayBeIncrementalInFolderOf(FileId file) const;
   /// What the modal calls of all programs call.
   const std::vector<Callee> &modalCallees() const { return modalCallees_; }
   /// Some program begins a modal call.
@@ -106,16 +123,23 @@ private:
   void findNames(const ProgramFile &file);
   void findModalCallees(const ProgramFile &from);
   void findWritten(const ProgramFile &file);
+  void findUses(const ProgramFile &file);
   std::optional<Callee> entryOf(std::optional<ProgramRef> program) const;
   std::optional<Callee> localCallee(FileId file, const Call &call) const;
 
   std::vector<ProgramFile> files_;
-  std::unordered_map<std::string_view, std::vector<FileId>> byFolder_; // in the paths of the sources
+  struct FilesOfFolder {
+    std::vector<FileId> files;
+    bool mayBeIncremental = false;
+  };
+  std::unordered_map<std::string_view, FilesOfFolder> byFolder_; // in the paths of the sources
   CallGraph callGraph_;
   ReturnTargets returns_;
   std::vector<Callee> modalCallees_; // sorted
   bool hasModalCalls_ = false;
-  std::vector<std::uint32_t> written_;                              // sorted
+  std::vector<std::uint32_t> written_; // sorted
+  std::unordered_map<std::uint32_t, UseCounts> uses_;
+  UnnumberedUses unnumbered_;
   std::vector<std::string> names_;                                  // sorted; canonical spelling
   std::vector<std::pair<std::string, std::uint32_t>> namedNumbers_; // by SETVN; sorted
 };

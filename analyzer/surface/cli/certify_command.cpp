@@ -92,6 +92,18 @@ Result<int> finishShard(const CertifyArguments &arguments, const CLI::App &comma
   return exitCodeOf(run.status);
 }
 
+/// The part of a shard tells the merge what was proved beside what cannot be read, so that the merge complains as one
+/// run.
+Error refuseReport(const CertifyArguments &arguments, const CLI::App &command, const ReportRun &run,
+                   const Answers &kept) {
+  for (const PathProblem &problem : run.problems)
+    printError(problem.path + ": " + problem.message);
+  if (run.isProved)
+    if (auto error = writePartOf(arguments.shard, command, kept, run.costs))
+      return *std::move(error);
+  return Error{"no report was written, since it would not cover all of the named files"};
+}
+
 /// The reproducible-builds.org convention: seconds since 1970, in UTC.
 Result<std::optional<std::string>> dateOf(const CertifyArguments &arguments) {
   if (!arguments.date.empty())
@@ -149,10 +161,8 @@ Result<int> certify(const CertifyArguments &arguments, const CLI::App &command) 
   if (const auto refusal = whyNoBundleFits(arguments.output, kReportDocument))
     return Error{arguments.output + ": " + refusal->message};
   const ReportRun run = runReport(options.value(), arguments.output, arguments.jobs, part.value());
-  for (const PathProblem &problem : run.problems)
-    printError(problem.path + ": " + problem.message);
   if (!run.problems.empty())
-    return Error{"no report was written, since it would not cover all of the named files"};
+    return refuseReport(arguments, command, run, kept);
   if (!arguments.shard.shard.empty())
     return finishShard(arguments, command, run, kept);
   if (const auto error = writeBundle(arguments.output, run.report))

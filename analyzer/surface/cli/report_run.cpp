@@ -94,6 +94,8 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
   ReportRun run;
   if (!part.files && proofs.files.empty() && proofs.errors.empty() && !proofs.skipped.empty())
     proofs.errors.push_back({proofs.skipped.front().path, "nothing to prove: " + proofs.skipped.front().reason});
+  run.isProved = true;
+  run.costs = costsOf(proofs);
   run.problems = proofs.errors;
   if (!run.problems.empty())
     return run;
@@ -110,7 +112,6 @@ ReportRun runReport(const ReportOptions &options, const fs::path &folder, unsign
       ++run.programs;
     }
   run.status = releaseStatusOf(proofs);
-  run.costs = costsOf(proofs);
   if (part.files)
     return run;
   run.report = makeReport({.options = options,

@@ -18,6 +18,7 @@ struct ReportRun {
   std::size_t programs = 0;
   ReleaseStatus status = ReleaseStatus::Ready; // the worst of all programs
   FileCosts costs = {};                        // of the proofs
+  bool isProved = false;                       // what could be read; not where this installation is at fault
   std::vector<PathProblem> problems;
 };
 

@@ -1,6 +1,6 @@
 // The program `feedhold` in WebAssembly, on the Node.js that runs the extension: `feedhold.js WORDS..`, as the program
 // itself takes them.  It works in a worker and waits there for its client: who waits on the main thread receives nothing.
-import { readFileSync, writeSync } from "node:fs";
+import fs from "node:fs";
 import { join } from "node:path";
 import { MessageChannel, Worker, isMainThread, receiveMessageOnPort, workerData } from "node:worker_threads";
 import type { MessagePort } from "node:worker_threads";
@@ -14,7 +14,7 @@ const COULD_NOT_RUN = 2;
 const STANDARD_OUTPUT = 1;
 /** Deeply nested programs need as much as elsewhere; a worker has 4 otherwise. */
 const STACK_MB = 16;
-/** Until a client that is slow to read is tried again. */
+/** Until someone who is slow to read, or to write, is tried again. */
 const PAUSE_MS = 5;
 
 interface Work {
@@ -52,8 +52,11 @@ function begin(words: string[]): void {
 }
 
 async function work({ words, client, arrivals }: Work): Promise<void> {
+  // What the program writes by itself: the pipes of Node.js do not wait until they are read.
+  fs.writeSync = patient(fs.writeSync);
+  fs.readSync = patient(fs.readSync);
   const program = await create({
-    wasmBinary: readFileSync(join(__dirname, "feedhold.wasm")),
+    wasmBinary: fs.readFileSync(join(__dirname, "feedhold.wasm")),
     buildId: BUILD_ID,
     preRun: [(given) => Object.assign(given.ENV, process.env)],
     receive: receiver(client, arrivals),
@@ -89,12 +92,25 @@ function receiver(client: MessagePort, arrivals: Int32Array): (to: Uint8Array, m
 }
 
 function writeAll(bytes: Uint8Array): void {
-  for (let at = 0; at < bytes.length; ) {
-    try {
-      at += writeSync(STANDARD_OUTPUT, bytes, at);
-    } catch (error) {
-      if ((error as NodeJS.ErrnoException).code !== "EAGAIN") return; // the client is gone, and nobody reads
-      Atomics.wait(new Int32Array(new SharedArrayBuffer(Int32Array.BYTES_PER_ELEMENT)), 0, 0, PAUSE_MS);
-    }
+  try {
+    for (let at = 0; at < bytes.length; ) at += fs.writeSync(STANDARD_OUTPUT, bytes, at);
+  } catch {
+    // The client is gone, and nobody reads.
   }
+}
+
+/** The same function, for as long as it takes. */
+function patient<T extends (...words: never[]) => number>(once: T): T {
+  const pause = new Int32Array(new SharedArrayBuffer(Int32Array.BYTES_PER_ELEMENT));
+  const again = (...words: Parameters<T>): number => {
+    for (;;) {
+      try {
+        return once(...words);
+      } catch (error) {
+        if ((error as NodeJS.ErrnoException).code !== "EAGAIN") throw error;
+        Atomics.wait(pause, 0, 0, PAUSE_MS);
+      }
+    }
+  };
+  return again as T;
 }

@@ -75,6 +75,33 @@ TEST(ProgramSet, ReturnsOfOtherFilesEnterLoops) {
   EXPECT_TRUE(Fixture("fanuc-30i", {caller, "O2\nM99P20\n"}).set->file(FileId(0)).cfg.gates.empty());
 }
 
+TEST(ProgramSet, CountsUsesOfVariablesOverAllFiles) {
+  const Fixture numbered("fanuc-30i", {"O1\n#500=1\n#501=#500\nM30\n", "O2\n#500=#501+#500\nM99\n"});
+  EXPECT_EQ(numbered.set->usesOf(500).writes, 2u);
+  EXPECT_EQ(numbered.set->usesOf(500).reads, 2u);
+  EXPECT_EQ(numbered.set->usesOf(501).writes, 1u);
+  EXPECT_EQ(numbered.set->usesOf(502).writes + numbered.set->usesOf(502).reads, 0u);
+  EXPECT_EQ(numbered.set->unnumberedUses().writes + numbered.set->unnumberedUses().reads, 0u);
+  EXPECT_FALSE(numbered.set->unnumberedUses().hasIndirect);
+
+  const Fixture common("fanuc-30i", {"O1\n#500=1\nM30\n", "O2\n#[#1+500]=#[#2]\nM99\n"});
+  EXPECT_EQ(common.set->unnumberedUses().writes, 1u);
+  EXPECT_EQ(common.set->unnumberedUses().reads, 1u);
+  EXPECT_TRUE(common.set->unnumberedUses().hasIndirect);
+  EXPECT_TRUE(common.set->unnumberedUses().mayWriteCommon);
+
+  const Fixture system("fanuc-30i", {"O1\n#[#1+5220]=1\n#1=#[#2]\nM30\n"});
+  EXPECT_TRUE(system.set->unnumberedUses().hasIndirect);
+  EXPECT_FALSE(system.set->unnumberedUses().mayWriteCommon);
+}
+
+TEST(ProgramSet, KnowsWhereSomethingIsIncremental) {
+  const Fixture plain("fanuc-30i", {"O1\nG90G00X1.\nM30\n", "O2\nG01X1.\nM99\n"});
+  EXPECT_FALSE(plain.set->mayBeIncrementalInFolderOf(FileId(0)));
+  const Fixture other("fanuc-30i", {"O1\nG90G00X1.\nM30\n", "O2\nG91G01X1.\nM99\n"});
+  EXPECT_TRUE(other.set->mayBeIncrementalInFolderOf(FileId(0)));
+}
+
 TEST(ProgramSet, KnowsNamesOfVariables) {
   const Fixture macro("fanuc-30i", {"O1\nSETVN 500[WIDTH,DEPTH]\n#1=[#DEPTH]\n#2=[#_ALM]\n#3=[#OTHER]\nM30\n"});
   EXPECT_EQ(macro.variable(0, "DEPTH"), 501u);
