@@ -85,7 +85,7 @@ inline Dialect makeHaas(MachineKind machine) {
   dialect.behaviour.cyclesNeedXY = true;
   dialect.behaviour.cyclesAreScaled = false;
   dialect.behaviour.feedByIncrements = true;
-  dialect.behaviour.localShiftIsExternal = true;
+  dialect.behaviour.localShiftIsVariable = true;
   dialect.behaviour.referenceCancelsLength = true;
   dialect.behaviour.logicOfIntegerParts = true;
   if (machine == MachineKind::Milling) {

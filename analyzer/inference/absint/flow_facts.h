@@ -19,7 +19,8 @@ struct AlarmFact {
   AlarmKind kind;
   Span place;
   NodeId node;
-  bool always; // where the settings of the machine are as usual
+  bool always;
+  bool usually; // wherever the settings of the machine are as usual
 };
 
 /// `#3000=`

@@ -337,7 +337,7 @@ struct Behaviour {
   bool cyclesAreScaled = true;         // G51 scales the levels of canned cycles
   bool feedByIncrements = false;       // F without a point counts thousandths, as a setting says
   bool distanceModeByWord = false;     // G90 and G91 in one block hold for the words behind them
-  bool localShiftIsExternal = false;   // G52 writes the offset that is added to all systems, #5201
+  bool localShiftIsVariable = false;   // #5201 and on are the offsets of G52
   bool toolChangeReturnsZ = false;     // M06 moves Z to the reference position
   bool referenceCancelsLength = false; // G28 of any axis may cancel the tool length, not of Z alone
   bool logicOfIntegerParts = false;    // AND, OR, XOR drop fractions; else they round
@@ -353,7 +353,7 @@ struct Behaviour {
   double equalTolerance = 0;  // EQ and NE take values this near as equal
   double arcTolerance = 0.05; // mm: largest difference of the radii at start and end
   /// Where it is above 0, an arc stops the control if its radii differ by more than the tolerance and by more than this
-  /// share of the larger one, or by a hundred times the tolerance; no setting changes that.
+  /// share of the larger one, or by a hundred times the tolerance.
   double arcShare = 0;
   double arcToleranceInch = 0.05 / 25.4;
   double peckClearance = 0.254; // mm: how far above the last depth a peck begins (a parameter of most controls)

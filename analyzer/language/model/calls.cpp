@@ -99,11 +99,9 @@ Call readCall(const ResolveContext &context, const ProgramModel &model, BlockId 
     call.kind = CallKind::MacroA;
   if (call.kind == CallKind::MacroA)
     return call;
-  const bool startsElsewhere = context.dialect.grammar.callStartsAtSequence && kind == CallKind::Subprogram &&
-                               findWord(tree, block, 'H'); // not followed, as a program whose number is computed
-  if (program && startsElsewhere)
-    call.programWord = tree.idOf(*program);
-  else if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
+  if (context.dialect.grammar.callStartsAtSequence && kind == CallKind::Subprogram && findWord(tree, block, 'H'))
+    call.kind = kind = CallKind::External; // not followed, as a program on another device
+  if (program && kind != CallKind::ModalCancel && kind != CallKind::Local)
     readCallee(context, *program, call);
   if (kind == CallKind::Local && program)
     call.programWord = tree.idOf(*program);

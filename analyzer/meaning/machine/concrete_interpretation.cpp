@@ -202,7 +202,8 @@ void ConcreteInterpretation::holdInMantissa32(Value &result, Span place) {
 void ConcreteInterpretation::alarm(bool truth, AlarmReport report) {
   if (truth && (report.kind == AlarmKind::ArcRadius || report.kind == AlarmKind::ArcTooShort ||
                 report.kind == AlarmKind::ArcWithoutLength))
-    readPosition();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+      readPosition(axis);
   if (truth && stopped_.kind == Stop::None)
     stopped_ = {Stop::ControlAlarm, report.kind, 0, report.place};
 }

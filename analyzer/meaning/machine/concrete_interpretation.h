@@ -174,8 +174,8 @@ public:
   void placeAxis(Axis axis) { lostAxes_ &= static_cast<std::uint16_t>(~(1U << indexOf(axis))); }
   bool isLost() const { return (lostAxes_ & 7U) != 0; } // X, Y or Z
   /// A position is taken for a number: what follows from it is one of many things.
-  void readPosition() {
-    if (lostAxes_ == 0)
+  void readPosition(Axis axis) {
+    if ((lostAxes_ & (1U << indexOf(axis))) == 0)
       return;
     notes_.push_back("a position that is not known");
     passedUnmodelled_ = passedUnmodelled_ || stopped_.kind == Stop::None;

@@ -288,21 +288,10 @@ private:
       const Truth stops = interpretation_.both(differ, context_.either(apart.exceed(interpretation_, most), isLarge));
       return {stops, stops};
     }
-    const Truth isNoticed = apart.exceed(interpretation_, noticedDifference());
-    if (!interpretation_.mayBe(isNoticed))
-      return {isNoticed, isNoticed};
-    const Truth byParameter =
-        context_.either(interpretation_.both(differ, context_.isOn(&Switches::radiiDifferStops)), context_.maybeNot());
-    return {interpretation_.both(isNoticed, byParameter), differ};
+    return {interpretation_.both(differ, context_.isOn(&Switches::radiiDifferStops)), differ};
   }
   /// Of LinuxCNC (interp_arc.cc): beyond, an arc stops the interpreter however large it is.
   static constexpr double kMostTolerances = 100;
-  /// A parameter may ask for circles as good as that (FANUC 3410, Mitsubishi #1084); words that are rounded are better.
-  Value noticedDifference() {
-    constexpr double kNoticed = 0.005; // mm
-    return interpretation_.select(isMetric(context_), interpretation_.number(kNoticed),
-                                  interpretation_.number(kNoticed / 25.4));
-  }
   Value tolerance() {
     const Value metric = interpretation_.number(context_.behaviour().arcTolerance);
     return interpretation_.select(isMetric(context_), metric,

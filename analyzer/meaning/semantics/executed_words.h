@@ -115,6 +115,20 @@ typename R::Truth isWordPresent(StepContext<R> &context, ExpressionId expression
   return interpretation.negation(interpretation.isVacant(value));
 }
 
+/// G20 or G21 of the block.
+template <ValueAlgebra R> const Code *unitsIn(StepContext<R> &context, const ExecuteWords &execute) {
+  if (!execute.traits.mayDo(CodeAction::Inch) && !execute.traits.mayDo(CodeAction::Metric))
+    return nullptr;
+  const Code *found = nullptr;
+  forEachExecutedWord(
+      context.tree(), *context.file.model, context.dialect(), context.block, execute, [&](const Word &word) {
+        const Code *code = word.address() == 'G' && word.isNumber() ? codeOf(word, context.dialect()) : nullptr;
+        if (code && (code->action == CodeAction::Inch || code->action == CodeAction::Metric))
+          found = code;
+      });
+  return found;
+}
+
 template <ValueAlgebra R> class WordReader {
 public:
   WordReader(StepContext<R> &context, ExecutedWords<R> &words)
@@ -280,8 +294,8 @@ typename R::Value countedLiteral(StepContext<R> &context, const AddressFormat &f
   return byIncrement(context, format.kind, [&](Decimal step) {
     const Decimal cut = detail::keptDigits(literal, step, false);
     const Decimal rounded = detail::keptDigits(literal, step, true);
-    if (cut == literal)
-      return interpretation.literal(literal);
+    if (cut == literal || context.dialect().hasFanucParameters)
+      return interpretation.literal(cut);
     const auto other = interpretation.either(interpretation.literal(rounded), interpretation.literal(literal));
     return interpretation.either(interpretation.literal(cut), other);
   });
@@ -313,7 +327,15 @@ typename R::Value scaledLiteral(StepContext<R> &context, char address, Decimal l
 template <ValueAlgebra R>
 void readWords(StepContext<R> &context, const ExecuteWords &execute, ExecutedWords<R> &words) {
   words.clear();
+  const auto group = context.modes.groupOf(ModalKind::Units);
+  const Code *units = group ? detail::unitsIn(context, execute) : nullptr;
+  if (!units)
+    return detail::WordReader<R>(context, words).run(execute);
+  auto &inForce = context.state.codes[*group]; // its words are counted in the units of the block
+  const auto before = inForce;
+  inForce = context.interpretation.code(*context.modes.indexOf(*units));
   detail::WordReader<R>(context, words).run(execute);
+  inForce = before;
 }
 
 } // namespace feedhold

@@ -66,8 +66,9 @@ private:
     for (const char letter : {'F', 'S'})
       if (const auto number = numberOf(letter); number && *number < 0)
         return "a feed or a speed below 0";
+    constexpr double kWhole = 1e-4;
     for (const char letter : {'L', 'T'})
-      if (const auto number = numberOf(letter); number && *number != std::floor(*number))
+      if (const auto number = numberOf(letter); number && std::abs(*number - std::round(*number)) > kWhole)
         return "L or T with a fraction";
     return {};
   }
@@ -91,7 +92,8 @@ private:
   }
   std::string_view ofMotion() {
     const bool isFree = std::ranges::none_of(words_.codes, [](const CodeWord &word) {
-      return word.address == 'G' && word.code->group == 0 && word.code->role != CodeRole::Plain;
+      return word.address == 'G' && (word.code->action == CodeAction::LengthGiven ||
+                                     (word.code->group == 0 && word.code->role != CodeRole::Plain));
     });
     if (isFree && hasAxis() && isInForce(ModalKind::Cycle, {CodeAction::CycleOff}))
       return "axis words while no motion is in force";
@@ -107,7 +109,9 @@ private:
     if (isInForce(ModalKind::Cycle, {CodeAction::CycleDwell}) && hasAxis() &&
         (context_.certain(interpretation_.isVacant(context_.state.cycle.dwell)) && !has('P')))
       return "G82 without P";
-    return numberOf('L') == 0.0 && hasAxis() ? "L0" : std::string_view();
+    const bool drills =
+        context_.certain(context_.inForce(ModalKind::Cycle, kDrillingCycles, interpretation_.truth(false)));
+    return drills && numberOf('L') == 0.0 && hasAxis() ? "L0" : std::string_view();
   }
   bool isFeedZero() {
     const auto &feed = context_.state.word('F'); // one that was never written may be that of the caller

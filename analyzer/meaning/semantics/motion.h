@@ -71,6 +71,9 @@ private:
             interpretation_.negation(interpretation_.compare(Relation::Equal, before[indexOf(axis)], state_.at(axis))));
   }
   void act() {
+    if (context_.behaviour().distanceModeByWord && words_.has(CodeAction::Absolute) &&
+        words_.has(CodeAction::Incremental))
+      return distanceModes();
     if (const CodeWord *word = ownWords())
       return consume(*word);
     const Truth cycle = cycleActive();
@@ -108,13 +111,21 @@ private:
     const Point start = state_.position;
     if constexpr (requires { interpretation_.losePosition(); })
       interpretation_.losePosition();
+    const CycleState<Value> before = state_.cycle;
     learnCycleLevels(context_, words_);
+    auto &cycle = state_.cycle; // some controls may not take them over
+    cycle.bottom = interpretation_.either(cycle.bottom, before.bottom);
+    cycle.retract = interpretation_.either(cycle.retract, before.retract);
     const std::optional<Plane> plane = planeOf(context_);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) // along whichever the cycle drills
       if (!plane || plane->normal == axis || axis == Axis::Z)
         state_.at(axis) = interpretation_.either(state_.at(axis), interpretation_.anyNumber());
     tell(context_, MoveKind::Unmodelled, start);
     interpretation_.unmodelled("a level of a canned cycle in a block without a position", context_.place());
+  }
+  void openLevels(CycleState<Value> &cycle) {
+    for (Value *level : {&cycle.bottom, &cycle.retract, &cycle.initial, &cycle.peck, &cycle.dwell})
+      *level = interpretation_.either(*level, interpretation_.anything());
   }
   void drill() {
     if (passesOverDepth())
@@ -253,9 +264,6 @@ private:
 
   /// `holds`: whether this is what the block does.
   void plain(Truth holds) {
-    if (context_.behaviour().distanceModeByWord && words_.has(CodeAction::Absolute) &&
-        words_.has(CodeAction::Incremental))
-      return distanceModes();
     Truth turning = interpretation_.truth(false);
     for (const CodeAction action : kSingleTurningCycles) {
       const Truth isIt = context_.inForce(ModalKind::Motion, {action}, interpretation_.truth(false));
@@ -303,6 +311,9 @@ private:
   void distanceModes() {
     const Point start = state_.position;
     havocPosition(context_);
+    if (ownWords()) // which may set a zero point
+      havocOrigins(context_);
+    openLevels(state_.cycle);
     tell(context_, MoveKind::Unmodelled, start);
     interpretation_.unmodelled("G90 and G91 in one block", context_.place());
   }
@@ -413,6 +424,7 @@ private:
   void returnZ(const CodeWord &word) {
     const Point start = state_.position;
     home(Axis::Z, interpretation_.truth(true), word);
+    mayCancelLength(context_, interpretation_.truth(true));
     if (interpretation_.mayBe(axisWords())) { // before the movement of its block or behind it
       state_.at(Axis::Z) = interpretation_.either(state_.at(Axis::Z), start[indexOf(Axis::Z)]);
       return tell(context_, MoveKind::Unmodelled, start);
@@ -451,8 +463,9 @@ private:
   /// G31: the movement ends at the target, or wherever the signal comes; #5061.. say where.
   void skip() {
     const Point start = state_.position;
-    if constexpr (requires { interpretation_.readPosition(); })
-      interpretation_.readPosition();
+    if constexpr (requires { interpretation_.readPosition(Axis::X); })
+      for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        interpretation_.readPosition(axis);
     const Point target = targetOf(context_, words_);
     for (std::size_t axis = 0; axis < kAxisCount; ++axis)
       if (words_.find(kAxisLetters[axis]) || interpretation_.mayBe(state_.transformed))

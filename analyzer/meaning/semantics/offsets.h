@@ -52,24 +52,18 @@ private:
 
   /// G52: the named axes.
   void localShift() {
-    if (context_.behaviour().localShiftIsExternal)
-      return externalShift();
     auto &shifts = context_.behaviour().oneSetOffset ? state_.shift : state_.local;
     for (const Axis axis : kAllAxes)
       if (const auto *entry = words_.find(letterOf(axis)))
         moveTo(shifts, axis, interpretation_.select(entry->present, entry->value, shifts[indexOf(axis)]));
     keep();
   }
-  void externalShift() {
-    for (const Axis axis : kAllAxes)
-      if (const auto *entry = words_.find(letterOf(axis))) {
-        const std::uint32_t variable = kFirstWorkOffset + static_cast<std::uint32_t>(indexOf(axis));
-        const Value old = detail::offsetVariable(context_, variable);
-        detail::writeWorkOffset(context_, variable, interpretation_.select(entry->present, entry->value, old));
-      }
-  }
   /// G92: the tool stands, from now on, at the named coordinates.
   void set() {
+    if constexpr (requires { interpretation_.readPosition(Axis::X); }) // a lost one would become a zero point
+      for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        if (words_.find(letterOf(axis)))
+          interpretation_.readPosition(axis);
     if (interpretation_.mayBe(state_.transformed))
       return setSomehow("a coordinate system set during mirroring, scaling or rotation");
     if (namesIncrements(context_, words_)) // `G50 U1.`
@@ -150,6 +144,8 @@ private:
     if (!number || *number < 0 || *number > 9)
       return std::nullopt;
     auto row = static_cast<std::uint32_t>(*number);
+    if (row == 0 && context_.behaviour().localShiftIsVariable)
+      return std::nullopt; // the offset of G52
     const VariableRange *external = findVariable(context_.dialect(), kFirstWorkOffset);
     if (row == 0 && (!external || external->role != VariableRole::WorkOffset)) {
       const auto inForce = detail::workOffsetInForce(context_);

@@ -13,7 +13,7 @@ template <ValueAlgebra R> void savedModes(StepContext<R> &context, const Execute
 /// The program of the level returns.
 template <ValueAlgebra R> void restoreModesAtReturn(StepContext<R> &context);
 
-/// M02 and M30 of LinuxCNC: G01, G17, G40, G54, G90 and G94 are in force behind them, and the spindle stands.
+/// M02 and M30 of LinuxCNC: G01, G17, G40, G54, G90 and G94 are in force behind them, F is 0, and the spindle stands.
 template <ValueAlgebra R> void restoreModesAtEnd(StepContext<R> &context);
 
 // ---- implementation -----------------------------------------------------------------------------------------------
@@ -121,6 +121,7 @@ template <ValueAlgebra R> void restoreModesAtEnd(StepContext<R> &context) {
           {context.modes.group(*group).codes[static_cast<std::size_t>(std::countr_zero(mask))], 'G', context.place()});
   }
   applyModes(context, restored);
+  context.state.word('F') = context.zero();
   context.state.spindle = context.interpretation.code(static_cast<std::uint8_t>(
       std::find(kSpindleActions.begin(), kSpindleActions.end(), CodeAction::SpindleStop) - kSpindleActions.begin()));
 }

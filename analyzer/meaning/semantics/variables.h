@@ -54,8 +54,8 @@ typename R::Value readPosition(StepContext<R> &context, const VariableRange &ran
   const std::uint32_t axis = number - range.first;
   if (axis >= kAxisCount)
     return context.interpretation.anyNumber();
-  if constexpr (requires { context.interpretation.readPosition(); })
-    context.interpretation.readPosition();
+  if constexpr (requires { context.interpretation.readPosition(Axis::X); })
+    context.interpretation.readPosition(kAllAxes[axis]);
   if (range.role != VariableRole::MachinePosition)
     return context.state.position[axis];
   return context.interpretation.add(context.state.position[axis], machineOriginOf(context, kAllAxes[axis]));
@@ -75,9 +75,17 @@ template <ValueAlgebra R> typename R::Value readBits(StepContext<R> &context, co
   return context.interpretation.number(number);
 }
 
+/// The variable shows an offset of G52.
+template <ValueAlgebra R> bool isLocalShift(const StepContext<R> &context, std::uint32_t cell) {
+  return context.behaviour().localShiftIsVariable && cell >= kFirstWorkOffset && cell < kFirstWorkOffset + kAxisCount;
+}
+
 template <ValueAlgebra R>
 typename R::Value readSystem(StepContext<R> &context, const VariableRange &range, std::uint32_t number) {
   R &interpretation = context.interpretation;
+  if (isLocalShift(context, number)) // in force at the start, or given since
+    return interpretation.either(interpretation.asNumber(context.state.local[number - kFirstWorkOffset]),
+                                 interpretation.anyNumber());
   switch (range.role) {
   case VariableRole::Plain:
   case VariableRole::Stored:
@@ -169,6 +177,10 @@ void writeCell(StepContext<R> &context, const VariableRange &range, std::uint32_
     value = interpretation.asNumber(value);
   if (range.role == VariableRole::WorkOffset)
     return writeWorkOffset(context, cell, value);
+  if (isLocalShift(context, cell)) { // G52 by another way, which is not followed
+    havocOrigins(context);
+    interpretation.unmodelled("the offset of G52 written through its variable", place);
+  }
   if (range.role == VariableRole::AdditionalWorkOffset)
     changeAdditionalOffset(context, place);
   changeLengthOffset(context, cell);
