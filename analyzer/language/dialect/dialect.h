@@ -225,8 +225,8 @@ struct Switches {
   Switch odi = Switch::Unknown; // 5004#2: the offset of D is a diameter
   // What controls do differently, or what no manual says (parity.md of each dialect).
   Switch shortArcStops = Switch::Unknown; // R a little below half the distance of the ends: an alarm, or a half circle
-  Switch radiiDifferStops = Switch::Unknown;  // an arc whose radii differ by more than the tolerance is an alarm
-  Switch pointArcStops = Switch::Unknown;     // an arc by R that ends where it starts: an alarm, or no movement
+  Switch radiiDifferStops = Switch::On;   // an arc whose radii differ by more than the tolerance is an alarm
+  Switch pointArcStops = Switch::Unknown; // an arc by R that ends where it starts: an alarm, or no movement
   Switch besideCentreStops = Switch::Unknown; // a centre word on the axis beside the plane of its arc is an alarm
   Switch bareCycleStops = Switch::Unknown;    // a canned cycle that was never given its depth or R level is an alarm
   Switch motionEndsCycle = Switch::Unknown;   // G00 to G03 behind the code of a canned cycle in its block end the cycle

@@ -30,7 +30,8 @@ class SetUpWriter(SpaceWriter):
         zeros = [f"(@OFFSET G54 X{ends(x, wide)} Y{ends(y, wide // 2)} Z{ends(z, wide)})"]
         if self.rng.random() < 0.6:
             zeros.append(f"(@OFFSET G55 X{ends(x + 50, wide // 2)} Y{ends(y, wide // 2)} Z{ends(z, self.pick(0, 50))})")
-        zeros.append(f"(@OFFSET EXT X0 Y0 Z{self.pick('0', '0', '-1..1')})")
+        if not self.dialect.startswith("haas"):  # which has none
+            zeros.append(f"(@OFFSET EXT X0 Y0 Z{self.pick('0', '0', '-1..1')})")
         low = self.pick(0, 50, 60)
         self.tools = [f"(@LENGTH H* {low}..{low + self.pick(1, 50, 100)})"]
         if self.rng.random() < 0.5:
