@@ -12,11 +12,14 @@ namespace feedhold::detail {
 template <typename R> struct RadiiApart {
   typename R::Value alongAxes;
   typename R::Value difference;
-  typename R::Value larger;
+  typename R::Value start, end; // the lengths
 
   typename R::Truth exceed(R &interpretation, const typename R::Value &tolerance) const {
     return interpretation.both(interpretation.compare(Relation::Greater, alongAxes, tolerance),
                                interpretation.compare(Relation::Greater, difference, tolerance));
+  }
+  typename R::Value larger(R &interpretation) const {
+    return interpretation.select(interpretation.compare(Relation::Less, start, end), end, start);
   }
 };
 
@@ -36,7 +39,7 @@ RadiiApart<R> radiiApart(R &interpretation, const std::array<typename R::Value, 
   const Value start = lengthOf(from);
   const Value end = lengthOf(to);
   return {interpretation.add(apart(from[0], to[0]), apart(from[1], to[1])), sizeOf(interpretation.subtract(start, end)),
-          interpretation.select(interpretation.compare(Relation::Less, start, end), end, start)};
+          start, end};
 }
 
 } // namespace feedhold::detail

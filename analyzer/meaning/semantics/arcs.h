@@ -283,7 +283,8 @@ private:
     const Truth differ = apart.exceed(interpretation_, tolerance());
     if (const double share = context_.behaviour().arcShare; share > 0) {
       const Value most = interpretation_.multiply(tolerance(), interpretation_.number(kMostTolerances));
-      const Value shareOfRadius = interpretation_.multiply(apart.larger, interpretation_.number(share));
+      const Value shareOfRadius =
+          interpretation_.multiply(apart.larger(interpretation_), interpretation_.number(share));
       const Truth isLarge = interpretation_.compare(Relation::Greater, apart.difference, shareOfRadius);
       const Truth stops = interpretation_.both(differ, context_.either(apart.exceed(interpretation_, most), isLarge));
       return {stops, stops};

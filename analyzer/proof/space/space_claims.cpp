@@ -86,6 +86,13 @@ std::vector<FreeSpace> outsideWithMargin(smt::TermStore &store, const geometry::
   return spaces;
 }
 
+/// Where the path is an arc about an upright axis: that the circle lies in the space.
+std::optional<TermId> aroundOf(const FreeSpace &space, const geometry::ToolPath &path, const geometry::TermMove &move) {
+  if (!space.around || !path.isUprightArc())
+    return std::nullopt;
+  return (*space.around)(path.atCentre(move.start), {move.start, move.end});
+}
+
 } // namespace
 
 bool hasSpaceClause(const Contract &contract) {
@@ -321,15 +328,12 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     return std::all_of(hull.corners.begin(), hull.corners.end(),
                        [&](const TermPoint &corner) { return bound(corner) == bound(path.atCentre(corner)); });
   };
-  const auto around = [&](const FreeSpace &space) {
-    return (*space.around)(path.atCentre(move.start), {move.start, move.end});
-  };
   for (const FreeSpace &space : rule.spaces) {
     for (const geometry::Formula &bound : space.bounds) {
       const std::set<TermId> corners = atCorners(bound);
       SpaceQuestion &question = questions.emplace_back(SpaceQuestion{{{hull.conditions, together(corners)}}});
-      if (space.around && &bound == &space.bounds.front() && path.isUprightArc())
-        question.alternatives.push_back({{}, around(space)});
+      if (const auto around = aroundOf(space, path, move); around && &bound == &space.bounds.front())
+        question.alternatives.push_back({{}, *around});
       if (!path.isHull() && !isOfLevel(bound))
         question.alternatives.push_back(anyPoint(bound));
     }
@@ -343,8 +347,8 @@ std::vector<SpaceQuestion> SpaceClaims::questions(const SpaceRule &rule, const M
     const std::vector<TermId> simple = simpleAlternatives(space, hull.corners);
     for (const TermId alternative : simple)
       question.alternatives.push_back({hull.conditions, alternative});
-    if (space.around && path.isUprightArc())
-      question.alternatives.push_back({{}, around(space)});
+    if (const auto around = aroundOf(space, path, move))
+      question.alternatives.push_back({{}, *around});
     if (simple.size() > 1) // one or the other, as the case may be
       question.alternatives.push_back({hull.conditions, store_.logicalOr(simple)});
     if (space.isOpenUpwards && !path.isHull()) // no lower than an end: it is enough that this level is free there
