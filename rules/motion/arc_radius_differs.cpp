@@ -37,7 +37,7 @@ public:
   void report(const FlowFacts &facts, const FileContext &, const Reporter &reporter) override {
     std::set<NodeId> told;
     for (const AlarmFact &alarm : facts.alarms())
-      if (alarm.kind == AlarmKind::ArcRadius && alarm.usually && !mapped_.contains(alarm.node)) {
+      if (alarm.kind == AlarmKind::ArcRadius && alarm.always && !mapped_.contains(alarm.node)) {
         told.insert(alarm.node);
         tell(facts, alarm.node, alarm.place, std::nullopt, reporter);
       }

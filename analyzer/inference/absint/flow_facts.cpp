@@ -84,14 +84,12 @@ public:
     if (outer_)
       return;
     const bool always = truth == Truth::True;
-    const bool usually = always || report.isUsual;
     const auto key = std::tuple(report.place.begin, report.place.end, report.kind);
     const auto [known, isNew] = alarmAt_.emplace(key, facts_.alarms_.size());
     if (isNew)
-      return facts_.alarms_.push_back({report.kind, report.place, place_.node, always, usually});
-    AlarmFact &fact = facts_.alarms_[known->second];
-    fact.always = fact.always && always;
-    fact.usually = fact.usually && usually;
+      facts_.alarms_.push_back({report.kind, report.place, place_.node, always});
+    else
+      facts_.alarms_[known->second].always = facts_.alarms_[known->second].always && always;
   }
   void userAlarm(const AbstractValue &number, Span place) override {
     if (outer_)

@@ -20,7 +20,6 @@ struct AlarmFact {
   Span place;
   NodeId node;
   bool always;
-  bool usually; // wherever the settings of the machine are as usual
 };
 
 /// `#3000=`

@@ -26,7 +26,6 @@ enum class Relation : std::uint8_t { Equal, NotEqual, Greater, GreaterOrEqual, L
 struct AlarmReport {
   AlarmKind kind;
   Span place;
-  bool isUsual = false; // it comes wherever the settings of the machine are as usual
 };
 
 /// Values: vacant, or a number.

@@ -61,7 +61,6 @@ private:
   /// What stops the control.
   struct Alarms {
     Truth withoutCentre, tooShort, withoutLength, radius;
-    bool radiusIsUsual = false; // AlarmReport::isUsual
   };
 
   Circle circleIn(const Plane &plane, const Point &start) {
@@ -99,26 +98,23 @@ private:
   Alarms alarmsOf(const Circle &circle, const Point &start) {
     Alarms alarms = alarmsOfRadius(circle, start);
     alarms.withoutCentre = withoutCentre(circle);
-    const RadiiDiffer differ = radiiDiffer(circle.plane, start, circle.first, circle.second);
+    const Truth differs = radiiDiffer(circle.plane, start, circle.first, circle.second);
     const Truth isCircle = interpretation_.both(interpretation_.both(circle.mapping.staysCircle, circle.byCentre),
                                                 interpretation_.truth(turnsOf().has_value()));
     const Truth mayDiffer =
-        context_.either(interpretation_.both(isCircle, differ.stop),
+        context_.either(interpretation_.both(isCircle, differs),
                         interpretation_.both(interpretation_.negation(isCircle), context_.maybeNot()));
-    const Truth byCentre = interpretation_.negation(circle.byRadius);
-    alarms.radius = interpretation_.both(byCentre, mayDiffer);
-    alarms.radiusIsUsual =
-        context_.certain(interpretation_.both(byCentre, interpretation_.both(isCircle, differ.usually)));
+    alarms.radius = interpretation_.both(interpretation_.negation(circle.byRadius), mayDiffer);
     return alarms;
   }
   void raise(const Alarms &alarms, Truth follows) {
-    const auto stop = [&](Truth when, AlarmKind kind, bool isUsual = false) {
-      interpretation_.alarm(interpretation_.both(follows, when), {kind, context_.place(), isUsual});
+    const auto stop = [&](Truth when, AlarmKind kind) {
+      interpretation_.alarm(interpretation_.both(follows, when), {kind, context_.place()});
     };
     stop(alarms.withoutCentre, AlarmKind::ArcWithoutCentre);
     stop(alarms.tooShort, AlarmKind::ArcTooShort);
     stop(alarms.withoutLength, AlarmKind::ArcWithoutLength);
-    stop(alarms.radius, AlarmKind::ArcRadius, alarms.radiusIsUsual && context_.certain(follows));
+    stop(alarms.radius, AlarmKind::ArcRadius);
   }
 
   /// Whether the centre is missing is told exactly.  What follows from lengths may happen or not: proofs in several
@@ -270,11 +266,7 @@ private:
                ? interpretation_.divide(length, interpretation_.number(2))
                : length;
   }
-  struct RadiiDiffer {
-    Truth stop;
-    Truth usually; // with the usual settings
-  };
-  RadiiDiffer radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
+  Truth radiiDiffer(const Plane &plane, const Point &start, const Value &first, const Value &second) {
     const auto spoke = [&](const Point &point) -> std::array<Value, 2> {
       return {asRadius(plane.first, interpretation_.subtract(point[indexOf(plane.first)], first)),
               asRadius(plane.second, interpretation_.subtract(point[indexOf(plane.second)], second))};
@@ -286,10 +278,9 @@ private:
       const Value shareOfRadius =
           interpretation_.multiply(apart.larger(interpretation_), interpretation_.number(share));
       const Truth isLarge = interpretation_.compare(Relation::Greater, apart.difference, shareOfRadius);
-      const Truth stops = interpretation_.both(differ, context_.either(apart.exceed(interpretation_, most), isLarge));
-      return {stops, stops};
+      return interpretation_.both(differ, context_.either(apart.exceed(interpretation_, most), isLarge));
     }
-    return {interpretation_.both(differ, context_.isOn(&Switches::radiiDifferStops)), differ};
+    return interpretation_.both(differ, context_.isOn(&Switches::radiiDifferStops));
   }
   /// Of LinuxCNC (interp_arc.cc): beyond, an arc stops the interpreter however large it is.
   static constexpr double kMostTolerances = 100;

@@ -21,6 +21,13 @@ inline bool isDrillingCycle(CodeAction action) {
 /// A block with axis words while a cycle is active.
 template <ValueAlgebra R> void runCycle(StepContext<R> &context, const ExecutedWords<R> &words);
 
+/// The levels of a cycle may be those that are known, or any.
+template <ValueAlgebra R> void openCycleLevels(StepContext<R> &context) {
+  auto &cycle = context.state.cycle;
+  for (auto *level : {&cycle.bottom, &cycle.retract, &cycle.initial, &cycle.peck, &cycle.dwell})
+    *level = context.interpretation.either(*level, context.interpretation.anything());
+}
+
 /// Takes over the levels of a block while a cycle may be active.
 template <ValueAlgebra R> void learnCycleLevels(StepContext<R> &context, const ExecutedWords<R> &words);
 
@@ -141,8 +148,7 @@ private:
     const Point start = state_.position;
     havocPosition(context_);
     tell(context_, MoveKind::Unmodelled, start);
-    for (Value *level : {&cycle_.bottom, &cycle_.retract, &cycle_.initial, &cycle_.peck, &cycle_.dwell})
-      *level = interpretation_.either(*level, interpretation_.anything());
+    openCycleLevels(context_);
     interpretation_.unmodelled("a canned cycle under scaling, or in another plane", context_.place());
   }
   /// How deep a cycle goes that was never told, no manual says: a run stays where it is.

@@ -123,10 +123,6 @@ private:
     tell(context_, MoveKind::Unmodelled, start);
     interpretation_.unmodelled("a level of a canned cycle in a block without a position", context_.place());
   }
-  void openLevels(CycleState<Value> &cycle) {
-    for (Value *level : {&cycle.bottom, &cycle.retract, &cycle.initial, &cycle.peck, &cycle.dwell})
-      *level = interpretation_.either(*level, interpretation_.anything());
-  }
   void drill() {
     if (passesOverDepth())
       drillOnLevel();
@@ -313,7 +309,7 @@ private:
     havocPosition(context_);
     if (ownWords()) // which may set a zero point
       havocOrigins(context_);
-    openLevels(state_.cycle);
+    openCycleLevels(context_);
     tell(context_, MoveKind::Unmodelled, start);
     interpretation_.unmodelled("G90 and G91 in one block", context_.place());
   }
